@@ -1,12 +1,12 @@
 """AHAP, Apple's pattern of haptic events and parameter curves ("Representing haptic patterns in AHAP files").
 
-Intensity is the root of an amplitude, and the sharpness of continuous events the root of a frequency, as Meta's haptics
-SDK has it (`core/haptic_data/src/ahap.rs`); Apple publishes neither. Curves act on every event of their file, so that
-continuous events and transients are two files. At a transient the continuous intensity is lowered to 0.8 of its value,
-so that the two do not cancel each other.
+Intensity is the root of an amplitude, and the sharpness of continuous events the root of a frequency, as in Meta's
+haptics SDK (`core/haptic_data/src/ahap.rs`); Apple publishes neither. Curves act on every event of their file, so
+continuous events and transients are in two files. At a transient the continuous intensity is lowered to 0.8 of its
+value, so that the two do not cancel each other.
 
-Times of control points are relative to their curve. Some programs write them from the file's beginning instead: a curve
-that starts after 0, and whose first point has the curve's own time, is read that way.
+Times of control points are relative to their curve. Some programs write them from the file's beginning instead. We
+recognise such a curve if it starts after 0, and its first point has the curve's own time.
 """
 
 from __future__ import annotations
@@ -37,28 +37,28 @@ SUFFIX = ".ahap"
 MAX_EVENT_S = 30.0
 """Longest continuous event [s]."""
 MAX_CURVE_POINTS = 16
-"""Of one curve; Lofelt's exporter keeps to it, Apple's documentation names no bound."""
+"""Most points of one curve. Lofelt's exporter uses this bound; Apple's documentation names none."""
 TRANSIENT_DIP = 0.8
 
 _INTENSITY, _SHARPNESS = "HapticIntensity", "HapticSharpness"
 _CONTROLS = (f"{_INTENSITY}Control", f"{_SHARPNESS}Control")
 _MOST_EVENTS = 200
-"""Continuous events of one file; assumed: ten times as many as a clip of ten minutes needs."""
+"""Most continuous events of one file (assumed: ten times as many as a clip of ten minutes needs)."""
 _DECIMALS = 9
-"""Of times of points [s], so that adding a curve's time to them and taking it away again changes nothing."""
+"""Decimals of points' times [s]. With these, adding a curve's time and subtracting it again changes nothing."""
 _AFTER_S = 0.05
-"""How long a clip goes on after its last transient [s], which is as long as one sounds."""
+"""Time that a clip continues after its last transient [s]: the length of a transient's pulse."""
 
 Points = list[tuple[float, float]]
 
 
 class ClipWarning(UserWarning):
-    """Something in a file that is not played."""
+    """A part of a file that is not played."""
 
 
 @dataclass(frozen=True)
 class _Event:
-    """A continuous event, from when to when [s], and its intensity and sharpness."""
+    """A continuous event: its start and end [s], intensity and sharpness."""
 
     start_s: float
     end_s: float
@@ -68,19 +68,19 @@ class _Event:
 
 @dataclass
 class _Control:
-    """The points of all curves of one kind, whose times count from the file's beginning."""
+    """The points of all curves of one kind, with times from the file's beginning."""
 
     neutral: float
     times_s: list[float] = field(default_factory=list)
     values: list[float] = field(default_factory=list)
 
     def set(self, points: Points) -> None:
-        """Take the points of all curves, in any order."""
+        """Set the points of all curves, in any order."""
         points = sorted(points, key=lambda point: point[0])
         self.times_s, self.values = [time for time, _ in points], [value for _, value in points]
 
     def at(self, time_s: float, *, before: bool = False) -> float:
-        """The value at a time, or just `before` it; where no curve holds yet, the one that changes nothing."""
+        """Return the value at a time, or just `before` it. Before the first curve it is the neutral value."""
         after = bisect_left(self.times_s, time_s) if before else bisect_right(self.times_s, time_s)
         if after == 0:
             return self.neutral
@@ -104,11 +104,13 @@ class _Pattern:
 
 
 def read_ahap(path: Path, *, range_hz: tuple[float, float] = RANGE_HZ) -> HapticClip:
-    """The clip in an AHAP file; of a pair of files, one for continuous events and one for transients, in both.
+    """Return the clip in an AHAP file. If a pair of files holds continuous events and transients separately, both are
+    read.
 
-    The pair is found by its names, `x.continuous.ahap` and `x.transients.ahap`. Values out of range are clamped and
-    unknown keys ignored, as Apple's player does.
-    Raises: ClipError: the file is none, or has no event. Warns: ClipWarning: events that are not haptic.
+    The pair is found by its names, `x.continuous.ahap` and `x.transients.ahap`. As in Apple's player, values out of
+    range are clamped and unknown keys ignored.
+    Raises: ClipError: the file is no AHAP, or has no event.
+    Warns: ClipWarning: events that are not haptic.
     """
     parts = [_pattern(read_fields(part, needed="Pattern", kind="AHAP")) for part in _pair(path)]
     ignored = sorted(set[str]().union(*(part.ignored for part in parts)))
@@ -125,10 +127,11 @@ def read_ahap(path: Path, *, range_hz: tuple[float, float] = RANGE_HZ) -> Haptic
 
 
 def compose_ahap(clip: HapticClip) -> dict[str, dict[str, Any]]:
-    """AHAP documents of a clip by the ending of their names: ".continuous" and ".transients", or "" for one alone.
+    """Return AHAP documents of a clip by the ending of their names: ".continuous" and ".transients", or "" for a single
+    one.
 
-    The clip's curves are written point by point. Continuous events last 30 s at most and curves have 16 points at most;
-    each begins where, and at what, the one before it ended.
+    The clip's curves are written point by point. Continuous events last at most 30 s, and curves have at most 16
+    points. Each begins at the time and value at which the previous one ended.
     """
     times, end_s = clip.amplitude.times_s, clip.duration_s
     pattern = [
@@ -163,7 +166,7 @@ def _event(kind: str, time_s: float, parameters: dict[str, float], duration_s: f
 
 
 def _curves(control: str, times_s: Values, values: Values) -> list[dict[str, Any]]:
-    """Curves of `MAX_CURVE_POINTS` points at most, each from the last point of the one before it."""
+    """Return curves of at most `MAX_CURVE_POINTS` points. Each begins with the last point of the previous one."""
     curves = []
     first = 0
     while True:
@@ -257,7 +260,7 @@ def _unit(value: float) -> float:
 
 
 def _felt(pattern: _Pattern) -> list[Transient]:
-    """The transients of a file under its controls, as amplitudes."""
+    """Return the transients of a file as amplitudes, with its controls applied."""
     return [
         Transient(
             one.time_s,
@@ -277,7 +280,7 @@ def _playing(pattern: _Pattern, time_s: float, *, before: bool = False) -> list[
 
 
 def _amplitude(pattern: _Pattern, dips: set[float], transients: tuple[Transient, ...]) -> Curve:
-    """Amplitude over time: the square of the intensities of all continuous events together under their control."""
+    """Return amplitude over time: the square of the sum of all continuous intensities, with their control applied."""
 
     def level(time_s: float, *, before: bool) -> float:
         events = _playing(pattern, time_s, before=before)
@@ -294,7 +297,7 @@ def _amplitude(pattern: _Pattern, dips: set[float], transients: tuple[Transient,
         earlier, later = level(time, before=True), level(time, before=False)
         values = [later] if time == start else [earlier] if time == end or earlier == later else [earlier, later]
         if time not in bends and start < time < end and len(values) == 1:
-            continue  # one event goes on where another ended
+            continue  # one event continues where another ended
         points += [(time, min(1.0, value / TRANSIENT_DIP) if time in dips else value) for value in values]
     if last > end:
         points += [(end, 0.0), (last + _AFTER_S, 0.0)]
@@ -302,7 +305,7 @@ def _amplitude(pattern: _Pattern, dips: set[float], transients: tuple[Transient,
 
 
 def _frequency(pattern: _Pattern) -> Curve | None:
-    """Frequency over time: the square of the sharpness of the strongest continuous event, and of its control."""
+    """Return frequency over time: the square of the sum of control and sharpness of the strongest continuous event."""
     if not pattern.continuous:
         return None
 
@@ -317,7 +320,7 @@ def _frequency(pattern: _Pattern) -> Curve | None:
     bends = {min(time, end) for time in pattern.sharpness.times_s if start <= time}
     points: Points = []
     for time in sorted(bends | {one.start_s for one in pattern.continuous}):
-        # In a pause nothing is felt: the frequency stays, and jumps where the next event begins.
+        # Nothing is felt in a pause, so the frequency stays constant and jumps where the next event begins.
         earlier, later = sharpness(time, before=True), sharpness(time, before=False)
         if earlier is None and points:
             earlier = points[-1][1]
@@ -325,7 +328,7 @@ def _frequency(pattern: _Pattern) -> Curve | None:
         if time in bends or not points or len(values) > 1:
             points += [(time, value) for value in values]
     if len(points) > 1 and start not in bends and points[0][1] == points[1][1]:
-        points = points[1:]  # the curve begins later, and the value before is its own
+        points = points[1:]  # the curve begins later, and keeps its first value before
     return _squared(points)
 
 

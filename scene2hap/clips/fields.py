@@ -1,4 +1,4 @@
-"""Reading JSON that anybody may have written: every error names the file, the field and the bound."""
+"""Checked reading of JSON from untrusted sources: every error names the file, the field and the bound."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from scene2hap.errors import ClipError
 from scene2hap.text_files import read_small
 
 MAX_BYTES = 1 << 27
-"""Larger files are refused before they are parsed; assumed: points up to `MAX_POINTS` take a tenth."""
+"""Most bytes of a file; larger ones are refused before parsing (assumed: points up to `MAX_POINTS` take a tenth)."""
 
 
 class Fields:
-    """An object of a JSON document, and where it stands in which file."""
+    """An object of a JSON document, with its place and file for error messages."""
 
     def __init__(self, document: object, file: str, place: str = "") -> None:
         self.file, self.place = file, place
@@ -28,20 +28,21 @@ class Fields:
         return self._document.get(name) is not None
 
     def names(self) -> tuple[str, ...]:
-        """Names of all fields."""
+        """Return the names of all fields."""
         return tuple(self._document)
 
     def error(self, name: str, problem: str) -> ClipError:
-        """The error for a field of this object, or for the object itself."""
+        """Return the error for a field of this object, or for the object itself."""
         place = ".".join(part for part in (self.place, name) if part) or "the whole file"
         return ClipError(f"{self.file}: {place} {problem}.")
 
     def within(self, name: str) -> Fields:
-        """The object in a field. Raises: ClipError: it is missing, or is none."""
+        """Return the object in a field. Raises: ClipError: it is missing, or no object."""
         return Fields(self._required(name), self.file, self._at(name))
 
     def items(self, name: str, at_most: int) -> tuple[Fields, ...]:
-        """The objects of a list in a field. Raises: ClipError: it is missing, no list of objects, or too long."""
+        """Return the objects of a list in a field. Raises: ClipError: it is missing, no list of objects, or too
+        long."""
         found = self._required(name)
         if not isinstance(found, list):
             raise self.error(name, f"is {checks.described(found)}; it must be a list")
@@ -52,7 +53,8 @@ class Fields:
     def number(
         self, name: str, *, at_least: float = 0.0, at_most: float = 1.0, unit: str = "-", default: float | None = None
     ) -> float:
-        """The number in a field. Raises: ClipError: it is missing without a default, no number, or out of bounds."""
+        """Return the number in a field. Raises: ClipError: it is missing without a default, no number, or out of
+        bounds."""
         value = self._document.get(name)
         if value is None and default is not None:
             return default
@@ -61,7 +63,7 @@ class Fields:
         return checks.number(place, value, unit, at_least=at_least, at_most=at_most, error=ClipError)
 
     def text(self, name: str, default: str = "") -> str:
-        """The text in a field, or the default. Raises: ClipError: it is something else."""
+        """Return the text in a field, or the default. Raises: ClipError: it is something else."""
         value = self._document.get(name)
         if value is None:
             return default
@@ -70,7 +72,7 @@ class Fields:
         return value
 
     def texts(self, name: str) -> tuple[str, ...]:
-        """The texts of a list in a field, none where it is missing. Raises: ClipError: it is something else."""
+        """Return the texts of a list in a field, none if it is missing. Raises: ClipError: it is something else."""
         value = self._document.get(name) or []
         if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
             raise self.error(name, f"is {checks.represented(value)}; it must be a list of texts")
@@ -86,10 +88,10 @@ class Fields:
 
 
 def read_fields(path: Path, *, needed: str, kind: str) -> Fields:
-    """The JSON object in a file.
+    """Return the JSON object in a file.
 
     Parameters: needed : a field that every file of this kind has; kind : the name of the kind, for errors.
-    Raises: ClipError: it cannot be read, is no JSON, or lacks that field, as files of another kind do.
+    Raises: ClipError: it cannot be read, is no JSON, or lacks that field, so that it is a file of another kind.
     """
     try:
         content = read_small(path, MAX_BYTES)

@@ -1,4 +1,4 @@
-"""A haptic clip: amplitude and frequency over time, and transients, as designers' programs and phones exchange them."""
+"""A haptic clip: amplitude and frequency over time, and transients, as in files of designers' programs and phones."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from scene2hap.errors import ClipError
 Values = NDArray[np.float64]
 
 RANGE_HZ = (55.0, 200.0)
-"""Frequencies that 0 and 1 stand for on Quest controllers, by their actuator file (Meta haptics SDK)."""
+"""Frequencies at 0 and 1 on Quest controllers, by their actuator file (Meta haptics SDK)."""
 
 MAX_POINTS = 100_000
-"""Of one curve; assumed: sixty times the longest published clip, and more than any device accepts at once."""
+"""Most points of one curve (assumed: 60 times the longest published clip, and more than any device accepts at once)."""
 MAX_CLIP_S = 600.0
-"""As long as a sound may be [s]."""
+"""Longest clip [s]; the bound of sounds."""
 
 
 @clear_construction
@@ -27,9 +27,9 @@ MAX_CLIP_S = 600.0
 class Curve:
     """A value over time: points times_s (n,) [s], values (n,) 0..1 [-].
 
-    Between points the `power`-th root of the value is linear: power 1 is linear interpolation, power 2 that of AHAP,
+    Between points the `power`-th root of the value is linear. Power 1 is linear interpolation; power 2 is that of AHAP,
     whose intensity is the root of an amplitude. Two points may share a time: the value jumps there. Before the first
-    point and behind the last the value is theirs.
+    point the value is the first one, after the last point the last one.
     Raises: ClipError: no points, different lengths, a number that is not finite or out of range, or falling times.
     """
 
@@ -53,7 +53,7 @@ class Curve:
         return len(self.times_s)
 
     def at(self, times_s: ArrayLike) -> Values:
-        """Values at times (n,) [s], (n,); where the curve jumps, the later one."""
+        """Return values at times (n,) [s], (n,); at a jump the later one."""
         t = np.asarray(times_s, dtype=np.float64)
         roots = self.values ** (1.0 / self.power)
         after = np.searchsorted(self.times_s, t, side="right")
@@ -71,7 +71,7 @@ def _require(name: str, values: Values, is_right: NDArray[np.bool_], bound: str)
 
 @dataclass(frozen=True)
 class Transient:
-    """A short pulse: when [s], its amplitude 0..1 [-], and its pitch 0..1 [-], from dull to sharp."""
+    """A short pulse: its time [s], its amplitude 0..1 [-], and its pitch 0..1 [-], from dull to sharp."""
 
     time_s: float
     amplitude: float
@@ -90,7 +90,7 @@ class About:
     description: str = ""
 
     def credit(self, title: str) -> Credit:
-        """The credit of the clip, for the credits of a bundle."""
+        """Return the credit of the clip, for the credits of a bundle."""
         return Credit(title, self.author or "unknown", "unknown", origin=f"haptic clip, {self.editor or 'by hand'}")
 
 
@@ -100,11 +100,11 @@ class HapticClip:
     """Vibration as envelopes.
 
     Parameters:
-    amplitude : curve of the peak amplitude of a sine wave, 0..1 [-]; it begins at any time and ends with the clip.
+    amplitude : curve of the peak amplitude of a sine wave, 0..1 [-]; it may begin at any time, and ends with the clip.
     frequency : curve of the frequency, 0..1 [-] from the lower to the upper end of `range_hz`; None for the middle.
     transients : pulses in order of time.
-    range_hz : frequencies that 0 and 1 stand for [Hz]; a property of the actuator that plays the clip.
-    Raises: ClipError: a duration of 0, transients that go back in time.
+    range_hz : frequencies at 0 and 1 [Hz]; a property of the actuator that plays the clip.
+    Raises: ClipError: the duration is 0, or transients are not in order of time.
     """
 
     amplitude: Curve
@@ -122,11 +122,11 @@ class HapticClip:
 
     @property
     def duration_s(self) -> float:
-        """When the amplitude curve ends [s]."""
+        """End of the amplitude curve [s]."""
         return float(self.amplitude.times_s[-1])
 
     def frequency_hz(self, times_s: ArrayLike) -> Values:
-        """The frequency at times (n,) [s], (n,) [Hz]."""
+        """Return the frequency at times (n,) [s], (n,) [Hz]."""
         low, high = self.range_hz
         t = np.asarray(times_s, dtype=np.float64)
         return low + (high - low) * (self.frequency.at(t) if self.frequency is not None else np.full(t.shape, 0.5))

@@ -1,8 +1,8 @@
 """The .haptic format, version 1 (Meta haptics SDK, `resources/haptic-file-spec.md`).
 
-A clip has at least two amplitude points and ends with the last of them. A point may have an emphasis, a transient whose
-amplitude is at least that of the point. Frequency points lie within the span of the amplitude points; files of
-an earlier program break this rule alone, which `legacy` allows.
+A clip has at least two amplitude points and ends with the last one. A point may have an emphasis: a transient whose
+amplitude is at least that of the point. Frequency points are within the span of the amplitude points. Files of an
+earlier program break only this rule, which `legacy` allows.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ _SPAN_RULE = "lies outside of the amplitude curve"
 
 
 def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, float] = RANGE_HZ) -> HapticClip:
-    """The clip in a .haptic file.
+    """Return the clip in a .haptic file.
 
-    Parameters: legacy : accept frequency points outside of the amplitude curve, as files of earlier programs have them;
-    range_hz : frequencies that 0 and 1 stand for on the actuator [Hz].
-    Raises: ClipError: the file breaks a rule; file, field and bound are named.
+    Parameters: legacy : accept frequency points outside of the amplitude curve, as in files of earlier programs;
+        range_hz : frequencies at 0 and 1 on the actuator [Hz].
+    Raises: ClipError: the file breaks a rule; the message names file, field and bound.
     """
     fields = read_fields(path, needed="signals", kind=".haptic")
     version = fields.within("version").number("major", at_most=1e6)
@@ -60,15 +60,15 @@ def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, floa
 
 
 def breaks_span_rule(error: ClipError) -> bool:
-    """Whether a file was refused for the one rule that `legacy` drops."""
+    """Return True if a file was refused for the rule that `legacy` drops."""
     return _SPAN_RULE in str(error)
 
 
 def compose_haptic(clip: HapticClip) -> dict[str, Any]:
-    """The .haptic document of a clip.
+    """Return the .haptic document of a clip.
 
-    A transient becomes the emphasis of the amplitude point at its time, which is put there if none is, and is as strong
-    as the curve there at least. Frequency points beyond the amplitude curve are moved to its ends.
+    A transient becomes the emphasis of the amplitude point at its time; a missing point is added. The emphasis is at
+    least as strong as the curve there. Frequency points outside the amplitude curve are moved to its ends.
     """
     times, values = clip.amplitude.times_s, clip.amplitude.values
     pulses = {one.time_s: one for one in clip.transients if times[0] <= one.time_s <= times[-1]}

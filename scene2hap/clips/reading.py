@@ -1,4 +1,4 @@
-"""A clip that a person made, in any of the formats that are read: haptic clips and sounds."""
+"""Read a clip in any supported format: haptic clips and sounds."""
 
 from __future__ import annotations
 
@@ -18,19 +18,20 @@ from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.errors import ClipError
 
 SUFFIXES = (haptic_format.SUFFIX, ahap.SUFFIX)
-"""Of haptic clips; files with any other are read as sounds."""
+"""Suffixes of haptic clips; files with other suffixes are read as sounds."""
 
 
 def is_haptic_clip(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is one of a haptic clip, by its suffix."""
+    """Return True if the suffix of a file is that of a haptic clip."""
     return Path(path).suffix.lower() in SUFFIXES
 
 
 def read_haptic_clip(path: str | os.PathLike[str]) -> HapticClip:
-    """The clip in a .haptic or .ahap file.
+    """Return the clip in a .haptic or .ahap file.
 
-    Raises: ClipError: the file breaks a rule of its format, or is of another. Warns: ClipWarning: the frequency curve
-    of a .haptic file goes on behind its amplitude curve, as that of earlier programs; or events that are not haptic.
+    Raises: ClipError: the file breaks a rule of its format, or has another format.
+    Warns: ClipWarning: the frequency curve of a .haptic file continues after its amplitude curve, as in files of
+    earlier programs; or there are events that are not haptic.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -49,7 +50,7 @@ def read_haptic_clip(path: str | os.PathLike[str]) -> HapticClip:
 
 
 def read_any_clip(path: str | os.PathLike[str]) -> AudioClip:
-    """The sound in a file, or the vibration of a haptic clip.
+    """Return the sound in a file, or the vibration of a haptic clip.
 
     Raises: AudioError, ClipError: the file cannot be used.
     """
@@ -59,7 +60,7 @@ def read_any_clip(path: str | os.PathLike[str]) -> AudioClip:
 
 
 def as_vibration(clip: HapticClip, title: str = "haptic clip") -> AudioClip:
-    """A haptic clip as the vibration that a player makes of it, scaled down where its peaks exceed 1.
+    """Return the vibration that a player makes of a haptic clip. It is scaled down if its peaks exceed 1.
 
     Raises: ClipError: the clip is silent.
     """

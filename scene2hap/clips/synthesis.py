@@ -1,8 +1,8 @@
-"""A haptic clip as a signal, by the rule of the .haptic format.
+"""Synthesis of a haptic clip as a signal, by the rule of the .haptic format.
 
 The rule is that of Meta's haptics SDK (`resources/acf`, `core/renderer_c`), with the numbers of its actuator file for
-Quest controllers: a sine wave follows both curves; a transient is a pulse of a few cycles, longer and softer the duller
-it is, and while it sounds the sine wave is at half its amplitude.
+Quest controllers. A sine wave follows both curves. A transient is a pulse of a few cycles; a duller one is longer and
+softer. During a transient the sine wave has half its amplitude.
 """
 
 from __future__ import annotations
@@ -13,19 +13,19 @@ from numpy.typing import NDArray
 from scene2hap.clips.haptic_clip import HapticClip, Transient
 
 RATE_HZ = 8000
-"""Rate of the signal, that of tactile signals throughout [Hz]."""
+"""Sample rate of the signal and of all tactile signals [Hz]."""
 
 DUCKING = 0.5
 _PULSE_HZ = (55.0, 165.0)
 _PULSE_S = (0.0364, 0.0121)
 _MIDDLE = 0.5
-"""The frequency before the first point of its curve, 0..1."""
+"""Frequency before the first point of its curve, 0..1."""
 _TAIL_S = 0.1
-"""How much longer a clip plays whose last point has a transient [s]."""
+"""Extra duration of a clip whose last point has a transient [s]."""
 
 
 def synthesize(clip: HapticClip, sample_rate_hz: float = RATE_HZ) -> NDArray[np.float64]:
-    """The signal of a clip (n_samples,); its peaks may exceed 1 where a transient adds to the sine wave."""
+    """Return the signal of a clip (n_samples,); its peaks may exceed 1 where a transient adds to the sine wave."""
     end_s = clip.duration_s
     if clip.transients and clip.transients[-1].time_s >= end_s:
         end_s += _TAIL_S
@@ -41,7 +41,7 @@ def synthesize(clip: HapticClip, sample_rate_hz: float = RATE_HZ) -> NDArray[np.
     for i, pulse in enumerate(clip.transients):
         first = int(np.ceil(pulse.time_s * sample_rate_hz - 1e-6))
         end = min(len(t), first + pulse_samples(pulse, sample_rate_hz))
-        if i + 1 < len(clip.transients):  # the next one cuts it off
+        if i + 1 < len(clip.transients):  # the next transient ends this one
             end = min(end, max(first, int(np.ceil(clip.transients[i + 1].time_s * sample_rate_hz - 1e-6))))
         pulses[first:end] = _pulse(pulse, end - first, sample_rate_hz)
         amplitude[first:end] *= DUCKING
@@ -49,7 +49,7 @@ def synthesize(clip: HapticClip, sample_rate_hz: float = RATE_HZ) -> NDArray[np.
 
 
 def pulse_samples(pulse: Transient, sample_rate_hz: float) -> int:
-    """How many samples a transient lasts."""
+    """Return the number of samples of a transient."""
     return int((_PULSE_S[0] + pulse.frequency * (_PULSE_S[1] - _PULSE_S[0])) * sample_rate_hz)
 
 

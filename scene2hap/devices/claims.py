@@ -1,7 +1,7 @@
 """Exclusive use of a sink, file or port within this process.
 
 If two sinks write one file, or two sessions play on one sink, samples of the first are lost without an error. A claim
-has a key. It ends when it is given back, or when its holder no longer exists.
+has a key. It ends with `give_back`, or when its holder no longer exists.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _HELD: WeakValueDictionary[Hashable, object] = WeakValueDictionary()
 
 
 def claim(key: Hashable, holder: object, refusal: str) -> None:
-    """Claim a key until `give_back`; its holder may claim it again.
+    """Claim a key until `give_back`. Its holder may claim it again.
 
     Raises: DeviceError: another holder has it; `refusal` is the message.
     """
@@ -38,7 +38,7 @@ def give_back(key: Hashable, holder: object) -> None:
 
 
 def claim_sink(sink: ActuatorSink, holder: object) -> None:
-    """Claim a sink and all sinks behind it, or none of them.
+    """Claim a sink and all sinks inside it, or none of them.
 
     Raises: DeviceError: another session plays on one of them.
     """
@@ -56,18 +56,18 @@ def claim_sink(sink: ActuatorSink, holder: object) -> None:
 
 
 def give_back_sink(sink: ActuatorSink, holder: object) -> None:
-    """Release a sink and all sinks behind it."""
+    """Release a sink and all sinks inside it."""
     for part in parts_of(sink):
         give_back(("sink", id(part)), holder)
 
 
 def parts_of(sink: ActuatorSink) -> list[ActuatorSink]:
-    """Return a sink and all sinks behind it, such as those of a TeeSink."""
+    """Return a sink and all sinks inside it, such as those of a TeeSink."""
     parts: tuple[ActuatorSink, ...] = getattr(sink, "sinks", ())
     return [sink, *(x for part in parts for x in parts_of(part))]
 
 
 def port_key(port: str) -> Hashable:
-    """The canonical name of a serial port, with links resolved. Raises: ConfigError: it is no text."""
+    """Return the canonical key of a serial port, with links resolved. Raises: ConfigError: it is no text."""
     checks.text("port", port, error=ConfigError)
     return ("port", os.path.realpath(port) if os.path.exists(port) else port)

@@ -16,10 +16,10 @@ _FULL = (errno.EAGAIN, errno.EWOULDBLOCK, errno.ENOBUFS)
 
 
 class Datagrams:
-    """A socket to host and port.
+    """A UDP socket for one host and port.
 
     UDP has no handshake, but most machines report a closed port after a datagram. So the socket is probed with a first
-    datagram. If no report comes, as in networks that drop them, a listener is assumed.
+    datagram. Without a report, as in networks that drop them, a listener is assumed.
     """
 
     def __init__(self, host: str, port: int) -> None:
@@ -30,7 +30,7 @@ class Datagrams:
         self.not_sent = 0
 
     def connect(self, probe: bytes, carry_on: CarryOn) -> None:
-        """Resolve the address and probe it. Raises: DeviceNotFound: no such host, or nobody listens there."""
+        """Resolve the address and probe it. Raises: DeviceNotFound: there is no such host, or no listener."""
         try:
             family, kind, protocol, _, address = socket.getaddrinfo(self._host, self._port, type=socket.SOCK_DGRAM)[0]
             self._socket = socket.socket(family, kind, protocol)
@@ -48,7 +48,7 @@ class Datagrams:
                 time.sleep(0.005)
 
     def send(self, data: bytes) -> None:
-        """Send a datagram, or count it as not sent if the system's queue is full. Raises: DeviceLost."""
+        """Send a datagram. It counts as not sent if the system's queue is full. Raises: DeviceLost."""
         if self._socket is None:
             raise DeviceLost(f"{self._place} is not open.")
         try:
@@ -61,7 +61,7 @@ class Datagrams:
             self.not_sent += 1
 
     def close(self, *farewell: bytes) -> None:
-        """Send the datagrams `farewell` and close; never raises, may be called twice."""
+        """Send the datagrams `farewell` and close. Never raises; may be called twice."""
         for data in farewell:
             with contextlib.suppress(DeviceError):
                 self.send(data)

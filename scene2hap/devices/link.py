@@ -1,9 +1,9 @@
 """Sinks with a device: a thread that requests the mix at the device's rate, and reconnects after failures.
 
 A device is a `Line`: five methods, about a page of code for a sound card, a serial port or a socket. `LiveSink` does
-the rest. A failure of the device is a state, not an exception. The thread reports a `SinkEvent`, continues to request
-the mix by the wall clock and drops it, so that the session's clock, ramps and queues never stop. It tries again after
-0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device is back.
+the rest. A failure of the device is a state, not an exception. The thread reports a `SinkEvent` and continues to
+request the mix by the wall clock. It drops these samples, so that the session's clock, ramps and queues never stop. It
+tries again after 0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device is back.
 
     unavailable ─┬─► connected ─┬─► stalled ─► resumed        (the kinds of SinkEvent)
        ▲         │              └─► lost ─┐
@@ -26,44 +26,46 @@ from scene2hap.devices.rate import RateConverter
 from scene2hap.errors import DeviceError, DeviceTimeout
 
 FADE_S = 0.05
-"""Length of the fade when a device comes (back); shorter would be felt as a knock."""
+"""Length of the fade-in after each connection [s]; a shorter one would be felt as a knock."""
 
 POLL_S = 0.005
-"""Longest wait inside a line, and so the time that `stop` may take."""
+"""Longest wait inside a line [s], and so the longest time for `stop`."""
 
 STALL_S = 0.5
-"""Time without requests after which a device is reported as stalled, and the mix continues without it [s]. Before, the
-mix waits, so that a short stall loses no sample (0.3 s were seen on a pseudo-terminal of a busy machine)."""
+"""Time without requests after which a device is reported as stalled, and the mix continues without it [s].
+
+Before that the mix waits, so that a short stall loses no sample. On a busy machine a pseudo-terminal stalled for 0.3 s.
+"""
 
 GIVE_UP_S = 1.5
 """Time without requests after which a device is closed and opened again [s]."""
 
 FIRST_RETRY_S, LAST_RETRY_S = 0.1, 2.0
-"""The pause between attempts, doubled each time until the device has played."""
+"""Pause between attempts [s]. It doubles after each attempt until the device has played."""
 
 _FAIR_S = 4 * POLL_S
 _IDLE_BLOCK_S = 0.02
 _JOIN_S = 5.0
 
 CarryOn = Callable[[], bool]
-"""A waiting line calls this every few milliseconds; False means that the sink is being stopped and the line must give
-up."""
+"""Callback that a waiting line calls every few milliseconds. False means that the sink is being stopped: the line must
+return."""
 
 
 class Line(Protocol):
-    """The way to one device. All methods are called on the sink's thread and may raise DeviceError at any time.
+    """Connection to one device. All methods are called on the sink's thread and may raise DeviceError at any time.
 
-    `underruns` and `latency_s` (None unknown) are read for `stats` from any thread.
+    Any thread may read `underruns` and `latency_s` (None if unknown) for `stats`.
     """
 
     @property
     def underruns(self) -> int:
-        """Times at which the device ran dry."""
+        """Number of times that the device ran out of samples."""
         ...
 
     @property
     def latency_s(self) -> float | None:
-        """From taking a sample to playing it [s]."""
+        """Time from taking a sample to playing it [s]."""
         ...
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
@@ -71,7 +73,8 @@ class Line(Protocol):
         ...
 
     def wanted(self, timeout_s: float) -> int:
-        """Frames that the device takes now, 0 for none; waits at most `timeout_s` for it to want some."""
+        """Return the number of frames that the device takes now, 0 for none. Waits at most `timeout_s` for a
+        request."""
         ...
 
     def send(self, block: Block) -> None:
@@ -79,18 +82,17 @@ class Line(Protocol):
         ...
 
     def disconnect(self) -> None:
-        """Silence the device if it is present, and release it; never raises, may be called twice."""
+        """Silence the device if it is present, and release it. Never raises; may be called twice."""
         ...
 
 
 class LiveSink:
-    """An ActuatorSink on a line.
+    """An ActuatorSink on a `Line`.
 
     `open`, `start` and `stats` return at once, in any state of the device; `stop` waits a few milliseconds for the
-    thread. Errors of the device are events; only misuse raises.
-
+    thread. Errors of the device are events; only wrong use of the sink raises.
     Parameters: line : connection to the device; name : its name in events; on_event : an EventCallback or None, may be
-    set at any time; key : identifies a device that serves one sink at a time, None for any number.
+        set at any time; key : identifies a device that serves one sink at a time, None for any number.
     """
 
     def __init__(self, line: Line, name: str, *, on_event: EventCallback | None = None, key: Hashable = None) -> None:
@@ -109,7 +111,7 @@ class LiveSink:
         self._idle = Pace(1)
 
     def open(self, format: SinkFormat) -> None:
-        """Prepare the sink and reset the counters; `start` connects to the device, which may be missing.
+        """Prepare the sink and reset the counters. `start` connects to the device, which may be missing.
 
         Raises: DeviceError: another sink of this program plays on it.
         """
@@ -132,7 +134,7 @@ class LiveSink:
         self._thread.start()
 
     def stop(self) -> None:
-        """Silence and release the device; the thread has ended when this returns."""
+        """Silence and release the device. The thread has ended when this returns."""
         self._stopping.set()
         thread, self._thread = self._thread, None
         if thread is None or thread is threading.current_thread():
@@ -142,7 +144,7 @@ class LiveSink:
             self._report_once("fault", f"{self._name}: its driver does not return; the thread ends when it does.")
 
     def close(self) -> None:
-        """Stop; `open` is needed before the next `start`."""
+        """Stop. `open` is needed before the next `start`."""
         self.stop()
         give_back(self._key, self)
         self._format = None
@@ -200,7 +202,7 @@ class LiveSink:
                 self._play(format, rate_hz)
         except DeviceError as cause:
             return str(cause)
-        except Exception as cause:  # a driver's own errors must not end the thread
+        except Exception as cause:  # an unknown error of a driver must not end the thread
             self._faults += 1
             return f"{self._name}: {type(cause).__name__}: {cause}."
         finally:
@@ -216,7 +218,8 @@ class LiveSink:
         while not self._stopping.is_set():
             n_frames = self._line.wanted(POLL_S)
             now = time.monotonic()
-            # On a busy machine this thread may sleep through what the device wanted; that is not the device's fault.
+            # On a busy machine this thread may sleep through a request of the device. That time does not count as a
+            # stall.
             waited_s += min(now - last, _FAIR_S)
             last = now
             if n_frames:
@@ -246,7 +249,7 @@ class LiveSink:
             self._stopping.wait(min(left, _IDLE_BLOCK_S))
 
     def _drop_due(self, format: SinkFormat) -> None:
-        """Keep the session's clock going without a device."""
+        """Request and drop the frames that are due, so that the session's clock continues without a device."""
         block = max(1, round(_IDLE_BLOCK_S * format.sample_rate_hz))
         while (due := self._idle.due(time.monotonic())) >= block and not self._stopping.is_set():
             n_frames = min(due, block)
@@ -262,13 +265,13 @@ class LiveSink:
             if block.shape != (n_frames, n_channels):
                 raise DeviceError(f"the mix has shape {block.shape}; it must be {(n_frames, n_channels)}")
             return block
-        except Exception as cause:  # a fault of the mix gives silence, and must not end the thread
+        except Exception as cause:  # an error of the mix gives silence, and must not end the thread
             self._faults += 1
             self._report_once("fault", f"{self._name} plays silence: {type(cause).__name__}: {cause}.")
             return np.zeros((n_frames, n_channels), dtype=np.float32)
 
     def _report_once(self, kind: str, message: str) -> None:
-        """Report an event once, not again at every attempt."""
+        """Report an event once, not at every attempt."""
         if self._last_event == (kind, message):
             return
         self._last_event = (kind, message)
@@ -277,12 +280,12 @@ class LiveSink:
             return
         try:
             callback(SinkEvent(kind, message, time.monotonic()))
-        except Exception:  # the game's error, which must not silence its hands
+        except Exception:  # an error in the game's callback must not silence the sink
             self._faults += 1
 
 
 class _Stream:
-    """The mix at a device's rate, faded in."""
+    """The mix at a device's rate, with a fade-in at its start."""
 
     def __init__(self, pull: Fill, format: SinkFormat, rate_hz: int) -> None:
         self._pull = pull

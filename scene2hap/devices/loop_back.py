@@ -1,7 +1,7 @@
 """Latency from the request for a signal to its recording at an input: by a cable, or a sound server's monitor.
 
-A sink reports the latency that its driver states; a loop-back measures the whole latency, with parts that the driver
-does not know.
+A sink reports the latency that its driver states. A loop-back measures the whole latency, with parts that the driver
+does not report.
 
     with Recording(find_input(None), 48000, 2) as recording:
         ...                                     # play the pattern, and note when its first samples are requested
@@ -41,7 +41,7 @@ _LOOP_BACKS = re.compile(r"loop.?back|monitor|stereo.?mix", re.IGNORECASE)
 _NEAR_S = 0.25
 
 _SILENT = 1e-9
-"""Energy relative to the loudest stretch below which there are only rounding errors."""
+"""Least energy of a stretch relative to the loudest one. Below it there are only rounding errors."""
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,9 @@ class Match:
 class Take:
     """A recording from an input.
 
-    `samples` (n_frames, n_channels) float32; the delivery times of blocks [s, on `time.monotonic`] and the number of
-    frames received by then, both (n_blocks,); `block_s`, the length of a block; `gaps`, how often the driver reported
-    lost frames.
+    `samples` (n_frames, n_channels) float32; `handed_over_s` (n_blocks,), the delivery times of blocks [s, on
+    `time.monotonic`]; `n_heard` (n_blocks,), the number of frames received by then; `block_s`, the length of a block;
+    `gaps`, the number of times that the driver reported lost frames.
     """
 
     device: str
@@ -73,7 +73,7 @@ class Take:
     def time_of(self, frame: int) -> float:
         """Return the latest time at which a frame had arrived [s, monotonic]; it may have arrived one block earlier."""
         near = _near((self.n_heard - frame) / self.rate_hz)
-        # Blocks are delivered late, never early, so the earliest time that any of them allows is the best estimate.
+        # Blocks are delivered late, never early, so the earliest time that any block allows is the best estimate.
         return float(np.min((self.handed_over_s - (self.n_heard - frame) / self.rate_hz)[near]))
 
     def frame_at(self, time_s: float) -> int:
@@ -84,7 +84,8 @@ class Take:
 
 
 def _near(apart_s: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Mark the blocks that give the time of a frame: the nearest and nearby ones, since farther ones may have gaps."""
+    """Return a mask of the blocks that give the time of a frame: the nearby ones. Farther blocks may be behind a
+    gap."""
     apart_s = np.abs(apart_s)
     return np.asarray(apart_s <= max(_NEAR_S, float(apart_s.min())))
 
@@ -93,8 +94,8 @@ def _near(apart_s: NDArray[np.float64]) -> NDArray[np.bool_]:
 class Arrival:
     """The arrival of a pattern at an input after its request.
 
-    `latency_s` is None if no correlation reaches `FOUND_FROM`; it may be too long by `uncertainty_s`, a recorded block.
-    `channel` is the input's, from 1; `gain_db` is from pattern to input; `correlation` in [-1, 1] is negative if a
+    `latency_s` is None if no correlation reaches `FOUND_FROM`. It may be too long by `uncertainty_s`, a recorded block.
+    `channel` is the input's, from 1; `gain_db` is from pattern to input. `correlation` in [-1, 1] is negative if a
     cable or the input inverts the signal.
     """
 
@@ -108,15 +109,16 @@ class Arrival:
 def find(heard: NDArray[np.floating], pattern: NDArray[np.floating]) -> Match:
     """Search a pattern in a recording, at any level and polarity.
 
-    r[k] = sum_i x[k + i] p[i] / (|p| sqrt(sum_i x[k + i]^2)), at the k of the largest |r|
+        r[k] = sum_i x[k + i] p[i] / (|p| sqrt(sum_i x[k + i]^2)), at the k of the largest |r|
 
-    Parameters: heard : (n,); pattern : (m,), not all zero. Returns: frame 0 and correlation 0 where n < m or all is
-    silent. Source: normalised cross-correlation, e.g. Lewis 1995, Fast Template Matching.
+    Parameters: heard : (n,); pattern : (m,), not all zero.
+    Returns: the best match; frame 0 and correlation 0 if n < m or the recording is silent.
+    Source: normalised cross-correlation, e.g. Lewis 1995, Fast Template Matching.
     """
     x, p = np.asarray(heard, dtype=np.float64), np.asarray(pattern, dtype=np.float64)
     if len(x) < len(p) or not x.any():
         return Match(0, 0.0, 0.0)
-    n = 1 << (len(x) - 1).bit_length()  # the lags that wrap around are those that are cut off
+    n = 1 << (len(x) - 1).bit_length()  # this wraps around only at lags that are cut off
     products = np.fft.irfft(np.fft.rfft(x, n) * np.conj(np.fft.rfft(p, n)), n)[: len(x) - len(p) + 1]
     sums = np.concatenate([[0.0], np.cumsum(x**2)])
     energy = sums[len(p) :] - sums[: -len(p)]
@@ -127,7 +129,7 @@ def find(heard: NDArray[np.floating], pattern: NDArray[np.floating]) -> Match:
 
 
 def arrival(take: Take, requested_at_s: float, pattern: NDArray[np.floating]) -> Arrival:
-    """Look for a pattern (m,), at the take's rate, on every channel from the time [s] of its request."""
+    """Search a pattern (m,) with the take's rate on every channel, from the time [s] of its request."""
     margin = round(take.block_s * take.rate_hz)
     begin = max(0, take.frame_at(requested_at_s) - margin)
     end = begin + len(pattern) + round(LONGEST_S * take.rate_hz) + 2 * margin
@@ -141,7 +143,7 @@ def arrival(take: Take, requested_at_s: float, pattern: NDArray[np.floating]) ->
 
 
 def find_input(device: str | int | None) -> Card:
-    """Return the input with an index, or the one whose name is or contains `device`; None for a probable loop-back.
+    """Return the input with an index, or with a name that is or contains `device`; None for a probable loop-back.
 
     If no input looks like one, None gives the system's default, which may be the monitor of a sound server.
     Raises: DeviceNotFound; MissingExtra; DeviceError: there is no PortAudio.
@@ -158,8 +160,8 @@ def find_input(device: str | int | None) -> Card:
 class Recording:
     """A context manager that records an input.
 
-    Parameters: card : from `find_input`; rate_hz : wanted, else the card's own is taken; n_channels : wanted, at most
-    as many as the card has.
+    Parameters: card : from `find_input`; rate_hz : wanted, else the card's own is used; n_channels : wanted, at most
+        the number that the card has.
     Raises: DeviceError: it cannot be opened.
     """
 

@@ -4,8 +4,10 @@
     /scene2hap/play   clip s                          when a clip is first felt: start its loop here
     /scene2hap/gain   gain f, clip s, hand i          whenever a gain changes, and all of them once a second
 
-The receiver plays and mixes the clips itself. Source: the paper, section Audio Processing (a message with attenuation
-ratio, path of the audio file and hand index at every change; one when a file is first played); OSC 1.0.
+The receiver plays and mixes the clips itself.
+
+Source: the paper, section Audio Processing (a message with attenuation ratio, path of the audio file and hand index at
+every change; one when a file is first played); OSC 1.0.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from scene2hap.devices.protocol import Block, SinkFormat
 from scene2hap.errors import MissingExtra
 
 REPEAT_S = 1.0
-"""Interval at which all gains are sent again, since datagrams get lost."""
+"""Interval at which all gains are sent again, since datagrams may be lost [s]."""
 
 _BLOCK_S = 0.02
 
@@ -41,7 +43,7 @@ class GainFrame(Protocol):
 
 
 class OscLine:
-    """Sends gains as messages. Samples are requested by the wall clock and discarded.
+    """A `Line` that sends gains as messages. Samples are requested by the wall clock and discarded.
 
     `latest` is the newest frame of gains; any thread may set it.
     """
@@ -60,11 +62,11 @@ class OscLine:
 
     @property
     def underruns(self) -> int:
-        """The number of datagrams that the system did not queue."""
+        """Number of datagrams that the system did not queue."""
         return self._datagrams.not_sent
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Send hello, and forget the gains sent before."""
+        """Send hello, and discard the record of gains sent before."""
         self._sent_gains.clear()
         self._playing.clear()
         self._datagrams.connect(encode("/scene2hap/hello", format.sample_rate_hz), carry_on)
@@ -74,7 +76,7 @@ class OscLine:
         return format.sample_rate_hz
 
     def wanted(self, timeout_s: float) -> int:
-        """Send the gains that have changed, then wait for the clock."""
+        """Send the changed gains, then wait for the clock."""
         self._send_changes()
         wait_s = self._pace.wait_s(self._block_frames, time.monotonic())
         if wait_s > 0:
@@ -109,7 +111,7 @@ class OscLine:
 
 
 def gains_of(frame: GainFrame, clips: Mapping[str, str]) -> Iterator[tuple[str, int, float]]:
-    """Clip, index of the hand and gain of the loudest band, for every source and hand."""
+    """Yield clip, index of the hand and gain of the loudest band, for every source and hand."""
     loudest = np.asarray(frame.gains).max(axis=2, initial=0.0)
     for hand in range(len(frame.hands)):
         for number, source in enumerate(frame.sources):
@@ -117,7 +119,7 @@ def gains_of(frame: GainFrame, clips: Mapping[str, str]) -> Iterator[tuple[str, 
 
 
 def encode(address: str, *values: str | float | int) -> bytes:
-    """One OSC message; integers as i, floats as f, strings as s."""
+    """Return one OSC message; integers as i, floats as f, strings as s."""
     from pythonosc.osc_message_builder import OscMessageBuilder
 
     builder = OscMessageBuilder(address)

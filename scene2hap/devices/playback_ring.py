@@ -1,7 +1,7 @@
 """Ring buffer of a sound card's callback: samples rendered ahead, and a fade at every start and end.
 
-One thread writes and one reads. Each owns one counter, which only grows, and reads the other's; neither ever waits.
-`play` makes no array: it copies and multiplies into what the sound card gave it.
+One thread writes and one reads. Each owns one counter, which only grows, and reads the other's. No thread ever waits.
+`play` allocates no array: it copies and multiplies in the sound card's own buffer.
 
        write ──► [ rendered ahead ] ──► play
     fade in : at the first samples, and after every gap
@@ -31,9 +31,9 @@ class PlaybackRing:
         self._place = 0
         self._is_dry = False
         self.closing = False
-        """Set by the writer to fade out; what is written after that is not heard."""
+        """Set by the writer to fade out. Samples written after that are not played."""
         self.gaps = 0
-        """Times at which samples ran out while playing."""
+        """Number of times that samples ran out while playing."""
 
     def restart(self) -> None:
         """Reset the ring for another stream, except for the count of gaps."""
@@ -42,21 +42,22 @@ class PlaybackRing:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Frames and channels."""
+        """Number of frames and of channels."""
         return self._data.shape[0], self._data.shape[1]
 
     @property
     def level(self) -> int:
-        """Frames written and not yet played."""
+        """Number of frames written and not yet played."""
         return self._written - self._read
 
     @property
     def is_silent(self) -> bool:
-        """True where a fade has come to its end, or nothing was played yet."""
+        """True if a fade-out has ended, or nothing was played yet."""
         return self._place == 0
 
     def write(self, block: Block) -> None:
-        """Append frames (n, n_channels); more than are free overwrite what was not played yet."""
+        """Append frames (n, n_channels). If they exceed the free space, they overwrite frames that were not played
+        yet."""
         size = len(self._data)
         at = self._written % size
         first = min(len(block), size - at)
@@ -101,7 +102,7 @@ class PlaybackRing:
         self._place += n
 
     def _fade_out(self, signal: Block, out: Block) -> None:
-        """Write `signal` (the frames of `out`, or one frame that is held), faded out by the gate."""
+        """Write `signal` (the frames of `out`, or one repeated frame), faded out."""
         n = min(len(out), self._place)
         begin = self._top - self._place + 1
         np.multiply(signal[:n], self._fall[begin : begin + n], out=out[:n])

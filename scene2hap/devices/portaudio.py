@@ -1,8 +1,8 @@
 """PortAudio through the package sounddevice: search for devices, and translation of its errors.
 
-PortAudio knows the devices that were there when it was started, so one that was plugged in later needs a new start.
-That would end every stream, so it is done only while none of ours is open. Its calls are not safe to make from two
-threads at once, hence the lock; callbacks are outside it.
+PortAudio lists devices only at its start, so finding a device that was plugged in later needs a restart. A restart ends
+every stream, so it is done only while none of ours is open. Two threads must not call PortAudio at once, hence the
+lock; callbacks are outside it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _open_streams = 0
 
 @dataclass(frozen=True)
 class Card:
-    """An output or an input: PortAudio's index, its name and host interface, and what it can do."""
+    """An output or an input: PortAudio's index, its name and host interface, number of channels and rate."""
 
     index: int
     name: str
@@ -35,29 +35,29 @@ class Card:
 
 
 def require_sounddevice() -> None:
-    """Raises: MissingExtra: the package is not installed."""
+    """Check that sounddevice is installed. Raises: MissingExtra: it is not."""
     if find_spec("sounddevice") is None:
         raise MissingExtra("the sound card needs sounddevice, which is not installed. "
                            "Run: pip install 'scene2hap[soundcard]'")  # fmt: skip
 
 
 def cards() -> list[Card]:
-    """Every output device that PortAudio knows. Raises: DeviceError: there is no PortAudio."""
+    """Return every output device of PortAudio. Raises: DeviceError: there is no PortAudio."""
     return _devices("max_output_channels")
 
 
 def inputs() -> list[Card]:
-    """Every input that PortAudio knows, with its channels. Raises: MissingExtra; DeviceError: there is no PortAudio."""
+    """Return every input of PortAudio, with its channels. Raises: MissingExtra; DeviceError: there is no PortAudio."""
     return _devices("max_input_channels")
 
 
 def default_input() -> int:
-    """Index of the system's choice; negative where it has none."""
+    """Return the index of the system's default input; negative if there is none."""
     return int(_sounddevice().default.device[0])
 
 
 def find_card(device: str | int | None) -> Card:
-    """Return the device with an index, or the one whose name is or contains `device`; None for the system's default.
+    """Return the output with an index, or with a name that is or contains `device`; None for the system's default.
 
     Raises: DeviceNotFound; DeviceError: there is no PortAudio.
     """
@@ -74,7 +74,7 @@ def find_card(device: str | int | None) -> Card:
 
 
 def accepts(card: Card, n_channels: int, rate_hz: int) -> bool:
-    """Return True if the device plays this many channels at this rate; False for a busy or missing device."""
+    """Return True if the device plays this number of channels at this rate; False for a busy or missing device."""
     with _LOCK:
         sd = _sounddevice()
         try:
@@ -92,7 +92,7 @@ def open_stream(
     block_frames: int,
     play: Callable[..., None],
 ) -> Any:
-    """A started `sounddevice.OutputStream`. Raises: DeviceError."""
+    """Return a started `sounddevice.OutputStream`. Raises: DeviceError."""
     with _LOCK:
         sd = _sounddevice()
         with _translated(card):
@@ -104,7 +104,7 @@ def open_stream(
 def open_recording(
     card: Card, n_channels: int, rate_hz: int, block_frames: int, hear: Callable[..., None]
 ) -> tuple[Any, int]:
-    """A started `sounddevice.InputStream`, and its rate [Hz]: the card's own where it does not take the one wanted.
+    """Return a started `sounddevice.InputStream`, and its rate [Hz]: the card's own if the wanted one is not possible.
 
     Raises: DeviceError.
     """
@@ -128,7 +128,7 @@ def is_active(stream: Any) -> bool:
 
 
 def close_stream(stream: Any, *, drain: bool) -> None:
-    """Close a stream, after its buffered samples have been played if `drain`."""
+    """Close a stream. If `drain`, its buffered samples are played first."""
     global _open_streams
     with _LOCK:
         try:
@@ -152,7 +152,7 @@ def _restart() -> None:
 
 
 def named(device: str | int, known: list[Card]) -> Card | None:
-    """The device of an index, or the first whose name is, or else contains, `device`."""
+    """Return the device with an index, or the first whose name is, or else contains, `device`."""
     if isinstance(device, int):
         return next((card for card in known if card.index == device), None)
     wanted = device.casefold()

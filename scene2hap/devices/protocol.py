@@ -15,7 +15,7 @@ Block = NDArray[np.float32]
 """Samples (n_frames, n_channels) float32 in [-1, 1]."""
 
 Fill = Callable[[int], Block]
-"""Gives the next n_frames of the mix."""
+"""Function that returns the next n_frames of the mix."""
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,10 @@ class SinkFormat:
 class SinkStats:
     """Statistics of a sink.
 
-    `frames` were handed to the device, at the device's rate; `dropped_frames` were taken from the session while there
-    was no device for them, at the session's rate; `underruns` are times at which the device ran dry; `faults` are
-    exceptions of the fill or of `on_event`; `latency_s` is the time from taking a sample to playing it, None unknown.
+    `frames` were passed to the device, at the device's rate. `dropped_frames` were requested from the session while
+    there was no device for them, at the session's rate. `underruns` counts the times that the device ran out of
+    samples. `faults` counts exceptions of the fill or of `on_event`. `latency_s` is the time from taking a sample to
+    playing it, None if unknown.
     """
 
     frames: int = 0
@@ -51,8 +52,9 @@ class SinkEvent:
     """An event of a sink that a game may show to its player.
 
     kind : "connected" (first or again), "unavailable" (cannot be reached, tried again later), "stalled" (takes no
-    samples), "resumed" (takes them again), "lost" (was there, is gone) or "fault" (the mix could not be rendered).
-    message : a sentence with what to do next; at_s : when [s], on the clock of `time.monotonic`.
+        samples), "resumed" (takes them again), "lost" (was connected, is gone) or "fault" (the mix could not be
+        rendered).
+    message : a sentence with the next step; at_s : time [s], on the clock of `time.monotonic`.
     """
 
     kind: str
@@ -61,16 +63,18 @@ class SinkEvent:
 
 
 EventCallback = Callable[[SinkEvent], None]
-"""Is called on a sink's own thread, so it must be quick and must not call `stop` or `close`."""
+"""Callback on a sink's own thread. It must be quick and must not call `stop` or `close`."""
 
 
 @runtime_checkable
 class ActuatorSink(Protocol):
-    """Plays the mix on actuators, or writes it to a file. `stop` and `close` may be called twice.
+    """Interface of outputs that play the mix on actuators or write it to a file.
 
-    Optional members are looked up by name: `on_event`, an `EventCallback` or None that may be set at any time (sinks
-    with a device: see `scene2hap.devices.link`); `abort()`, called instead of `stop` and `close` when a run has failed;
-    `show(frame)`, called with every HapticFrame, for devices that play gains.
+    `stop` and `close` may be called twice.
+
+    Optional members are looked up by name. `on_event` is an `EventCallback` or None, and may be set at any time (sinks
+    with a device: see `scene2hap.devices.link`). `abort()` is called instead of `stop` and `close` when a run has
+    failed. `show(frame)` is called with every HapticFrame, for devices that play gains.
     """
 
     def open(self, format: SinkFormat) -> None:
@@ -86,7 +90,7 @@ class ActuatorSink(Protocol):
         ...
 
     def close(self) -> None:
-        """Release the device; a file is complete from then on."""
+        """Release the device, or complete the file."""
         ...
 
     @property

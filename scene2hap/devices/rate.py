@@ -2,10 +2,10 @@
 
     y[m] = sum_j h[p + j up] x[q - j]        q = m down // up,  p = m down mod up,  up / down = f_out / f_in
 
-h is a Kaiser-windowed low-pass at rate up f_in, split into `up` phases once. The inputs that the next outputs need are
-kept, so that the block size has no effect on the signal. Available streaming converters have too much latency for touch
-(soxr 1.1 from 48 to 4 kHz: 36 ms at medium quality, 222 ms at high quality). A filter that must preserve only the
-tactile band has 2.6 ms.
+h is a Kaiser-windowed low-pass at rate up f_in, split into `up` phases once. Inputs for the next outputs are stored, so
+the block size has no effect on the signal. Available streaming converters have too much latency for touch (soxr 1.1
+from 48 to 4 kHz: 36 ms at medium quality, 222 ms at high quality). A filter that must preserve only the tactile band
+has 2.6 ms.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scene2hap.devices.protocol import Block
 
 TACTILE_EDGE_HZ = 1000.0
-"""Upper end of the pass band [Hz]: nothing above it is felt."""
+"""Upper end of the pass band [Hz]; higher frequencies are not felt."""
 
 STOP_BAND_DB = 80.0
 """Attenuation of aliasing frequencies [dB], well beyond the 55 dB range of touch."""
@@ -28,7 +28,7 @@ STOP_BAND_DB = 80.0
 class RateConverter:
     """A streaming converter for n_channels; with equal rates it returns samples unchanged.
 
-    It passes 0 to min(1 kHz, 0.6 Nyquist) and stops what lies above the lower Nyquist frequency by 80 dB.
+    It passes 0 to min(1 kHz, 0.6 Nyquist), and attenuates frequencies above the lower Nyquist frequency by 80 dB.
     """
 
     def __init__(self, rate_in_hz: int, rate_out_hz: int, n_channels: int) -> None:
@@ -41,13 +41,13 @@ class RateConverter:
         self._next_out = self._next_in = 0
 
     def needed(self, n_out: int) -> int:
-        """Input frames that must be given for the next n_out frames."""
+        """Return the number of input frames for the next n_out frames."""
         if n_out == 0:
             return 0
         return max(0, (self._next_out + n_out - 1) * self._down // self._up + 1 - self._next_in)
 
     def convert(self, block: Block, n_out: int) -> Block:
-        """The next frames (n_out, n_channels) float32 from `needed(n_out)` frames of input."""
+        """Return the next frames (n_out, n_channels) float32 from `needed(n_out)` frames of input."""
         if self._phases is None:
             return block
         n_taps = self._phases.shape[1]
@@ -64,17 +64,17 @@ class RateConverter:
         return out.astype(np.float32)
 
     def _rebase(self) -> None:
-        """Count from a common period again, so that numbers stay small however long it runs."""
+        """Subtract a common period from both counters, so that they stay small in a long run."""
         periods = min(self._next_out // self._up, self._next_in // self._down)
         self._next_out -= periods * self._up
         self._next_in -= periods * self._down
 
 
 def _phases(rate_in_hz: int, rate_out_hz: int, up: int) -> NDArray[np.float64]:
-    """The low-pass as (up, n_taps_per_phase), newest input last, each phase with a gain of 1 at 0 Hz.
+    """Return the low-pass as (up, n_taps_per_phase), newest input last. Each phase has a gain of 1 at 0 Hz.
 
-    Source: Kaiser 1974; Oppenheim and Schafer, Discrete-Time Signal Processing, 7.5.3, for beta and length. Written out
-    since importing scipy.signal takes a second on a busy machine, while a device waits.
+    Source: Kaiser 1974; Oppenheim and Schafer, Discrete-Time Signal Processing, 7.5.3, for beta and length. It is
+    written out since importing scipy.signal takes a second on a busy machine, while a device waits.
     """
     nyquist_hz = min(rate_in_hz, rate_out_hz) / 2
     pass_hz = min(TACTILE_EDGE_HZ, 0.6 * nyquist_hz)

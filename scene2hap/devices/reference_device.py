@@ -2,9 +2,9 @@
 
     python -m scene2hap.devices.reference_device          makes a pseudo-terminal and prints its name (not on Windows)
     python -m scene2hap.devices.reference_device PORT     plays the device on one end of a cable
-    ... --wav heard.wav                                   keeps what it played, once it is ended by Ctrl-C
+    ... --wav heard.wav                                   stores the played samples when Ctrl-C ends it
 
-so that `SerialAmplifierSink` can be tried without hardware. The same behaviour for boards is in firmware/.
+With it you can try `SerialAmplifierSink` without hardware. The same behaviour for boards is in firmware/.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ CREDIT_EVERY_S = 0.005
 MUTE_RAMP_S = 0.005
 
 Samples = np.ndarray[tuple[int, int], np.dtype[np.int16]]
-"""Samples (n_frames, n_channels) as they came."""
+"""Samples (n_frames, n_channels) in their received form."""
 
 
 class ReferenceDevice:
@@ -70,11 +70,11 @@ class ReferenceDevice:
 
     @property
     def damaged(self) -> int:
-        """Runs of bytes that were not a frame."""
+        """Number of runs of bytes that were no frame."""
         return self._parser.damaged
 
     def receive(self, data: bytes, now_s: float) -> None:
-        """Bytes from the host."""
+        """Process bytes from the host."""
         for frame in self._parser.feed(data):
             if Hello.from_frame(frame):
                 self._greet()
@@ -84,7 +84,7 @@ class ReferenceDevice:
                 self._accept(frame, now_s)
 
     def advance(self, now_s: float) -> None:
-        """Play up to the present; mute if the host is silent; send the present position to the host."""
+        """Play up to the present. Mutes if the host is silent. Queues the present state for the host."""
         if now_s - self._fed_s > WATCHDOG_S:
             self._mute()
         if self._clock_s == -np.inf:
@@ -96,7 +96,7 @@ class ReferenceDevice:
             self._credit(now_s)
 
     def to_send(self) -> bytes:
-        """Bytes for the host."""
+        """Return and clear the bytes for the host."""
         data = bytes(self._outgoing)
         self._outgoing.clear()
         return data
@@ -144,7 +144,7 @@ class ReferenceDevice:
         self._outgoing += to_wire(credit.to_frame(self._echo_us))
 
     def _mute(self) -> None:
-        """Drop queued samples: late samples are worse than none."""
+        """Mute, and drop queued samples: late samples are worse than none."""
         self.muted = True
         self._queue.clear()
         self._queued = 0
@@ -174,14 +174,14 @@ class ReferenceDevice:
 
 
 class Wire(Protocol):
-    """Bytes to and from a host; both raise OSError when it has gone."""
+    """Interface of a connection to a host. Both methods raise OSError when the host is gone."""
 
     def read(self, timeout_s: float) -> bytes:
-        """Read the bytes that have arrived; wait at most so long for a first byte."""
+        """Return the bytes that have arrived; wait at most `timeout_s` for a first byte."""
         ...
 
     def write(self, data: bytes) -> None:
-        """Send, or drop what cannot be sent now."""
+        """Send bytes. Bytes that cannot be sent now are dropped."""
         ...
 
 
@@ -198,12 +198,12 @@ class PseudoTerminal:
         self.name = os.ttyname(self._slave)
 
     def read(self, timeout_s: float) -> bytes:
-        """Read the bytes that have arrived; wait at most so long for a first byte."""
+        """Return the bytes that have arrived; wait at most `timeout_s` for a first byte."""
         ready, _, _ = select.select([self._master], [], [], timeout_s)
         return os.read(self._master, 4096) if ready else b""
 
     def write(self, data: bytes) -> None:
-        """Send, or drop what cannot be sent now."""
+        """Send bytes. Bytes that cannot be sent now are dropped."""
         with contextlib.suppress(BlockingIOError):
             os.write(self._master, data)
 
@@ -216,7 +216,7 @@ class PseudoTerminal:
 
 
 def serve(device: ReferenceDevice, wire: Wire, stop: threading.Event) -> None:
-    """Run a device on a wire until it is stopped. Raises: OSError: the wire has gone."""
+    """Run a device on a wire until it is stopped. Raises: OSError: the wire is gone."""
     while not stop.is_set():
         data = wire.read(0.001)
         now = time.monotonic()
@@ -244,7 +244,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     keep = heard.append if chosen.wav else None
     device = ReferenceDevice(chosen.rate, chosen.channels, on_output=keep)
     stop = threading.Event()
-    # Set explicitly, since a program started in the background of a shell ignores Ctrl-C.
+    # Set explicitly, since a program in the background of a shell ignores Ctrl-C.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     try:

@@ -1,4 +1,4 @@
-"""A serial amplifier that speaks our protocol (docs/serial-protocol.md)."""
+"""A sink for serial amplifiers with our protocol (docs/serial-protocol.md)."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ from scene2hap.errors import ConfigError, DeviceError, DeviceLost, DeviceTimeout
 
 HELLO_EVERY_S = 0.1
 ANSWER_S = 2.5
-"""Longest wait for an answer to the greeting [s]: boards of the Arduino family restart when their port is opened, and
-need some 2 s until they listen."""
+"""Longest wait for an answer to HELLO [s]. Boards of the Arduino family restart when their port is opened, and need
+about 2 s."""
 
 PROBE_S = 0.05
-"""Time without free space and without CREDIT after which an empty PCM frame is sent; its CREDIT shows lost frames."""
+"""Time without free space and without CREDIT after which an empty PCM frame is sent [s]. Its CREDIT reveals lost
+frames."""
 
 _BITS_PER_BYTE = 10
 _FRAME_OVERHEAD = 19
@@ -31,12 +32,12 @@ _FRAME_OVERHEAD = 19
 
 @clear_calls
 class SerialAmplifierSink(LiveSink):
-    """Plays on a serial amplifier; needs the extra `serial`. Failures are events, see `scene2hap.devices.link`.
+    """Play on a serial amplifier; needs the extra `serial`. Failures are events, see `scene2hap.devices.link`.
 
     Parameters: port : its name, such as "/dev/ttyACM0" or "COM5"; baud_rate : for real UARTs (USB boards ignore it);
-    sample_rate_hz : the device's, None takes what the device offers; buffer_s : how much is kept in the device's
-    queue [s], which is the latency that it adds; block_frames : frames of the device per PCM frame.
-    Raises: MissingExtra; ConfigError: a number out of bounds, or a baud rate that cannot carry the samples.
+        sample_rate_hz : the device's, None takes the device's own; buffer_s : samples kept in the device's queue [s],
+        which is the latency that it adds; block_frames : frames of the device per PCM frame.
+    Raises: MissingExtra; ConfigError: a number out of bounds, or a baud rate that is too low for the samples.
     """
 
     def __init__(
@@ -55,7 +56,7 @@ class SerialAmplifierSink(LiveSink):
 
 
 class SerialLine:
-    """The way to a serial amplifier; see `scene2hap.devices.link.Line`."""
+    """Connection to a serial amplifier; see `scene2hap.devices.link.Line`."""
 
     def __init__(
         self, port: str, baud_rate: int, sample_rate_hz: int | None, buffer_s: float, block_frames: int
@@ -81,7 +82,7 @@ class SerialLine:
         self._rate_hz = self._channels = 0
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
-        """Open the port and greet until the device answers."""
+        """Open the port and send HELLO until the device answers."""
         self._port = SerialPort(self._name, self._baud_rate)
         self._parser = FrameParser()
         self._in_flight.clear()
@@ -108,7 +109,7 @@ class SerialLine:
         return self._block_frames if self._room >= self._block_frames else 0
 
     def send(self, block: Block) -> None:
-        """One PCM frame."""
+        """Send one PCM frame."""
         self._sequence = (self._sequence + 1) % 2**16
         self._in_flight.append((self._sequence, len(block)))
         self._room -= len(block)
@@ -123,7 +124,7 @@ class SerialLine:
         try:
             farewell = to_wire(message(FrameType.MUTE))
             port.write(farewell)
-            # Closing discards unsent bytes, so wait for the time that the frame needs on the wire.
+            # Closing discards unsent bytes, so wait until the frame is on the wire.
             time.sleep(0.001 + len(farewell) * _BITS_PER_BYTE / self._baud_rate)
         except DeviceError:
             pass  # a disconnected device mutes itself by its watchdog

@@ -1,8 +1,8 @@
 """A serial port that never blocks for long, with errors of `scene2hap.errors`.
 
-Behaviour of drivers: a full port raises after the write timeout, at times without reason, and a timeout of 0 spins
-(pyserial 3.5 on POSIX). A disconnected port raises SerialException, OSError or termios.error, depending on the call.
-Closing a port with unsent bytes can take half a minute, unless they are discarded first.
+Known behaviour of drivers: a full port raises after the write timeout, at times without reason, and a timeout of 0
+spins (pyserial 3.5 on POSIX). A disconnected port raises SerialException, OSError or termios.error, depending on the
+call. Closing a port with unsent bytes can take half a minute, unless they are discarded first.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ WRITE_TIMEOUT_S = 0.05
 
 
 def require_pyserial() -> None:
-    """Raises: MissingExtra: pyserial is not installed."""
+    """Check that pyserial is installed. Raises: MissingExtra: it is not."""
     try:
         import serial  # noqa: F401
     except ImportError as cause:
@@ -46,12 +46,12 @@ class SerialPort:
             )
         except self._lost as cause:
             raise _open_error(name, baud_rate, cause) from cause
-        # The 16 ms timer of FTDI chips would hold back every credit; other chips have none, and say so.
+        # The 16 ms timer of FTDI chips would delay every credit. Other chips have no such timer, and raise.
         with contextlib.suppress(NotImplementedError, AttributeError, *self._lost):
             self._port.set_low_latency_mode(True)
 
     def read(self, timeout_s: float) -> bytes:
-        """Read the bytes that have arrived; wait at most `timeout_s` for a first byte. Raises: DeviceLost."""
+        """Return the bytes that have arrived; wait at most `timeout_s` for a first byte. Raises: DeviceLost."""
         try:
             self._port.timeout = timeout_s
             return self._port.read(max(1, self._port.in_waiting))
@@ -65,8 +65,8 @@ class SerialPort:
         try:
             self._port.write(data)
         except serial.SerialTimeoutException:
-            # Says nothing: pyserial looks at the clock once more after the last byte, and on a busy machine raises
-            # though all were taken. A device that takes none grants no credit, and is given up for that.
+            # Not reliable: pyserial checks the clock again after the last byte, and on a busy machine raises although
+            # all bytes were taken. A device that takes none grants no credit, which `SerialLine` detects.
             pass
         except self._lost as cause:
             raise DeviceLost(f"{self.name} has gone: {_reason(cause)}. Plug it in again.") from cause
@@ -80,7 +80,7 @@ class SerialPort:
 
 
 def _termios_error() -> tuple[type[Exception], ...]:
-    # termios.error is no OSError, and there is no termios on Windows.
+    # termios.error is no OSError, and Windows has no termios.
     if sys.platform == "win32":
         return ()
     import termios

@@ -5,9 +5,9 @@ samples bridge work of the session and pauses of Python:
 
     session ──► ring (`latency` + 12 ms) ──► PortAudio's buffer (`latency`) ──► actuator
 
-The ring is as long as the buffer, since Python may stop all its threads at once, including the callback, as in garbage
-collection (60 ms were seen). After such a pause the driver requests at once all frames that were played meanwhile.
-Losing the device is a state, handled by `scene2hap.devices.link`.
+The ring is as long as the buffer. Python may stop all its threads at once, including the callback, as in garbage
+collection (60 ms were measured). After such a pause the driver requests all frames of the pause at once. Losing the
+device is a state, handled by `scene2hap.devices.link`.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ from scene2hap.devices.protocol import Block, EventCallback, SinkFormat, SinkSta
 from scene2hap.errors import ConfigError, DeviceError, DeviceLost
 
 DEFAULT_LATENCY_S = 0.1
-"""The least that played without a gap in all measured takes; see docs/actuators.md."""
+"""Smallest latency without a gap in all measurements [s]; see docs/actuators.md."""
 
 AHEAD_S = 0.012
-"""Rendered ahead beyond the device's latency: some turns of the sink's thread."""
+"""Time rendered ahead beyond the device's latency [s]: some iterations of the sink's thread."""
 
 CHUNK_S = 0.005
-"""Frames are rendered in blocks of about this; gains, and the watchdog, can only act between two."""
+"""Approximate length of rendered blocks [s]. Gains and the watchdog act only between two blocks."""
 
 CATCHING_UP = 1.05
 """Rate at which the ring is refilled after a burst, relative to the playback rate."""
@@ -57,17 +57,17 @@ class SoundCardStats(SinkStats):
 
 @clear_calls
 class SoundCardSink(LiveSink):
-    """Plays each hand on a channel of a sound card.
+    """Play each hand on a channel of a sound card.
 
     Parameters:
     device : its name or a part of it, or PortAudio's index; None for the system's default.
     channels : the channel of each hand, counted from 1: by name {"left": 3, "right": 4} or in the hands' order [3, 4];
-        None for 1, 2, ... Channels that no hand has stay silent.
-    latency : of the device's buffer [s], or "low" or "high" for what its driver suggests.
-    sample_rate_hz : of the device; None for the session's where the device takes it, else the device's own.
-    block_frames : frames that the device requests at a time; fewer let "low" be lower, and cost more calls.
+        None for 1, 2, ... Channels without a hand stay silent.
+    latency : of the device's buffer [s], or "low" or "high" for a value of its driver.
+    sample_rate_hz : of the device; None for the session's if the device accepts it, else the device's own.
+    block_frames : frames that the device requests at a time; fewer allow a shorter "low", and cost more calls.
     on_event : an EventCallback or None.
-    Raises: ConfigError: a channel, latency or block that cannot be; MissingExtra: sounddevice is not installed.
+    Raises: ConfigError: an invalid channel, latency or block; MissingExtra: sounddevice is not installed.
     """
 
     def __init__(
@@ -92,11 +92,11 @@ class SoundCardSink(LiveSink):
         """Prepare the sink. Raises: ConfigError: a hand without a channel."""
         self._card_line.columns(format)
         super().open(format)
-        # A program that ends without `close` still fades out, and before PortAudio is taken down.
+        # A program that ends without `close` must still fade out, before PortAudio is shut down.
         atexit.register(self.close)
 
     def close(self) -> None:
-        """Fade out and give the sound card back."""
+        """Fade out and release the sound card."""
         atexit.unregister(self.close)
         super().close()
 
@@ -108,7 +108,7 @@ class SoundCardSink(LiveSink):
 
 
 class _CardLine:
-    """The way to one sound card."""
+    """Connection to one sound card."""
 
     def __init__(
         self,
@@ -135,7 +135,7 @@ class _CardLine:
 
     @property
     def underruns(self) -> int:
-        """Gaps, of our own rendering or reported by the driver."""
+        """Number of gaps, of our own rendering or reported by the driver."""
         return self._gaps + self._ring.gaps + self._flags
 
     @property
@@ -145,7 +145,7 @@ class _CardLine:
         return float(stream.cpu_load) if stream is not None else 0.0
 
     def columns(self, format: SinkFormat) -> list[int]:
-        """The device's channel for each of the format's, from 0. Raises: ConfigError: one has none."""
+        """Return the device's channel for each of the format's, from 0. Raises: ConfigError: a hand has none."""
         hands = format.channels
         if self._channels is None:
             return list(range(len(hands)))
@@ -165,7 +165,7 @@ class _CardLine:
         try:
             return self._open(portaudio.find_card(self._wanted_device), format)
         except DeviceError:
-            # The device may have come back under another number, which only a new start of PortAudio can see.
+            # The device may be back under another number, which PortAudio lists only after a restart.
             portaudio.restart_if_idle()
             carry_on()
             return self._open(portaudio.find_card(self._wanted_device), format)
@@ -175,7 +175,7 @@ class _CardLine:
         if n_channels > card.n_channels:
             raise DeviceError(f"sound card {card.name!r} has {card.n_channels} channels; a hand is on {n_channels}.")
         rate_hz, n_channels = self._setting(card, n_channels, format.sample_rate_hz)
-        # The stream's latency is known only when its callback already runs, so the ring must be there before.
+        # The stream's latency is known only after its callback has started, so the ring must exist before.
         if self._ring.shape != (rate_hz, n_channels):
             self._gaps += self._ring.gaps
             self._ring = PlaybackRing(rate_hz, n_channels, max(1, round(FADE_S * rate_hz)))
@@ -197,18 +197,18 @@ class _CardLine:
         return rate_hz
 
     def _setting(self, card: portaudio.Card, n_channels: int, session_rate_hz: int) -> tuple[int, int]:
-        """The first rate and number of channels that the device takes."""
+        """Return the first rate and number of channels that the device accepts."""
         rates = [self._rate_hz] if self._rate_hz is not None else [session_rate_hz, card.rate_hz]
         # Some devices can only be opened with all their channels.
         for rate_hz in rates:
             for n in dict.fromkeys((n_channels, card.n_channels)):
                 if portaudio.accepts(card, n, rate_hz):
                     return rate_hz, n
-        # Let the attempt itself say what is wrong: busy, not permitted, gone.
+        # Opening the device then raises the reason: busy, not permitted, gone.
         return rates[0], n_channels
 
     def wanted(self, timeout_s: float) -> int:
-        """Frames that the ring takes now. Raises: DeviceLost: the sound card has gone."""
+        """Return the number of frames that the ring takes now. Raises: DeviceLost: the sound card is gone."""
         due = self._due()
         if due == 0:
             time.sleep(min(timeout_s, self._chunk / self._pace / 2))
@@ -216,7 +216,8 @@ class _CardLine:
         return due
 
     def _due(self) -> int:
-        """Frames to render now: as time goes by, though drivers ask in bursts, so that changes are felt evenly."""
+        """Return the frames to render now. They follow the clock, not the driver's bursts, so that changes are felt
+        evenly."""
         if not portaudio.is_active(self._stream):
             raise DeviceLost(f"sound card {self.device!r} has gone.")
         level, now = self._ring.level, time.monotonic()
@@ -229,14 +230,14 @@ class _CardLine:
         return free
 
     def send(self, block: Block) -> None:
-        """Put frames into the ring, each hand on its channel."""
+        """Write frames to the ring, each hand on its channel."""
         wide = self._wide[: len(block)]
         wide[:, self._columns] = block
         np.clip(wide, -1.0, 1.0, out=wide)
         self._ring.write(wide)
 
     def disconnect(self) -> None:
-        """Fade out, play what is on its way, and let go."""
+        """Fade out, play the buffered samples, and release the device."""
         stream, self._stream = self._stream, None
         if stream is None:
             return
@@ -244,7 +245,7 @@ class _CardLine:
         deadline = time.monotonic() + _LONGEST_FADE_S
         while portaudio.is_active(stream) and not self._ring.is_silent and time.monotonic() < deadline:
             time.sleep(FADE_S / 2)
-        # A driver that does not ask for samples would be waited for without end.
+        # A driver that requests no samples would block `drain` for ever.
         portaudio.close_stream(stream, drain=portaudio.is_active(stream) and self._ring.is_silent)
         self.latency_s = None
 

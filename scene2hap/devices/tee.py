@@ -1,8 +1,8 @@
-"""Several sinks at once.
+"""One mix on several sinks.
 
-Devices have clocks of their own, so the mix is stored on a tape that each reads at its own rate. The fastest reader
-makes the session render. A reader more than 0.1 s behind (a slower clock, a device that was disconnected) jumps to the
-head, with a cross-fade. Sinks without a clock, such as WavSink, get every block once, in order.
+Devices have clocks of their own, so a buffer stores the mix, and each device reads it at its own rate. The fastest
+reader makes the session render. A reader more than 0.1 s behind (a slower clock, a device that was disconnected) jumps
+to the newest frame, with a cross-fade. Sinks without a clock, such as WavSink, get every block once, in order.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ MAX_LAG_S = 0.1
 
 @clear_calls
 class TeeSink(Pulled):
-    """Passes one mix to several sinks: objects, kinds, or mappings with a `kind`.
+    """Pass one mix to several sinks: objects, kinds, or mappings with a `kind`.
 
-    `stats` has their sums, the largest latency, and is connected if any sink is; `sinks` gives access to each. If no
+    `stats` has their sums and the largest latency, and is connected if any sink is; `sinks` gives access to each. If no
     sink has a clock, `pull` requests frames from the session, as the sinks' own `pull` does.
     Raises: ConfigError: no sink, or an object that is no sink.
     """
@@ -49,13 +49,13 @@ class TeeSink(Pulled):
             raise ConfigError("TeeSink was given one sink twice, which cannot play the mix twice; give each once.")
         self.on_event = on_event
         self._format: SinkFormat | None = None
-        self._tape: _Tape | None = None
+        self._buffer: _Buffer | None = None
         for sink in self.sinks:
             if hasattr(sink, "on_event") and getattr(sink, "on_event", None) is None:
                 sink.on_event = self._pass_on
 
     def open(self, format: SinkFormat) -> None:
-        """Open all. Raises: DeviceError: one cannot be; the others are closed again."""
+        """Open all sinks. Raises: DeviceError: one cannot be opened; the others are closed again."""
         self._format = format
         self._whole = WholeFrames(format.sample_rate_hz)
         for number, sink in enumerate(self.sinks):
@@ -67,35 +67,35 @@ class TeeSink(Pulled):
                 raise
 
     def start(self, fill: Fill) -> None:
-        """Start all. Raises: DeviceError: not open."""
+        """Start all sinks. Raises: DeviceError: not open."""
         if self._format is None:
             raise DeviceError("TeeSink is not open; call open(SinkFormat(...)) before start.")
-        self._tape = tape = _Tape(fill, self._format, [sink for sink in self.sinks if not has_clock(sink)])
+        self._buffer = buffer = _Buffer(fill, self._format, [sink for sink in self.sinks if not has_clock(sink)])
         for sink in self.sinks:
             if has_clock(sink):
-                sink.start(_Reader(tape, self._format).read)
+                sink.start(_Reader(buffer, self._format).read)
 
     def pull(self, n_frames: int) -> Block:
-        """Take and hand on the next frames, where no sink has a clock. Raises: DeviceError: not started, or one has."""
-        if self._tape is None or has_clock(self):
+        """Request the next frames and pass them on. Raises: DeviceError: not started, or a sink has a clock."""
+        if self._buffer is None or has_clock(self):
             raise DeviceError("TeeSink is not started, or has a device in it that takes blocks by itself.")
-        return self._tape.advance(n_frames)
+        return self._buffer.advance(n_frames)
 
     def stop(self) -> None:
-        """Stop all."""
+        """Stop all sinks."""
         for sink in self.sinks:
             sink.stop()
-        self._tape = None
+        self._buffer = None
 
     def close(self) -> None:
-        """Close all."""
+        """Close all sinks."""
         self.stop()
         for sink in self.sinks:
             sink.close()
         self._format = None
 
     def abort(self) -> None:
-        """Stop all, and let sinks that support it delete their files."""
+        """Stop all sinks, and let sinks that support it delete their files."""
         self.stop()
         for sink in self.sinks:
             getattr(sink, "abort", sink.close)()
@@ -127,10 +127,10 @@ class TeeSink(Pulled):
             self.on_event(event)
 
 
-class _Tape:
-    """The newest part of the mix; a reader that reaches its head renders more.
+class _Buffer:
+    """The newest part of the mix. A reader that reaches its end renders more.
 
-    Readers are sinks' own threads, never a sound card's callback, so that a lock is allowed.
+    Readers are sinks' own threads, never a sound card's callback, so a lock is allowed.
     """
 
     def __init__(self, fill: Fill, format: SinkFormat, recorders: Sequence[ActuatorSink]) -> None:
@@ -145,7 +145,7 @@ class _Tape:
             recorder.start(lambda n_frames: self._block)
 
     def advance(self, n_frames: int) -> Block:
-        """Render on."""
+        """Render and store the next frames."""
         self._block = block = self._fill(n_frames)
         for recorder in self._recorders:
             recorder.pull(n_frames)  # type: ignore[attr-defined]  # what makes it one
@@ -154,7 +154,7 @@ class _Tape:
         return block
 
     def read(self, start: int, n_frames: int) -> Block:
-        """The frames from a position on."""
+        """Return frames from a position on; missing ones are rendered."""
         missing = start + n_frames - self.head
         if missing > 0:
             self.advance(missing)
@@ -163,23 +163,23 @@ class _Tape:
 
 
 class _Reader:
-    """The position of one device on the tape."""
+    """The read position of one device in the buffer."""
 
-    def __init__(self, tape: _Tape, format: SinkFormat) -> None:
-        self._tape = tape
+    def __init__(self, buffer: _Buffer, format: SinkFormat) -> None:
+        self._buffer = buffer
         self._most = round(MAX_LAG_S * format.sample_rate_hz)
         self._position = 0
 
     def read(self, n_frames: int) -> Block:
-        with self._tape.lock:
-            late = self._tape.head - self._position
+        with self._buffer.lock:
+            late = self._buffer.head - self._position
             if late <= self._most:
-                block = self._tape.read(self._position, n_frames)
+                block = self._buffer.read(self._position, n_frames)
                 self._position += n_frames
                 return block
-            old = self._tape.read(self._position, n_frames) if late < 2 * self._most else None
-            self._position = self._tape.head
-            block = self._tape.read(self._position, n_frames).copy()
+            old = self._buffer.read(self._position, n_frames) if late < 2 * self._most else None
+            self._position = self._buffer.head
+            block = self._buffer.read(self._position, n_frames).copy()
             self._position += n_frames
         rising = (np.arange(1, n_frames + 1, dtype=np.float32) / np.float32(n_frames))[:, None]
         block *= rising

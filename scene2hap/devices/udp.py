@@ -1,4 +1,4 @@
-"""The mix over a network: PCM in datagrams, or the gains as OSC messages; docs/udp.md describes the receiving side."""
+"""The mix over a network: PCM in datagrams, or the gains as OSC messages. docs/udp.md describes the receiving side."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
 from scene2hap.errors import ConfigError
 
 ANNOUNCE_S = 1.0
-"""Interval of announcements [s], from which a receiver that starts late learns rate and channels."""
+"""Interval of announcements [s]. From them a receiver that starts late learns rate and channels."""
 
 _SAMPLES = {"int16": SampleFormat.INT16, "float32": SampleFormat.FLOAT32}
 
 
 @clear_calls
 class UdpSink(LiveSink):
-    """Sends the mix, or its gains, to a program that renders; see docs/udp.md. Failures are events.
+    """Send the mix, or its gains, to a program that renders; see docs/udp.md. Failures are events.
 
-    Parameters: host, port : where it listens; content : "pcm" for blocks of samples, "osc" for messages of gain, clip
-    and hand as the paper sent them to Max/MSP (needs the extra `osc`); sample_rate_hz, block_frames, samples ("int16"
-    or "float32") : of PCM; clips : source id -> path of its sound, as the receiver of OSC knows it, else the id.
+    Parameters: host, port : address of the receiver; content : "pcm" for blocks of samples, "osc" for messages of gain,
+        clip and hand as the paper sent them to Max/MSP (needs the extra `osc`); sample_rate_hz, block_frames, samples
+        ("int16" or "float32") : of PCM; clips : source id -> path of its sound at the OSC receiver, else the id.
     Raises: MissingExtra; ConfigError: a setting out of bounds.
     """
 
@@ -54,20 +54,20 @@ class UdpSink(LiveSink):
         datagrams = Datagrams(host, int(checks.number("port", port, "-", at_least=1, at_most=65535, error=ConfigError)))
         self._osc = OscLine(datagrams, clips or {}) if content == "osc" else None
         line: OscLine | PcmLine = self._osc or PcmLine(datagrams, sample_rate_hz, block_frames, _SAMPLES[samples])
-        # Two streams of samples make noise of each other; messages name their sender.
+        # A receiver would mix two streams of samples to noise. OSC messages name their clip and hand.
         key = None if content == "osc" else ("udp", host, port)
         super().__init__(line, f"UDP receiver {host}:{port}", on_event=on_event, key=key)
 
     def show(self, frame: GainFrame) -> None:
-        """Take in the gains of one update; the game's thread never waits here. Nothing to do for PCM."""
+        """Store the gains of one update; never blocks the game's thread. No effect for PCM."""
         if self._osc is not None:
-            # Computed here: the sink's thread would read the scene while it changes.
+            # Computed here, since on the sink's thread the scene might change meanwhile.
             _ = frame.gains
             self._osc.latest = frame
 
 
 class PcmLine:
-    """Blocks of samples, paced by the wall clock; see `scene2hap.devices.link.Line`."""
+    """A line that sends blocks of samples by the wall clock; see `scene2hap.devices.link.Line`."""
 
     def __init__(self, datagrams: Datagrams, sample_rate_hz: int, block_frames: int, format: SampleFormat) -> None:
         rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=192000, error=ConfigError)
@@ -84,7 +84,7 @@ class PcmLine:
 
     @property
     def underruns(self) -> int:
-        """Datagrams that the machine would not queue."""
+        """Number of datagrams that the system did not queue."""
         return self._datagrams.not_sent
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
@@ -117,5 +117,5 @@ class PcmLine:
             self._datagrams.send(self._announcement)
 
     def disconnect(self) -> None:
-        """Tell the receiver to fall silent."""
+        """Send MUTE to the receiver, and close."""
         self._datagrams.close(to_datagram(message(FrameType.MUTE)))

@@ -22,17 +22,17 @@ from scene2hap.errors import ConfigError, DeviceError, DeviceLost, DeviceTimeout
 
 BAUD_RATE = 1_000_000
 KICK_S = 0.1
-"""A board whose request got lost sends it again once it gets a block."""
+"""Time without a request after which a block is sent anyway [s]. A board whose request was lost then repeats it."""
 
 ANSWER_S = 1.0
 
 ECHO_S = 0.002
-"""Half a block: a byte that comes sooner after a block is no request."""
+"""Half the duration of a block [s]: a byte that arrives sooner after a block is no request."""
 
 
 @clear_calls
 class VhpSink(LiveSink):
-    """Plays on a VHP board; needs the extra `serial`. Hands are the first channels, the others rest.
+    """Play on a VHP board; needs the extra `serial`. Hands are the first channels; the others rest.
 
     Parameters: port : its name; board : "slim" (over USB) or "sleeve" (over UART).
     Raises: MissingExtra; ConfigError: another board.
@@ -50,13 +50,13 @@ class VhpSink(LiveSink):
 
 
 class VhpLine:
-    """The way to a VHP board; see `scene2hap.devices.link.Line`."""
+    """Connection to a VHP board; see `scene2hap.devices.link.Line`."""
 
     def __init__(self, port: str, *, slim: bool) -> None:
         self._name = port
         self._slim = slim
         self.underruns = 0
-        # The slim board gathers eight blocks before it plays them; the sleeve plays the last one it got.
+        # The slim board collects eight blocks before it plays them; the sleeve plays the last one that it received.
         self.latency_s: float | None = vhp.FRAMES * (vhp.SLIM_QUEUE_FRAMES if slim else 1) / vhp.SAMPLE_RATE_HZ
         self._port: SerialPort | None = None
         self._heard = b""
@@ -85,7 +85,7 @@ class VhpLine:
         return vhp.SAMPLE_RATE_HZ
 
     def wanted(self, timeout_s: float) -> int:
-        """The frames of one block for each request of the board."""
+        """Return the frames of one block for each request of the board."""
         now = time.monotonic()
         if self._has_request(timeout_s):
             self._requested_s = now
@@ -98,17 +98,17 @@ class VhpLine:
         return 0
 
     def send(self, block: Block) -> None:
-        """One block."""
+        """Send one block."""
         self._write(block)
 
     def disconnect(self) -> None:
-        """Leave the board at rest: otherwise it would repeat its last block for ever."""
+        """Leave the board at rest; otherwise it would repeat its last block for ever."""
         port = self._port
         if port is None:
             return
         try:
             for _ in range(vhp.SLIM_QUEUE_FRAMES if self._slim else 1):
-                # Block by block, since its counter must land on a full buffer.
+                # Block by block, since the board's counter must end at a full buffer.
                 self._has_request(KICK_S / 2)
                 self._write(_REST)
             if not self._slim:
@@ -117,7 +117,7 @@ class VhpLine:
             # Closing discards unsent bytes: 132 bytes take 1.3 ms at 1 Mbaud.
             time.sleep(0.004)
         except DeviceError:
-            pass  # it has gone
+            pass  # the port is gone
         port.close()
         self._port = None
 
@@ -130,7 +130,7 @@ class VhpLine:
             sign = vhp.SLIM_CREDIT if self._slim else bytes([vhp.MORE])
             if sign in self._heard:
                 self._heard = b""
-                # Two requests at once, or one sooner than a block can be played: a frame that USB has cut in two.
+                # Ignore two requests at once, or one sooner than a block can be played: USB has split a frame.
                 if time.monotonic() - self._kicked_s > ECHO_S:
                     return True
             if time.monotonic() >= end:

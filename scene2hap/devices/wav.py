@@ -18,11 +18,11 @@ from scene2hap.errors import ConfigError, DeviceError
 
 @clear_calls
 class WavSink(Pulled):
-    """Writes the mix as 24-bit PCM. It has no clock of its own: `pull` requests the next frames.
+    """A sink that writes the mix as 24-bit PCM. It has no clock of its own: `pull` requests the next frames.
 
-    The file appears under its name when the sink is closed; a run that fails leaves none. Samples are integers, since
-    the header of a float file has a time stamp, so that equal runs give equal files.
-    Raises: ConfigError: no path, or one that ends as another kind of file does.
+    The file appears under its name when the sink is closed; a run that fails leaves none. Samples are integers: the
+    header of a float file contains a time stamp, so equal runs would give different files.
+    Raises: ConfigError: no path, or one with the suffix of another kind of file.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -76,11 +76,11 @@ class WavSink(Pulled):
         return block
 
     def stop(self) -> None:
-        """Take no more blocks."""
+        """Request no more blocks."""
         self._fill = None
 
     def close(self) -> None:
-        """Complete the file and give it its name. Raises: DeviceError: it was taken away meanwhile."""
+        """Complete the file and give it its name. Raises: DeviceError: another program has removed the draft."""
         self.stop()
         if self._file is None:
             return
@@ -96,7 +96,7 @@ class WavSink(Pulled):
             ) from cause
 
     def abort(self) -> None:
-        """Stop and leave no file behind, for a run that failed."""
+        """Stop and leave no file, for a run that failed."""
         self.stop()
         if self._file is not None:
             self._file.close()
@@ -107,5 +107,5 @@ class WavSink(Pulled):
 
     @property
     def stats(self) -> SinkStats:
-        """Frames written so far."""
+        """Number of frames written so far."""
         return SinkStats(frames=self._frames)

@@ -1,4 +1,4 @@
-"""Times in whole frames: a 90 Hz game needs 533.3 frames of 48 kHz at a time, and after a second has 48,000."""
+"""Times as whole numbers of frames. A 90 Hz game needs 533.3 frames of 48 kHz at a time, and 48,000 a second."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from scene2hap.devices.protocol import Block
 from scene2hap.errors import Scene2HapError, SessionError
 
 MAX_S = 3600.0
-"""At once; assumed: far beyond a frame of any game. More is a number of frames, mistaken for seconds."""
+"""Longest time at once [s] (assumed: far beyond any game's frame). A larger number is probably a number of frames."""
 
 
 class WholeFrames:
-    """Converts times [s] to numbers of frames, and carries the remainder, at most half a frame, to the next."""
+    """Converter of times [s] to numbers of frames. The remainder, at most half a frame, is added to the next time."""
 
     def __init__(self, rate_hz: int, error: type[Scene2HapError] = SessionError) -> None:
         self._rate_hz, self._error = rate_hz, error
         self._carried = 0.0
 
     def of(self, seconds: float) -> int:
-        """Frames that are due after another `seconds` [s]. Raises: it is no time from 0 to `MAX_S`."""
+        """Return the frames that are due after another `seconds` [s]. Raises: it is no time from 0 to `MAX_S`."""
         hint = "Give seconds, as 1 / 90 for a frame at 90 Hz; `render` and `pull` take a number of samples."
         time_s = checks.number("seconds", seconds, "s", at_least=0.0, at_most=MAX_S, error=self._error, hint=hint)
         due = time_s * self._rate_hz + self._carried
@@ -36,8 +36,8 @@ class Pulled(ABC):
 
     @abstractmethod
     def pull(self, n_frames: int) -> Block:
-        """Take the next frames."""
+        """Request the next frames."""
 
     def pull_s(self, seconds: float) -> Block:
-        """Take the next `seconds` [s], to the sample over any number of calls: fractions of a frame are carried."""
+        """Request the next `seconds` [s]. Fractions of a frame are carried: the sum over calls is exact to a sample."""
         return self.pull(self._whole.of(seconds) if self._whole is not None else 0)

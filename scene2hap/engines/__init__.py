@@ -1,6 +1,6 @@
-"""Sessions that follow a running simulation: one object reads poses, contacts and touches from an engine in each frame.
+"""Sessions that follow a running simulation. One object reads poses, contacts and touches from an engine in each frame.
 
-`MuJoCoLink` and `Panda3DLink` are `EngineLink` with an adapter of ours; docs/engines.md shows how to write another.
+`MuJoCoLink` and `Panda3DLink` are `EngineLink` with built-in adapters; docs/engines.md shows how to write another.
 """
 
 from scene2hap.engines.adapter import EngineAdapter

@@ -12,16 +12,16 @@ from scene2hap.session.frame import Touch
 
 @runtime_checkable
 class EngineAdapter(Protocol):
-    """An engine as a session follows it: world coordinates, metres, the ids and the up axis of the session's scene."""
+    """Interface of an engine for a session: metres in the world, and the ids and the up axis of the session's scene."""
 
     def poses(self) -> Mapping[str, Pose]:
-        """Where objects are now, by id: all of them, also those at rest; a `PoseTable` is read fastest."""
+        """Return the current poses of all objects by id, also of those at rest. A `PoseTable` is read fastest."""
         ...
 
     def touches(self) -> Sequence[Touch]:
-        """Where hands touch objects now; empty if the engine has no hands."""
+        """Return the current touches of hands on objects; empty if the engine has no hands."""
         ...
 
     def contacts(self) -> Sequence[Contact] | None:
-        """Which objects touch now, None to have the session find that from geometry."""
+        """Return the current contacts of objects; None if the session must find them from geometry."""
         ...

@@ -1,4 +1,4 @@
-"""Which poses of an engine differ from those that a session has."""
+"""Comparison of an engine's poses with a session's."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from scene2hap.session.given import require_pose
 
 Floats = NDArray[np.float64]
 _COS_AT_REST = math.cos(AT_REST_RAD / 2)
-_NOWHERE = Pose()  # of what the engine alone has
+_NOWHERE = Pose()  # placeholder for objects that only the engine has
 
 
 class Changes:
-    """Compares an engine's poses with those that a session has, so that slow motion adds up; tables as arrays, mappings
-    one by one.
+    """Find the engine's poses that differ from the session's, so that slow motion adds up.
 
-    The session is read again whenever objects came or went, and after `forget`.
+    Tables are compared as arrays, mappings one by one. The session's poses are read again whenever objects were added
+    or removed, and after `forget`.
     """
 
     def __init__(self, session: HapticSession) -> None:
@@ -36,11 +36,12 @@ class Changes:
         self._rotations: Floats = np.empty((0, 4))
 
     def forget(self) -> None:
-        """Read the session again; call it when an update was refused, since the session has none or some of it."""
+        """Read the session's poses again. Call this after a refused update, since the session may have applied a part
+        of it."""
         self._followed, self._ids = frozenset(), ()
 
     def of(self, poses: Mapping[str, Pose]) -> dict[str, Pose]:
-        """The poses of the session's objects that moved.
+        """Return the moved poses of the session's objects.
 
         Raises: SceneError: a value is no Pose.
         """
@@ -52,7 +53,7 @@ class Changes:
             self._followed, self._known = followed, dict(self._session.poses)
         try:
             changed = {key: pose for key, pose in moved(poses, self._known).items() if key in followed}
-        except AttributeError:  # of something that is no Pose
+        except AttributeError:  # a value is no Pose
             for object_id, pose in poses.items():
                 require_pose(object_id, pose)
             raise
@@ -68,7 +69,7 @@ class Changes:
             self._positions = np.array([pose.position_m for pose in known]).reshape(-1, 3)
             self._rotations = np.array([pose.rotation_xyzw for pose in known]).reshape(-1, 4)
         way = ((table.positions_m - self._positions) ** 2).sum(axis=1)
-        # |q . p| = cos(angle / 2); either sign of a quaternion is the same rotation.
+        # |q . p| = cos(angle / 2), since q and -q are the same rotation.
         turn = np.abs((table.rotations_xyzw * self._rotations).sum(axis=1))
         rows = np.flatnonzero(self._is_followed & ((way > AT_REST_M**2) | (turn < _COS_AT_REST)))
         self._positions[rows], self._rotations[rows] = table.positions_m[rows], table.rotations_xyzw[rows]

@@ -19,19 +19,18 @@ from scene2hap.session.given import given_contacts, given_touches
 
 _MOST_NAMED = 5
 _SCALE_TOLERANCE = 1e-3
-"""Positions that differ by less are no other unit (assumed: units differ by 1 % or more)."""
+"""A smaller relative difference of positions is no other unit (assumed: units differ by 1 % or more)."""
 
 
 @clear_calls
 class EngineLink:
-    """Hands a session, in each frame, what changed in an engine since the last.
+    """Pass the changes of an engine since the last frame to a session.
 
-    The engine may have more than the session: what was removed from the session, or never was in it, is left out, and
-    followed from when it is added.
-
+    The engine may have more objects than the session. Objects that are not in the session are ignored until they are
+    added.
     Parameters: adapter : the engine; session : of a scene with the engine's ids, started or not.
-    Raises: ConfigError: the adapter lacks a method. SceneError: the session has objects that the engine has not, or the
-    engine counts in another unit.
+    Raises: ConfigError: the adapter lacks a method. SceneError: the engine lacks objects of the session, or uses
+    another unit.
     """
 
     def __init__(self, adapter: EngineAdapter, session: HapticSession) -> None:
@@ -46,15 +45,16 @@ class EngineLink:
         _require_same_scene(self._poses(), session)
 
     def update(self, touches: Sequence[Touch] | None = (), *, at_sample: int | None = None) -> HapticFrame:
-        """Once per frame, on the game's thread: poses that changed, contacts, and touches; these come on top of the
-        engine's own. A frame that is refused changes nothing that the next would not hand on again.
+        """Update the session. Call this once per frame on the game's thread.
 
-        Parameters, Raises: as `HapticSession.update`; SceneError: the adapter's poses are none.
+        It passes changed poses, contacts, and the engine's touches together with `touches`. After a refused frame the
+        next one passes all its changes again. Parameters, Raises: as `HapticSession.update`; SceneError: the adapter's
+        poses are not valid.
         """
         poses, followed = self._poses(), self._session.object_ids
 
         def is_played(object_id: object) -> bool:
-            # An id that the engine does not have either is a mistake, which the session answers.
+            # An id that is unknown to both engine and session is a mistake, which the session reports.
             return object_id in followed or object_id not in poses
 
         felt = [one for one in given_touches(self._adapter.touches()) if is_played(one.object_id)]
@@ -81,7 +81,7 @@ class EngineLink:
 
 
 def _require_same_scene(poses: Mapping[str, Pose], session: HapticSession) -> None:
-    """Raise a SceneError unless the engine has the session's objects, in metres."""
+    """Check that the engine has the session's objects, in metres. Raises: SceneError: it does not."""
     here = {item.id: item.pose for item in session.snapshot.objects}
     unknown = sorted(here.keys() - poses.keys())
     if unknown:
@@ -99,7 +99,7 @@ def _require_same_scene(poses: Mapping[str, Pose], session: HapticSession) -> No
     if not is_off_origin.any():
         return
     scale = float(np.median(np.linalg.norm(theirs, axis=1)[is_off_origin] / ways[is_off_origin]))
-    # The engine may have gone on since its snapshot, but things that moved do not keep their proportions.
+    # The simulation may have continued since the snapshot. But moved objects do not keep their proportions.
     keeps = np.isclose(theirs, scale * ours, rtol=1e-6, atol=1e-9).all(axis=1) & is_off_origin
     is_most = np.count_nonzero(keeps) >= max(2, np.count_nonzero(is_off_origin) / 2)
     if is_most and abs(scale - 1) > _SCALE_TOLERANCE:

@@ -18,16 +18,16 @@ from scene2hap.session.frame import unknown_hand
 
 @clear_calls
 class MuJoCoLink(EngineLink):
-    """Follows a model: `link.update()` after each `mj_step`.
+    """Follow a model: call `link.update()` after each `mj_step`.
 
     Parameters:
-    model, data, geom_groups, unit_m : as `scene.engines.mujoco.snapshot` had them.
-    hands : by the session's hands, the body of an actor that stands for each, with all that hangs on it, such as
-        fingers: where the engine has it in contact with an object, that hand touches the object. All contact points
-        count, and of several the strongest is felt.
+    model, data, geom_groups, unit_m : as for `scene.engines.mujoco.snapshot`.
+    hands : by the session's hands, the body of an actor that represents the hand, with all bodies below it, such as
+        fingers. If the engine has such a body in contact with an object, the hand touches the object. Each contact is a
+        touch; of several, the strongest is felt.
     contacts : None finds contacts between objects from geometry; "engine" takes the simulation's own.
-    Raises: MissingExtra; SceneError: the session is of another model; ConfigError: no such hand; UnknownObject: no
-    such body.
+    Raises: MissingExtra; SceneError: the session is of another model; ConfigError: no such hand; UnknownObject: no such
+    body.
     """
 
     def __init__(
@@ -54,7 +54,7 @@ class MuJoCoLink(EngineLink):
 
 
 class _MuJoCo:
-    """See `EngineAdapter`."""
+    """The `EngineAdapter` of MuJoCo."""
 
     def __init__(
         self,

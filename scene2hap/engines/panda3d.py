@@ -14,13 +14,12 @@ from scene2hap.session import HapticSession
 
 @clear_calls
 class Panda3DLink(EngineLink):
-    """Follows the nodes below a NodePath: `link.update(touches)` once per frame.
+    """Follow the nodes below a NodePath: call `link.update(touches)` once per frame.
 
-    Nodes are looked up once, here; one that the game takes out of the graph stays where it was until
-    `session.remove(id)`. Panda3D says neither what touches nor where hands are, so contacts are found from geometry and
-    touches are given.
-
-    Parameters: render, group : as `scene.engines.panda3d.snapshot` had them.
+    Nodes are looked up once, in the constructor. If the game removes a node from the graph, its object keeps its pose
+    until `session.remove(id)`. Panda3D reports no contacts and no hands, so contacts are found from geometry, and the
+    game passes the touches.
+    Parameters: render, group : as for `scene.engines.panda3d.snapshot`.
     Raises: MissingExtra; SceneError: the session is of another graph.
     """
 
@@ -29,7 +28,7 @@ class Panda3DLink(EngineLink):
 
 
 class _Panda3D:
-    """See `EngineAdapter`."""
+    """The `EngineAdapter` of Panda3D."""
 
     def __init__(self, render: Any, group: Grouping) -> None:
         self._reader = engine.PoseReader(render, group=group)

@@ -1,4 +1,4 @@
-"""From the envelope of a signal to a haptic clip of few points."""
+"""From the envelope of a signal to a haptic clip with few points."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from scene2hap.export.simplify import simplified
 from scene2hap.export.track import Channel
 
 _SILENT = 1e-5
-"""An amplitude below this, -100 dB re full scale, is none [-]."""
+"""A smaller amplitude counts as silence [-]: -100 dB re full scale."""
 
 
 @clear_construction
@@ -26,10 +26,10 @@ class CurveSettings:
     """Accuracy of curves, and their number of points.
 
     Parameters:
-    range_hz : frequencies that 0 and 1 stand for on the actuator [Hz]; what lies outside is moved to the nearer end.
-    tolerance_db, tolerance_jnd : how far a curve may miss amplitude [dB] and frequency [JND].
-    amplitude_points, frequency_points : the most in a second; the usual ones of Meta's Haptics Studio.
-    transients : whether pulses become transients where that comes nearer to the signal.
+    range_hz : frequencies at 0 and 1 on the actuator [Hz]; others are moved to the nearer end.
+    tolerance_db, tolerance_jnd : largest errors of amplitude [dB] and frequency [JND].
+    amplitude_points, frequency_points : most points a second; by default those of Meta's Haptics Studio.
+    transients : turn pulses into transients if the result is closer to the signal.
     Raises: ConfigError: a setting out of bounds.
     """
 
@@ -55,9 +55,9 @@ class CurveSettings:
 def curves_of(
     channel: Channel, settings: CurveSettings, *, power: float = 1.0, about: About | None = None
 ) -> HapticClip:
-    """The clip of a channel: its own, if a person drew one, else curves that follow its envelope.
+    """Return the clip of a channel: its own if a person drew one, else curves that follow its envelope.
 
-    Parameters: power : of the curves; 2 where a format keeps roots (`Curve`).
+    Parameters: power : of the curves; 2 for formats that store roots (`Curve`).
     """
     if channel.clip is not None:
         return channel.clip

@@ -1,10 +1,9 @@
 """From a signal to amplitude, frequency and transients over time.
 
 Amplitude is the magnitude of the analytic signal (Hilbert transform; Oppenheim and Schafer, Discrete-Time Signal
-Processing, ch. 12), its power smoothed over `SMOOTHED_S`: that of a sine wave of equal power. Frequency is a ridge of
-the short-time spectrum (`ridge`). Transients are pulses that stand out of the amplitude by `PROMINENCE_DB` and are over
-in `LONGEST_PULSE_S`; a train of pulses that follow each other faster than `APART_S` is roughness, which stays in the
-amplitude.
+Processing, ch. 12), with its power smoothed over `SMOOTHED_S`: that of a sine wave of equal power. Frequency is a ridge
+of the short-time spectrum (`ridge`). Transients are pulses that exceed the surrounding amplitude by `PROMINENCE_DB` and
+end within `LONGEST_PULSE_S`. A train of pulses closer than `APART_S` is roughness, and stays in the amplitude.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ Signal = NDArray[np.float64]
 STEP_S = 0.005
 """Time between two values of an envelope [s]."""
 SMOOTHED_S = 0.025
-"""Width of the window over which power is smoothed, at half its height [s]: as far apart as 40 points a second."""
+"""Width at half height of the window that smooths power [s]: the distance of points at 40 points a second."""
 FLOOR_DB = -40.0
 """Floor of amplitudes relative to the peak [dB]; weaker vibration is not felt beside the rest."""
 
@@ -37,7 +36,7 @@ APART_S = 0.08
 
 @dataclass(frozen=True)
 class Pulse:
-    """A short pulse: from when to when [s], its amplitude [-] and frequency [Hz]."""
+    """A short pulse: its start and end [s], its amplitude [-] and frequency [Hz]."""
 
     start_s: float
     end_s: float
@@ -49,7 +48,7 @@ class Pulse:
 class Envelope:
     """A signal over time: times_s (n,), amplitude (n,) [-], frequency_hz (n,), and its pulses.
 
-    Times are `STEP_S` apart, from 0 to the end; the values of a loop are equal at both.
+    Times are `STEP_S` apart, from 0 to the end. A loop has equal values at both ends.
     """
 
     times_s: Signal
@@ -63,9 +62,10 @@ class Envelope:
         return float(self.times_s[-1])
 
     def sharpened(self) -> Signal:
-        """The amplitude (n,) that gives this envelope once it is played and analysed again, which smooths it again.
+        """Return the amplitude (n,) that gives this envelope when it is played and analysed again.
 
-        Some steps of Richardson (1972) and Lucy (1974), so that an attack stays one.
+        The analysis smooths the signal again, so some steps of Richardson (1972) and Lucy (1974) undo that. This
+        preserves attacks.
         """
         window = np.hanning(2 * round(SMOOTHED_S / STEP_S) + 3)[1:-1]
         inside = scipy.signal.convolve(np.ones(len(self.times_s)), window, mode="same")
@@ -78,7 +78,7 @@ class Envelope:
         return np.sqrt(found)
 
     def without_pulses(self) -> Signal:
-        """`sharpened` as if there were no pulses: straight from before each to behind it."""
+        """Return `sharpened` with each pulse replaced by a straight line from before it to after it."""
         smooth = self.sharpened()
         for pulse in self.pulses:
             inside = np.flatnonzero((self.times_s >= pulse.start_s) & (self.times_s <= pulse.end_s))
@@ -90,7 +90,7 @@ class Envelope:
 
 
 def analyse(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> Envelope:
-    """The envelope of a signal (n_samples,); that of a loop has no beginning and no end."""
+    """Return the envelope of a signal (n_samples,). A loop is analysed as a periodic signal."""
     amplitude, times = amplitude_of(samples, sample_rate_hz, is_loop=is_loop)
     frequency = ridge_hz(samples, sample_rate_hz, times, is_loop=is_loop)
     return Envelope(times, amplitude, frequency, _pulses(times, amplitude, frequency))
@@ -99,7 +99,7 @@ def analyse(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> Envelop
 def amplitude_of(
     samples: Signal, sample_rate_hz: float, *, is_loop: bool, smoothed_s: float = SMOOTHED_S
 ) -> tuple[Signal, Signal]:
-    """The amplitude of a signal (n_samples,) and its times, (n,) [s] both."""
+    """Return the amplitude of a signal (n_samples,), (n,), and its times (n,) [s]."""
     n = len(samples)
     half = max(1, round(smoothed_s * sample_rate_hz))
     window = np.hanning(2 * half + 3)[1:-1]
@@ -117,7 +117,7 @@ def amplitude_of(
 
 
 def _analytic_power(samples: Signal) -> Signal:
-    """Squared magnitude of the analytic signal (n,) of a signal (n,)."""
+    """Return the squared magnitude (n,) of the analytic signal of a signal (n,)."""
     n = scipy.fft.next_fast_len(len(samples))
     spectrum = scipy.fft.fft(samples, n)
     spectrum[0] = 0.0
@@ -126,7 +126,7 @@ def _analytic_power(samples: Signal) -> Signal:
 
 
 def decibels(amplitude: Signal, peak: float) -> Signal:
-    """Amplitudes against a peak [dB], `FLOOR_DB` at least."""
+    """Return amplitudes relative to a peak [dB], at least `FLOOR_DB`."""
     floor = 10.0 ** (FLOOR_DB / 20.0)
     return np.asarray(20.0 * np.log10(np.maximum(amplitude / max(peak, 1e-12), floor)))
 

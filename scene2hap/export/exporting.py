@@ -1,7 +1,7 @@
 """Exports of a bundle, of a hand's tour through it, or of one clip, into a folder.
 
-FOLDER/manifest.json      what an engine needs to place the files
-FOLDER/report.json, .txt  what each file lost against its signal
+FOLDER/manifest.json      the data with which an engine places the files
+FOLDER/report.json, .txt  the error of each file against its signal
 FOLDER/KIND/NAME.*        the files of each track in each format
 """
 
@@ -51,11 +51,11 @@ def export_bundle(
     """Write every state of every source, and with `touches` every hand over time, in one or more formats.
 
     Parameters: to : a kind, a mapping of a kind and its settings, an exporter, or several of these; "all" for every
-    kind that is known; touches : a track, or its file; config : of the session that plays it; progress : called with
-    stage, step, how many are done and of how many.
-    Returns: what was written, and what each file lost.
+        known kind; touches : a track, or its file; config : of the session that plays it; progress : called with stage,
+        step, number done and total number.
+    Returns: the written files, with the error of each.
     Raises: ConfigError: an unknown kind or setting; SessionError: touches that cannot be played; ExportError: the
-    folder cannot be written. Files are written whole, the manifest last.
+    folder cannot be written. Files are written atomically, the manifest last.
     """
     exporters = _exporters(to)
     if not isinstance(bundle, HapticBundle):
@@ -89,7 +89,7 @@ def export_bundle(
 def export_clip(
     path: str | os.PathLike[str], folder: str | os.PathLike[str], to: Kinds = ALL, *, progress: Progress | None = None
 ) -> ExportReport:
-    """Write one haptic clip (.haptic, .ahap) or one sound file in other formats; the curves of a clip stay as they are.
+    """Write one haptic clip (.haptic, .ahap) or one sound file in other formats. The curves of a clip are unchanged.
 
     Raises: AudioError, ClipError: the file cannot be read; and as `export_bundle`.
     """
@@ -106,7 +106,7 @@ def export_clip(
 
 
 def _exporters(to: Kinds) -> dict[str, Exporter]:
-    """Exporters by the names of their folders. Raises: ConfigError."""
+    """Return exporters by the names of their folders. Raises: ConfigError."""
     if isinstance(to, str | Mapping) or not isinstance(to, Sequence):
         to = [to]
     wanted: list[Any] = [kind for one in to for kind in (EXPORTS.kinds() if one == ALL else [one])]
@@ -136,7 +136,7 @@ def _tour(
     with HapticSession(bundle, config=settings, sink=sink) as session:
         play_track(session, track, sink, update_rate_hz=update_rate_hz)
         hands, rate = session.hands, settings.sample_rate_hz
-        # Leaving the session fades out; what the hands felt until then is the tour.
+        # Leaving the session fades out. The tour ends before that.
         samples = sink.samples[: round(track.duration_s * rate)].astype(np.float64)
     return Track(name, {hand: Channel(samples[:, i], rate) for i, hand in enumerate(hands)})
 

@@ -21,8 +21,8 @@ class Fidelity:
     """Differences between an export, played by the rule of its format, and the original signal.
 
     Parameters: median_db, p95_db : of amplitude over time, median and 95th percentile [dB]; median_jnd, p95_jnd : of
-    frequency, in just noticeable differences, None where the format has no frequency; amplitude_points,
-    frequency_points, transients : how many the file has.
+        frequency, in just noticeable differences, None if the format has no frequency; amplitude_points,
+        frequency_points, transients : their numbers in the file.
     """
 
     median_db: float
@@ -43,7 +43,7 @@ class Fidelity:
 def fidelity(channel: Channel, played: Played) -> Fidelity:
     """Compare a channel with the signal that a player makes of its export.
 
-    Times at which the channel is more than 40 dB below its peak are ignored: they are not felt.
+    Times at which the channel is more than 40 dB below its peak are ignored, since they are not felt.
     """
     envelope = channel.envelope
     samples = played_samples(played)
@@ -72,7 +72,7 @@ def fidelity(channel: Channel, played: Played) -> Fidelity:
 
 
 def played_samples(played: Played) -> Signal:
-    """The played signal, at `ANALYSIS_HZ`."""
+    """Return the played signal, at `ANALYSIS_HZ`."""
     return synthesize(played, ANALYSIS_HZ) if isinstance(played, HapticClip) else played.at_rate(ANALYSIS_HZ)
 
 

@@ -1,4 +1,4 @@
-"""The manifest of an export: the data that an engine needs to place its files in the scene.
+"""The manifest of an export: the data with which an engine places the files in its scene.
 
 `manifest.json` in the folder, by the schema in docs/manifest.schema.json.
 """
@@ -34,7 +34,7 @@ class FileEntry(_Part):
 
 
 class StateEntry(_Part):
-    """One way in which a source vibrates, as a loop."""
+    """One state in which a source vibrates, with its loop."""
 
     name: str
     intensity: float
@@ -49,7 +49,7 @@ class StateEntry(_Part):
 
 
 class SourceEntry(_Part):
-    """An object that vibrates; the first state is the one that plays at first."""
+    """An object that vibrates. The first state is the initial one."""
 
     object_id: str
     gain_db: float
@@ -82,7 +82,7 @@ class PathEntry(_Part):
 
 
 class TourEntry(_Part):
-    """Hands over time, played from a file of touches."""
+    """The vibration of all hands over time, from a file of touches."""
 
     name: str
     duration_s: float
@@ -90,7 +90,7 @@ class TourEntry(_Part):
 
 
 class Manifest(_Part):
-    """The whole file."""
+    """The content of manifest.json."""
 
     format: Literal["scene2hap/export"] = FORMAT
     version: Literal[1] = VERSION
@@ -112,10 +112,10 @@ def manifest_of(
     tours: dict[str, float],
     model: PropagationModel | None = None,
 ) -> Manifest:
-    """The manifest of an export.
+    """Return the manifest of an export.
 
-    Parameters: tracks : source and state by the name of their track; tours : length [s] by the name of theirs; model :
-    of propagation, for the gains.
+    Parameters: tracks : source and state by the name of their track; tours : length [s] by the name of the tour;
+        model : of propagation, for the gains.
     """
     files: dict[str, list[FileEntry]] = {}
     for row in report.rows:

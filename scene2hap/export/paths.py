@@ -24,9 +24,9 @@ class ContactPath:
     """The vibration of a source that enters an object at one contact.
 
     Parameters: source, object_id, by : the source, the object, and the object on the other side of the contact;
-    point_m : the contact [m], world; gain : amplitude there over that of the source [-]; decay_per_m : decay on the
-    object with the distance from there, exp(-decay_per_m * distance_m), by the paper's law [1/m]; None for other models
-    and for objects without a plate.
+        point_m : the contact [m], world; gain : amplitude there relative to the source [-]; decay_per_m : decay on the
+        object with the distance from the contact, exp(-decay_per_m * distance_m), by the paper's law [1/m]; None for
+        other models and for objects without a plate.
     """
 
     source: str

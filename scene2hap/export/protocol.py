@@ -18,7 +18,7 @@ class Exported:
     """The files of one track in one format.
 
     Parameters: files : content by name; played : the signal that a player makes of them, by channel, from which the
-    error of the export is measured; empty if unknown.
+        error of the export is measured; empty if unknown.
     """
 
     files: Mapping[str, bytes]
@@ -26,10 +26,10 @@ class Exported:
 
 
 class Exporter(Protocol):
-    """Writes tracks in one format. Configuration belongs to the constructor."""
+    """Interface of writers of tracks in one format. Configuration belongs to the constructor."""
 
     def export(self, track: Track) -> Exported:
-        """Return the files of a track; their names begin with that of the track. Raises: ExportError."""
+        """Return the files of a track. Their names begin with the track's. Raises: ExportError."""
         ...
 
 
@@ -55,7 +55,7 @@ EXPORTS = PluginGroup(
 
 
 def file_name(track: Track, channel: str, suffix: str) -> str:
-    """The name of a file that holds one channel of a track."""
+    """Return the name of a file that holds one channel of a track."""
     return f"{track.name}.{channel}{suffix}" if channel else f"{track.name}{suffix}"
 
 
@@ -65,5 +65,5 @@ def json_bytes(document: Any) -> bytes:
 
 
 def nanoseconds(time_s: float) -> int:
-    """A time as whole nanoseconds."""
+    """Return a time in whole nanoseconds."""
     return math.floor(time_s * 1e9 + 0.5)

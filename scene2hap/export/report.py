@@ -45,12 +45,12 @@ class ExportReport:
 
     @property
     def files(self) -> tuple[str, ...]:
-        """Their names, relative to the folder."""
+        """Names of the files, relative to the folder."""
         return tuple(dict.fromkeys(name for row in self.rows for name in row.files))
 
     @property
     def text(self) -> str:
-        """A line for each file."""
+        """Text with a line for each file."""
         return "\n".join(map(str, self.rows))
 
     def to_data(self) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """The frequency of a signal over time: a ridge of its short-time spectrum.
 
-The ridge is the path through the spectrum with the highest sum of levels in decibels, where a change of frequency costs
+The ridge is the path through the spectrum with the highest sum of levels in decibels. A change of frequency costs
 `JUMP_DB` per octave (dynamic programming; Carmona, Hwang and Torresani 1999, with another penalty). So a hum keeps its
-pitch in noise, and a glissando is followed.
+pitch in noise, and a gliding tone is followed.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 Signal = NDArray[np.float64]
 
 WINDOW_S = 0.1
-"""Length of the window [s]: frequencies from 20 Hz up, in steps that touch hardly distinguishes."""
+"""Length of the window [s]: it resolves frequencies from 20 Hz up, in steps that touch hardly distinguishes."""
 STEP_S = 0.025
 RANGE_HZ = (20.0, 1000.0)
 PER_OCTAVE = 24
@@ -24,14 +24,14 @@ _FLOOR_DB = -60.0
 
 
 def ridge_hz(samples: Signal, sample_rate_hz: float, times_s: Signal, *, is_loop: bool) -> Signal:
-    """The frequency (n,) of a signal (n_samples,) at times (n,) [s], within `RANGE_HZ`."""
+    """Return the frequency (n,) [Hz] of a signal (n_samples,) at times (n,) [s], within `RANGE_HZ`."""
     starts, levels, grid = _levels(samples, sample_rate_hz, is_loop=is_loop)
     way = _best_way(levels, grid)
     return np.exp(np.interp(times_s, starts, np.log(_refined(levels, grid, way))))
 
 
 def _levels(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> tuple[Signal, Signal, Signal]:
-    """Times of the windows (m,), their level by frequency (m, k) [dB], and the frequencies (k,) [Hz]."""
+    """Return times of the windows (m,), their level by frequency (m, k) [dB], and the frequencies (k,) [Hz]."""
     half = round(WINDOW_S * sample_rate_hz / 2)
     padded = np.pad(samples, half, mode="wrap" if is_loop else "constant")
     hop = max(1, round(STEP_S * sample_rate_hz))
@@ -69,7 +69,7 @@ def _best_way(levels: Signal, grid: Signal) -> NDArray[np.intp]:
 
 
 def _refined(levels: Signal, grid: Signal, way: NDArray[np.intp]) -> Signal:
-    """Frequencies between those of the grid, by a parabola through three levels."""
+    """Return frequencies between those of the grid, by a parabola through three levels."""
     inner = np.clip(way, 1, len(grid) - 2)
     rows = np.arange(len(way))
     a, b, c = levels[rows, inner - 1], levels[rows, inner], levels[rows, inner + 1]

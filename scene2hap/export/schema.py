@@ -12,7 +12,7 @@ from scene2hap.export.manifest import Manifest
 
 
 def manifest_schema() -> dict[str, Any]:
-    """The schema (JSON Schema, 2020-12) of manifest.json."""
+    """Return the schema (JSON Schema, 2020-12) of manifest.json."""
     schema = _plain(Manifest.model_json_schema(mode="serialization"))
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

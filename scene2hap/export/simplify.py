@@ -1,7 +1,7 @@
-"""Simplify a curve to few points, those with the largest distance from straight lines between their neighbours.
+"""Simplify a curve: keep the few points with the largest distance from straight lines between their neighbours.
 
 The order is that of Ramer (1972) and Douglas and Peucker (1973): begin with a line from end to end, then repeatedly add
-the point with the largest error. The largest of the whole curve comes first, so that a bound on points keeps the most
+the point with the largest error. The largest error of the whole curve comes first, so a bound on points keeps the most
 important ones.
 """
 
@@ -28,18 +28,18 @@ def simplified(
 ) -> NDArray[np.intp]:
     """Return the indices of points of a curve (n,) between which straight lines stay within a tolerance of it.
 
-    Parameters: measure : from values to what is compared, such as decibels; per_second : the most points in each second
-    from the beginning on, and as many in proportion in the last part of one; the ends and those to be `kept` count.
-    Where that leaves too few, the error is greater.
+    Parameters: measure : function from values to the compared quantity, such as decibels; per_second : most points in
+        each second, proportionally fewer in an incomplete last second; the ends and the `kept` points count. If this
+        bound leaves too few points, the error exceeds the tolerance.
     """
     measured = measure(values)
     chosen = sorted({0, len(values) - 1, *kept})
     room = np.floor(per_second * np.clip(times_s[-1] - np.arange(int(times_s[-1]) + 1), 0.0, 1.0))
     blocks = np.minimum(times_s.astype(int), len(room) - 1)
     np.subtract.at(room, blocks[chosen], 1.0)
-    for second in range(len(room) - 1, 0, -1):  # the end of a curve may fall on a moment that has no room of its own
+    for second in range(len(room) - 1, 0, -1):  # the last second of a curve may be too short for a point of its own
         room[second - 1] += min(room[second], 0.0)
-    # (minus the error, where it is, first and last point of the line)
+    # (minus the error, index of the point, first and last point of the line)
     waiting: list[tuple[float, int, int, int]] = []
 
     def look(first: int, last: int) -> None:
@@ -59,7 +59,7 @@ def simplified(
     while waiting:
         _, index, first, last = heapq.heappop(waiting)
         if room[blocks[index]] < 1.0:
-            look(first, last)  # elsewhere on the line there may be room
+            look(first, last)  # another second of the line may still have room
             continue
         room[blocks[index]] -= 1.0
         chosen.append(index)

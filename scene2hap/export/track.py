@@ -1,4 +1,4 @@
-"""Vibration to export: a loop of a source, or all hands over time."""
+"""Vibration to export: a loop of a source, or the signals of all hands over time."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from scene2hap.export.envelope import Envelope, analyse
 Signal = NDArray[np.float64]
 
 ANALYSIS_HZ = 8000
-"""Rate at which signals are analysed [Hz]; vibration that is felt ends at 1 kHz."""
+"""Rate at which signals are analysed [Hz]; vibration above 1 kHz is not felt."""
 MAX_TRACK_S = 600.0
 
 
 @clear_construction
 @dataclass(frozen=True, eq=False)
 class Channel:
-    """One actuator's signal (n_samples,) in [-1, 1], played once or, as a loop, for ever.
+    """One actuator's signal (n_samples,) in [-1, 1], played once or, as a loop, endlessly.
 
     `clip` has its curves if a person drew them.
     Raises: ExportError: no samples, one that is not finite or beyond 1, or more than `MAX_TRACK_S`.
@@ -59,16 +59,16 @@ class Channel:
         return len(self.samples) / self.sample_rate_hz
 
     def at_rate(self, sample_rate_hz: float) -> Signal:
-        """The signal at another rate, limited to [-1, 1]; a loop stays as seamless as it is.
+        """Return the signal at another rate, limited to [-1, 1].
 
-        A loop is resampled as the periodic signal that it is, to the nearest whole number of samples.
+        A loop is resampled as a periodic signal, to the nearest whole number of samples, so that it stays seamless.
         """
         if sample_rate_hz not in self._resampled:
             self._resampled[sample_rate_hz] = self._at_rate(sample_rate_hz)
         return self._resampled[sample_rate_hz]
 
     def resampled(self, sample_rate_hz: float) -> Channel:
-        """Return the channel at another rate [Hz]; itself if that is its own rate."""
+        """Return the channel at another rate [Hz]; the channel itself if that is its own rate."""
         if sample_rate_hz == self.sample_rate_hz:
             return self
         return Channel(self.at_rate(sample_rate_hz), sample_rate_hz, self.is_loop)
@@ -80,7 +80,7 @@ class Channel:
         if self.is_loop:
             resampled = scipy.signal.resample(self.samples, n)
         else:
-            # Padded by silence on both sides, so that its end does not leak into its beginning.
+            # Padded by silence on both sides, since the periodic resampler would mix the end into the beginning.
             pad = max(1, round(0.05 * self.sample_rate_hz))
             padded = np.pad(self.samples, (pad, pad))
             n_padded = max(1, round(len(padded) / self.sample_rate_hz * sample_rate_hz))
@@ -102,14 +102,14 @@ class Channel:
 @clear_construction
 @dataclass(frozen=True, eq=False)
 class Track:
-    """The input of one export: a name, and the channels by actuator ("left", "right"), or one named ""."""
+    """The input of one export: a name, and the channels by actuator ("left", "right"), or one channel named ""."""
 
     name: str
     channels: Mapping[str, Channel] = field(default_factory=dict)
 
     @property
     def is_loop(self) -> bool:
-        """True if it is played for ever."""
+        """True if all channels are loops."""
         return all(one.is_loop for one in self.channels.values())
 
     @property

@@ -20,7 +20,7 @@ __all__ = ["Material", "MaterialRow", "lookup", "lookup_row", "table"]
 
 
 _USUAL = (("density_kg_m3", "kg/m3", "g/cm3", 10.0), ("youngs_modulus_pa", "Pa", "GPa or MPa", 1e3))
-"""The unit that each constant is most often mistaken for, and what all solids but aerogels and slime exceed."""
+"""The unit in which each constant is often given by mistake; all solids but aerogels and slime exceed the number."""
 
 
 @clear_construction
@@ -29,8 +29,9 @@ class Material:
     """Elastic constants of an isotropic solid.
 
     Parameters: density_kg_m3 > 0; youngs_modulus_pa > 0; -1 < poisson_ratio < 0.5 (both bounds make a plate's
-    stiffness or the bulk modulus infinite); loss_factor 0..2 [-], twice the damping ratio.
-    Raises: MaterialError: a constant is outside its bound. Warns: SceneWarning: one that looks like another unit.
+        stiffness or the bulk modulus infinite); loss_factor 0..2 [-], twice the damping ratio.
+    Raises: MaterialError: a constant is outside its bound.
+    Warns: SceneWarning: a constant is probably in another unit.
     """
 
     name: str
@@ -85,7 +86,7 @@ class MaterialRow:
 
 
 def lookup(name: str) -> Material:
-    """The nominal constants of a material by name or alias, upper or lower case.
+    """Return the nominal constants of a material by name or alias, upper or lower case.
 
     Raises: UnknownMaterial: no row has that name; the message names the nearest.
     """
@@ -93,7 +94,7 @@ def lookup(name: str) -> Material:
 
 
 def lookup_row(name: str) -> MaterialRow:
-    """The row of a material, with ranges and sources, as `lookup`. Raises: UnknownMaterial."""
+    """Return the row of a material, with ranges and sources. Raises: UnknownMaterial, as `lookup`."""
     key = " ".join(checks.text("name", name, error=UnknownMaterial).lower().replace("_", " ").replace("-", " ").split())
     try:
         return _by_name()[key]
@@ -106,7 +107,7 @@ def lookup_row(name: str) -> MaterialRow:
 
 @cache
 def table() -> tuple[MaterialRow, ...]:
-    """Every row, in the order of the file."""
+    """Return every row, in the order of the file."""
     text = files(__package__).joinpath("table.csv").read_text(encoding="utf-8")
     return tuple(_row(fields) for fields in csv.DictReader(text.splitlines()))
 

@@ -1,7 +1,7 @@
 """Shared parts of all figures: a new figure, names as plain text, legends, colours. Needs the extra `plots`.
 
-Names of objects are data: they are drawn as they are spelt, never read as formulas or commands. Figures are made
-without pyplot, so that drawing neither opens windows nor changes what a notebook has drawn.
+Names of objects are data: they are drawn literally, never parsed as formulas or commands. Figures are made without
+pyplot, so drawing opens no windows and does not change a notebook's own figures.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SOUND, TOUCH, THRESHOLD, MARK = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
-"""Colours that stay apart in every usual colour blindness (Okabe and Ito 2008)."""
+"""Colours that are distinct in all common kinds of colour blindness (Okabe and Ito 2008)."""
 MOST_LETTERS = 40
-"""Of a name in a figure; a longer one would push the axes off the page."""
+"""Most letters of a name in a figure; a longer one would push the axes off the page."""
 
 
 def new_figure(width_in: float, height_in: float) -> Figure:
-    """An empty figure of that size [inch], which a notebook shows as a picture.
+    """Return an empty figure of a size [inch], which a notebook shows as a picture.
 
     Raises: MissingExtra: matplotlib is not installed.
     """
@@ -38,9 +38,10 @@ def new_figure(width_in: float, height_in: float) -> Figure:
 
 
 def plain(name: str, most: int = MOST_LETTERS) -> str:
-    """A name for a figure: shortened to `most` letters; what turns text or has no glyph becomes an escape ("\\u202e").
+    """Return a name for a figure, shortened to `most` letters.
 
-    Which glyphs there are depends on the fonts of `matplotlib.rcParams["font.family"]`.
+    Characters that change the direction of text or have no glyph become an escape ("\\u202e"). The glyphs depend on the
+    fonts of `matplotlib.rcParams["font.family"]`.
     """
     escaped = printable(name)
     shown = "".join(one if _has_glyph(ord(one)) else one.encode("unicode_escape").decode("ascii") for one in escaped)
@@ -48,25 +49,25 @@ def plain(name: str, most: int = MOST_LETTERS) -> str:
 
 
 def set_plain(text: Any, words: str) -> None:
-    """Give words to a matplotlib Text, in which "$" is a dollar sign and a backslash is one."""
+    """Set the text of a matplotlib Text literally: "$" and backslash have no special meaning."""
     text.set_usetex(False)
     text.set_parse_math(False)
     text.set_text(words)
 
 
 def set_title(axes: Axes, words: str) -> None:
-    """Give axes a title of plain words."""
+    """Set the title of axes to plain text."""
     set_plain(axes.set_title(""), words)
 
 
 def set_note(axes: Axes, words: str) -> None:
-    """Write plain words into the middle of axes."""
+    """Write plain text into the middle of axes."""
     set_plain(axes.text(0.5, 0.5, "", transform=axes.transAxes, ha="center", va="center", fontsize=9), words)
 
 
 def add_legend(axes: Axes, handles: Sequence[object], labels: Sequence[str], **options: Any) -> None:
-    """A legend of these artists, by plain labels."""
-    # matplotlib leaves out labels that begin with "_", so that they are given afterwards.
+    """Add a legend of artists with plain labels."""
+    # matplotlib ignores labels that begin with "_", so the labels are set afterwards.
     legend = axes.legend(handles=list(handles), labels=["-"] * len(handles), fontsize=8, **options)
     for text, label in zip(legend.get_texts(), labels, strict=True):
         set_plain(text, label)
@@ -81,14 +82,14 @@ def _has_glyph(code: int) -> bool:
 
 @lru_cache(maxsize=8)
 def _fonts(families: tuple[str, ...], generic: tuple[str, ...]) -> tuple[Any, ...]:
-    """The fonts in use. `generic` is part of the key: "sans-serif" stands for the first of these."""
+    """Return the fonts in use. `generic` is part of the key, since "sans-serif" stands for its first installed font."""
     from matplotlib.font_manager import FontProperties, findfont, get_font
 
     found = []
     for family in families:
         try:
             path = findfont(FontProperties(family=[family]), fallback_to_default=len(families) == 1)
-        except ValueError:  # not installed: matplotlib goes on with the next
+        except ValueError:  # not installed: matplotlib uses the next one
             continue
         found.append(get_font(path))
     return tuple(found)

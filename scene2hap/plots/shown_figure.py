@@ -1,4 +1,4 @@
-"""A matplotlib figure that notebooks show by itself."""
+"""A matplotlib figure that notebooks show without pyplot."""
 # mypy: disable-error-code="misc"
 # Where matplotlib is not installed, its classes have no type that one could inherit.
 
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 
 class ShownFigure(Figure):
-    """A Figure with a picture for notebooks, which show figures of pyplot alone otherwise."""
+    """A Figure with a picture for notebooks. Without it they show only figures of pyplot."""
 
     def _repr_png_(self) -> bytes:
         written = BytesIO()

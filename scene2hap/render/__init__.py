@@ -1,1 +1,1 @@
-"""From gains to samples: loops, gain ramps, the mix and its limiter."""
+"""Rendering of gains to samples: loops, gain ramps, the mix and its limiter."""

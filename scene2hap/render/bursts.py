@@ -1,8 +1,7 @@
 """One-shot vibration: decaying sines that are added to the mix, once each.
 
-They are computed when they are ordered and only added while they sound; a scene in which nothing lands pays nothing.
-
-Threads: `start` and `fade` belong to the game or a worker, `add_to` to the audio thread; neither waits for the other.
+They are computed when they are started, and added only while they play. A scene without landings pays nothing. Threads:
+`start` and `fade` belong to the game or a worker, `add_to` to the audio thread; neither waits for the other.
 """
 
 from __future__ import annotations
@@ -19,21 +18,21 @@ from numpy.typing import NDArray
 Samples = NDArray[np.float32]
 
 ATTACK_S = 0.005
-"""Over which a sine comes up, as half a cosine: a step of its slope would click. Assumed: too short to be felt."""
+"""Length of a sine's attack [s], half a cosine: a step of its slope would click. Assumed: too short to be felt."""
 END_DB = -46.0
-"""A wave ends when it has died away so far, over a last half cosine: full scale lies 45 dB over the threshold."""
+"""A wave ends at this level [dB], over a last half cosine; full scale is 45 dB over the threshold."""
 MOST_PLAYING = 32
 _STEP = 256
 _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
-"""In which the peak of several waves nearly always lies; by when each had its own, be it of 30 Hz."""
+"""Time in which the peak of a sum nearly always is [s], and longest first cycle of a wave [s], that of 30 Hz."""
 
 
 @lru_cache(maxsize=256)
 def wave_of(frequency_hz: float, decay_s: float, sample_rate_hz: int) -> Samples:
-    """A decaying sine (n_samples,) with a peak of 1, from 0 and back to 0. Cached, since an object has few."""
+    """Return a decaying sine (n_samples,) with a peak of 1, from 0 and back to 0. Cached, since an object has few."""
     n = round((ATTACK_S + decay_s * math.log(10 ** (-END_DB / 20))) * sample_rate_hz)
     per_frame = (2j * math.pi * frequency_hz - 1 / decay_s) / sample_rate_hz
-    # exp of a sum is a product: two short tables instead of an exponential for each sample.
+    # exp of a sum is a product, so two short tables replace an exponential for each sample.
     coarse = np.exp(per_frame * _STEP * np.arange(-(-n // _STEP)))[:, None]
     fine = np.exp(per_frame * np.arange(_STEP))
     wave = (coarse.real * fine.imag + coarse.imag * fine.real).ravel()[:n]
@@ -46,7 +45,7 @@ def wave_of(frequency_hz: float, decay_s: float, sample_rate_hz: int) -> Samples
 
 
 def summed(waves: Sequence[Samples], weights: Sequence[float]) -> Samples:
-    """Waves (n,) of any lengths, weighed and added (n_longest,)."""
+    """Return the weighted sum (n_longest,) of waves (n,) of any lengths."""
     total = np.zeros(max(map(len, waves)), dtype=np.float32)
     for wave, weight in zip(waves, weights, strict=True):
         total[: len(wave)] += np.float32(weight) * wave
@@ -56,10 +55,10 @@ def summed(waves: Sequence[Samples], weights: Sequence[float]) -> Samples:
 def peak_of(
     waves: Sequence[Samples], weights: NDArray[np.float64], decays_s: NDArray[np.float64], sample_rate_hz: int
 ) -> float:
-    """The greatest magnitude of `summed` waves that decay to 1/e within decays_s."""
+    """Return the greatest magnitude of `summed` waves that decay to 1/e within decays_s."""
     n = round(_FIRST_S * sample_rate_hz)
     peak = float(np.abs(summed([wave[:n] for wave in waves], weights.tolist())).max())
-    # A wave's peak is 1 somewhere in its first cycle, so that its envelope begins above 1.
+    # The peak of a wave is 1 and within its first cycle, so its envelope begins above 1.
     later = np.abs(weights) * np.exp((_FIRST_CYCLE_S - _FIRST_S) / decays_s)
     if later.sum() > peak:
         peak = float(np.abs(summed(waves, weights.tolist())).max())
@@ -68,7 +67,7 @@ def peak_of(
 
 @dataclass(frozen=True, eq=False)
 class PlannedBurst:
-    """Samples (n,) of each output that feels it, by the output's token, from a frame of the session's clock on."""
+    """Samples (n,) of each output, by the output's token, from a frame of the session's clock on."""
 
     begin: int
     samples: Mapping[int, Samples]
@@ -80,7 +79,7 @@ class PlannedBurst:
 
 
 class Bursts:
-    """The bursts that wait or sound."""
+    """All bursts that wait or play."""
 
     def __init__(self) -> None:
         self._incoming: deque[PlannedBurst] = deque(maxlen=MOST_PLAYING)
@@ -89,24 +88,24 @@ class Bursts:
 
     @property
     def are_silent(self) -> bool:
-        """Whether no burst waits or sounds."""
+        """True if no burst waits or plays."""
         return not self._playing and not self._incoming
 
     @property
     def n_playing(self) -> int:
-        """Number of bursts that wait or sound."""
+        """Number of bursts that wait or play."""
         return len(self._playing) + len(self._incoming)
 
     def start(self, burst: PlannedBurst) -> None:
-        """Let a burst sound, from its frame on, or from the next one if that is over."""
+        """Play a burst from its frame on, or from the next frame if that is past."""
         self._incoming.append(burst)
 
     def fade(self, at_frame: int, n_frames: int) -> None:
-        """Fade out all that sounds, over so many frames, and forget it."""
+        """Fade out all bursts over `n_frames` from a frame on, then remove them."""
         self._fade = (at_frame, n_frames)
 
     def add_to(self, mix: Samples, position: int, outputs: Sequence[int]) -> None:
-        """Add to a mix (n_frames, n_outputs) that begins at a frame, its outputs being those of these tokens."""
+        """Add to a mix (n_frames, n_outputs) that begins at a frame; `outputs` are the tokens of its columns."""
         while self._incoming:
             burst = self._incoming.popleft()
             self._playing.append(PlannedBurst(max(burst.begin, position), burst.samples))

@@ -1,7 +1,7 @@
-"""Gate, peak guard, power guard and slew guard of the safety layer: the same samples for blocks of any size.
+"""Gate, peak guard, power guard and slew guard of the safety layer. Their samples do not depend on the size of blocks.
 
-State that has to be reset is reset at frames counted from the first one, never from the start of a block.
-Arrays are float64 (n_frames, n_channels).
+State that must be reset is reset at frames counted from the first one, never at the start of a block. Arrays are
+float64 (n_frames, n_channels).
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ from numpy.typing import NDArray
 Signal = NDArray[np.float64]
 
 RELEASE_S = 0.3
-"""Time constant with which the peak guard lets go; several periods of the slowest vibration that is felt."""
+"""Release time constant of the peak guard [s]: several periods of the slowest vibration that is felt."""
 
 WINDOW_PARTS = 4
-"""The power guard's time constant is the budget's window over this."""
+"""The power guard's time constant is the budget's window divided by this."""
 
 KNEE = 0.7
-"""Share of the budget's power from which on the power guard turns down."""
+"""Share of the budget's power above which the power guard reduces the gain."""
 
 
 class Gate:
-    """Opens and closes over raised cosines; a reversal continues from the present gain.
+    """A gate that opens and closes over raised cosines; a reversal continues from the present gain.
 
-    Position in the fade is an integer, so that a fade ends on the frame that it should.
+    The position in the fade is an integer, so a fade ends on an exact frame.
     """
 
     def __init__(self, n_opening: int, n_closing: int) -> None:
@@ -36,11 +36,11 @@ class Gate:
 
     @property
     def is_shut(self) -> bool:
-        """True where nothing passes."""
+        """True if the gate is closed."""
         return self._place == 0
 
     def factors(self, n_frames: int, is_opening: bool) -> Signal | float:
-        """Factors of the next frames (n_frames, 1), while the gate opens or shuts."""
+        """Return factors of the next frames (n_frames, 1), while the gate opens or closes."""
         target = self._top if is_opening else 0
         if self._place == target:
             return 1.0 if is_opening else 0.0
@@ -52,11 +52,12 @@ class Gate:
 
 
 class PeakGuard:
-    """Turns each channel down at once when it exceeds the limit, and releases slowly.
+    """A limiter that reduces the gain of each channel at once when it exceeds the limit, and releases slowly.
 
         u[n] = max_{k <= n} c[k] a^(n - k),   c = max(0, 1 - P / |x|),   y = x (1 - u)
 
-    so that a signal that stays too loud is scaled rather than clipped. Symbols: P limit, a release per frame.
+    So a signal that stays too loud is scaled rather than clipped. Symbols: P limit, a release per frame.
+
     `limit` is a number, or one for each channel (n_channels,); it may be replaced at any time.
     """
 
@@ -71,7 +72,7 @@ class PeakGuard:
         self.n_limited = 0
 
     def pass_through(self, x: Signal) -> Signal:
-        """The signal within the limit."""
+        """Return the signal within the limit."""
         parts, begin = [], 0
         while begin < len(x):
             end = min(len(x), begin + self._CELL - self._frame)
@@ -88,7 +89,8 @@ class PeakGuard:
         if is_over.any() or self._held.any():
             self.n_limited += int(is_over.sum())
             excess = np.where(is_over, 1.0 - limit / np.maximum(level, limit), 0.0)
-            # Referred to the cell's first frame, a decaying maximum is a plain one, free of rounding.
+            # Divided by the decay from the cell's first frame, a decaying maximum is a plain one, without accumulated
+            # rounding.
             held = np.maximum(np.maximum.accumulate(excess / powers, axis=0), self._held)
             self._held = held[-1]
             y = np.clip(x * (1.0 - held * powers), -limit, limit)
@@ -100,13 +102,13 @@ class PeakGuard:
 
 
 class PowerGuard:
-    """Keeps the mean square over any window of T seconds within W, by a thermal model of the first order.
+    """Limit the mean square over any window of T seconds to W, by a thermal model of the first order.
 
         q' = (y^2 - q) / tau,   g^2 = min(1, (V - q) / (V (1 - KNEE))),   y = g x,   V = W / (1 + tau / T)
 
-    As q approaches V the gain goes to zero, so q never exceeds it; then the integral of y^2 over T is
-    tau (q_1 - q_0) + integral of q <= (tau + T) V = T W. The gain moves once per cell, along a line.
-    Symbols: W power budget [1], T window [s], tau time constant [s], P peak of the input.
+    As q approaches V the gain goes to zero, so q never exceeds it; then the integral of y^2 over T is tau (q_1 - q_0) +
+    integral of q <= (tau + T) V = T W. The gain changes linearly within each cell. Symbols: W power budget [1], T
+    window [s], tau time constant [s], P peak of the input.
     """
 
     def __init__(self, rms: float, window_s: float, peak: float, sample_rate_hz: float, n_channels: int) -> None:
@@ -117,7 +119,7 @@ class PowerGuard:
         n_frames = min(knee * tau_frames / (2 * peak**2), 0.002 * sample_rate_hz)
         self._n = max(8, round(n_frames))
         self._keep = math.exp(-self._n / tau_frames)
-        # Two cells at full power must fit into what is left, since a gain is decided one cell ahead.
+        # Two cells at full power must fit into the rest of the budget, since a gain is decided one cell ahead.
         self._knee = max(knee, 2 * (1 - self._keep) * peak**2)
         self._ramp = (np.arange(1, self._n + 1) / self._n)[:, None]
         self._power = [0.0] * n_channels
@@ -127,7 +129,7 @@ class PowerGuard:
         self.n_limited = 0
 
     def pass_through(self, x: Signal) -> Signal:
-        """The signal within the budget."""
+        """Return the signal within the budget."""
         if not len(x):
             return x
         n_cells = -(-(self._frame + len(x)) // self._n)
@@ -142,10 +144,11 @@ class PowerGuard:
         return np.asarray(x * factors)
 
     def _advance(self, cells: Signal, begin: int, n_full: int) -> Signal:
-        """Gain at the start of each cell and its change within (n_cells, 2, n_channels); the model moves on."""
+        """Return gain at the start of each cell and its change within (n_cells, 2, n_channels). Advances the thermal
+        model."""
         squares = cells**2
-        # Energy under the gain g + d r is g^2 sum x^2 + 2 g d sum x^2 r + d^2 sum x^2 r^2; summed in order, since
-        # numpy's pairwise sums would depend on where blocks are cut.
+        # Energy under the gain g + d r is g^2 sum x^2 + 2 g d sum x^2 r + d^2 sum x^2 r^2. It is summed in order, since
+        # numpy's pairwise sums would depend on the block boundaries.
         moments = np.stack([squares, squares * self._ramp, squares * self._ramp**2])
         if begin:
             moments[:, 0, begin - 1] = self._moments
@@ -169,7 +172,7 @@ class PowerGuard:
 
 
 class SlewGuard:
-    """Lets no channel move by more than `step` per frame; a signal that keeps to it passes untouched."""
+    """Limit the change of each channel to `step` per frame. Signals within this limit are unchanged."""
 
     def __init__(self, step: float, n_channels: int) -> None:
         self._step = step
@@ -177,7 +180,7 @@ class SlewGuard:
         self.n_limited = 0
 
     def pass_through(self, x: Signal) -> Signal:
-        """The signal, or the nearest signal within the slew limit."""
+        """Return the signal, or the nearest signal within the slew limit."""
         if not len(x):
             return x
         steps = np.diff(x, axis=0, prepend=self._last[None])
@@ -187,7 +190,7 @@ class SlewGuard:
         return x
 
     def _follow(self, x: Signal, steps: Signal, last: float) -> Signal:
-        """One channel, frame by frame from each step that is too large until the signal is caught up with."""
+        """Limit one channel frame by frame, from each step that is too large until the output meets the signal."""
         y = x.copy()
         too_large = np.flatnonzero(np.abs(steps) > self._step).tolist()
         done = 0

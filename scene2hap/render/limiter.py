@@ -1,17 +1,17 @@
-"""The last step of the mix: nothing leaves [-1, 1], and quiet mixes pass untouched.
+"""The last step of the mix: all samples are within [-1, 1], and quiet mixes are unchanged.
 
-A mix that is too loud is turned down at once and let go slowly, so that it is scaled and keeps its shape:
+The gain of a mix that is too loud is reduced at once and released slowly, so the mix is scaled and keeps its shape:
 
     y = x (1 - u),   u[n] = max(a u[n - 1], 1 - t / |x[n]|),   t = -3 dB re full scale,   a release per frame
 
-Three loud tones then have 0.3 % of odd harmonics, which the curve below, which was all there was, made of 14 %. It is
-the last guard, of sums of mixes and of samples that rounding leaves beyond t:
+Three loud tones then have 0.3 % of odd harmonics. With only the curve below they had 14 %. The curve is the last guard,
+for sums of mixes and for samples that rounding leaves beyond t:
 
     y = x                                       |x| <= t
     y = sign(x) (t + (1 - t) tanh((|x| - t) / (1 - t)))     |x| > t
 
-Both act sample by sample, independent of the size of blocks, and run at the session's rate, after the mix was
-resampled, so that nothing can overshoot behind them.
+Both act sample by sample, independent of the size of blocks. They run at the session's rate, after resampling, so
+nothing behind them can overshoot.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ THRESHOLD = 10 ** (-3 / 20)
 NOTHING = 1e-7
 """A smaller reduction is not applied: 1e-6 dB."""
 RELEASE_S = 1.0
-"""Time constant of letting go: longer than beats that are felt one by one. At 0.3 s there are twice the harmonics."""
+"""Release time constant [s]: longer than beats that are felt one by one. At 0.3 s there are twice the harmonics."""
 
 
 def releases(sample_rate_hz: float, n_frames: int) -> NDArray[np.float64]:
-    """a, a^2, ... (n_frames,) [-]."""
+    """Return a, a^2, ... (n_frames,) [-]."""
     return np.asarray(np.exp(np.arange(1, n_frames + 1) / (-RELEASE_S * sample_rate_hz)))
 
 
@@ -41,10 +41,10 @@ def turn_down_in_place(
     threshold: float,
     powers: NDArray[np.float64],
 ) -> None:
-    """Turn down the next frames of a mix (n_channels, n_frames); `held` (n_channels,) is u of the last, and goes on.
+    """Reduce the gain of the next frames of a mix (n_channels, n_frames). `held` (n_channels,) is u of the last frame.
 
     Parameters: scratch : (2, n_channels, n_frames), so that nothing large is allocated; powers : `releases`
-    (n_frames,).
+        (n_frames,).
     """
     x, u = scratch
     np.copyto(x, mix)
@@ -54,7 +54,7 @@ def turn_down_in_place(
     np.maximum(u, threshold, out=u)
     np.divide(threshold, u, out=u)
     np.subtract(1.0, u, out=u)
-    # Referred to the frame before the first, a decaying maximum is a plain one.
+    # Divided by the decay from the frame before the first, a decaying maximum is a plain one.
     np.divide(u, powers, out=u)
     np.maximum.accumulate(u, axis=1, out=u)
     np.maximum(u, held[:, None], out=u)
@@ -67,7 +67,7 @@ def turn_down_in_place(
 
 
 def soft_limit(mix: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The mix within [-1, 1]; float32 of any shape, changed only where |x| exceeds -3 dB re full scale."""
+    """Return the mix within [-1, 1]; float32 of any shape, changed only where |x| exceeds -3 dB re full scale."""
     limited = np.array(mix, order="C")
     flat = limited.reshape(1, -1)
     limit_in_place(flat, np.empty_like(flat), THRESHOLD)
@@ -76,7 +76,7 @@ def soft_limit(mix: NDArray[np.float32]) -> NDArray[np.float32]:
 
 @compiled
 def limit_in_place(mix: NDArray[np.float32], scratch: NDArray[np.float32], threshold: float) -> None:
-    """The same in place, of (n_channels, n_frames); scratch has the shape of the mix, so that nothing large is
+    """Apply `soft_limit` in place to (n_channels, n_frames). Scratch has the mix's shape, so nothing large is
     allocated."""
     np.abs(mix, out=scratch)
     if not mix.size or np.maximum.reduce(scratch, axis=None) <= threshold:

@@ -1,16 +1,16 @@
 """The sources' tactile loops, split in bands and ready to be read at any position.
 
 A loop of n samples at f Hz lasts n f_t / f tactile samples, seldom a whole number. It is stored as the nearest whole
-number N of samples, over as many turns within a second as make that nearest, and read at
+number N of samples, repeated for the number of turns within a second that makes the error smallest. It is read at
 
     u(t) = round(t N / (turns n f_t / f)) mod N
 
-in exact integer arithmetic. So it keeps the period of the loop that is heard beside it for ever: it is never off by
-more than one tactile sample, where playing N samples round and round would drift. Once in a while (10 s or more for a
-loop of 5 s, never where the rates divide) u steps by 0 or 2 samples; over that cell the two readings are cross-faded.
+in exact integer arithmetic. So it keeps the period of the audible loop: the error never exceeds one tactile sample,
+while simple repetition of N samples would accumulate an error. Seldom (10 s or more for a loop of 5 s, never if the
+rates divide) u steps by 0 or 2 samples. Over that cell the two readings are cross-faded.
 
-A mixer reads a fixed number of loops. A `SlotBank` lets loops come and go under a running mixer: an empty slot costs
-nothing, since a mixer reads only the loops that its gains let through, and may be filled while the mixer plays.
+A mixer reads a fixed number of loops. In a `SlotBank` loops can be added and removed under a running mixer. An empty
+slot costs nothing, since a mixer reads only loops with gains above 0, and it may be filled while the mixer plays.
 """
 
 from __future__ import annotations
@@ -28,8 +28,11 @@ from scene2hap.compiled import compiled
 from scene2hap.haptics import Bands
 
 CELL = 24
-"""Samples that are read at once. numpy keeps Python's interpreter lock in operations on up to 500 numbers, and 20 bands
-over 24 samples are 480. An audio thread that gives the lock away may have to wait for a game's whole update."""
+"""Samples that are read at once.
+
+numpy keeps Python's interpreter lock in operations on up to 500 numbers, and 20 bands over 24 samples are 480. An audio
+thread that releases the lock may have to wait for a game's whole update.
+"""
 
 _SPAN_S = 1.0
 _FADE = (0.5 - 0.5 * np.cos(np.pi * np.arange(1, CELL + 1) / CELL)).astype(np.float32)
@@ -41,9 +44,9 @@ Block = NDArray[np.float32]
 class StoredLoop:
     """A loop in bands.
 
-    Parameters: samples : (length + CELL, n_bands), the last CELL being the first again; they pass at numerator /
-    denominator. Bands lie side by side, so that a cell of a loop is one stretch of memory and not one per band.
-    fade : (CELL,) by which one reading goes over into another.
+    Parameters: samples : (length + CELL, n_bands), where the last CELL repeat the first; numerator / denominator : the
+        speed in samples per tactile sample. Bands are adjacent in memory, so a cell of a loop is one block. fade :
+        (CELL,) weights of the cross-fade between two readings.
     """
 
     def __init__(self, samples: Block, length: int, numerator: int, denominator: int, fade: Block) -> None:
@@ -66,7 +69,7 @@ class StoredLoop:
 
 @compiled
 def read(loops: Sequence[StoredLoop | None], begin: int, out: Block) -> None:
-    """Write a cell of the bands of some loops, one after the other, into (n_rows, CELL), 0 for None."""
+    """Write a cell of the bands of some loops, one after the other, into (n_rows, CELL); 0 for None."""
     for loop, rows in zip(loops, out.reshape(max(1, len(loops)), -1, CELL), strict=False):
         if loop is None:
             rows.fill(0.0)
@@ -77,7 +80,7 @@ def read(loops: Sequence[StoredLoop | None], begin: int, out: Block) -> None:
 class LoopBank:
     """Loops at one tactile rate, in a fixed order; a row is one band of one loop.
 
-    Parameters: loops : of any rates; bands : into which each is split; sample_rate_hz : the tactile rate.
+    Parameters: loops : of any rates; bands : of the split; sample_rate_hz : the tactile rate.
     """
 
     def __init__(self, loops: Sequence[AudioClip], bands: Bands, sample_rate_hz: int) -> None:
@@ -92,17 +95,19 @@ class LoopBank:
 
     @property
     def n_rows(self) -> int:
-        """Bands of all loops together."""
+        """Number of bands of all loops together."""
         return len(self) * self.n_bands
 
     @property
     def nbytes(self) -> int:
-        """Memory that the loops take [byte]."""
+        """Memory of the loops [bytes]."""
         return sum(one.samples.nbytes for one in self._stored)
 
     def taken(self, loop: int, begin: int, n_samples: int) -> Block:
-        """Samples of the bands of a loop (n_samples, n_bands), from a tactile sample of the common clock on, to be
-        worked on: not in time for an audio thread."""
+        """Return samples of a loop (n_samples, n_bands), from a tactile sample of the common clock on.
+
+        It allocates memory, so it is not for an audio thread.
+        """
         one = self._stored[loop]
         first = begin * 2 * one.numerator + one.denominator
         turn = 2 * one.denominator * one.length
@@ -110,20 +115,20 @@ class LoopBank:
         return one.samples[at]
 
     def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
-        """Write CELL samples of the bands of some loops into (n_loops * n_bands, CELL), from a tactile sample of the
-        common clock on."""
+        """Write CELL samples of some loops into (n_loops * n_bands, CELL), from a tactile sample of the common clock
+        on."""
         read([self.loops[loop] for loop in loops], begin, out)
 
     def position_s(self, loop: int, frame: int, sample_rate_hz: int) -> float:
-        """Where a loop stands at a frame of a clock that runs at another rate, in time since its beginning [s]."""
+        """Return the position of a loop [s] at a frame of a clock with another rate."""
         return position_s(*self._periods[loop], frame, sample_rate_hz)
 
 
 class SlotBank(LoopBank):
-    """A bank of slots, each with a bank of one loop or empty.
+    """A bank of slots. Each holds a bank of one loop, or is empty.
 
     Parameters: slots : a bank of one loop for each slot, None for an empty one; shift : tactile samples by which the
-    clock of its mixer lags the session's.
+        clock of its mixer is behind the session's.
     """
 
     def __init__(self, slots: list[LoopBank | None], bands: Bands, sample_rate_hz: int, shift: int = 0) -> None:
@@ -132,7 +137,7 @@ class SlotBank(LoopBank):
         self._bands, self._shift = bands, shift
 
     def shifted(self, shift: int) -> SlotBank:
-        """The same slots, for a mixer that began so many tactile samples after the session."""
+        """Return the same slots, for a mixer that began `shift` tactile samples after the session."""
         return SlotBank(self.slots, self._bands, self.sample_rate_hz, shift)
 
     def __len__(self) -> int:
@@ -140,22 +145,22 @@ class SlotBank(LoopBank):
 
     @property
     def nbytes(self) -> int:
-        """Memory that the loops take [byte]."""
+        """Memory of the loops [bytes]."""
         return sum(bank.nbytes for bank in self.slots if bank is not None)
 
     def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
-        """See `LoopBank`; silence from an empty slot."""
+        """Write as `LoopBank`; an empty slot is silent."""
         banks = [self.slots[loop] for loop in loops]
         read([None if bank is None else bank.loops[0] for bank in banks], begin + self._shift, out)
 
 
 def position_s(n: int, rate_hz: int, frame: int, sample_rate_hz: int) -> float:
-    """Where a loop of n samples stands at a frame of a clock that runs at another rate, since its beginning [s]."""
+    """Return the position [s] of a loop of n samples at a frame of a clock with another rate."""
     return (frame * rate_hz % (n * sample_rate_hz)) / (sample_rate_hz * rate_hz)
 
 
 class _Stored(NamedTuple):
-    """A loop, and what it was made of; see `StoredLoop`."""
+    """A loop, and the data of which it was made; see `StoredLoop`."""
 
     loop: StoredLoop
     samples: Block
@@ -165,15 +170,16 @@ class _Stored(NamedTuple):
 
 
 def stored_once(samples: Block, begin: int) -> StoredLoop:
-    """Samples (n, n_bands) at the tactile rate as a loop that passes its first one at a tactile sample of the clock."""
+    """Return samples (n, n_bands) at the tactile rate as a loop. Its first sample is at the clock's tactile sample
+    `begin`."""
     n = len(samples)
     turned = np.roll(samples, begin % n, axis=0)
     return StoredLoop(np.concatenate([turned, turned[np.arange(CELL) % n]]), n, 1, 1, _FADE)
 
 
 def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Stored:
-    """Split a loop into bands and store it as in the head of this module."""
-    # Over `turns` turns the loop lasts exact / unit tactile samples.
+    """Split a loop into bands and store it as the module describes."""
+    # In `turns` turns the loop lasts exact / unit tactile samples.
     turns = _turns(len(loop.samples), loop.sample_rate_hz, sample_rate_hz)
     exact, unit = turns * len(loop.samples) * sample_rate_hz, loop.sample_rate_hz
     length = max(1, (2 * exact + unit) // (2 * unit))
@@ -187,7 +193,7 @@ def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Stored:
 
 
 def _turns(n_samples: int, sample_rate_hz: int, tactile_rate_hz: int) -> int:
-    """Number of turns within a second whose length is nearest to a whole number of tactile samples."""
+    """Return the number of turns within a second whose length is nearest to a whole number of tactile samples."""
 
     def error(turns: int) -> float:
         rest = turns * n_samples * tactile_rate_hz % sample_rate_hz

@@ -1,17 +1,17 @@
-"""Gains and loops in, samples for every hand out.
+"""The mixer: from gains and loops to samples for every hand.
 
     loops (tactile rate) ── gains ──► mix (tactile rate) ──► upsampler ──► soft limiter ──► hands (session's rate)
 
-The clock counts frames at the session's rate. A change of gains may be stamped with any frame and begins with the next
-tactile sample, so at most one tactile sample later. Samples lag the clock by the constant `delay_s`.
+The clock counts frames at the session's rate. A change of gains may be stamped with any frame. It begins with the next
+tactile sample, so at most one tactile sample later. Samples are behind the clock by the constant `delay_s`.
 
-A stepped gain would put sidebands into the tactile band, so every change is spread over a raised cosine; changes that
-overlap add up (`scene2hap.render.tactile_mix`). See Kaaresoja 2014 and Okamoto 2009 for the time budget.
+A stepped gain would put sidebands into the tactile band, so every change is spread over a raised cosine. Overlapping
+changes add up (`scene2hap.render.tactile_mix`). See Kaaresoja 2014 and Okamoto 2009 for the time budget.
 
-Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other. Gains
-that are set twice for one frame replace those that wait, so that nothing piles up if nobody renders. `render` does not
-release the interpreter lock for 20 bands or fewer, so that a game's Python cannot interrupt it. `Playhead` is the part
-of the audio thread: it takes the gains that are due, cell by cell.
+Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other. If gains
+are set again for one frame, they replace the waiting ones, so nothing accumulates without `render`. `render` does not
+release the interpreter lock for 20 bands or fewer, so a game's Python code cannot interrupt it. `Playhead` is the part
+on the audio thread: it applies the due gains, cell by cell.
 """
 
 from __future__ import annotations
@@ -34,8 +34,11 @@ from scene2hap.render.upsampler import Upsampler
 
 @dataclass(frozen=True)
 class MixerStats:
-    """Counters so far: rows (bands of loops) times cells that were mixed, or skipped since their gains are 0; and
-    changes of gains that came too fast and went into the next one."""
+    """Counters so far.
+
+    rows_mixed, rows_skipped : rows (bands of loops) times cells that were mixed, or skipped since their gains are 0;
+    changes_merged : changes of gains that came too fast and were merged with the next one.
+    """
 
     rows_mixed: int = 0
     rows_skipped: int = 0
@@ -52,10 +55,10 @@ class Change:
 
 @compiled
 class Playhead:
-    """Renders a mix frame by frame, cell by cell; `position` is the frame that comes next.
+    """Renderer of a mix frame by frame, cell by cell; `position` is the next frame.
 
-    Parameters: incoming : changes of gains, the first of which are due first; whoever put the last may still replace
-    its gains while it waits; rates_hz : of the mix and of the outputs.
+    Parameters: incoming : changes of gains in order of time; the thread that added the last one may replace its gains
+        while it waits; rates_hz : of the mix and of the outputs.
     """
 
     def __init__(
@@ -67,7 +70,7 @@ class Playhead:
         self._outputs = upsampler.outputs(0)
         self._scratch = np.zeros((2, *self._outputs.shape))
         self._soft = np.zeros_like(self._outputs)
-        # How much the last sample is turned down, and what it was before this cell, which may be computed again.
+        # Gain reduction of the last sample, and its value before this cell, since the cell may be computed again.
         self._held, self._held_before = np.zeros((2, len(self._outputs)))
         self._releases = releases(self._sample_rate_hz, self._outputs.shape[1])
         self._tick = 0
@@ -105,13 +108,13 @@ class Playhead:
         self._mix.enter(self._cell_begin)
 
     def _take_gains(self, end: int) -> None:
-        """Start the gains whose time comes before a tactile sample, none of them in what is rendered."""
+        """Start the gains that begin before a tactile sample. None of them begins within samples already rendered."""
         while self._incoming:
             change = self._incoming[0]
             tick = max(-(-change.at_frame * self._tactile_rate_hz // self._sample_rate_hz), self._tick)
             if tick >= end:
                 break
-            # Whoever sees it waiting may still replace its gains, so that these are read last.
+            # The other thread may replace the gains while they wait, so they are read only after they are removed.
             self._incoming.popleft()
             self._mix.start(change.gains, tick)
             self._tick = tick
@@ -122,7 +125,7 @@ class Mixer:
     """The running mix of `n_hands` outputs.
 
     Parameters: bank : the loops, at the tactile rate; sample_rate_hz : rate of the outputs, at least the tactile one;
-    ramp_s : time over which a gain change is spread [s]; skip_silent : leave out loops that nothing lets through.
+        ramp_s : time over which a gain change is spread [s]; skip_silent : leave out loops whose gains are all 0.
     Raises: ConfigError: a rate or time that is out of bounds.
     """
 
@@ -148,7 +151,7 @@ class Mixer:
 
     @property
     def position(self) -> int:
-        """The frame that the next `render` begins with."""
+        """First frame of the next `render`."""
         return self._playhead.position
 
     @property
@@ -163,7 +166,7 @@ class Mixer:
         return MixerStats(mixed, offered - mixed, self._mix.n_merged)
 
     def set_gains(self, gains: NDArray[np.float32], at_frame: int) -> None:
-        """Move to gains (n_hands, n_rows) from a frame on; frames in the past count as the next one.
+        """Set the target gains (n_hands, n_rows) from a frame on; frames in the past count as the next one.
 
         Raises: SessionError: another shape, or gains that are not finite; the audio thread could not report them.
         """
@@ -172,8 +175,7 @@ class Mixer:
         self._send(gains, self._shape, shape, loops, None if self._is_skipping else loops, at_frame)
 
     def set_loops(self, gains: NDArray[np.float32], loops: Sequence[int], at_frame: int) -> None:
-        """Move to gains (n_hands, n_loops, n_bands) of some loops, which are mixed, and to 0 for all others; else as
-        `set_gains`."""
+        """Set the target gains (n_hands, n_loops, n_bands) of some loops, and 0 for all others; else as `set_gains`."""
         shape = (self._shape[0], len(loops), self._n_bands)
         self._send(gains, shape, shape, loops, loops if self._is_skipping else self._all_loops, at_frame)
 
@@ -193,7 +195,7 @@ class Mixer:
             raise SessionError(f"gains has shape {gains.shape}; it must be finite numbers of shape {wanted}.")
         latest = self._latest
         if latest is not None and latest.at_frame == at_frame:
-            # Of gains that begin at one sample the newest alone count.
+            # Of several gains for one frame only the newest count.
             latest.gains = checked_gains
             if self._is_waiting(latest):
                 return
@@ -207,7 +209,7 @@ class Mixer:
             return False
 
     def render(self, n_frames: int) -> NDArray[np.float32]:
-        """The next samples (n_frames, n_hands) float32 in [-1, 1]."""
+        """Return the next samples (n_frames, n_hands) float32 in [-1, 1]."""
         out = np.empty((n_frames, self._shape[0]), dtype=np.float32)
         self.render_into(out)
         return out

@@ -1,13 +1,13 @@
-"""Starts and stops of a loop: the loop played ever faster or slower, louder or weaker.
+"""Starts and stops of a loop: its speed and amplitude rise or fall over time.
 
     u(t) = integral of s           s speed re full, 0..1           a amplitude re full, 0..1
 
-Assumed: a motor's speed nears its end as s = x (2 - x), and coasts down as s = (1 - x)^2, x being the share of the
-time; its amplitude is a = s^2, the force of an unbalance. A source that does not spin keeps its pitch, and its
-amplitude follows half a cosine. Recorded: a is that of the recording, and so is s where the recording shows it; else
-s = sqrt(a) for a source that spins. A passage begins or ends in step with the loop itself, so that the change between
-them is seamless. A passage that begins during another one continues from the present amplitude; where the curve has
-another speed there, the difference fades over the rest of the passage.
+Assumed, with x the share of the time: a motor starts up with the speed s = x (2 - x), and coasts down with s = (1 -
+x)^2. Its amplitude is a = s^2, the force of an unbalance. A source that does not spin keeps its pitch, and its
+amplitude follows half a cosine. Recorded: a is that of the recording. If the recording shows a speed, s is that; else s
+= sqrt(a) for a source that spins. A passage begins or ends in phase with the loop itself, so the change between them is
+seamless. A passage that begins during another one continues from the present amplitude. If the curve has another speed
+there, the difference fades over the rest of the passage.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from scene2hap.audio.run_curve import RunCurve
 from scene2hap.render.loop_bank import Block, LoopBank, StoredLoop, stored_once
 
 HOLD_S = 0.5
-"""The tail of a passage, the steady loop or silence, until the player notices that the passage is over."""
+"""Length of a passage's tail [s], the steady loop or silence, until the player detects the end of the passage."""
 LEAD_S = 0.03
-"""A loop that dies away goes on for so long, while it takes over from the steady one."""
+"""Time that a decaying loop continues unchanged while it replaces the steady one [s]."""
 _GRID = np.linspace(0.0, 1.0, 4097)
-"""Shares of the time at which an amplitude is looked for: 7 ms apart in the longest passage."""
+"""Shares of the time at which an amplitude is searched: 7 ms apart in the longest passage."""
 
 Signal = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ class Course(NamedTuple):
     curve: RunCurve | None = None
 
     def speed(self, x: Signal) -> Signal:
-        """Speed (n,) [-] at shares x (n,) of the time."""
+        """Return speeds (n,) [-] at shares x (n,) of the time."""
         recorded = None if self.curve is None else self.curve.speed_at(x)
         if recorded is not None:
             return recorded
@@ -60,7 +60,7 @@ class Course(NamedTuple):
         return x * (2 - x) if self.goes_up else (1 - x) ** 2
 
     def amplitude(self, x: Signal) -> Signal:
-        """Amplitude (n,) [-] at shares x (n,) of the time."""
+        """Return amplitudes (n,) [-] at shares x (n,) of the time."""
         if self.curve is not None:
             return self.curve.amplitude_at(x)
         if self.spins:
@@ -68,7 +68,7 @@ class Course(NamedTuple):
         return np.asarray(np.sin(np.pi / 2 * (x if self.goes_up else 1 - x)) ** 2)
 
     def share(self, running: Running) -> float:
-        """The share of the time at which the course has the present amplitude [-]."""
+        """Return the share of the time at which the course has the present amplitude [-]."""
         a = self.amplitude(_GRID)
         up = np.maximum.accumulate(a if self.goes_up else a[::-1])
         if not up[0] < running.amplitude < up[-1]:
@@ -78,11 +78,11 @@ class Course(NamedTuple):
 
 
 class Passage(LoopBank):
-    """A bank of one loop that is on its way up or down, once.
+    """A bank of one loop that starts or stops, once.
 
-    Parameters: steady : the bank of the loop itself; begin : tactile sample of the clock at which it starts; lasts_s :
-    from standing still to full speed, or back [s]; since : how it runs when it starts; `end` is the sample from which
-    on the steady loop, or silence, may take over.
+    Parameters: steady : the bank of the loop itself; begin : tactile sample of the clock at which the passage starts;
+        lasts_s : from standstill to full speed, or back [s]; since : speed and amplitude at its start. From the sample
+        `end` on, the steady loop or silence may replace it.
     """
 
     def __init__(self, steady: LoopBank, begin: int, lasts_s: float, course: Course, since: Running) -> None:
@@ -90,7 +90,7 @@ class Passage(LoopBank):
         self.n_bands = steady.n_bands
         self._begin, self._course, self._lasts = begin, course, lasts_s * rate
         self._from = course.share(since)
-        # Of what stands still or runs steadily, no curve says less.
+        # At standstill and in steady running there is no difference of speed to fade.
         is_under_way = 0.0 < since.amplitude < 1.0
         self._ahead = since.speed - float(course.speed(np.array([self._from]))[0]) if is_under_way else 0.0
         lead, n = self._lead, math.ceil((1 - self._from) * self._lasts)
@@ -98,7 +98,7 @@ class Passage(LoopBank):
         x = self._share(np.arange(begin, self.end + round(HOLD_S * rate)))
         speed, amplitude = self._speed(x), course.amplitude(x)
         played = np.concatenate([[0.0], np.cumsum(speed[:-1])])
-        # On its way up it is in step at the end, on its way down at the beginning.
+        # A start is in phase with the loop at its end, a stop at its beginning.
         at = played - played[n] + n if course.goes_up else played
         low = math.floor(at.min())
         source = steady.taken(0, begin + low, math.ceil(at.max()) - low + 2)
@@ -108,7 +108,7 @@ class Passage(LoopBank):
 
     @property
     def nbytes(self) -> int:
-        """See `LoopBank`."""
+        """Memory of the loop [bytes]."""
         return self._samples.nbytes
 
     @property
@@ -116,12 +116,12 @@ class Passage(LoopBank):
         return 0 if self._course.goes_up else round(LEAD_S * self.sample_rate_hz)
 
     def running(self, at: int) -> Running:
-        """Speed and amplitude at a tactile sample."""
+        """Return speed and amplitude at a tactile sample."""
         x = self._share(np.array([at]))
         return Running(float(self._speed(x)[0]), float(self._course.amplitude(x)[0]))
 
     def _share(self, at: NDArray[np.int_]) -> Signal:
-        """Shares of the time (n,) at tactile samples (n,)."""
+        """Return shares of the time (n,) at tactile samples (n,)."""
         return np.clip(self._from + (at - self._begin - self._lead) / self._lasts, self._from, 1.0)
 
     def _speed(self, x: Signal) -> Signal:
@@ -130,7 +130,7 @@ class Passage(LoopBank):
 
 
 def _between(samples: Block, at: NDArray[np.float64]) -> Block:
-    """Samples (n, n_bands) at places between them, along lines: at 8 kHz within 0.5 % up to 250 Hz."""
+    """Return samples (n, n_bands) at fractional positions, interpolated: at 8 kHz within 0.5 % up to 250 Hz."""
     below = np.floor(at).astype(np.intp)
     share = (at - below).astype(np.float32)[:, None]
     found: Block = samples[below] * (1 - share) + samples[below + 1] * share

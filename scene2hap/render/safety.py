@@ -5,14 +5,14 @@
 1. Samples that are not finite become 0, and those beyond full scale are clipped to it.
 2. A first-order high-pass at 4.6 Hz: a constant heats a coil and moves nothing. -0.22 dB at 20 Hz.
 3. A second-order Butterworth low-pass at the actuator's f_max: -0.26 dB at half of it.
-4. The gate fades in at the start, and out when the session stops or its game falls silent (the watchdog).
-5. Peak, power and slew are held to the actuator's budget whatever comes in (`scene2hap.render.guards`).
+4. The gate fades in at the start. It fades out when the session stops or its game stops updating (the watchdog).
+5. Peak, power and slew are limited to the actuator's budget for any input (`scene2hap.render.guards`).
 
-A mix within the budget meets steps 2 to 4 alone. The same samples come out however the input is cut in blocks; only the
-gate obeys the clock, and moves at the beginning of a block.
+Only steps 2 to 4 change a mix within the budget. The output does not depend on the sizes of input blocks; only the gate
+depends on the clock, and changes at the beginning of a block.
 
-Threads: `feed`, `hold` and `release` belong to the game and `process` to whoever pulls samples; neither waits for the
-other.
+Threads: `feed`, `hold` and `release` belong to the game and `process` to the thread that pulls samples; neither waits
+for the other.
 """
 
 from __future__ import annotations
@@ -34,16 +34,16 @@ from scene2hap.render.guards import Gate, PeakGuard, PowerGuard, SlewGuard
 Block = NDArray[np.float32]
 
 DC_BLOCK_HZ = 4.6
-"""A constant has fallen by 42 dB 200 ms after the fade-in began; the least that gives 40 dB is 4.4 Hz."""
+"""Corner of the DC block [Hz]. A constant falls by 42 dB within 200 ms from the fade-in's begin; 4.4 Hz give 40 dB."""
 
 FADE_IN_S = 0.06
-"""Long enough that the DC block's own settling on a 20 Hz tone stays below full scale."""
+"""Length of the fade-in [s]: long enough that the DC block's settling on a 20 Hz tone stays below full scale."""
 
 FADE_OUT_S = 0.008
-"""With the wait for the next block, 5 ms on a sound card, still about 10 ms."""
+"""Length of the fade-out [s]. With the wait for the next block, 5 ms on a sound card, it is still about 10 ms."""
 
 INAUDIBLE = 2.0**-40
-"""Below it the filters' endless tails count as zero, so that silence becomes exact."""
+"""Smaller values in the filters' endless tails count as zero, so that silence becomes exact."""
 
 _ROUNDING = 2.0**-23
 
@@ -53,8 +53,8 @@ class Budget:
     """The limits of an actuator, from its profile.
 
     Parameters:
-    max_amplitude : largest sample, 0..1 [-]; max_rms : largest root mean square over any window of `rms_window_s`
-        [-]; at or above max_amplitude it is no limit; rms_window_s : time over which the actuator warms up [s].
+    max_amplitude : largest sample, 0..1 [-]; max_rms : largest root mean square over any window of `rms_window_s` [-],
+        no limit if it is at least max_amplitude; rms_window_s : time over which the actuator warms up [s].
     max_frequency_hz : corner of the low-pass [Hz].
     Raises: ConfigError: out of bounds.
     """
@@ -72,7 +72,7 @@ class Budget:
 
     @classmethod
     def of(cls, profile: ActuatorProfile) -> Budget:
-        """The budget of a profile; fields that it lacks keep their defaults."""
+        """Return the budget of a profile; fields that it lacks keep their defaults."""
         known = {item.name: getattr(profile, item.name) for item in fields(cls) if hasattr(profile, item.name)}
         return cls(**known)
 
@@ -92,8 +92,8 @@ class SafetyStats:
 class SafetyLayer:
     """The safety layer of `n_channels` outputs.
 
-    Parameters: watchdog_s : time without `feed` after which the output fades to zero [s], None for sinks whose clock
-    is not that of a wall; clock : the time [s].
+    Parameters: watchdog_s : time without `feed` after which the output fades to zero [s], None for sinks that do not
+        follow wall-clock time; clock : returns the time [s].
     Raises: ConfigError: a budget or a watchdog that is out of bounds.
     """
 
@@ -144,21 +144,21 @@ class SafetyLayer:
         self._fed_at = self._clock()
 
     def hold(self, limits: NDArray[np.float64]) -> None:
-        """Hold each channel within a limit (n_channels,) [-] from now on, where that is below the actuator's."""
+        """Limit each channel to (n_channels,) [-] from now on; the actuator's own limit still applies."""
         self._peak.limit = np.minimum(limits, self.budget.max_amplitude)
 
     def release(self) -> None:
-        """Fade out for good; `silent` is true once that is done."""
+        """Fade out permanently; `silent` is set at the end."""
         self._is_released = True
 
     def process(self, block: Block) -> Block:
-        """The next samples (n_frames, n_channels) float32, safe to play."""
-        # Gated before the filters too, so that they start from rest and have nothing to settle from.
+        """Return the next samples (n_frames, n_channels) float32, safe to play."""
+        # The gate is also applied before the filters, so they start from rest and have no transient.
         gate = self._gate.factors(len(block), self._may_play())
         x = self._repair(np.asarray(block, dtype=np.float64)) * gate
         if len(x):
             filtered, self._state = self._filter(self._sos, x, axis=0, zi=self._state)
-            # Once the state has decayed, the rest only costs time (denormal numbers).
+            # Once the state has decayed, its denormal numbers only cost time.
             self._state[np.abs(self._state) < INAUDIBLE**2] = 0.0
             x = np.where(np.abs(filtered) < INAUDIBLE, 0.0, filtered)
         x = self._peak.pass_through(x * gate)
@@ -170,10 +170,10 @@ class SafetyLayer:
         return x.astype(np.float32)
 
     def guard(self, fill: Callable[[int], Block]) -> Callable[[int], Block]:
-        """A fill that is safe to play.
+        """Return a fill that is safe to play.
 
-        With a watchdog, that is on a live sink, a `fill` that raises is first faded out and only then heard of, so
-        that no actuator meets a jump; without one the error is raised at once.
+        With a watchdog (on a live sink), an error of `fill` first causes a fade-out and is raised after it. So the
+        actuator gets no step. Without a watchdog the error is raised at once.
         """
 
         def safe(n_frames: int) -> Block:

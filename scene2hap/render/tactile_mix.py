@@ -1,15 +1,15 @@
-"""The mix at the tactile rate: gains that move along raised cosines, and loops, one matrix product at a time.
+"""The mix at the tactile rate: gains that change along raised cosines, and loops, one matrix product at a time.
 
     x(t) = sum_j (r_j(t) - r_(j+1)(t)) P_j(t)     r_j(t) = r((t - t_j + 1) / T),   r(x) = (1 - cos(pi x)) / 2 on [0, 1]
     P = G L
 
-This is g(t) = g_0 + sum_j (g_j - g_(j-1)) r_j(t) in another order: the gains that are on the way are rows of one
-matrix, and nothing is added up over time, so that nothing drifts.
+This is g(t) = g_0 + sum_j (g_j - g_(j-1)) r_j(t) in another order: the gains in transition are rows of one matrix.
+Nothing is summed over time, so no rounding error accumulates.
 
-Time is cut in cells of CELL samples, counted from 0. In a cell the products have one shape however `render` is called,
-gains that do not count yet weigh 0, and numbers are added in the order of slots; so blocks of any size give the same
-bits. Gains whose ramp has ended are dropped at the next cell. Loops that none of the gains lets through are neither
-read nor multiplied; that is exact, their products are 0.
+Time is divided into cells of CELL samples, counted from 0. In a cell the products have one shape for any size of
+`render` calls. Gains that have not begun weigh 0, and numbers are added in the order of slots. So blocks of any size
+give the same bits. Gains whose ramp has ended are dropped at the next cell. Loops whose gains are all 0 are skipped;
+that is exact, since their products are 0.
 
 Symbols: t tactile sample, G gains (slots * hands, rows), L loops (rows, CELL), P products (slots * hands, CELL), r ramp
 (0 before it begins, 1 after), T its length, x mix (hands, CELL).
@@ -41,8 +41,8 @@ _SMALL_PRODUCT = 2**18
 class Gains:
     """Target gains of the mix.
 
-    values : (n_hands, n_loops, n_bands) of some loops, 0 for all others; loops : which these are; heard : which loops
-    are mixed.
+    values : (n_hands, n_loops, n_bands) of some loops, 0 for all others; loops : numbers of these loops; heard :
+        numbers of the loops that are mixed.
     """
 
     values: Block
@@ -51,12 +51,12 @@ class Gains:
 
     @classmethod
     def of(cls, values: Block, loops: Sequence[int], heard: Sequence[int] | None = None) -> Gains | None:
-        """A copy of gains, looked through on the thread that sets them; None if they are not finite.
+        """Return a checked copy of gains, None if they are not finite. The check runs on the thread that sets them.
 
-        Parameters: heard : all that they let through if None.
+        Parameters: heard : the mixed loops; None for all with a gain above 0.
         """
         own = np.array(values, dtype=np.float32, order="C")
-        # A square may be infinite where its root is not.
+        # A square may be infinite although its root is finite.
         if not math.isfinite(np.vdot(own, own)) and not np.isfinite(own).all():
             return None
         if heard is None:
@@ -66,26 +66,25 @@ class Gains:
 
 
 def slots_for(ramp: int, sample_rate_hz: int) -> int:
-    """Number of slots that hold gains during their ramps, if gains come once per millisecond."""
+    """Return the number of slots that hold gains during their ramps, if gains come once per millisecond."""
     return min(MOST_SLOTS, -(-1000 * (ramp + CELL) // sample_rate_hz) + 2)
 
 
 def rise_over(ramp: int) -> Block:
-    """Weights of the gains over a ramp, as `RampedProduct` takes them."""
+    """Return the weights of gains over a ramp, as `RampedProduct` takes them."""
     rising = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, ramp + 1) / ramp)
     return np.concatenate([np.zeros(CELL), rising, np.ones(CELL)]).astype(np.float32)
 
 
 @compiled
 class RampedProduct:
-    """The product of a cell: `loops` L (n_rows, CELL) times `gains` G (n_places, n_slots, n_hands), weighed by slot.
+    """The product of a cell: `loops` L (n_rows, CELL) times `gains` G (n_places, n_slots, n_hands), weighted by slot.
 
-    Parameters: rise : the share of gains that counts, from CELL samples before they begin until CELL samples after they
-    have risen.
+    Parameters: rise : weight of gains, from CELL samples before they begin until CELL samples after their ramp.
     """
 
     def __init__(self, n_rows: int, n_places: int, n_slots: int, n_hands: int, rise: Block) -> None:
-        # scipy.linalg is slow to import, and whoever imports a session may not play it.
+        # scipy.linalg is slow to import, and a program that imports a session may never play it.
         from scipy.linalg.blas import sgemm
 
         self._sgemm = sgemm
@@ -99,8 +98,8 @@ class RampedProduct:
         self._n_rows, self._parts = 0, list[tuple[Block, Block]]()
 
     def set(self, slot: int, values: Block, places: Sequence[int], n_rows: int) -> None:
-        """Set the gains in a slot to values (n_hands, n_loops, n_bands) of the loops at these places, and to 0 up to a
-        row."""
+        """Set the gains in a slot: values (n_hands, n_loops, n_bands) for the loops at `places`, 0 for other rows below
+        `n_rows`."""
         n_bands = values.shape[2]
         rows = np.add.outer(np.array(places, dtype=np.intp) * n_bands, np.arange(n_bands)).ravel()
         self.gains[:n_rows, slot] = 0.0
@@ -109,8 +108,8 @@ class RampedProduct:
     def mix(self, x: Block, n_rows: int, slots: Sequence[int], starts: Sequence[int], begin: int, first: int) -> None:
         """Write x (n_hands, CELL) of a cell that begins at a sample, from its sample `first` on.
 
-        Parameters: n_rows : how many rows of the loops there are; slots, starts : which gains count, in their order,
-        and at what samples they begin to; those in the first slot have risen.
+        Parameters: n_rows : number of rows of the loops; slots, starts : the gains in use, in order, and the samples at
+            which they begin; the ramp of those in the first slot has ended.
         """
         self._multiply(n_rows)
         self._weigh(slots, starts, begin)
@@ -129,7 +128,7 @@ class RampedProduct:
         self._weights[slots[-1]] = risen
 
     def _multiply(self, n_rows: int) -> None:
-        """Products of the gains in all slots with the loops. scipy's BLAS keeps the interpreter's lock."""
+        """Multiply the gains in all slots by the loops. scipy's BLAS keeps the interpreter's lock."""
         if n_rows != self._n_rows:
             self._arrange(n_rows)
         if not self._parts:
@@ -140,7 +139,7 @@ class RampedProduct:
             kept = 1.0
 
     def _arrange(self, n_rows: int) -> None:
-        """Make the views of the rows in use, once rather than for every product."""
+        """Make the views of the rows in use. They are reused for every product."""
         gains = self.gains.reshape(len(self.gains), -1)
         at_once = max(1, _SMALL_PRODUCT // (gains.shape[1] * CELL))
         spans = [slice(begin, min(begin + at_once, n_rows)) for begin in range(0, n_rows, at_once)]
@@ -148,7 +147,7 @@ class RampedProduct:
 
 
 class _Held(NamedTuple):
-    """Gains in a slot; their ramp begins at `start` and is over at `end`."""
+    """Gains in a slot; their ramp begins at `start` and ends at `end`."""
 
     gains: Gains
     slot: int
@@ -161,8 +160,9 @@ class TactileMix:
     """The mix of `n_hands`, cell by cell, into `x` (n_hands, CELL).
 
     Parameters: ramp : samples over which a change of gains is spread, >= 1; is_skipping : leave out silent loops.
-    Gains that come faster than the slots empty (one per millisecond does not, up to ramps of 35 ms) are merged: the
-    newest of them starts when a slot is free.
+
+    If gains come faster than slots become free, they are merged: the newest of them starts when a slot is free. With
+    one change per millisecond this does not happen, up to ramps of 35 ms.
     """
 
     def __init__(self, bank: LoopBank, n_hands: int, ramp: int, x: Block, *, is_skipping: bool = True) -> None:
@@ -171,7 +171,7 @@ class TactileMix:
         self._ramp = ramp
         n_slots = slots_for(ramp, bank.sample_rate_hz)
         self.x = x
-        # Behind the places of loops in use there is one for gains of loops that are not.
+        # Gains of loops not in use are written to one extra place behind the places in use.
         n_places = bank.n_rows + bank.n_bands
         self._product = RampedProduct(bank.n_rows, n_places, n_slots, n_hands, rise_over(ramp))
         self._G, self._L = self._product.gains, self._product.loops
@@ -189,7 +189,7 @@ class TactileMix:
         self._use(silence)
 
     def enter(self, begin: int) -> None:
-        """Go on to the cell that begins at a sample."""
+        """Enter the cell that begins at a sample."""
         self._begin, self._from, self._is_stale = begin, 0, True
         while len(self._held) > 1 and self._held[1].end <= begin:
             ended = self._held.pop(0)
@@ -204,16 +204,16 @@ class TactileMix:
             self.start(gains, begin)
 
     def start(self, gains: Gains, tick: int) -> None:
-        """Move to gains from a sample of the present cell on."""
+        """Start gains at a sample of the present cell."""
         if not self._free:
             self.n_merged += self._waiting is not None
             self._waiting = gains
             return
-        # Gains that follow each other and let the same loops through use them once.
+        # If successive gains use the same loops, their use is counted once.
         if gains.heard != self._held[-1].gains.heard:
             is_more = not all(map(self._users.__getitem__, gains.heard))
             if is_more:
-                # With more rows a product may round in another way; samples before this one keep the old product.
+                # With more rows a product may round differently. Samples before this one keep the old product.
                 self.compute()
                 self._from = tick - self._begin
             first_new = len(self._loops)
@@ -227,7 +227,7 @@ class TactileMix:
         self._is_stale = True
 
     def compute(self) -> bool:
-        """Update `x` with the gains that have started. Returns whether that was necessary."""
+        """Update `x` with the gains that have started. Returns True if that was necessary."""
         if not self._is_stale:
             return False
         self._is_stale = False
@@ -237,7 +237,7 @@ class TactileMix:
         return True
 
     def _read(self, first: int) -> None:
-        """Read the loops in use, from one of them on."""
+        """Read the loops in use, from the number `first` on."""
         n_bands = self._bank.n_bands
         self._bank.read(self._loops[first:], self._begin, self._L[first * n_bands : len(self._loops) * n_bands])
 
@@ -256,7 +256,7 @@ class TactileMix:
         for loop in gains.heard:
             self._users[loop] -= 1
             if self._users[loop] == 0:
-                # The last loop takes the place, so that those in use stay together.
+                # The last loop moves to the free place, so that the loops in use stay together.
                 at, moved = self._place_of[loop], self._loops.pop()
                 self._loops[at : at + 1] = [moved] if moved != loop else []
                 self._place_of[moved], self._place_of[loop] = at, len(self._users)

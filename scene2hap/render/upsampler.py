@@ -2,15 +2,15 @@
 
     y[m] = sum_j h[p + j up] x[q - j]        q = m down // up,  p = m down mod up,  up / down = f_out / f_in
 
-h is a Kaiser-windowed low-pass at rate up f_in: flat to 1 kHz, and images (which lie above f_in / 2) at -80 dB or less.
-It is symmetric, so the delay is one number for all frequencies. Output m needs nothing later than input q, which is not
-later than m itself: filtering looks back only.
+h is a Kaiser-windowed low-pass at rate up f_in: flat to 1 kHz, with images (above f_in / 2) at -80 dB or less. It is
+symmetric, so the delay is one number for all frequencies. Output m needs no input later than q, which is not later than
+m itself: the filter is causal.
 
-The outputs of a cell are one product Y = X B^T with a banded matrix, the same for every cell if the rates divide, else
-one of few. Its shape is the same for every cell, so that the bits do not depend on the sizes of the requested blocks.
+The outputs of a cell are one product Y = X B^T with a banded matrix. It is the same for every cell if the rates divide,
+else one of few. Its shape is the same for every cell, so the bits do not depend on the sizes of the requested blocks.
 
-Source: Crochiere and Rabiner, Multirate Digital Signal Processing (1983), section 2.3.
-Symbols: x, X inputs, y, Y outputs, h taps, B matrix, m frame of the output, q sample of the input, p phase.
+Source: Crochiere and Rabiner, Multirate Digital Signal Processing (1983), section 2.3. Symbols: x, X inputs, y, Y
+outputs, h taps, B matrix, m frame of the output, q sample of the input, p phase.
 """
 
 from __future__ import annotations
@@ -25,12 +25,13 @@ from scene2hap.compiled import compiled
 from scene2hap.render.loop_bank import CELL
 
 PASS_HZ = 1000.0
-"""Nothing above is felt, so the filter may begin to fall here."""
+"""End of the filter's flat pass band [Hz]; higher frequencies are not felt."""
 
 IMAGE_DB = 80.0
 
 _MOST_KEPT = 64
-"""Matrices that are kept; 44.1 kHz has 10. Rates that hardly divide have up to f_in, made as they are needed."""
+"""Most matrices that are cached; 44.1 kHz has 10. Rates with a small common divisor have up to f_in, made when
+needed."""
 
 Block = NDArray[np.float32]
 
@@ -39,12 +40,12 @@ Block = NDArray[np.float32]
 class PolyphaseFilter:
     """The outputs of a cell, as one product with a banded matrix.
 
-    Parameters: h : taps (n_taps * up,); n_frames : how many outputs; offsets : the expected offsets, whose matrices are
-    made now.
+    Parameters: h : taps (n_taps * up,); n_frames : number of outputs; offsets : the expected offsets, whose matrices
+        are made in advance.
     """
 
     def __init__(self, h: Block, up: int, down: int, n_frames: int, offsets: Collection[int]) -> None:
-        # scipy.linalg is slow to import, and whoever imports a session may not play it.
+        # scipy.linalg is slow to import, and a program that imports a session may never play it.
         from scipy.linalg.blas import sgemm
 
         self._sgemm = sgemm
@@ -53,19 +54,20 @@ class PolyphaseFilter:
         self._kept = {offset: self._matrix(offset) for offset in offsets}
 
     def advance(self, X: Block) -> None:
-        """Shift X, the inputs of a cell and those before, by one cell; the next outputs reach back to the rest."""
+        """Shift X, the inputs of a cell and earlier ones, by one cell. The earlier ones are still needed by the next
+        outputs."""
         X[:, :-CELL] = X[:, CELL:]
 
     def fill(self, Y: Block, X: Block, offset: int) -> None:
-        """Fill Y (n_channels, n_frames) from X (n_channels, n_taps - 1 + CELL), the inputs of a cell and those before.
+        """Fill Y (n_channels, n_frames) from X (n_channels, n_taps - 1 + CELL), the inputs of a cell and earlier ones.
 
-        Parameters: offset : how far the first output lies behind the cell's first input, in units of 1 / (up f_in).
+        Parameters: offset : distance of the first output from the cell's first input, in units of 1 / (up f_in).
         """
         B = self._kept[offset] if self._kept else self._matrix(offset)
         self._sgemm(1.0, B.T, X.T, 0.0, Y.T, 1, 0, 1)
 
     def _matrix(self, offset: int) -> Block:
-        """Taps (n_frames, n_taps - 1 + CELL) from inputs to outputs."""
+        """Return the taps (n_frames, n_taps - 1 + CELL) from inputs to outputs."""
         B = np.zeros((self._n_frames, self._n_taps - 1 + CELL), dtype=np.float32)
         for frame, row in enumerate(B):
             newest, phase = divmod(offset + frame * self._down, self._up)
@@ -78,8 +80,8 @@ class PolyphaseFilter:
 class Upsampler:
     """A streaming converter for n_channels that takes its input in cells of CELL samples; f_out >= f_in.
 
-    `cell` (n_channels, CELL) is where input belongs, the end of all `inputs`; `delay_s` is how long a signal takes
-    through; `up` / `down` is the ratio of the rates. With equal rates samples pass untouched and without delay.
+    `cell` (n_channels, CELL) receives the input; it is the end of all `inputs`. `delay_s` is the delay of a signal;
+    `up` / `down` is the ratio of the rates. With equal rates samples are unchanged and without delay.
     """
 
     def __init__(self, rate_in_hz: int, rate_out_hz: int, n_channels: int) -> None:
@@ -96,19 +98,19 @@ class Upsampler:
         self.filter = PolyphaseFilter(h.astype(np.float32), self.up, self.down, self._Y.shape[1], kinds)
 
     def input_of(self, frame: int) -> int:
-        """The newest input that an output needs."""
+        """Return the newest input that an output needs."""
         return frame * self.down // self.up
 
     def first_output_of(self, sample: int) -> int:
-        """The first output that needs an input."""
+        """Return the first output that needs an input."""
         return -(-sample * self.up // self.down)
 
     def next_cell(self) -> None:
-        """Move on by CELL inputs; inputs that outputs still need are kept."""
+        """Advance by CELL inputs. Inputs that outputs still need are kept."""
         self.filter.advance(self.inputs)
 
     def outputs(self, cell_begin: int) -> Block:
-        """All outputs (n_channels, n_frames) whose newest input lies in the cell; a buffer that is used again."""
+        """Return all outputs (n_channels, n_frames) whose newest input is in the cell. The buffer is reused."""
         self.filter.fill(self._Y, self.inputs, self._offset(cell_begin))
         return self._Y
 
@@ -117,7 +119,7 @@ class Upsampler:
 
 
 def interpolation_filter(rate_in_hz: int, up: int) -> NDArray[np.float64]:
-    """The low-pass h (n_taps * up,) at rate up * rate_in_hz, each of its phases with a gain of 1 at 0 Hz."""
+    """Return the low-pass h (n_taps * up,) at rate up * rate_in_hz. Each of its phases has a gain of 1 at 0 Hz."""
     if up == 1:
         return np.ones(1)
     from scipy.signal import firwin, kaiserord
@@ -125,7 +127,7 @@ def interpolation_filter(rate_in_hz: int, up: int) -> NDArray[np.float64]:
     nyquist_hz = rate_in_hz / 2
     pass_hz = min(PASS_HZ, 0.8 * nyquist_hz)
     rate_hz = rate_in_hz * up
-    # Some 2 dB to spare: Kaiser's formula is an estimate, and setting each phase to 1 costs a little.
+    # A margin of 2 dB: Kaiser's formula is an estimate, and normalising each phase costs a little.
     n_wanted, beta = kaiserord(IMAGE_DB + 2, (nyquist_hz - pass_hz) / (rate_hz / 2))
     n_taps = -(-n_wanted // up)
     h = firwin(n_taps * up, (nyquist_hz + pass_hz) / 2, window=("kaiser", beta), fs=rate_hz)

@@ -1,6 +1,6 @@
-"""Looks of an object: materials and textures of its faces, used for pictures alone.
+"""Looks of an object: materials and textures of its faces. Only pictures use them.
 
-Nothing here is part of a scene's JSON or of its equality: a snapshot that lost its looks is still the same scene.
+Looks are not part of a scene's JSON or of its equality: a snapshot that lost its looks is still the same scene.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ Rgba = tuple[float, float, float, float]
 class FaceMaterial:
     """Colour and texture of some faces.
 
-    `color_rgba` : sRGB and opacity, 0..1 [-]; `texture` : (height, width, 3 or 4) uint8 sRGB, or None; both multiply.
-    A texture may be given as its file's content, and is then decoded when it is first read. `name` is what its author
-    called it, "" where that is not known; it does not count among the looks.
+    `color_rgba` : sRGB and opacity, 0..1 [-]; `texture` : (height, width, 3 or 4) uint8 sRGB, or None. Both multiply. A
+        texture may be given as the content of its file; it is then decoded at the first access. `name` is the author's
+        name, "" if unknown; `digest` ignores it.
     """
 
     def __init__(
@@ -39,12 +39,12 @@ class FaceMaterial:
 
     @property
     def texture(self) -> NDArray[np.uint8] | None:
-        """The pixels; None without a texture, or if its file turns out to be broken."""
+        """The pixels; None without a texture, or if the texture's file is broken."""
         return self._texture.texels if isinstance(self._texture, EncodedTexture) else self._texture
 
     @property
     def has_texture(self) -> bool:
-        """True if a texture was given; nothing is decoded for it."""
+        """True if a texture was given. Does not decode it."""
         return self._texture is not None
 
     def untextured(self) -> FaceMaterial:
@@ -58,7 +58,7 @@ class FaceMaterial:
 
     @cached_property
     def digest(self) -> str:
-        """A name for the content: equal for equal colours and textures."""
+        """A hash of the content: equal for equal colours and textures."""
         texture = self._texture
         if isinstance(texture, np.ndarray):
             named = hashlib.sha256(repr(texture.shape).encode() + texture.tobytes()).hexdigest()
@@ -72,8 +72,8 @@ class FaceMaterial:
 class Appearance:
     """The looks of a mesh of m faces.
 
-    `face_material` : (m,) int32, which of `materials` each face has; `uv` : (m, 3, 2) float32, texture coordinates of
-    each face's corners with (0, 0) at the texture's upper left, repeating beyond 0..1; None without textures.
+    `face_material` : (m,) int32, the index in `materials` of each face; `uv` : (m, 3, 2) float32, texture coordinates
+        of each face's corners, or None without textures. (0, 0) is the texture's upper left; it repeats beyond 0..1.
     Raises: SceneError: the arrays do not fit each other.
     """
 
@@ -90,12 +90,12 @@ class Appearance:
 
     @classmethod
     def plain(cls, material: FaceMaterial, n_faces: int, uv: NDArray[np.float32] | None = None) -> Appearance:
-        """One material on all faces."""
+        """Return looks with one material on all faces."""
         return cls((material,), np.zeros(n_faces, np.int32), uv)
 
     @cached_property
     def digest(self) -> str:
-        """A name for the content: equal for meshes that are painted alike."""
+        """A hash of the content: equal for meshes with the same looks."""
         content = hashlib.sha256(" ".join(material.digest for material in self.materials).encode())
         content.update(self.face_material.tobytes())
         content.update(b"" if self.uv is None else self.uv.tobytes())
@@ -103,12 +103,12 @@ class Appearance:
 
     @property
     def turned(self) -> Appearance:
-        """The looks for the same faces with their corners in reverse order."""
+        """The looks of the same faces with their corners in reverse order."""
         return self if self.uv is None else Appearance(self.materials, self.face_material, self.uv[:, ::-1])
 
 
 def joined(looks: Sequence[Appearance | None], n_faces: Sequence[int]) -> Appearance | None:
-    """Join the looks of meshes that become one, in their order; a mesh without looks is grey. None if none has any."""
+    """Join the looks of meshes that are joined in this order. A mesh without looks is grey. None if none has looks."""
     if all(look is None for look in looks):
         return None
     unknown = FaceMaterial()

@@ -1,8 +1,7 @@
-"""Find likely mistakes in a scene: units, quaternions that begin with w, the up axis, objects that float or are sunk in
-the floor.
+"""Find likely mistakes in a scene: units, quaternions that begin with w, the up axis, floating or sunken objects.
 
-Each finding is a sentence with the value, the bound and what to do. The checks use AABBs, so that a scene takes
-milliseconds. All bounds are wide, since a false alarm costs more than a missed one.
+Each finding is a sentence with the value, the bound and the remedy. The checks use AABBs, so a scene takes
+milliseconds. All bounds are wide, since a false alarm costs more than a missed mistake.
 """
 
 from __future__ import annotations
@@ -20,16 +19,20 @@ from scene2hap.scene.units import implausible
 Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk"]
 
 _FLOATS_M = 0.25
-"""An object farther than this from all others, and above the lowest, floats (assumed: objects rest within 0.06 m)."""
+"""A floating object is farther than this from all others and above the lowest (assumed: objects rest within 0.06 m)."""
 _SUNK_M = 0.1
-"""An object whose top is this far below the floor's top is sunk in it (assumed: the thickness of a floor)."""
+"""An object is sunk if its top is this far below the floor's top (assumed: the thickness of a floor)."""
 _RESTS_M = 0.06  # Largest gap below an object at rest, about that of the contact rule.
-# The up axis is doubted if this share of objects rests along the other axis, and if they exceed those along it by this
-# factor (tuned: five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times those along the wrong one).
+# The up axis is doubted if at least this share of objects rests along the other axis, and if it is this many times the
+# share along the up axis. Tuned: five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times as many as
+# along the wrong one.
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
-_FEW = 4  # Fewer objects show neither the up axis nor the order of quaternions.
-_TWO = 2  # This many objects exactly upside down show a w of 1 that comes first.
-_MOSTLY_W = 0.8  # The w of a rotation by 74 degrees; most objects are rotated by less (assumed). Exports tip all by 90.
+_FEW = 4  # Fewer objects are not enough to find the up axis or the order of quaternions.
+# This many rotations with a first component of 1 are enough: read as (x, y, z, w), they turn objects upside down.
+_TWO = 2
+# The w of a rotation by 74 degrees. Most objects are rotated by less (assumed). Exporters that rotate all objects to
+# another up axis use 90 degrees.
+_MOSTLY_W = 0.8
 _FLOOR_SHARE, _FLOOR_FLATNESS = 0.5, 0.2  # A floor takes up this share of the scene, and is this flat (assumed).
 _NONE = 1e-6
 _MOST_NAMED = 5
@@ -80,9 +83,10 @@ def findings(scene: SceneData) -> Iterator[Finding]:
 
 
 def _begin_with_w(scene: SceneData) -> bool:
-    """Return True if all rotations would be turns about the vertical if w came first, and are none as they are."""
+    """Return True if w probably comes first: only then would all rotations be about the vertical."""
     rotations = np.array([item.pose.rotation_xyzw for item in scene.objects])
-    # (w, x, y, z) of a turn about y is (c, 0, s, 0), about z (c, 0, 0, s): read as (x, y, z, w) it tips things over.
+    # (w, x, y, z) of a rotation about y is (c, 0, s, 0), about z (c, 0, 0, s). Read as (x, y, z, w) it tips objects
+    # over.
     none = (1, 3) if scene.up_axis == "y" else (1, 2)
     tips = np.abs(rotations[:, list(none)]).max(axis=1) < _NONE
     first = np.abs(rotations[:, 0])
@@ -91,7 +95,7 @@ def _begin_with_w(scene: SceneData) -> bool:
 
 
 def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
-    """Return the share of boxes (n, 2, 3) that stand on the lowest height or just above another box."""
+    """Return the share of boxes (n, 2, 3) that rest at the lowest height or on another box."""
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
     rests = low[:, up] - low[:, up].min() <= _RESTS_M
@@ -103,7 +107,7 @@ def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
 
 
 def _batches(n_rows: int) -> Iterator[slice]:
-    """Yield all rows in slices, since comparing thousands of boxes with all at once would take a gigabyte."""
+    """Yield all rows in slices. Comparing thousands of boxes with all others at once would take a gigabyte."""
     for start in range(0, n_rows, _BATCH):
         yield slice(start, start + _BATCH)
 
@@ -131,7 +135,7 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
 
 
 def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]] | None:
-    """Return the row of the lowest floor, and marks of the boxes over or under it; None without a floor."""
+    """Return the row of the lowest floor, and a mask of the boxes above or below it; None without a floor."""
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
     whole = np.ptp(boxes.reshape(-1, 3)[:, level], axis=0).prod()
@@ -148,7 +152,7 @@ def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]]
 
 
 def _room(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
-    """Find a room in which nothing stands on the floor, or in which most objects are sunk into it."""
+    """Find a room in which no object is on the floor, or in which most objects are sunk into the floor."""
     found = _floor(boxes, up)
     if found is None or found[1].sum() < _FEW:
         return

@@ -1,10 +1,10 @@
-"""Splits a group that holds several separate items: a pot with its lid, two cups and their saucers under one node.
+"""Split a group that holds several separate items, such as a pot with its lid and two cups under one node.
 
-A member of a group is an *item* if its name has a head noun of its own that names no part: `tea_set_cup` under
-`tea_set`, but not `tea_set_lid` (a part), `tea_set_mat_0` (a material) or `tea_set_2` (a number). A group is a
-collection if two of its items stand apart, by their bounding boxes. Then every item is an object of its own, and every
-other member belongs to the nearest item: the lid to its pot. A table with its legs and a hob with its burners have no
-two items that stand apart, and stay one object.
+A member of a group is an *item* if its name has a head noun of its own that names no part. Under `tea_set`,
+`tea_set_cup` is an item; `tea_set_lid` (a part), `tea_set_mat_0` (a material) and `tea_set_2` (a number) are not. A
+group is a collection if the bounding boxes of two of its items do not touch. Then every item becomes an object, and
+every other member belongs to the nearest item: the lid to its pot. A table with its legs and a hob with its burners
+have no two separate items, and stay one object.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scene2hap.scene import limits
 from scene2hap.scene.tree import Matrix, Piece
 
-# Two items stand apart if their boxes do, by more than this share of the group's diagonal (assumed).
+# Two boxes are separate if the gap exceeds this share of the group's diagonal (assumed).
 _APART = 0.002
 
 _PARTS = """
@@ -31,7 +31,7 @@ _PARTS = """
     screw seat shade shaft shelf shell side sill spout spring stand strap strip string surface switch tail top trim tube
     valve vent wall wheel window wing wire
 """
-# Words that say where or of which stuff a piece is, or that a program gave it.
+# Words for the place or the material of a piece, or words that a program gave it.
 _NO_NOUNS = """
     left right upper lower middle center centre inner outer rear small big large long short up down mat material
     mesh node object obj geo geometry geom poly polygon primitive prim surface lod collision collider cube box
@@ -58,7 +58,8 @@ class Member:
 
 
 def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
-    """The members of each object, the one that names it first; all in one where the group is no collection."""
+    """Return the members of each object, the member that names it first. One list with all if the group is no
+    collection."""
     some = [member for member in members if any(len(piece.vertices) for piece in member.pieces)]
     items = [member for member in some if member.name == group_name or has_own_noun(member.name, group_name)]
     if len(items) < 2 or not _stand_apart(some, items):
@@ -74,7 +75,7 @@ def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
 
 
 def has_own_noun(name: str, group_name: str) -> bool:
-    """Return True if a name, without its group's, ends in a noun that names no part; see the module."""
+    """Return True if a name ends in a noun that names no part (see the module). The group's name is ignored."""
     rest = name[len(group_name) :] if name.startswith(group_name) else name
     words = [word.lower() for word in re.findall(r"[A-Z]?[^\W\d_A-Z]+|[A-Z]+(?![^\W\d_A-Z])", rest)]
     nouns = [word for word in words if len(word) > 2 and word not in _OTHER_WORDS]
@@ -82,7 +83,7 @@ def has_own_noun(name: str, group_name: str) -> bool:
 
 
 def _stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
-    """Return True if the items fall into two sets at least whose boxes are apart."""
+    """Return True if the boxes of the items form at least two separate sets."""
     lows, highs = _boxes(members)
     reach = _APART * float(np.linalg.norm(highs.max(axis=0) - lows.min(axis=0)))
     lows, highs = _boxes(items)

@@ -12,13 +12,13 @@ from scene2hap.scene.appearance import Appearance, FaceMaterial
 
 Floats = NDArray[np.float64]
 
-# Steps of a channel, tried in turn until the materials are this few (assumed: a picture seldom shows more); after
-# the last, they may be more.
+# Steps of a channel. They are tried in turn until at most this many materials are left (assumed: a picture seldom shows
+# more). After the last step there may be more.
 _STEPS, _FEW = (255, 31, 15, 7), 256
 
 
 def srgb(linear: ArrayLike) -> Floats:
-    """Convert linear light 0..1 to sRGB 0..1; values beyond are clipped."""
+    """Convert linear light 0..1 to sRGB 0..1; values outside are clipped."""
     light = np.clip(np.asarray(linear, dtype=np.float64), 0.0, 1.0)
     # Rounded, so that white is exactly 1.
     curve: Floats = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)

@@ -1,7 +1,7 @@
-"""COLLADA files as authored trees, through pycollada.
+"""COLLADA files as authored trees, read by pycollada.
 
-pycollada is called directly, not through trimesh (5.2), whose reader drops the names of nodes. It opens no image;
-skinned and animated geometry is left out.
+We call pycollada directly, since trimesh's reader (5.2) drops the names of nodes. pycollada opens no image. Skinned and
+animated geometry is left out.
 
 Source: COLLADA 1.4.1 specification (Khronos, 2008), chapter 5: <asset>, <node>, <instance_geometry>.
 """
@@ -30,7 +30,7 @@ _LIKE_ASCII = re.compile(
 
 
 def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
-    """The file's scene with its looks; `up_axis` and `unit_m` are those of its <asset>.
+    """Return the file's scene with its looks; `up_axis` and `unit_m` come from <asset>.
 
     Raises: MissingExtra: pycollada is not installed. SceneFormatError: the file is not COLLADA, or broken. SceneError:
     its up axis is X.
@@ -41,8 +41,8 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
         raise MissingExtra(
             f"{name!r} is COLLADA, and its reader is not installed. Run: pip install pycollada"
         ) from cause
-    # A document type could name other files or grow without end, and pycollada unpacks archives; COLLADA needs neither.
-    # Both are looked for in ASCII, so nothing is read whose encoding could spell them otherwise (UTF-16, UTF-7).
+    # A document type could name other files or expand without end, and pycollada unpacks archives. COLLADA needs no
+    # such files. We search for both in ASCII, so encodings that could hide them (UTF-16, UTF-7) are refused.
     encoding = _ENCODING.match(data)
     if (
         not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
@@ -63,7 +63,7 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
             up_axis, unit = document.assetInfo.upaxis, document.assetInfo.unitmeter
     except SceneError:
         raise
-    # pycollada raises its own tree, and whatever broken numbers and references lead to.
+    # pycollada raises its own errors, and broken numbers and references may raise any error in it.
     except Exception as cause:
         raise SceneFormatError(f"{name!r} cannot be read as COLLADA: {cause}.") from cause
     if up_axis == collada.asset.UP_AXIS.X_UP:
@@ -74,7 +74,7 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
 
 
 class _Reader:
-    """Turns pycollada's nodes into authored ones."""
+    """Convert pycollada's nodes to authored nodes."""
 
     def __init__(self, collada: Any, materials: DaeMaterials) -> None:
         self._scene, self._collada, self._materials = collada.scene, collada, materials
@@ -82,10 +82,10 @@ class _Reader:
         self._n_triangles = 0
 
     def nodes(self, node: Any, depth: int) -> tuple[AuthoredNode, ...]:
-        """The node as none or one authored node; cameras, lights and controllers give none."""
+        """Convert a node to one authored node. Cameras, lights and controllers give an empty tuple."""
         if not isinstance(node, self._scene.Node | self._scene.NodeNode):
             return ()
-        # Instanced nodes may hang below themselves, so depth is bounded before anything else.
+        # A node may instantiate itself, so the depth is bounded before anything else.
         limits.at_most("the depth of the node tree", depth, "MAX_DEPTH")
         self._n_nodes += 1
         limits.at_most("the number of nodes", self._n_nodes, "MAX_NODES")

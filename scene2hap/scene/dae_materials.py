@@ -1,6 +1,6 @@
 """Materials of COLLADA files: diffuse colour or texture, and opacity.
 
-Colours are taken as sRGB, as exporters mean them.
+Colours are read as sRGB, since exporters write them so.
 
 Source: COLLADA 1.4.1 specification (Khronos, 2008), chapter 8: <profile_COMMON>, <transparent>, <bind_vertex_input>.
 """
@@ -19,17 +19,18 @@ from scene2hap.scene.texture_files import TextureFiles
 
 @dataclass(eq=False)
 class DaeMaterials:
-    """Reads the looks of pycollada's primitives; each effect once."""
+    """Reader of the looks of pycollada's primitives. It reads each effect once."""
 
     collada: Any
     textures: TextureFiles
     _materials: dict[str, FaceMaterial] = field(default_factory=dict)
 
     def appearance(self, primitive: Any, link: Any) -> Appearance | None:
-        """The looks of a triangle set under an <instance_material>; None, and a word about it, if they are broken."""
+        """Return the looks of a triangle set under an <instance_material>. If they are broken: None, and the reason is
+        recorded."""
         try:
             return self._appearance(primitive, link)
-        # pycollada hands on whatever stands in the file, and geometry does not depend on it.
+        # pycollada does not validate these values. Geometry does not depend on them, so a broken material is no error.
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as cause:
             name = str(link.target.id)
             self.textures.refuse(f"material {name}", f"material {name!r} makes no sense: {cause}.")
@@ -67,12 +68,13 @@ class DaeMaterials:
             opacity = 1.0 - part * (float(np.mean(_color(transparent))) if is_plain else 0.0)
         else:
             opacity = part * (float(transparent[3]) if is_plain and len(transparent) > 3 else 1.0)
-        # Exporters that mean it the other way round write nothing at all for what is wholly there.
+        # Exporters that use the opposite convention write 0 for opaque materials. Taken literally, they would be
+        # invisible.
         return float(np.clip(opacity, 0.0, 1.0)) or 1.0
 
 
 def _paint(effect: Any) -> Any:
-    """The colour or map that decides most of an effect's looks: a constant shader has no diffuse light."""
+    """Return the colour or map that decides most of an effect's looks. A constant shader has no diffuse light."""
     return effect.emission if effect.shadingtype == "constant" else effect.diffuse
 
 
@@ -82,12 +84,12 @@ def _color(value: Any) -> tuple[float, float, float]:
 
 
 def _texture_set(link: Any, symbol: str) -> str | None:
-    """The set of texture coordinates that an effect's symbol is bound to; None if the file does not say."""
+    """Return the set of texture coordinates that is bound to an effect's symbol; None if the file does not say."""
     return next((number for name, kind, number in link.inputs if name == symbol and kind == "TEXCOORD"), None)
 
 
 def _coordinates(primitive: Any, number: str | None) -> NDArray[np.float32] | None:
-    """Coordinates (m, 3, 2), v running down, of a set; of the first if there is no such set."""
+    """Return coordinates (m, 3, 2) of a set, v running down. If there is no such set: those of the first set."""
     tables, indices = primitive.texcoordset, primitive.texcoord_indexset
     if not tables:
         return None

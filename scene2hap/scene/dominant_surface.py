@@ -1,21 +1,20 @@
 """The dominant surface of a mesh: the plate that a person would name first, such as the top of a table.
 
-1. Box the mesh in a frame of its own (`_frame`), so that a shelf authored at 30 degrees measures like a straight one.
-2. Send a grid of parallel rays through the box along each of the three axes. The axis along which the mesh hides most
-   area is the plate's normal. Where what is level on that side leaves a third of its rectangle open, as a chair's
-   front does, a thin flat plate that lies, and is not what the whole stands on, comes first: the seat.
-3. Thickness is the median length of the first solid that the rays meet from above. Table legs, knobs and back-rests
-   are met by few rays and do not move the median.
-   A mesh that is open below has no such solid; its thickness reaches from its top, or from the sheet that most of it
-   is, down to its lowest rim.
-   Where the surface is no rectangle, as a round top, its outline is the cut through that solid's middle.
-4. Length and width are the median spans of rays in the mid-plane of that solid, without what is fixed to its edge
-   (`plate_edge`); where the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen
-   along the normal.
+1. Box the mesh in a fitted frame (`_frame`). So a shelf authored at 30 degrees has the measures of a straight one.
+2. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
+   largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
+   thin flat horizontal plate comes first. The bottom of the object is no such plate.
+3. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
+   back-rests, so these do not change the median. A mesh that is open below has no such solid. Its thickness reaches
+   from its top, or from the sheet that forms most of it, down to its lowest rim. If the surface is no rectangle (a
+   round top), its outline is the section through the middle of that solid.
+4. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
+   (`plate_edge`). If the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen along
+   the normal.
 
 Source: Scene2Hap, section "Automatic Data Extraction": the size of an object is that of its dominant surface, "by
 raycasting within the 3D mesh's bounding box and calculating its median values".
-Differs: the paper does not say in which frame or on which side the rays start; steps 1, 3 and 4 settle that.
+Differs: the paper does not say in which frame or on which side the rays start; steps 1, 3 and 4 decide it.
 """
 
 from __future__ import annotations
@@ -40,42 +39,43 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 RAYS_PER_SIDE = 32
-"""Rays along each side of the bounding box, which gives a resolution of about 1/32 of it (tuned: 5 ms an object)."""
+"""Rays along each side of the bounding box. The resolution is about 1/32 of the box (tuned: 5 ms an object)."""
 
-# All of these are tuned on real scenes, and none is critical to a factor of two.
-_SAME_DEPTH = 1e-6  # surfaces closer than this part of the object are one
-_OPEN_SHARE = 0.02  # more rays than this that do not come out again make the mesh an open one
-_FLAT_SHARE = 0.5  # a plate is flat if this part of its rays meets it at one height
-_SAME_LEVEL = 0.1  # an open plate is flat if its rays meet it within this part of its box's height
-_FILLED_CUT = 0.75  # the rectangle of a cut must be this part of what the rays see of that height (a disc's is 0.95)
-_FILLED_OUTLINE = 0.5  # the rectangle of an outline, of all that they see
-_PAIRED_SHARE = 0.5  # and has a thickness if this part of its rays comes out again
-_OWN_FRAME_GAIN = 0.95  # another frame must make the box smaller than this to replace the author's axes
-_SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal wins
-_UPRIGHT = 0.9  # a plate lies if its normal is as upright as this (26 degrees) ...
-_THIN = 1 / 3  # ... and it is no thicker than this part of its width. It wins over the side that hides most ...
-_LYING_AREA = 0.6  # ... if it hides this part of that side's area (chairs 0.71-0.93) ...
-# ... and that is level in less than this part of its rectangle (chairs <= 0.58, cupboards >= 0.74).
+# All of these are tuned on real scenes; a factor of two in any of them matters little.
+_SAME_DEPTH = 1e-6  # surfaces closer than this share of the object's size are one
+_OPEN_SHARE = 0.02  # a mesh is open if more than this share of rays enters and does not leave
+_FLAT_SHARE = 0.5  # a plate is flat if this share of its rays meets it at one height
+_SAME_LEVEL = 0.1  # an open plate is flat if its rays meet it within this share of its box's height
+_FILLED_CUT = 0.75  # least area of a cut's rectangle, as a share of the level area that rays see (a disc's is 0.95)
+_FILLED_OUTLINE = 0.5  # least area of an outline's rectangle, as a share of the whole area that rays see
+_PAIRED_SHARE = 0.5  # a plate has a thickness if this share of its rays leaves the mesh again
+_OWN_FRAME_GAIN = 0.95  # another frame replaces the author's axes only if its box is smaller than this share
+_SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal is chosen
+_UPRIGHT = 0.9  # least cosine between the vertical and a horizontal plate's normal (26 degrees)
+_THIN = 1 / 3  # greatest thickness of a horizontal plate, as a share of its width. It replaces the largest side ...
+_LYING_AREA = 0.6  # ... if its area is this share of that side's area (chairs 0.71-0.93) ...
+# ... and if that side is level in less than this share of its rectangle (chairs <= 0.58, cupboards >= 0.74).
 _FILLED_PLATE = 2 / 3
-_FULL = 0.97  # where rays of the box around it meet a plate in less than this share, it may be no rectangle; if not ...
-_SEEN = 0.1  # ... its outline covers what rays see level within this share of its box ...
-_LIKE = 0.5, 1.5  # ... its outline has an area of between these times that of the rectangle of medians
+# a plate may be no rectangle if fewer than this share of the rays in its box meet it. An outline is used if ...
+_FULL = 0.97
+_SEEN = 0.1  # ... its area differs from the level area that rays see by less than this share of its box ...
+_LIKE = 0.5, 1.5  # ... and its area is between these multiples of the rectangle of medians
 _SAME_DIRECTION_RAD = np.deg2rad(1.0)
 _SIDES_TRIED = 12
-# Fixed cost of a mesh, and cost of each triangle, in units of one test of a ray against a triangle (measured: 1.5 ms,
-# 1 us and 0.1 us).
+# Fixed cost of a mesh and cost of each triangle, in tests of a ray against a triangle (measured: 1.5 ms, 1 us and
+# 0.1 us).
 _WORK_OF_A_MESH, _WORK_OF_A_FACE = 15_000, 10
 
 
 class _Side(NamedTuple):
-    """A mesh seen along one axis: its projected area [m2], a frame with that axis as w, and the hits of rays on it."""
+    """A mesh seen along one axis: its projected area [m2], a frame whose w is that axis, and the hits of rays."""
 
     area_m2: float
     own_to_plate: Floats
     hits: Hits
 
     def level_area_m2(self, size_m: float) -> float:
-        """Return the part of that area at one level, within half the plate's thickness; all of it for a sheet [m2]."""
+        """Return the area at one level, within half the plate's thickness; the whole area for a sheet [m2]."""
         solids = first_solids(self.hits, _SAME_DEPTH * size_m)
         thickness = (solids.top - solids.bottom)[np.isfinite(solids.bottom)]
         if len(thickness) < _PAIRED_SHARE * len(solids.top):
@@ -87,15 +87,15 @@ class _Side(NamedTuple):
 def dominant_surface(
     mesh: TriMesh, *, up: ArrayLike | None = None, spend: Callable[[int], None] | None = None
 ) -> DominantSurface:
-    """Length, width, thickness and place of the mesh's dominant surface, in the mesh's own frame.
+    """Return length, width, thickness and pose of the mesh's dominant surface, in the mesh's own frame.
 
-    Parameters: up : (3,) direction of the own frame that the plate's normal should rather point along than against;
-        without it, normals point along the axes of the own frame. spend : called before the work with its size, in
-        tests of a ray against a triangle; may raise to prevent it.
+    Parameters: up : (3,) upward direction in the own frame; the plate's normal points along rather than against it.
+        Without it, normals point along the axes of the own frame. spend : called before the work with its size, in
+        tests of a ray against a triangle; may raise to prevent the work.
     Returns: length_m >= width_m; exact for boxes and for slabs on legs, else to about a ray's spacing. Flags:
-        "open-mesh", rays enter and never leave; "zero-thickness", a sheet; "box-fallback", too few rays met the
-        surface twice, so that its thickness is that of the box around it, or of that below its sheet, or no rectangle
-        of medians fits it, so that length and width are the box's.
+        "open-mesh": rays enter and never leave. "zero-thickness": a sheet. "box-fallback": too few rays met the surface
+        twice, so its thickness is that of the box around it, or reaches from its sheet to the lowest rim; or no
+        rectangle of medians fits, so that length and width are the box's.
     """
     bounds_m = cuboid_bounds_m(mesh)
     if bounds_m is not None and np.ptp(bounds_m, axis=0).min() > _SAME_DEPTH * np.ptp(bounds_m, axis=0).max():
@@ -135,11 +135,11 @@ def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFl
 def _lying_plate(
     side: _Side, largest: _Side, standing: DominantSurface, points: Floats, faces: Ints
 ) -> DominantSurface | None:
-    """Return the plate normal to the most upright axis if the side with most area is no plate, such as a chair's seat.
+    """Return the horizontal plate of an object whose largest side is no plate, such as a chair's seat; else None.
 
-    A chair has more area from the front, where legs, rungs and back stand beside and behind each other, than from
-    above. But the level part in front fills too little of its rectangle. From above there is one thin flat plate, which
-    is not the bottom on which the whole object stands, as that of a cup.
+    A chair's projected area is larger from the front than from above: legs, rungs and back are beside and behind each
+    other. But the level part in front fills too little of its rectangle. From above there is one thin flat plate, and
+    it is not the bottom of the whole object, unlike the bottom of a cup.
     """
     size_m = float(np.ptp(points, axis=1).max())
     is_plate = largest.level_area_m2(size_m) >= _FILLED_PLATE * standing.length_m * standing.width_m
@@ -155,7 +155,7 @@ def _lying_plate(
 
 
 def _cuboid(bounds_m: Floats, up: ArrayLike | None) -> DominantSurface:
-    """The result that rays would give for a box between bounds (2, 3) [m]."""
+    """Return the result that rays would give for a box between bounds (2, 3) [m]."""
     low, high = bounds_m
     edges = high - low
     axes = _pointing(np.eye(3), up)
@@ -169,7 +169,7 @@ def _cuboid(bounds_m: Floats, up: ArrayLike | None) -> DominantSurface:
 
 
 def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
-    """The plate across w, given triangles (3, 3, m) and hits in the frame whose axes are the rows of `own_to_plate`."""
+    """Return the plate across w. The rows of `own_to_plate` are the axes of triangles (3, 3, m) and hits."""
     corners = triangles.reshape(3, -1)
     low, high = corners.min(axis=1), corners.max(axis=1)
     size = float((high - low).max())
@@ -196,7 +196,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         flags = (*flags, "zero-thickness")
     spans = spans or _spans(outline(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
     if spans is None:
-        # An L, a ring with gaps or a heap has no rectangle of medians, so the one around it is used.
+        # No rectangle of medians fits an L, a ring with gaps or a heap, so the one around it is used.
         spans = (high - low)[:2], (high + low)[:2] / 2
         flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
     (u_m, v_m), (u_mid, v_mid) = spans
@@ -204,7 +204,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
 
 
 def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Outline | None:
-    """Return the cut at a height if it covers the level area that rays see, with its holes or without inner hollows."""
+    """Return the section at a height, with or without holes, if its area matches the level area that rays see."""
     outline = section_outline(triangles, middle)
     if outline is None:
         return None
@@ -216,8 +216,11 @@ def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Out
 
 
 def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:
-    """Return the height of the plate of an open mesh: its top, or the height at which most rays and most of its edge
-    meet it. So burners and knobs on a hob are no part of the sheet whose rim extends down."""
+    """Return the height of the plate of an open mesh. This is the level that most rays and most of the edge meet, or
+    its top.
+
+    So burners and knobs on a hob do not count as part of the sheet, whose rim extends down.
+    """
     height, top, n = float(high[2] - low[2]), float(np.median(tops)), RAYS_PER_SIDE
     level = np.abs(tops - top) <= _SAME_LEVEL * height
     at_edge = (np.minimum(ray // n, ray % n) == 0) | (np.maximum(ray // n, ray % n) == n - 1)
@@ -228,8 +231,11 @@ def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:
 def _flat_spans(
     segments: Floats, ray: Ints, level: Bools, is_thick: Bools, low: Floats, high: Floats
 ) -> tuple[Floats, Floats] | None:
-    """`_spans` of a cut without what is fixed to the plate's edge, given which rays meet the plate's level, and which
-    meet about as much solid as the plate is thick."""
+    """Return `_spans` of a cut without objects fixed to the plate's edge.
+
+    `level` marks the rays that meet the plate's level; `is_thick` those that meet about as much solid as the plate is
+    thick.
+    """
     n = RAYS_PER_SIDE
     grids = np.zeros((3, n * n), dtype=bool)
     grids[:, ray] = np.stack((np.ones_like(level), level, level & is_thick))
@@ -246,7 +252,7 @@ def _flat_spans(
 
 
 def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:
-    """Median extents and middles (2,) [m] along u and v; None if the rectangle that they make is too small [m2]."""
+    """Return median extents and middles (2,) [m] along u and v; None if their rectangle is below `at_least` [m2]."""
     along_u, along_v = (median_span(segments, axis, RAYS_PER_SIDE) for axis in (0, 1))
     if along_u is None or along_v is None or along_u[0] * along_v[0] < at_least:
         return None
@@ -255,7 +261,7 @@ def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:
 
 
 def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
-    """The box around points (3, n) as a plate, for meshes that no ray meets: needles, triangles without area."""
+    """Return the box around points (3, n) as a plate, for meshes that no ray meets: needles, triangles without area."""
     own_to_plate = _facing(axes, int(np.argmin(np.ptp(axes @ points, axis=1))))
     placed = own_to_plate @ points
     size, middle = np.ptp(placed, axis=1), (placed.min(axis=1) + placed.max(axis=1)) / 2
@@ -273,7 +279,7 @@ def _placed(
     flags: tuple[SurfaceFlag, ...],
     outline: Outline | None = None,
 ) -> DominantSurface:
-    """The surface with its length along x, given size, middle and outline [m] along the rows of `own_to_plate`."""
+    """Return the surface with its length along x; size, middle and outline [m] are along the rows of `own_to_plate`."""
     x, y, normal = own_to_plate
     is_turned = bool(size[1] > size[0])
     if is_turned:
@@ -288,7 +294,7 @@ def _placed(
 
 
 def _own_outline(outline: Outline, size: Floats, middle: Floats, *, is_turned: bool) -> Outline | None:
-    """The outline from the plate's corner; None where it is a rectangle, or not that of the plate."""
+    """Return the outline from the plate's corner; None if it is a rectangle, or does not fit the plate."""
     share = outline.area_m2 / math.prod(outline.extent_m)
     if share > _FULL or not _LIKE[0] < outline.area_m2 / float(size[0] * size[1]) < _LIKE[1]:
         return None
@@ -301,9 +307,11 @@ def _own_outline(outline: Outline, size: Floats, middle: Floats, *, is_turned: b
 
 
 def _frame(points: Floats, faces: Ints) -> Floats:
-    """Axes (3, 3), one per row, of the tightest of three boxes around points (3, n) with triangles `faces` (3, m).
+    """Return axes (3, 3), one per row, of the tightest of three boxes around points (3, n) with triangles `faces` (3,
+    m).
 
-    The author's own axes win unless another box is clearly smaller, since legs and handles tilt any fitted box a bit.
+    The author's own axes are kept unless another box is clearly smaller, since legs and handles tilt any fitted box a
+    bit.
     """
 
     def volume(axes: Floats) -> float:
@@ -316,7 +324,7 @@ def _frame(points: Floats, faces: Ints) -> Floats:
 
 
 def _fitted_frames(triangles: Floats) -> Iterator[Floats]:
-    """Frames that turn with triangles (3, 3, m): along the principal axes, and along the largest flat faces."""
+    """Yield frames that rotate with triangles (3, 3, m): along the principal axes, and along the largest flat faces."""
     b, c = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     doubled = np.stack([b[i - 2] * c[i - 1] - b[i - 1] * c[i - 2] for i in range(3)])
     area = np.sqrt((doubled**2).sum(axis=0))
@@ -354,7 +362,7 @@ def _surface_spread(triangles: Floats, area: Floats) -> Floats:
 
 
 def _largest_direction(normals: Floats, area: Floats) -> Floats:
-    """The unit direction that most area faces, both ways counted as one, given normals (3, m)."""
+    """Return the unit direction that most area faces, from normals (3, m). Opposite directions count as one."""
     strongest = np.abs(normals).argmax(axis=0)
     one_way = normals * np.sign(normals[strongest, np.arange(len(area))])
     cell = np.array([1, 2048, 2048**2]) @ np.round(one_way * 500).astype(np.int64)
@@ -366,13 +374,13 @@ def _largest_direction(normals: Floats, area: Floats) -> Floats:
 
 
 def _facing(axes: Floats, axis: int) -> Floats:
-    """The axes with `axis` as w, in right-handed order u, v, w, one per row."""
+    """Return the axes with `axis` as w, in right-handed order u, v, w, one per row."""
     v, w = axes[axis - 1], axes[axis]
     return np.stack((np.cross(v, w), v, w))
 
 
 def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
-    """The axes, each turned so that it points up, or along the author's axes where it lies level."""
+    """Return the axes, each signed so that it points up. A level axis points along the author's axes."""
     strongest = axes[np.arange(3), np.abs(axes).argmax(axis=1)]
     lift = np.zeros(3) if up is None else axes @ np.asarray(up, dtype=np.float64)
     sign = np.where(np.abs(lift) > 0.1, np.sign(lift), np.sign(strongest))
@@ -380,6 +388,6 @@ def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
 
 
 def _by_uprightness(axes: Floats, up: ArrayLike | None) -> list[int]:
-    """Axis numbers, the least upright first, so that among equal areas the most upright is the last to be taken."""
+    """Return axis numbers, the least upright first. So the most upright of equal areas is tried last and is chosen."""
     lift = axes @ np.asarray((0.0, 0.0, 0.0) if up is None else up, dtype=np.float64)
     return [int(axis) for axis in np.argsort(np.abs(lift), kind="stable")]

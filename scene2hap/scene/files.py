@@ -1,4 +1,4 @@
-"""The files that a scene may read: its own, and files beside it inside the assets root."""
+"""The files that a scene may read: its own, and files inside the assets root."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ HABITAT_SUFFIX = ".scene_instance.json"
 
 
 def is_habitat(path: Path) -> bool:
-    """Return True if a file is a Habitat scene, by its name."""
+    """Return True if the name of a file is that of a Habitat scene."""
     return path.name.lower().endswith(HABITAT_SUFFIX)
 
 
 def scene_stem(path: Path) -> str:
-    """A scene file's name without its suffix, also where this has two parts; never empty."""
+    """Return a scene file's name without its suffix, which may have two parts. Never empty."""
     return path.name[: -len(HABITAT_SUFFIX)] or "scene" if is_habitat(path) else path.stem
 
 
 def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
-    """The path that a scene file means by `uri`, a relative reference from its own folder.
+    """Return the path of `uri`, a relative reference in a scene file, from the file's folder.
 
     Raises: SceneError: it is no plain relative path, or leads outside `assets_root` (also through a link).
     """
@@ -37,24 +37,24 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
             raise SceneError(f"{refusal} Copy it there, or give assets_root={holding_both(path, assets_root)}.")
     except SceneError:
         raise
-    # Raised by a broken address, a zero byte and a ring of links.
+    # A broken address, a zero byte and a ring of links raise these.
     except (ValueError, OSError, RuntimeError) as cause:
         raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
     return path
 
 
 def holding_both(path: Path, assets_root: Path) -> str:
-    """Return the nearest folder that holds both; never the root of a disk."""
+    """Return the nearest folder that holds both, as text for a message; never the root of a disk."""
     roots = set(assets_root.resolve().parents)
     nearest = next((folder for folder in path.parents if folder in roots and folder != Path(folder.anchor)), None)
     return "<a folder that holds both>" if nearest is None else repr(str(nearest))
 
 
 def read_bytes(path: Path) -> bytes:
-    """The content of a regular file.
+    """Return the content of a regular file.
 
-    Raises: SceneError: it is missing, no regular file, unreadable or above `limits.MAX_FILE_BYTES`. SceneFormatError:
-    it is empty.
+    Raises: SceneError: it is missing, no regular file, unreadable or larger than `limits.MAX_FILE_BYTES`.
+    SceneFormatError: it is empty.
     """
     check_file(path)
     try:
@@ -80,7 +80,7 @@ def check_file(path: Path) -> None:
         is_empty = path.stat().st_size == 0
     except SceneError:
         raise
-    # ValueError: a name with a zero byte in it.
+    # ValueError: the name contains a zero byte.
     except (OSError, ValueError) as cause:
         raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
     if is_empty:

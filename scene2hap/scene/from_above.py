@@ -13,16 +13,17 @@ from scene2hap.scene.snapshot import SceneSnapshot
 Floats = NDArray[np.float64]
 NOTHING = -1
 _MOST_PAIRS = 1_000_000
-"""Pairs of triangle and cell that are tested at once: some 100 MB."""
+"""Pairs of triangle and cell that are tested at once: about 100 MB."""
 
 
 @dataclass(frozen=True, eq=False)
 class TopView:
     """Square cells over a scene's ground.
 
-    Parameters: top : (n_rows, n_columns) the object on top in the middle of each cell, as its place in the scene,
-    `NOTHING` for none; height_m : (n_rows, n_columns) its surface there along the up axis, world [m]; low_m : (2,)
-    corner of the grid [m]; cell_m : side of a cell [m]; level : numbers of the two level axes; up : of the up axis.
+    Parameters: top : (n_rows, n_columns) index in the scene of the object on top in the middle of each cell, `NOTHING`
+        for none; height_m : (n_rows, n_columns) height of its surface there along the up axis, world [m]; low_m : (2,)
+        corner of the grid [m]; cell_m : side of a cell [m]; level : numbers of the two level axes; up : number of the
+        up axis.
     """
 
     scene: SceneSnapshot
@@ -35,10 +36,10 @@ class TopView:
 
     @classmethod
     def of(cls, scene: SceneSnapshot, n_cells: int, up_to_m: float | None = None) -> TopView:
-        """A view with `n_cells` along the longer side.
+        """Return a view with `n_cells` along the longer side.
 
-        Parameters: up_to_m : surfaces higher than this above the lowest point of the scene are left out, such as a
-        ceiling; None for no limit.
+        Parameters: up_to_m : surfaces higher than this above the lowest point of the scene, such as a ceiling, are left
+            out; None for no limit.
         """
         up = {"y": 1, "z": 2}[scene.up_axis]
         across, deep = (axis for axis in range(3) if axis != up)
@@ -59,7 +60,8 @@ class TopView:
             for cells, heights in _surface(triangles, n_columns, n_rows):
                 seen = (heights > height[cells]) & (heights <= highest)
                 cells, heights = cells[seen], heights[seen]
-                rising = np.argsort(heights, kind="stable")  # of several in one cell the last is kept
+                # the last of several in one cell is kept, so the highest must come last
+                rising = np.argsort(heights, kind="stable")
                 top[cells[rising]], height[cells[rising]] = number, heights[rising]
         shape = (n_rows, n_columns)
         return cls(scene, top.reshape(shape), height.reshape(shape), corner, cell, (across, deep), up)
@@ -71,7 +73,7 @@ class TopView:
         return left, left + n_columns * self.cell_m, lower, lower + n_rows * self.cell_m
 
     def points_m(self) -> tuple[NDArray[np.intp], Floats]:
-        """Flat numbers (n_seen,) of the cells with a surface, and the point of it in their middle (n_seen, 3) [m]."""
+        """Flat numbers (n_seen,) of cells with a surface, and the surface point in their middle (n_seen, 3) [m]."""
         cells = np.flatnonzero(self.top.ravel() != NOTHING)
         row, column = np.divmod(cells, self.top.shape[1])
         points = np.empty((len(cells), 3))
@@ -81,7 +83,8 @@ class TopView:
         return cells, points
 
     def edges_m(self, among: NDArray[np.bool_] | None = None) -> Floats:
-        """Edges of cells between two objects, or of a set of cells (n_rows, n_columns): (n_edges, 2, 2) [m]."""
+        """Edges (n_edges, 2, 2) [m] between cells of different objects, or around a set of cells (n_rows,
+        n_columns)."""
         numbers, beside = (self.top, NOTHING) if among is None else (among.astype(np.intp), 0)
         shown = np.pad(numbers, 1, constant_values=beside)
         row, column = np.nonzero(shown[1:-1, 1:] != shown[1:-1, :-1])
@@ -93,8 +96,10 @@ class TopView:
 
 
 def _surface(triangles: Floats, n_columns: int, n_rows: int) -> Iterator[tuple[NDArray[np.intp], Floats]]:
-    """Cells whose middle is below a triangle, and the height there, for parts of the triangles (n, 3, 3), whose first
-    two coordinates are in cells."""
+    """Yield the cells whose middle is below a triangle, and the height there.
+
+    `triangles` (n, 3, 3) have their first two coordinates in cells. They are tested in parts, which bounds the memory.
+    """
     least = np.ceil(triangles[..., :2].min(axis=1) - 0.5).clip(0, [n_columns, n_rows]).astype(np.intp)
     most = np.floor(triangles[..., :2].max(axis=1) - 0.5).clip(-1, [n_columns - 1, n_rows - 1]).astype(np.intp)
     size = np.maximum(most - least + 1, 0)

@@ -1,4 +1,4 @@
-"""The scene that a caller gives: a snapshot, or the path of a scene file."""
+"""The scene argument of a caller: a snapshot, or the path of a scene file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 
 def given_scene(scene: object) -> SceneSnapshot:
-    """A snapshot as it is, one read from a path by `load_scene`.
+    """Return a snapshot unchanged, or read it from a path with `load_scene`.
 
     Raises: SceneError: it is something else, such as a bundle or a list of objects; and as `load_scene`.
     """

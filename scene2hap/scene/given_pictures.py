@@ -37,21 +37,21 @@ if TYPE_CHECKING:
     from PIL import Image
 
 INDEX = "pictures.json"
-"""The file of a folder of pictures that says what each shows."""
+"""Name of the index file in a folder of pictures. It says which object and view each picture shows."""
 
 MAX_BYTES = 1 << 24
-"""Size of one picture; assumed: ten times a PNG file of 1024 pixels a side."""
+"""Largest size of one picture [bytes] (assumed: ten times a PNG file of 1024 pixels a side)."""
 LEAST_PX, MAX_PX = 16, 4096
-"""Width and height of one picture, as of `CaptureConfig.size_px`."""
+"""Least and greatest width and height of one picture, as in `CaptureConfig.size_px`."""
 SHOWN_PX = 1024
-"""Larger pictures are reduced to this edge, which bounds what a model bills for them (assumed)."""
+"""Larger pictures are reduced to this edge, which bounds their cost at a paid model (assumed)."""
 MAX_PICTURES = 100_000
-"""Pictures of one scene; assumed: 16 of each of some thousands of objects."""
+"""Most pictures of one scene (assumed: 16 of each of some thousands of objects)."""
 _LONGEST_VIEW = 200
 
 _PNG_SIGNATURE, _PNG_END = b"\x89PNG\r\n\x1a\n", b"IEND\xaeB\x60\x82"
 _JPEG_SIGNATURE, _JPEG_END = b"\xff\xd8\xff", b"\xff\xd9"
-# Part of every key in the memory cache; raised when the same file is shown otherwise.
+# Part of every key in the memory cache. Increase it when the conversion of a file changes.
 _FORM = "given 1"
 
 Kind = Literal["scene", "isolated", "context"]
@@ -67,16 +67,15 @@ class GivenShot(Shot):
 
     @property
     def label(self) -> str:
-        """The name of the view: "front"."""
+        """Name of the view, such as "front"."""
         return self.view
 
 
 class GivenPictures:
-    """The `ImageSource` of pictures that exist already, as PNG or JPEG files.
+    """The `ImageSource` of existing pictures, as PNG or JPEG files.
 
-    A model sees them in the order in which they are given, those of an object alone before those in its surroundings.
-    The prompts tell it that the object has a pink outline (255, 0, 190) in the latter.
-
+    A model sees them in the given order, the isolated pictures of an object before those in its surroundings. The
+    prompts tell the model that the object has a pink outline (255, 0, 190) in the latter.
     Parameters: pictures : files by `PictureKey`; kind "scene" has no object id, "isolated" and "context" have one.
     Raises: SceneError: a key that names nothing, or a picture too large; SceneFormatError: neither PNG nor JPEG.
     """
@@ -91,10 +90,10 @@ class GivenPictures:
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> GivenPictures:
-        """The pictures of a folder, read when a model looks at them.
+        """Return the pictures of a folder. They are decoded when a model looks at them.
 
-        `pictures.json` in it is a list of objects with `object` (an id; left out for the whole scene), `kind`, `view`,
-        and `file`, a relative reference to a file in the folder.
+        Its `pictures.json` is a list of JSON objects with `object` (an id; left out for the whole scene), `kind`,
+        `view`, and `file`, a relative reference to a file in the folder.
         Raises: as the constructor; SceneError: a file is missing or outside the folder; SceneFormatError: no such list.
         """
         root = checks.path("folder", folder, error=SceneError)
@@ -113,13 +112,13 @@ class GivenPictures:
 
     @property
     def shots(self) -> tuple[Shot, ...]:
-        """All pictures, in the order in which they were given."""
+        """All pictures, in the given order."""
         return tuple(self._files)
 
     def image(self, shot: Shot) -> bytes:
-        """The picture as a PNG file of at most `SHOWN_PX` a side, opaque.
+        """Return the picture as an opaque PNG file of at most `SHOWN_PX` a side.
 
-        Raises: SceneError: it was not given; its file is gone or cannot be decoded.
+        Raises: SceneError: it was not given; its file is missing or cannot be decoded.
         """
         if shot not in self._files:
             raise SceneError(f"there is no {_label(shot)} among the {len(self._files)} pictures that were given.")
@@ -127,16 +126,16 @@ class GivenPictures:
         key = f"{_FORM} {hashlib.sha256(file).hexdigest()}"
         shown = MEMORY.get(key)
         if shown is None:
-            check_picture(file, _label(shot))  # a file on the disk may have changed
+            check_picture(file, _label(shot))  # a file on the disk may have changed since it was given
             shown = _as_shown(file, _label(shot))
             MEMORY.put(key, shown)
         return shown
 
     def attach_to(self, scene: SceneSnapshot | str | os.PathLike[str]) -> SceneSnapshot:
-        """Return the scene with these pictures, for `bake`. An object without one keeps the pictures it has.
+        """Return the scene with these pictures, for `bake`. An object without a picture here keeps its own pictures.
 
-        An object without any pictures is shown by the isolated ones of an object of the same `instance_key`.
-        Raises: UnknownObject: a picture of an object that the scene does not have.
+        An object without any pictures takes the isolated pictures of an object with the same `instance_key`.
+        Raises: UnknownObject: a picture shows an object that the scene does not have.
         """
         scene = given_scene(scene)
         of_kind: dict[tuple[str | None, str], list[Shot]] = {}
@@ -173,7 +172,7 @@ class GivenPictures:
 
 
 def check_picture(file: object, name: str = "the picture") -> tuple[int, int]:
-    """Width and height [px] of a PNG or JPEG file whose begin and end are whole; its pixels are not decoded.
+    """Return width and height [px] of a PNG or JPEG file with a complete begin and end. Does not decode its pixels.
 
     Raises: SceneFormatError: it is something else, or cut short; SceneError: it is too large or too small.
     """
@@ -183,7 +182,7 @@ def check_picture(file: object, name: str = "the picture") -> tuple[int, int]:
         raise SceneError(f"{name} has {len(file):,} bytes; at most {MAX_BYTES:,} are read. Give a smaller one.")
     if not file.startswith((_PNG_SIGNATURE, _JPEG_SIGNATURE)):
         raise SceneFormatError(f"{name} is neither PNG nor JPEG; it begins with {checks.represented(file[:8])}.")
-    # Encoders of cameras write after the end of a JPEG; nothing may follow the end of a PNG.
+    # Some cameras write bytes after the end of a JPEG. A PNG must end with its end mark.
     is_whole = file.endswith(_PNG_END) if file.startswith(_PNG_SIGNATURE) else _JPEG_END in file[-4096:]
     if not is_whole:
         raise SceneFormatError(f"{name} is cut short after {len(file):,} bytes. Write or send it again.")
@@ -192,7 +191,7 @@ def check_picture(file: object, name: str = "the picture") -> tuple[int, int]:
             warnings.simplefilter("ignore")  # Pillow warns of sizes that are refused below
             with _opened(file) as image:
                 width, height = image.size
-    except Exception as cause:  # Pillow raises whatever the broken bytes lead to
+    except Exception as cause:  # broken bytes may raise any error in Pillow
         raise SceneFormatError(f"{name} is no picture that can be read: {cause}.") from cause
     if not LEAST_PX <= min(width, height) <= max(width, height) <= MAX_PX:
         raise SceneError(f"{name} has {width:,} x {height:,} pixels; each must be {LEAST_PX} to {MAX_PX:,}. Resize it.")
@@ -200,7 +199,7 @@ def check_picture(file: object, name: str = "the picture") -> tuple[int, int]:
 
 
 def _shot(key: Any) -> GivenShot:
-    """Return the shot of a key from a caller or a file. Raises: SceneError: it names nothing."""
+    """Return the shot of a key from a caller or a file. Raises: SceneError: the key is not valid."""
     if not isinstance(key, tuple) or len(key) != 3:
         raise SceneError(f"a picture's key is {checks.represented(key)}; it must be (object id, kind, view).")
     subject, kind, view = key
@@ -252,7 +251,8 @@ def _content(file: bytes | Path, name: str) -> bytes:
 
 
 def _as_shown(file: bytes, name: str) -> bytes:
-    """Return a checked file as it is sent to a model. Raises: SceneFormatError: its pixels cannot be decoded."""
+    """Return a checked file in the form that is sent to a model. Raises: SceneFormatError: its pixels cannot be
+    decoded."""
     from PIL import Image
 
     try:
@@ -260,7 +260,7 @@ def _as_shown(file: bytes, name: str) -> bytes:
             image.load()
             if image.format == "PNG" and image.mode == "RGB" and max(image.size) <= SHOWN_PX:
                 return file
-            if image.mode.startswith("I"):  # grey of 16 bits, which Pillow would clip rather than scale
+            if image.mode.startswith("I"):  # 16-bit grey, which Pillow would clip instead of scaling
                 deep = np.asarray(image)
                 image = Image.fromarray((deep >> 8).clip(0, 255).astype(np.uint8))
             if image.has_transparency_data:
@@ -269,13 +269,13 @@ def _as_shown(file: bytes, name: str) -> bytes:
             image = image.convert("RGB")
             image.thumbnail((SHOWN_PX, SHOWN_PX), Image.Resampling.BOX)
             return png(np.asarray(image))
-    except Exception as cause:  # as above
+    except Exception as cause:  # broken bytes may raise any error in Pillow
         raise SceneFormatError(f"{name} cannot be decoded: {cause}. Write or send it again.") from cause
 
 
 def _opened(file: bytes) -> Image.Image:
     kind, plugin = ("PNG", "PngImagePlugin") if file.startswith(_PNG_SIGNATURE) else ("JPEG", "JpegImagePlugin")
-    import_module(f"PIL.{plugin}")  # else Pillow imports all of its plug-ins
+    import_module(f"PIL.{plugin}")  # without this Pillow imports all of its plug-ins
     from PIL import Image
 
     return Image.open(io.BytesIO(file), formats=(kind,))

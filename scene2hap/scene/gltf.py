@@ -1,7 +1,7 @@
 """glTF and GLB files as authored trees.
 
-Nodes are identified by their number in the file, so that an object is the same on every load whatever it is called.
-Cameras, lights, skins and animations are left out: a skinned mesh stands as it was modelled.
+Nodes are identified by their number in the file, so an object stays the same on every load, even if its name changes.
+Cameras, lights, skins and animations are left out: a skinned mesh keeps the pose in which it was modelled.
 
 Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes).
 """
@@ -30,17 +30,18 @@ from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _FLOAT = 5126
-# Vertex colours above this leave a material as it is.
+# Vertex colours above this do not change a material.
 _NEARLY_WHITE = 0.999
 
 _Attribute = Callable[[str, tuple[str, ...]], NDArray[np.float64]]
-"""Values (n, columns) of an attribute of a primitive, by its name and the types that it may have."""
+"""Function from an attribute's name and its allowed types to the attribute's values (n, columns) in a primitive."""
 
 
 def read_gltf(path: Path, assets_root: Path) -> AuthoredScene:
-    """The file's default scene with its looks.
+    """Return the file's default scene with its looks.
 
-    Raises: SceneFormatError, SceneError: the file is broken, refers to what is not there or needs what nobody can read.
+    Raises: SceneFormatError, SceneError: the file is broken, has a reference to something missing, or needs an
+    extension that cannot be read.
     """
     file = GltfFile(path, assets_root)
     textures = TextureFiles(path.parent, assets_root)
@@ -50,7 +51,7 @@ def read_gltf(path: Path, assets_root: Path) -> AuthoredScene:
 
 
 class _Reader:
-    """Turns nodes into authored nodes and reads each mesh once."""
+    """Convert nodes to authored nodes. Each mesh is read once."""
 
     def __init__(self, file: GltfFile, materials: GltfMaterials) -> None:
         self._file, self._materials = file, materials
@@ -86,10 +87,10 @@ class _Reader:
         return AuthoredNode(name, _matrix(row, place), pieces, children)
 
     def _only_scales(self, row: Json, node: AuthoredNode) -> bool:
-        """Return True if a node only turns stored whole numbers into lengths.
+        """Return True if a node only converts quantised positions (stored as whole numbers) to lengths.
 
-        gltfpack moves a quantised mesh into such a node below the one that the author gave it. Were it a node like
-        others, a door below a cupboard would be another object than in the file that was packed.
+        gltfpack moves a quantised mesh into such a node, below the author's node. Without this rule a door below a
+        cupboard would be part of another object than in the file before packing.
         """
         if node.children or not node.pieces or _name(row) or row.keys() & {"matrix", "rotation", "skin"}:
             return False
@@ -97,16 +98,16 @@ class _Reader:
         return all(map(self._is_quantised, primitives)) and bool((np.diag(node.matrix) > 0).all())
 
     def _is_quantised(self, primitive: Json) -> bool:
-        """Return True if positions are whole numbers; False for a broken row, since rows of lines are not checked."""
+        """Return True if positions are whole numbers. False for a broken row, since rows of lines are not checked."""
         attributes, rows = primitive.get("attributes"), self._file.table("accessors")
         number = attributes.get("POSITION") if isinstance(attributes, dict) else None
         return isinstance(number, int) and 0 <= number < len(rows) and rows[number].get("componentType") != _FLOAT
 
     def _scaled(self, piece: Piece, matrix: Matrix) -> Piece:
-        """A piece in the frame of the node above, from which `matrix` scales and moves it; copies share it."""
+        """Return a piece in the frame of the parent node; `matrix` scales and moves it. Copies share the result."""
         key = (piece.key, matrix.tobytes())
         if key not in self._scaled_pieces:
-            # Nodes may scale one mesh in as many ways as there are nodes.
+            # A file may scale one mesh differently in each node, so the memory is bounded.
             self._file.values.spend(piece.vertices.size, "a node that scales a quantised mesh")
             with np.errstate(over="ignore", invalid="ignore"):
                 vertices = piece.vertices * np.diag(matrix)[:3] + matrix[:3, 3]
@@ -161,10 +162,10 @@ class _Reader:
     def _looks(
         self, paint: Paint | None, faces: NDArray[np.int64], n_points: int, attribute: _Attribute, is_colored: bool
     ) -> Appearance | None:
-        """The looks of a primitive; None if the file has none."""
+        """Return the looks of a primitive; None if the file has none."""
 
         def corners(name: str, types: tuple[str, ...], columns: slice) -> NDArray[np.float64] | None:
-            """Values of an attribute at each corner (m, 3, columns); None, and a word about it, if they are broken."""
+            """Return an attribute at each corner (m, 3, columns). If it is broken: None, and the reason is recorded."""
             try:
                 values = attribute(name, types)[:, columns]
                 if len(values) != n_points:
@@ -190,7 +191,7 @@ class _Reader:
 
 
 def _roots(file: GltfFile) -> list[int]:
-    """The nodes of the default scene; without one, all nodes that hang below no other."""
+    """Return the nodes of the default scene. Without a default scene: all nodes without a parent."""
     if file.table("scenes"):
         scene = file.row("scenes", file.header.get("scene", 0), "scene")
         return _numbers(scene.get("nodes", []), "scene.nodes")
@@ -199,23 +200,23 @@ def _roots(file: GltfFile) -> list[int]:
 
 
 def _triangles(order: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
-    """Faces (m, 3) of vertex numbers in the order of a list, strip or fan of triangles."""
+    """Return faces (m, 3) of vertex numbers in the order of a list, strip or fan of triangles."""
     if mode == _TRIANGLES:
         return order[: len(order) // 3 * 3].reshape(-1, 3)
     n = max(len(order) - 2, 0)
     if mode == _FAN:
         return np.stack((order[1 : n + 1], order[2 : n + 2], np.repeat(order[:1], n)), axis=1)
     faces = np.stack((order[:n], order[1 : n + 1], order[2 : n + 2]), axis=1)
-    # Every other triangle of a strip runs the other way round.
+    # Every second triangle of a strip has the opposite orientation.
     faces[1::2] = faces[1::2, [0, 2, 1]]
-    # Strips are joined by triangles that use a vertex twice.
+    # Degenerate triangles, which use a vertex twice, join strips.
     joins = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
     kept: NDArray[np.int64] = faces[~joins]
     return kept
 
 
 def _matrix(row: Json, place: str) -> Matrix:
-    """The node's transform: `matrix` by columns, or translation, rotation and scale."""
+    """Return the node's transform: `matrix` by columns, or translation, rotation and scale."""
     if "matrix" in row:
         entries = checks.vector(f"{place}.matrix", row["matrix"], "-", size=16, error=SceneFormatError)
         matrix = np.array(entries).reshape(4, 4).T

@@ -1,7 +1,7 @@
 """The arrays of a glTF file: accessors, sparse and quantised ones included.
 
-Read here rather than by trimesh (5.2), which ignores sparse values and leaves quantised positions 32767 times too
-large, each without an error.
+We do not use trimesh's reader (5.2). It ignores sparse values and leaves quantised positions 32767 times too large,
+both without an error.
 
 Source: glTF 2.0 specification, section 3.6.2; extensions KHR_mesh_quantization, EXT_meshopt_compression.
 """
@@ -21,14 +21,14 @@ _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, 
 
 
 def positions(file: GltfFile, number: object, place: str) -> NDArray[np.float64]:
-    """Vertex positions (n, 3) float64 of an accessor, in the mesh's own unit."""
+    """Return vertex positions (n, 3) float64 of an accessor, in the mesh's own unit."""
     return vectors(file, number, ("VEC3",), f"{place}: positions")
 
 
 def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -> NDArray[np.float64]:
-    """Values (n, columns) float64 of an accessor of one of these types; `what` is their name in messages."""
+    """Return values (n, columns) float64 of an accessor of one of these types. Messages call them `what`."""
     row = file.row("accessors", number, what)
-    # Primitives share accessors; each is read once.
+    # Primitives share accessors, so each is read once.
     if id(row) not in file.vectors:
         values = _values(file, number, what)[0]
         file.vectors[id(row)] = unpacked(values) if row.get("normalized") is True else values.astype(np.float64)
@@ -38,11 +38,11 @@ def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -
 
 
 def unpacked(values: NDArray[np.generic]) -> NDArray[np.float64]:
-    """Convert whole numbers to fractions of the largest of their type; return other numbers unchanged."""
+    """Divide whole numbers by the largest number of their type. Other numbers are unchanged."""
     result = values.astype(np.float64)
     if values.dtype.kind not in "iu":
         return result
-    # A signed type has one value below -1, which counts as -1.
+    # A signed type has one value below -1; glTF reads it as -1.
     return np.maximum(result / np.iinfo(np.dtype(values.dtype.str)).max, -1.0)
 
 
@@ -55,7 +55,7 @@ def indices(file: GltfFile, number: object, place: str) -> NDArray[np.int64]:
 
 
 def _values(file: GltfFile, number: object, place: str) -> tuple[NDArray[np.generic], Json]:
-    """The stored values (count, columns) of an accessor with its sparse ones filled in, and its row."""
+    """Return the stored values (count, columns) of an accessor with its sparse values filled in, and its row."""
     row = file.row("accessors", number, place)
     place = f"{place}, accessors[{number}]"
     kind = row.get("type")
@@ -65,7 +65,7 @@ def _values(file: GltfFile, number: object, place: str) -> tuple[NDArray[np.gene
     count = natural(row.get("count"), f"{place}.count", at_least=1)
     limits.at_most(f"{place}.count", count, "MAX_TRIANGLES")
     dtype = _dtype(row, place)
-    # Stored values are a view and cost nothing; zeros are counted against the budget before they are allocated.
+    # Stored values are a view and need no memory. Zeros are counted against the budget before they are allocated.
     stored = _strided(file, row, count, columns, dtype, place) if "bufferView" in row else None
     file.values.spend(count * columns, place)
     values = np.zeros((count, columns), dtype) if stored is None else stored
@@ -99,7 +99,7 @@ def _dtype(row: Json, place: str) -> np.dtype[np.generic]:
 def _strided(
     file: GltfFile, row: Json, count: int, columns: int, dtype: np.dtype[np.generic], place: str
 ) -> NDArray[np.generic]:
-    """Values (count, columns) that `row` (an accessor, or half of a sparse one) places in a buffer view."""
+    """Return the values (count, columns) of `row` (an accessor, or half of a sparse one) in its buffer view."""
     data, stride = view(file, row.get("bufferView"), place)
     item = columns * dtype.itemsize
     stride = stride or item
@@ -111,12 +111,12 @@ def _strided(
 
 
 def view(file: GltfFile, number: object, place: str) -> tuple[memoryview, int]:
-    """The bytes of a buffer view, unpacked if it is compressed, and its stride (0 for tightly packed)."""
+    """Return the bytes of a buffer view, unpacked if it is compressed, and its stride (0 for tightly packed)."""
     row = file.row("bufferViews", number, place)
     place = f"bufferViews[{number}]"
     length = natural(row.get("byteLength"), f"{place}.byteLength")
     if isinstance(number, int) and (compressed := meshopt_row(row)) is not None:
-        # The view's own buffer is for readers without a decoder, and may have no bytes.
+        # The view's own buffer is for readers without a decoder, and may be empty.
         data, start = decoded_view(file, number, compressed[1], f"{place}.extensions.{compressed[0]}"), 0
     else:
         file.row("buffers", row.get("buffer"), place)

@@ -1,7 +1,7 @@
 """The container of a glTF 2.0 file: chunks of a GLB, the JSON header, and the bytes of its buffers.
 
-The file is untrusted. Every length is compared with the bytes present, and a buffer outside the file is read only from
-inside `assets_root`.
+The file is untrusted. Every length is compared with the number of bytes present. A buffer outside the file is read only
+from inside `assets_root`.
 
 Source: glTF 2.0 specification (Khronos, 2.0.1), sections 3.6 and 4.4.
 """
@@ -29,7 +29,7 @@ _GLB_MAGIC = b"glTF"
 _JSON_CHUNK = 0x4E4F534A
 _BIN_CHUNK = 0x004E4942
 _TABLES = ("accessors", "buffers", "bufferViews", "materials", "meshes", "nodes", "scenes")
-# Extensions that do not move a vertex, by the start of their names; geometry is read correctly without them.
+# Extensions that do not change geometry, by the start of their names.
 _HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp", "MSFT_texture_")
 _UNDERSTOOD = (
     "KHR_draco_mesh_compression",
@@ -41,7 +41,7 @@ _UNDERSTOOD = (
 
 
 class GltfFile:
-    """A header whose tables are lists of objects, and buffers that are read on first use."""
+    """The header of a glTF file, whose tables are lists of objects, and its buffers, read at the first use."""
 
     def __init__(self, path: Path, assets_root: Path) -> None:
         self._path, self._assets_root = path, assets_root
@@ -59,12 +59,12 @@ class GltfFile:
         self.image_bytes = limits.Budget("the bytes of its images", 16 << 20, 4.0, stored=stored)
 
     def table(self, name: str) -> list[Json]:
-        """One of the header's tables; empty if the file has none."""
+        """Return one of the header's tables; empty if the file has none."""
         rows: list[Json] = self.header[name]
         return rows
 
     def row(self, name: str, number: object, place: str) -> Json:
-        """Row `number` of a table.
+        """Return row `number` of a table.
 
         Raises: SceneFormatError: there is no such row; the message names `place`, which refers to it.
         """
@@ -74,10 +74,10 @@ class GltfFile:
         return rows[number]
 
     def buffer(self, number: int) -> bytes:
-        """The bytes of a buffer.
+        """Return the bytes of a buffer.
 
-        Raises: SceneFormatError: fewer bytes than the header promises. SceneError: its file is missing, too large, or
-        lies outside the assets root.
+        Raises: SceneFormatError: it has fewer bytes than the header says. SceneError: its file is missing, too large,
+        or outside the assets root.
         """
         if number not in self._buffers:
             place = f"buffers[{number}]"
@@ -111,7 +111,7 @@ class GltfFile:
 
 
 def data_uri(uri: str, place: str) -> bytes:
-    """The bytes in a data: URI.
+    """Return the bytes in a data: URI.
 
     Raises: SceneFormatError: it is not base64.
     """
@@ -125,9 +125,9 @@ def data_uri(uri: str, place: str) -> bytes:
 
 
 def natural(value: object, place: str, *, at_least: int = 0) -> int:
-    """A whole number from a header.
+    """Return a whole number from a header.
 
-    Raises: SceneFormatError: it is anything else.
+    Raises: SceneFormatError: the value is no whole number, or less than `at_least`.
     """
     # Some exporters write 12.0 for 12.
     if isinstance(value, float) and value.is_integer():
@@ -138,7 +138,7 @@ def natural(value: object, place: str, *, at_least: int = 0) -> int:
 
 
 def _split(name: str, data: bytes) -> tuple[bytes, bytes | None]:
-    """The JSON text and, of a GLB, the binary chunk."""
+    """Return the JSON text and, for a GLB, the binary chunk."""
     if data[:4] != _GLB_MAGIC:
         if name.lower().endswith(".glb"):
             raise SceneFormatError(f"{name!r} is no GLB: it starts with {data[:4]!r}, not {_GLB_MAGIC!r}.")
@@ -165,7 +165,7 @@ def _split(name: str, data: bytes) -> tuple[bytes, bytes | None]:
 
 
 def _header(text: bytes) -> Json:
-    """The header, with every table that geometry needs present and made of objects."""
+    """Parse the header and check it. Tables that geometry needs are added if missing; their rows must be objects."""
     try:
         header = read_json(text.decode("utf-8-sig"))
     except (ValueError, RecursionError) as cause:

@@ -1,8 +1,8 @@
 """Draco-compressed primitives of glTF.
 
-Read here rather than by trimesh (5.2), which turns data that it cannot decode into zeros without an error.
+We do not use trimesh's reader (5.2), which turns data that it cannot decode into zeros without an error.
 
-Source: glTF extension KHR_draco_mesh_compression, whose bitstreams are of version 2.2; Draco bitstream specification,
+Source: glTF extension KHR_draco_mesh_compression, whose bitstreams have version 2.2; Draco bitstream specification,
 sections 4 (header, metadata) and 5 (connectivity).
 """
 
@@ -32,9 +32,9 @@ class DracoMesh:
     _attributes: dict[int, NDArray[Any]]
 
     def vectors(self, number: object, what: str) -> NDArray[np.float64]:
-        """Values (n, columns) of an attribute, whole numbers as parts of the largest.
+        """Return the values (n, columns) of an attribute. Whole numbers are divided by the largest of their type.
 
-        Raises: SceneFormatError: there is no attribute of that number; the message names `what` wanted it.
+        Raises: SceneFormatError: there is no attribute of that number; the message begins with `what`.
         """
         if not isinstance(number, int) or number not in self._attributes:
             raise SceneFormatError(
@@ -44,16 +44,16 @@ class DracoMesh:
 
 
 def draco(file: GltfFile, extension: Json, place: str) -> DracoMesh:
-    """The primitive that `extension` refers to; those that share a buffer view share what is decoded.
+    """Return the primitive that `extension` refers to. Primitives that share a buffer view share the decoded mesh.
 
-    Raises: MissingExtra: DracoPy is not installed. SceneFormatError: the data is broken. SceneError: it would unpack
-    to too much.
+    Raises: MissingExtra: DracoPy is not installed. SceneFormatError: the data is broken. SceneError: it would unpack to
+    too many triangles.
     """
     number = extension.get("bufferView")
     file.row("bufferViews", number, place)
     if number not in file.unpacked:
         mesh = file.unpacked[number] = _decoded(file, number, place)
-        # Drawn once, it was within the budget of what is packed; only drawing it again is held against the other.
+        # The first use was checked against the budget of packed triangles. Only further uses count against `triangles`.
         file.triangles.stored += 2 * len(mesh.faces)
     known: DracoMesh = file.unpacked[number]
     return known
@@ -76,16 +76,17 @@ def _decoded(file: GltfFile, number: object, place: str) -> DracoMesh:
         decoded = DracoPy.decode(data)
         points = np.asarray(decoded.points, dtype=np.float64).reshape(-1, 3)
         faces = np.asarray(decoded.faces, dtype=np.int64).reshape(-1, 3)
-        # Releases before 1.5 have positions alone.
+        # Releases before 1.5 have positions only.
         attributes = {int(row["unique_id"]): np.asarray(row["data"]) for row in getattr(decoded, "attributes", ())}
-    # DracoPy raises its own classes, ValueError and plain Exception for broken data.
+    # For broken data DracoPy raises its own classes, ValueError and plain Exception.
     except Exception as cause:
         raise SceneFormatError(f"{place}: its Draco data cannot be decoded: {cause}.") from cause
     return DracoMesh(points, faces, attributes)
 
 
 def _promised(data: bytes) -> tuple[int, int]:
-    """Numbers of triangles and points in the header of Draco data, which the decoder allocates before it reads on.
+    """Return the numbers of triangles and points in the header of Draco data. The decoder allocates them before it
+    reads on.
 
     Raises: ValueError, IndexError: it is no header of a mesh.
     """
@@ -105,7 +106,7 @@ def _promised(data: bytes) -> tuple[int, int]:
 
 
 def _number(data: bytes, at: int) -> tuple[int, int]:
-    """A whole number of seven bits a byte, the lowest first, and where it ends."""
+    """Return a whole number stored with seven bits a byte, the lowest first, and the position after it."""
     value = 0
     for i in range(10):
         value |= (data[at + i] & 0x7F) << (7 * i)

@@ -1,6 +1,6 @@
-"""Materials of a glTF file: base colour, or the diffuse colour of older files, and the texture that it multiplies.
+"""Materials of a glTF file: base colour (diffuse colour in older files) and its texture. Both multiply.
 
-A broken material loses its texture; the scene is read all the same. Samplers are not read: textures repeat.
+A broken material loses its texture, but the scene is still read. Samplers are not read: textures repeat.
 
 Source: glTF 2.0 specification, section 3.9; extensions KHR_materials_pbrSpecularGlossiness, KHR_texture_transform,
 EXT_texture_webp.
@@ -23,7 +23,7 @@ from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.textures import EncodedTexture
 
 Affine = NDArray[np.float64]
-"""(2, 3): texture coordinates (u, v, 1) of the mesh to those of the image."""
+"""(2, 3) matrix from texture coordinates (u, v, 1) of the mesh to those of the image."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,14 +37,14 @@ class Paint:
 
 @dataclass(eq=False)
 class GltfMaterials:
-    """Reads each material of a file once."""
+    """Reader of a file's materials. It reads each material once."""
 
     file: GltfFile
     textures: TextureFiles
     _paints: dict[int, Paint] = field(default_factory=dict)
 
     def paint(self, number: int, row: Json) -> Paint:
-        """Row `number` of the materials."""
+        """Return the paint of row `number` of the materials."""
         if number not in self._paints:
             try:
                 self._paints[number] = self._paint(row, f"materials[{number}]")
@@ -62,7 +62,7 @@ class GltfMaterials:
         r, g, b, a = checks.vector(
             f"the colour of {place}", [1.0] * 4 if color is None else color, "-", size=4, error=SceneFormatError
         )
-        # Opacity counts only where the material says so; images often keep other things there.
+        # Opacity is used only if the material declares it. Images often store other data in that channel.
         keeps_alpha = row.get("alphaMode") in ("MASK", "BLEND")
         r, g, b = srgb((r, g, b)).tolist()
         rgba = (r, g, b, min(max(a, 0.0), 1.0) if keeps_alpha else 1.0)
@@ -102,7 +102,7 @@ class GltfMaterials:
         return bytes(data)
 
     def _row(self, table: str, number: object, place: str) -> Json:
-        """Row `number` of a table that a scene may well be read without."""
+        """Return row `number` of a table that the container does not check, since a scene can be read without it."""
         rows = self.file.header.get(table)
         n = len(rows) if isinstance(rows, list) else 0
         if not isinstance(rows, list) or not isinstance(number, int) or not 0 <= number < n:
@@ -111,7 +111,7 @@ class GltfMaterials:
 
 
 def _affine(row: Json, place: str) -> Affine:
-    """Scale, then turn counter-clockwise as seen on the image (whose v runs down), then move."""
+    """Matrix that scales, then rotates counter-clockwise as seen on the image (v runs down), then moves."""
     (angle,) = checks.vector(f"{place}.rotation", [row.get("rotation", 0.0)], "rad", size=1, error=SceneFormatError)
     offset = checks.vector(f"{place}.offset", row.get("offset", (0.0, 0.0)), "-", size=2, error=SceneFormatError)
     scale = checks.vector(f"{place}.scale", row.get("scale", (1.0, 1.0)), "-", size=2, error=SceneFormatError)

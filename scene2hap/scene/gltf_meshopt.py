@@ -13,12 +13,12 @@ from scene2hap.scene.gltf_container import GltfFile, Json, natural
 
 MESHOPT = ("KHR_meshopt_compression", "EXT_meshopt_compression")
 _INDEX_BYTES = (2, 4)
-# Decoded bytes that count as one stored byte, where accessors are bounded by the stored bytes (assumed).
+# One stored byte for this many decoded bytes, in the budgets of accessors, which depend on the stored bytes (assumed).
 _STORED_PER_DECODED = 2
 
 
 def meshopt_row(view: Json) -> tuple[str, Json] | None:
-    """The extension of a buffer view with its compression, and its name; None if it is not compressed."""
+    """Return the name of a buffer view's compression extension and its row; None if the view is not compressed."""
     extensions = view.get("extensions")
     if isinstance(extensions, dict):
         for name in MESHOPT:
@@ -28,14 +28,15 @@ def meshopt_row(view: Json) -> tuple[str, Json] | None:
 
 
 def decoded_view(file: GltfFile, number: int, row: Json, place: str) -> memoryview:
-    """The bytes of the buffer view of that number, which the extension `row` describes; decoded once.
+    """Return the bytes of buffer view `number`, described by the extension `row`. Each view is decoded once.
 
-    Raises: SceneFormatError: the data is broken. SceneError: it would unpack to too much.
+    Raises: SceneFormatError: the data is broken. SceneError: it would unpack to too many bytes.
     """
     key = (MESHOPT, number)
     if key not in file.unpacked:
         data = file.unpacked[key] = _decoded(file, row, place)
-        # Accessors are bounded by the stored bytes. The decoded view counts as stored, since its own budget bounds it.
+        # Budgets of accessors depend on the stored bytes. The decoded view counts as stored, since its own budget
+        # bounds it.
         for budget in (file.values, file.triangles):
             budget.stored += len(data) // _STORED_PER_DECODED
     known: memoryview = file.unpacked[key]

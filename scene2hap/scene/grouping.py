@@ -1,20 +1,20 @@
 """Grouping of an authored tree's nodes into objects that a user would point at.
 
-Authors do not mark objects. Exporters split one mesh by material into several leaves, wrap things in groups and put
-their own nodes on top. The rule "authored" undoes this:
+Authors do not mark objects. Exporters split one mesh by material into several leaves, put objects into groups and add
+their own nodes above. The rule "authored" undoes this:
 
-a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it; a
-   child that has children of its own is a thing in its own right.
-b. A node without a mesh whose leaf children are named as its pieces (their names begin with its name: `Cooktop` with
-   `Cooktop_Burner_mat`, or they have none) is one object made of these pieces. What else hangs below it follows (a) to
-   (d) for itself: the knobs `Controller` below `Cooktop`.
-c. A node without a mesh that holds nothing but one object, directly or through others like it, gives that object its
-   name and place (`washing_machine` over `washer(Clone)`); the outermost such name wins. Names that exporters give to
+a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
+   child that has children is an object by itself.
+b. A node without a mesh is one object made of its leaf children if these have no names or names that begin with its
+   own: `Cooktop` with `Cooktop_Burner_mat`. Rules (a) to (d) apply to all other children: the knobs `Controller` below
+   `Cooktop`.
+c. A node without a mesh may hold only one object, directly or through other such nodes. It gives that object its name
+   and place (`washing_machine` over `washer(Clone)`); the outermost such name is used. Names that exporters give to
    their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never taken.
-d. Every other node without a mesh is a container, and is looked through.
-e. What (a) or (b) would make one object is several where it is a collection of items that stand apart
-   (`scene.collection`): a pot, two cups and their saucers, but not a table with its legs.
-f. A node that the file itself calls one object (`AuthoredNode.is_object`) is one, with all below it.
+d. Every other node without a mesh is a container; its children are grouped one by one.
+e. An object by (a) or (b) is split if it is a collection of separate items (`scene.collection`): a pot, two cups and
+   their saucers, but not a table with its legs.
+f. A node that the file itself declares to be one object (`AuthoredNode.is_object`) is one, with all nodes below it.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]
 """The rule by which nodes become objects.
 
 "authored": the rule above. "leaf": every node with a mesh is an object. An int from 1: every node at that depth below
-the scene is one object with all that hangs below it (the scene's own nodes have depth 1); meshes above stand alone. A
+the scene is one object with all nodes below it; the scene's own nodes have depth 1, and each mesh above is an object. A
 mapping from a node's name to an object's name: that node and all below it belong to that object, and nodes mapped to
 one name make one object; the rest of the scene follows "authored".
 """
@@ -46,7 +46,7 @@ _EXPORTER_NODE = re.compile(
     r"|.*\.(fbx|obj|dae|3ds|gltf|glb|blend|max|stl|ply|skp|c4d|usdz?)(\..*)?)",
     re.IGNORECASE,
 )
-# Words for what holds objects: a group of that name is never one thing.
+# Words for containers of objects: a group of that name is never one object.
 _PLACE = re.compile(
     r"(level|map|environment|building|house|home|flat|apartment|room|floorplan|furniture|props"
     r"|(living|bed|bath|dining|class)[ _-]?room|kitchen|office|hall|garage|workshop)[ _-]?\d*",
@@ -56,9 +56,10 @@ _PLACE = re.compile(
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """The pieces of one object: `frame` is the world transform of the node that names it, each part its own.
+    """The pieces of one object, each with its own world transform.
 
-    `mass_kg` is what the file says that it weighs [kg], None if it says nothing.
+    `frame` is the world transform of the node that names the object. `mass_kg` is the object's mass in the file [kg],
+    None if the file has none.
     """
 
     name: str
@@ -68,7 +69,7 @@ class Group:
 
 
 def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored") -> list[Group]:
-    """The objects of a scene in file order.
+    """Return the objects of a scene in file order.
 
     Raises: SceneError: `how` is none of the forms of `Grouping`, or names a node that the scene does not have.
     """
@@ -88,7 +89,7 @@ def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored") -> 
 
 
 def unique_ids(names: Sequence[str]) -> list[str]:
-    """An id for each name: the name itself where it is the first of its kind, else `name#2`, `name#3`, ..."""
+    """Return an id for each name: the name itself at its first occurrence, then `name#2`, `name#3`, ..."""
     given = [name.strip() or "object" for name in names]
     written = set(given)
     used: Counter[str] = Counter()
@@ -98,7 +99,7 @@ def unique_ids(names: Sequence[str]) -> list[str]:
         candidate = name
         while used[name] > 1:
             candidate = f"{name}#{used[name]}"
-            # A generated id must not push out a name that an author wrote in full.
+            # A generated id must differ from every name that an author wrote.
             if candidate not in written:
                 break
             used[name] += 1
@@ -111,7 +112,7 @@ def unique_ids(names: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class _Subtree:
-    """The objects at and below a node. `has_head`: the first of them is the node itself, under whatever name."""
+    """The objects at and below a node. `has_head`: the first object is the node itself, possibly under another name."""
 
     groups: list[Group]
     has_head: bool
@@ -158,7 +159,7 @@ def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
 
 
 def _continues(name: str, start: str) -> bool:
-    """Return True if `name` is `start` and more: `Table_mat_0`, `Table.001`, `tableTop`, not `Tablet` after `Table`."""
+    """Return True if `name` continues `start`: `Table_mat_0`, `Table.001`, `tableTop`, not `Tablet` after `Table`."""
     return name.startswith(start) and not name[len(start) :][:1].islower()
 
 
@@ -206,7 +207,7 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
     objects: dict[str, Group] = {}
 
     def take(node: AuthoredNode, above: Matrix, owner: str | None) -> AuthoredNode:
-        """Give what is mapped at and below `node` to its objects; the node that is left."""
+        """Move the mapped pieces at and below `node` to their objects. Returns the node without these pieces."""
         frame = above @ node.matrix
         owner = names.get(node.name, owner)
         pieces = node.pieces

@@ -1,22 +1,22 @@
 """Habitat scenes (`*.scene_instance.json`: HSSD, ReplicaCAD, conversions of AI2-THOR) as authored trees.
 
-1. Every row of `object_instances` is one object: the whole model of its template, with all its nodes. So is every row
-   of `articulated_object_instances`: all links of its URDF, with their joints at 0. Y is up.
-2. The nodes of the stage (walls, floors) are grouped as those of any file.
-3. An object stands in its model's own frame. With `translation_origin` "asset_local", of the row or else of the scene,
-   `translation` is where the model's origin is; else ("COM", or nothing) it is where its centre of mass is: `COM` of
-   its configuration times its scale, or else the middle of its box. As in Habitat, that box is joined from the boxes of
-   its nodes, each turned by its node's transform; where nodes are turned it is larger than the box of their vertices.
-   An articulated object is placed by the origin of its URDF.
-4. Scale is that of the configuration times `uniform_scale` and `non_uniform_scale`. `mass` of a configuration counts
-   times the product of this scale, unless `apply_scale_to_mass` is false, and times `mass_scale`. Without `mass`, and
-   for the one mass that `default_attributes` give to all, nobody knows the mass. That of an articulated object is the
-   sum of its links', if all that are drawn have one.
-5. Left out, with a warning: shapes without a file, which Habitat makes itself. Left out in silence: rows whose
-   `is_instance_visible` is false. A translation or rotation of the stage is not applied, as in Habitat, and warned of;
-   so are joints that do not begin at 0.
-6. An object is called as `scene2hap.scene.habitat_names` says, else as its template. The model of a template is read
-   once.
+1. Every row of `object_instances` is one object: the whole model of its template, with all its nodes. Every row of
+   `articulated_object_instances` is one object too: all links of its URDF, with their joints at 0. Y is up.
+2. The nodes of the stage (walls, floors) are grouped like those of any file.
+3. An object has the frame of its model. `translation_origin`, of the row or else of the scene, is "asset_local", "COM"
+   or missing. With "asset_local", `translation` is the position of the model's origin. Otherwise it is the position of
+   the centre of mass: `COM` of the configuration times its scale, or else the middle of the model's box. As in Habitat,
+   that box joins the boxes of the model's nodes, each rotated by its node's transform. With rotated nodes it is larger
+   than the box of their vertices. An articulated object is placed by the origin of its URDF.
+4. Scale is that of the configuration times `uniform_scale` and `non_uniform_scale`. `mass` of a configuration is
+   multiplied by the product of this scale, unless `apply_scale_to_mass` is false, and by `mass_scale`. The mass is
+   unknown without `mass`; a mass in `default_attributes`, which all objects share, does not count. The mass of an
+   articulated object is the sum over its links, if all links with geometry have one.
+5. Left out with a warning: shapes without a file, which Habitat generates. Left out without a warning: rows whose
+   `is_instance_visible` is false. As in Habitat, a translation or rotation of the stage is not applied; it causes a
+   warning, and so do joints that do not begin at 0.
+6. The name of an object comes from `scene2hap.scene.habitat_names`, else from its template. The model of a template is
+   read once.
 
 Sources: "Using JSON Files to configure Attributes" (https://aihabitat.org/docs/habitat-sim/attributesJSON.html), and in
 habitat-sim's src/esp: metadata/managers/SceneInstanceAttributesManager.cpp (fields; `rotation` begins with w),
@@ -47,7 +47,7 @@ from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
 
 _Box = NDArray[np.float64]
-"""Lowest and highest corner (2, 3)."""
+"""Lowest and highest corner (2, 3) of a box."""
 
 _INSTANCES: dict[Kind, str] = {
     "objects": "object_instances",
@@ -56,7 +56,7 @@ _INSTANCES: dict[Kind, str] = {
 _NO_STAGE = ("", "none")
 _ORIGINS = {"com": True, "asset_local": False, "default": None, "unknown": None}
 _MOST_NAMED = 5
-# Files of an articulated object that are counted (assumed: ten times those of a kitchen).
+# Most files counted for one articulated object (assumed: ten times those of a kitchen).
 _MOST_PARTS = 1_000
 _LFS = b"version https://git-lfs"
 
@@ -64,10 +64,11 @@ _LFS = b"version https://git-lfs"
 def read_habitat(
     path: Path, assets_root: Path | None, names: Names | None, read_model: Callable[[Path, Path], AuthoredScene]
 ) -> AuthoredScene:
-    """The scene with its stage and objects; `read_model` reads a model file, and files beside it inside a root.
+    """Return the scene with its stage and objects. `read_model(file, root)` reads a model file, and files beside it in
+    a root.
 
     Parameters: assets_root : the dataset's folder; None means the folder of the dataset file above the scene, else the
-    scene's own. names : of objects by template, or a table of them.
+        scene's own. names : object names by template, or the path of a table of them.
     Raises: SceneFormatError, SceneError: the scene, a configuration or a model is broken, missing, or outside the root.
     Warns: SceneWarning: something is left out.
     """
@@ -75,14 +76,14 @@ def read_habitat(
     dataset = Dataset(path, assets_root)
     dataset.count(path)
     reader = _Reader(path.name, document, dataset, ObjectNames(names, dataset), read_model)
-    with np.errstate(all="ignore"):  # what overflows is refused where meshes are placed
+    with np.errstate(all="ignore"):  # overflows are refused when meshes are placed
         roots = [*reader.stage(), *reader.objects()]
     reader.warn()
     return AuthoredScene(tuple(roots), "y", left_out=tuple(reader.left_out))
 
 
 def referenced_files(path: Path, assets_root: Path | None) -> list[Path]:
-    """The files that a scene is made of: itself, configurations, tables and models.
+    """Return the files of a scene: itself, configurations, tables and models.
 
     Raises: SceneFormatError, SceneError: as `read_habitat`.
     """
@@ -100,7 +101,7 @@ def referenced_files(path: Path, assets_root: Path | None) -> list[Path]:
 
 @dataclass(frozen=True, eq=False)
 class _Model:
-    """The nodes of a model file, and how many triangles and nodes these are."""
+    """The nodes of a model file, and the numbers of its triangles and nodes."""
 
     roots: tuple[AuthoredNode, ...]
     n_triangles: int
@@ -108,7 +109,7 @@ class _Model:
 
 
 class _Reader:
-    """Places the models of a scene, and reads each once."""
+    """Reader that places the models of a scene. It reads each model file once."""
 
     def __init__(
         self,
@@ -123,14 +124,14 @@ class _Reader:
         self._models: dict[Path, _Model] = {}
         self._middles: dict[Template, NDArray[np.float64]] = {}
         self._n_triangles = self._n_nodes = 0
-        # Each model may hold some triangles for which it has no bytes; thousands of small files may not.
+        # Each model may have some triangles for which the file has no bytes. Thousands of small files may not.
         self._stored = limits.Budget("the triangles of its models", 1_000_000, 1.0)
         self._primitives: Counter[str] = Counter()
         self._bent: Counter[str] = Counter()
         self.left_out: dict[str, None] = {}
 
     def stage(self) -> list[AuthoredNode]:
-        """The stage's node, if there is a stage."""
+        """Return the stage's node, if there is a stage."""
         found = []
         for kind, place, row in _rows(self._name, self._document):
             template = _template(self._dataset, kind, place, row) if kind == "stages" else None
@@ -139,14 +140,14 @@ class _Reader:
             if np.any(_translation(row, place)) or not np.allclose(_rotation(row, place), np.eye(3)):
                 warn_of(f"{place} is moved or turned, which Habitat does not apply to stages; neither is it here.")
             model = self._drawn(template.model, place)
-            # Without a name, so that the stage's own nodes keep theirs.
+            # The node has no name, so that the stage's own nodes keep their names.
             found.append(
                 AuthoredNode("", template.frame * _column(_scale(row, place) * template.scale), (), model.roots)
             )
         return found
 
     def objects(self) -> list[AuthoredNode]:
-        """The nodes of all object instances."""
+        """Return the nodes of all object instances."""
         is_com = _is_com(self._document, self._name, None) is not False
         found = []
         for kind, place, row in _rows(self._name, self._document):
@@ -166,7 +167,7 @@ class _Reader:
         scale = _scale(row, place) * template.scale
         rotation = _rotation(row, place)
         origin = _translation(row, place)
-        # Habitat places articulated objects by their origin, whatever a row says.
+        # Habitat places articulated objects by their origin and ignores `translation_origin`.
         if file.suffix != ".urdf" and _is_com(row, place, is_com):
             middle = self._middle(template, model) if template.com is None else template.com
             origin = origin - rotation @ (scale * middle)
@@ -185,7 +186,7 @@ class _Reader:
         return self._middles[template]
 
     def _drawn(self, file: Path, place: str) -> _Model:
-        """The model in a file, counted once more."""
+        """Return the model in a file, and count its triangles and nodes once more."""
         if file not in self._models:
             self._models[file] = self._read(file, place)
         model = self._models[file]
@@ -204,7 +205,7 @@ class _Reader:
         except SceneError as error:
             hint = " It is a pointer of Git LFS; run `git lfs pull`." if _is_pointer(file) else ""
             raise type(error)(f"{place}: its model {file.name!r} cannot be read: {error}{hint}") from error
-        # The same pictures are wanted by many models; each sentence names the model that misses them.
+        # Many models may use one picture. Each sentence names the model that lacks the picture.
         for sentence in authored.left_out:
             self.left_out[f"{file.name}: {sentence}"] = None
         number, seen = len(self._models), dict[int, Piece]()
@@ -216,7 +217,7 @@ class _Reader:
         return _Model(roots, n_triangles, len(nodes))
 
     def warn(self) -> None:
-        """Tell what is left out."""
+        """Warn of everything that is left out."""
         if self._bent:
             warn_of(
                 f"{self._name!r} has {self._bent.total()} articulated objects that begin with joints turned "
@@ -245,7 +246,7 @@ def _document(path: Path) -> Json:
 
 
 def _rows(name: str, document: Json) -> list[tuple[Kind, str, Json]]:
-    """The stage's row and those of objects, with the places where they are."""
+    """Return the stage's row and those of objects, each with its kind and its place for messages."""
     stage = document.get("stage_instance")
     found: list[tuple[Kind, str, object]] = [] if stage is None else [("stages", f"{name}: stage_instance", stage)]
     for kind, key in _INSTANCES.items():
@@ -257,7 +258,7 @@ def _rows(name: str, document: Json) -> list[tuple[Kind, str, Json]]:
 
 
 def _template(dataset: Dataset, kind: Kind, place: str, row: Json) -> Template | None:
-    """The template of a row; None for a stage that is none."""
+    """Return the template of a row; None if the row says that there is no stage."""
     name = row.get("template_name", "" if kind == "stages" else None)
     if kind == "stages" and isinstance(name, str) and name.lower() in _NO_STAGE:
         return None
@@ -279,7 +280,7 @@ def _translation(row: Json, place: str) -> NDArray[np.float64]:
 
 
 def _rotation(row: Json, place: str) -> NDArray[np.float64]:
-    """The rotation (3, 3) of a row, whose quaternion begins with w."""
+    """Return the rotation (3, 3) of a row, whose quaternion begins with w."""
     given = row.get("rotation", (1.0, 0.0, 0.0, 0.0))
     w, x, y, z = checks.vector(f"{place}.rotation", given, "-", size=4, error=SceneFormatError)
     try:
@@ -289,7 +290,7 @@ def _rotation(row: Json, place: str) -> NDArray[np.float64]:
 
 
 def _scale(row: Json, place: str) -> NDArray[np.float64]:
-    """The scale (3,) that a row gives on top of its template's."""
+    """Return the scale (3,) of a row, to be multiplied by its template's."""
     given = row.get("uniform_scale", 1.0)
     uniform = checks.number(f"{place}.uniform_scale", given, "-", above=0.0, error=SceneFormatError)
     given = row.get("non_uniform_scale", (1.0, 1.0, 1.0))
@@ -298,12 +299,12 @@ def _scale(row: Json, place: str) -> NDArray[np.float64]:
 
 
 def _column(scale: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Factors of the rows of a transform (4, 1)."""
+    """Return a scale (3,) as factors of the rows of a transform (4, 1)."""
     return np.append(scale, 1.0)[:, None]
 
 
 def _is_com(row: Json, place: str, default: bool | None) -> bool | None:
-    """Return True if a translation is that of the centre of mass; `default` if the row does not say."""
+    """Return True if a translation places the centre of mass; `default` if the row does not say."""
     given = row.get("translation_origin", "default")
     known = _ORIGINS.get(given.lower(), "") if isinstance(given, str) else ""
     if isinstance(known, str):
@@ -318,7 +319,7 @@ def _flag(row: Json, key: str, place: str) -> bool:
 
 
 def _mass(row: Json, place: str, mass_kg: float | None, volume: float) -> float | None:
-    """Mass of an instance of a template of that mass [kg], scaled `volume` times; None if unknown."""
+    """Return the mass [kg] of an instance, scaled `volume` times, from its template's mass; None if unknown."""
     given = row.get("mass_scale", 1.0)
     factor = checks.number(f"{place}.mass_scale", given, "-", at_least=0.0, error=SceneFormatError)
     if _flag(row, "apply_scale_to_mass", place):
@@ -343,7 +344,7 @@ def _keyed(node: AuthoredNode, number: int, seen: dict[int, Piece]) -> AuthoredN
 
 
 def _node_box(node: AuthoredNode) -> _Box | None:
-    """The box of a node and all below it, in its own frame."""
+    """Return the box of a node and all nodes below it, in the node's own frame."""
     boxes: list[_Box | None] = [
         np.array([piece.vertices.min(axis=0), piece.vertices.max(axis=0)]) for piece in node.pieces
     ]
@@ -351,7 +352,7 @@ def _node_box(node: AuthoredNode) -> _Box | None:
 
 
 def _turned_box(box: _Box | None, matrix: Matrix) -> _Box | None:
-    """The box around a box's corners under a transform."""
+    """Return the box around the corners of a transformed box."""
     if box is None:
         return None
     corners = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
@@ -367,7 +368,7 @@ def _joined_box(boxes: list[_Box | None]) -> _Box | None:
 
 
 def _with_parts(file: Path) -> list[Path]:
-    """A model file with the buffer beside a .gltf, and with the files below the folder of a .urdf."""
+    """Return a model file and its parts: the buffer beside a .gltf, all files below the folder of a .urdf."""
     if file.suffix == ".urdf":
         return sorted(one for one in islice(file.parent.rglob("*"), _MOST_PARTS) if one.is_file())
     return [
@@ -376,13 +377,13 @@ def _with_parts(file: Path) -> list[Path]:
 
 
 def _links_kg(model: _Model) -> float | None:
-    """The mass of a model whose roots are links [kg]; None if one that is drawn has none."""
+    """Return the mass of a model whose roots are links [kg]; None if any link with geometry has none."""
     masses = [root.mass_kg for root in model.roots if root.with_geometry() is not None]
     return None if None in masses else sum(mass for mass in masses if mass is not None) or None
 
 
 def _is_bent(pose: object) -> bool:
-    """Return True if any joint, in a list or in a table by name, does not begin at 0."""
+    """Return True if any initial joint position, in a list or in a table by name, is not 0."""
     values = list(pose.values()) if isinstance(pose, dict) else pose
     return isinstance(values, list) and any(value not in (0, None) for value in values)
 

@@ -1,18 +1,18 @@
-"""Habitat datasets: the model file of a template's name, and the scale and rotation of that model.
+"""Habitat datasets: from a template's name to its model file, with the scale and rotation of that model.
 
-A scene names templates, such as `frl_apartment_chair_01` or a hash. They are found, in this order, as
+A scene names templates, such as `frl_apartment_chair_01` or a hash. They are searched for in this order:
 
 1. an entry of `configs` in the dataset's `*.scene_dataset_config.json`;
 2. `NAME.object_config.json`, `NAME.stage_config.json` or `NAME.ao_config.json` in a folder that this file lists under
    `paths`;
 3. a model file that it lists: `NAME.glb`, or `NAME.urdf` of an articulated object;
-4. such a configuration or model anywhere below the dataset's folder, also where there is no dataset file.
+4. such a configuration or model anywhere below the dataset's folder, even without a dataset file.
 
 In 1 to 3 a name is a file's name, the end of its path, or, as in Habitat, any part of its path; then the first path in
 alphabetical order counts. In 4 it is a file's name or the end of its path.
 
-Habitat knows two values that it does not apply to the models that it draws; neither are they applied here: the stage's
-`origin`, and `units_to_meters`, which brings a warning if it is not 1.
+Habitat reads two values that it does not apply to the models that it draws. We do not apply them either: the stage's
+`origin`, and `units_to_meters`, which causes a warning if it is not 1.
 
 Sources: "Using JSON Files to configure Attributes" (docs/pages/attributesJSON.rst of habitat-sim,
 https://aihabitat.org/docs/habitat-sim/attributesJSON.html), and in habitat-sim's src/esp: the names of templates in
@@ -54,9 +54,9 @@ _CONFIG_SUFFIX: dict[Kind, str] = {
     "articulated_objects": ".ao_config.json",
 }
 _URDF = ".urdf"
-# Folders above a scene in which its dataset file is looked for (assumed: converted datasets have up to four).
+# Folders above a scene that are searched for its dataset file (assumed: converted datasets have up to four).
 _LEVELS_UP = 5
-# Shapes that Habitat makes itself; they have no file.
+# Shapes that Habitat generates; they have no file.
 _PRIMITIVE = re.compile(r"(capsule3D|cone|cube|cylinder|icosphere|uvSphere)(Solid|Wireframe)(_.*)?")
 _OWN_NAME = "%%CONFIG_NAME_AS_ASSET_FILENAME%%"
 _ORTHOGONAL = 1e-5
@@ -64,12 +64,12 @@ _ORTHOGONAL = 1e-5
 
 @dataclass(frozen=True, eq=False)
 class Template:
-    """A model and how it is drawn.
+    """A model, and its scale, rotation and mass.
 
-    Parameters: place : the file that says so, for messages; model : the file that is drawn, None for a shape that
-    Habitat makes itself; scale : (3,) [-]; frame : turns the model's own up and front to Y and -Z; com : (3,) the
-    centre of mass that the dataset gives, without scale, None for the middle of the model's box; mass_kg : [kg], None
-    if the dataset gives none.
+    Parameters: place : the file that defines it, for messages; model : the file that is drawn, None for a shape that
+        Habitat generates; scale : (3,) [-]; frame : rotates the model's own up and front to Y and -Z; com : (3,) the
+        dataset's centre of mass, without scale, None for the middle of the model's box; mass_kg : [kg], None if the
+        dataset gives none.
     """
 
     place: str
@@ -90,7 +90,7 @@ class _Source:
 
 
 class Dataset:
-    """The templates of the dataset that a scene belongs to. Nothing outside `root` is opened."""
+    """The templates of the dataset of a scene. Nothing outside `root` is opened."""
 
     def __init__(self, scene: Path, assets_root: Path | None) -> None:
         """Find the dataset file of a scene, at most five folders above it and not above `assets_root`.
@@ -106,13 +106,13 @@ class Dataset:
         self._templates: dict[tuple[Kind, str], Template] = {}
         self._documents: dict[Path, Json] = {}
         self.files: list[Path] = []
-        """All files that were read, or that models to be read are in."""
+        """All files that were read, or that contain models to be read."""
         self.folder, found = self._found(scene, assets_root)
         self.root = self.folder if assets_root is None else assets_root
         self._document, self._file = self._of_scene(found, scene) if found else ({}, "")
 
     def template(self, kind: Kind, name: str, place: str) -> Template:
-        """The template that `place` calls `name`.
+        """Return the template called `name`; `place` is where the scene names it, for messages.
 
         Raises: SceneFormatError, SceneError: there is none, it is broken, or its model is missing or outside the root.
         """
@@ -121,22 +121,22 @@ class Dataset:
         return self._templates[kind, name]
 
     def has(self, file: Path) -> bool:
-        """Return True if there is such a file inside the root."""
+        """Return True if the file exists inside the root."""
         return _is_file(file) and _resolved(file).is_relative_to(_resolved(self.root))
 
     def count(self, file: Path) -> None:
-        """Count a file that is read. Raises: SceneError: all of them together are too large."""
+        """Count a file that is read. Raises: SceneError: all files together are too large."""
         try:
             self._n_bytes += file.stat().st_size
         except (OSError, ValueError):
-            return  # reading it reports the error
+            return  # the reader of the file reports the error
         self.files.append(file)
         limits.at_most("the size of all files of the dataset in bytes", self._n_bytes, "MAX_DATASET_BYTES")
 
     # -- the dataset file --------------------------------------------------------------------------------------------
 
     def _found(self, scene: Path, assets_root: Path | None) -> tuple[Path, list[Path]]:
-        """The dataset's folder, and the dataset files in it."""
+        """Return the dataset's folder, and the dataset files in it."""
         here = _resolved(scene).parent
         folders = [here, *here.parents][: _LEVELS_UP + 1]
         if assets_root is not None:
@@ -150,7 +150,7 @@ class Dataset:
         return (here if assets_root is None else assets_root), []
 
     def _of_scene(self, files: list[Path], scene: Path) -> tuple[Json, str]:
-        """Content and name of the dataset file that lists the scene's folder, of several; else of the first."""
+        """Return content and name of the dataset file that lists the scene's folder, else of the first dataset file."""
         here = _resolved(scene).parent
         for file in files if len(files) > 1 else ():
             patterns = _patterns(self._json(file), "scene_instances", file.name).get(".json", [])
@@ -224,7 +224,8 @@ class Dataset:
         return self._indices[kind]
 
     def _all_below(self) -> _Index:
-        """All models below the dataset's folder, and under names with their suffix all configurations and URDF."""
+        """Return an index of all models below the dataset's folder. Configurations and URDF files keep their suffix in
+        it."""
         if self._below is None:
             self._below = _Index()
             found = list(self._walk())
@@ -238,7 +239,7 @@ class Dataset:
     # -- fields ------------------------------------------------------------------------------------------------------
 
     def _attributes(self, kind: Kind, source: _Source) -> tuple[Json, Path, str]:
-        """The document of a template, the folder that its paths start from, and the place of the document."""
+        """Return the document of a template, the folder for its relative paths, and the place of the document."""
         if source.file is not None and source.file.name.endswith(_CONFIG_SUFFIX[kind]):
             return {**self._defaults(kind), **self._json(source.file)}, source.file.parent, source.file.name
         if source.file is not None:
@@ -258,7 +259,7 @@ class Dataset:
         given = section.get("default_attributes", {})
         if not isinstance(given, dict):
             raise SceneFormatError(f"{self._file}: {kind}.default_attributes must be an object.")
-        # One mass for all objects of a dataset says nothing about any of them.
+        # One mass for all objects of a dataset is a placeholder, not the mass of any object.
         return {key: value for key, value in given.items() if key != "mass"}
 
     def _template(self, kind: Kind, attributes: Json, folder: Path, place: str, name: str) -> Template:
@@ -307,7 +308,7 @@ class Dataset:
     # -- folders -----------------------------------------------------------------------------------------------------
 
     def _listed(self, folder: Path) -> list[str]:
-        """The names in a folder in order, without hidden ones; none if it cannot be read."""
+        """Return the names in a folder in order, without hidden ones; none if it cannot be read."""
         if folder not in self._listings:
             try:
                 found = sorted(name for name in os.listdir(folder) if not name.startswith("."))
@@ -315,13 +316,13 @@ class Dataset:
                 found = []
             self._listings[folder] = found
         names = self._listings[folder]
-        # Also where it is known: patterns may ask for it as often as they fit in a file.
+        # Cached folders count too: a file may hold many patterns for one folder.
         self._n_listed += 1 + len(names)
         limits.at_most("the number of files in the dataset's folders", self._n_listed, "MAX_DATASET_FILES")
         return names
 
     def _matching(self, folder: Path, pattern: str) -> list[Path]:
-        """The folders and files that a pattern such as `objects/*` means."""
+        """Return the folders and files that match a pattern such as `objects/*`."""
         found = [folder]
         for part in _slashes(pattern).split("/"):
             if part == "..":
@@ -333,7 +334,7 @@ class Dataset:
         return found
 
     def _files_of(self, pattern: str, suffix: str) -> Iterator[tuple[str, Path]]:
-        """Handles and files of that suffix that a pattern means, or that are in the folders that it means."""
+        """Yield handles and files of a suffix that match a pattern, or that are in folders that match it."""
         top = _resolved(self.root)
         for match in self._matching(self.folder, pattern):
             handle = writable(Path(os.path.relpath(match, self.folder)).as_posix())
@@ -347,7 +348,7 @@ class Dataset:
                         yield f"{handle}/{writable(name)}".removeprefix("./"), match / name
 
     def _walk(self) -> Iterator[tuple[str, Path]]:
-        """Handles and paths of all configurations and models of the dataset; links to folders are not followed."""
+        """Yield handles and paths of all configurations and models of the dataset. Folder links are not followed."""
         folders = [("", self.folder)]
         while folders:
             handle, folder = folders.pop()
@@ -367,22 +368,22 @@ class _Index:
         self._by_name: dict[str, list[str]] = {}
 
     def add(self, handle: str, source: _Source) -> None:
-        """Keep a template; the first one of a handle counts."""
+        """Add a template; the first one of a handle counts."""
         if handle not in self._by_handle:
             self._by_handle[handle] = source
             self._by_name.setdefault(handle.rpartition("/")[2], []).append(handle)
 
     def names(self) -> list[str]:
-        """The last parts of all handles."""
+        """Return the last parts of all handles."""
         return list(self._by_name)
 
     def exact(self, name: str) -> _Source | None:
-        """The template whose handle is the name or ends in it."""
+        """Return the template whose handle is the name or ends in it."""
         ends = [one for one in self._by_name.get(name.rpartition("/")[2], ()) if f"/{one}".endswith(f"/{name}")]
         return self._by_handle[name if name in ends else min(ends)] if ends else None
 
     def find(self, name: str) -> _Source | None:
-        """The template whose handle is the name, ends in it, or else has it in it."""
+        """Return the template whose handle is the name, else ends in it, else contains it."""
         wanted = _plain(name)
         found = self.exact(wanted)
         if found is None and wanted:
@@ -392,12 +393,12 @@ class _Index:
 
 
 def plain_name(template: str) -> str:
-    """The name of a template without folders and suffix."""
+    """Return the name of a template without folders and suffix."""
     return _plain(template).rpartition("/")[2]
 
 
 def read_object(file: Path) -> Json:
-    """The object in a JSON file.
+    """Return the object in a JSON file.
 
     Raises: SceneFormatError: it is not JSON, or no object. SceneError: it is missing, unreadable or too large.
     """
@@ -405,7 +406,7 @@ def read_object(file: Path) -> Json:
         document = read_json(read_bytes(file).decode("utf-8-sig"))
     except SceneError:
         raise
-    except (ValueError, RecursionError) as cause:  # ValueError: also text that is no UTF-8
+    except (ValueError, RecursionError) as cause:  # ValueError: also text that is not UTF-8
         raise SceneFormatError(f"{file.name!r} is not JSON: {cause}.") from cause
     if not isinstance(document, dict):
         raise SceneFormatError(f"{file.name!r} holds a {type(document).__name__}; it must be a JSON object.")
@@ -413,21 +414,21 @@ def read_object(file: Path) -> Json:
 
 
 def _models(kind: Kind) -> tuple[str, ...]:
-    """The suffixes of models that a kind of template has."""
+    """Return the suffixes of model files for a kind of template."""
     return (_URDF,) if kind == "articulated_objects" else MODEL_SUFFIXES
 
 
 def _key(kind: Kind) -> str:
-    """The field that names the model."""
+    """Return the name of the field that contains the model's file."""
     return "urdf_filepath" if kind == "articulated_objects" else "render_asset"
 
 
 def _frame(up: NDArray[np.float64], front: NDArray[np.float64]) -> Matrix:
-    """The rotation that takes `up` to Y and `front` to -Z; none if they are not at right angles, as in Habitat."""
+    """Return the rotation of `up` to Y and `front` to -Z; none if they are not at right angles, as in Habitat."""
     matrix: Matrix = np.eye(4)
     with np.errstate(all="ignore"):
         up, front = up / np.linalg.norm(up), front / np.linalg.norm(front)
-    if abs(float(up @ front)) < _ORTHOGONAL:  # also false where one has no length
+    if abs(float(up @ front)) < _ORTHOGONAL:  # also False if one has no length
         matrix[:3, :3] = np.cross(front, up), up, -front
     return matrix
 
@@ -440,7 +441,7 @@ def _section(document: Json, kind: str, place: str) -> Json:
 
 
 def _patterns(document: Json, kind: str, place: str) -> Mapping[str, list[str]]:
-    """Patterns of paths by the suffix of the files there."""
+    """Return patterns of paths by the suffix of the files."""
     paths = _section(document, kind, place).get("paths", {})
     if not isinstance(paths, dict):
         raise SceneFormatError(f"{place}: {kind}.paths must be an object of lists.")
@@ -461,7 +462,7 @@ def _list(table: Json, key: str, place: str) -> list[Any]:
 
 
 def _plain(name: str) -> str:
-    """A template's name without the suffix of a configuration or model."""
+    """Return a template's name without the suffix of a configuration or model."""
     name = _slashes(name)
     for suffix in (*_CONFIG_SUFFIX.values(), _URDF, *MODEL_SUFFIXES):
         if name.endswith(suffix):

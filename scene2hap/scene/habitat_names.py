@@ -1,7 +1,7 @@
 """Names of Habitat templates that are hashes, from tables.
 
-A table is CSV with a column of templates and one of names, or a JSON object that maps templates to names. These are
-looked for in a dataset by themselves (HSSD's), in this order; the first that names a template counts:
+A table is CSV with a column of templates and one of names, or a JSON object that maps templates to names. The tables
+below (HSSD's) are found in a dataset without a setting. The first table that has a template counts:
 
 | file | templates | names |
 |---|---|---|
@@ -47,21 +47,21 @@ _NO_NAME = frozenset({"", "unknown", "undefined", "unlabeled", "nan", "none", "n
 # The end of a WordNet key: washer.n.03.
 _SENSE = re.compile(r"\.[a-z]\.\d+")
 _MOST_BYTES = 1 << 26
-"""Size of a table [bytes]; assumed: ten times that of HSSD's."""
+"""Largest size of a table [bytes] (assumed: ten times that of HSSD's)."""
 
 
 class ObjectNames:
-    """The name of a template's objects."""
+    """Object names by template."""
 
     def __init__(self, given: Names | None, dataset: Dataset) -> None:
-        """Read what the caller gave, and what the dataset has.
+        """Read the caller's table and the dataset's tables.
 
-        Raises: SceneFormatError, SceneError: what the caller gave is no table, or cannot be read.
+        Raises: SceneFormatError, SceneError: the caller's table is not valid, or cannot be read.
         """
         self._tables = [] if given is None else [_given(given)]
         for place, columns in _OF_DATASETS:
             file = dataset.folder / place
-            # A broken table of the dataset costs names, not the scene.
+            # A broken table of the dataset costs names, but the scene is still read.
             try:
                 if dataset.has(file):
                     dataset.count(file)
@@ -70,7 +70,7 @@ class ObjectNames:
                 warn_of(f"the dataset's {place} names no objects: {error}")
 
     def of(self, template: str) -> str:
-        """The name in the first table that has the template, else the template's own name without folders."""
+        """Return the name in the first table that has the template, else the template's own name without folders."""
         own = plain_name(template)
         for table in self._tables:
             for key in (template, own):
@@ -101,7 +101,7 @@ def _given(names: Names) -> Mapping[str, str]:
 
 
 def _csv(file: Path, columns: Sequence[str]) -> dict[str, str]:
-    """Names by template in a CSV table; the first of `columns` that has a word counts, row by row."""
+    """Return names by template in a CSV table. In each row, the first non-empty cell of `columns` counts."""
     data = read_bytes(file)
     if len(data) > _MOST_BYTES:
         raise SceneError(f"{file.name!r} has {len(data):,} bytes; tables of names of up to {_MOST_BYTES:,} are read.")
@@ -126,9 +126,9 @@ def _csv(file: Path, columns: Sequence[str]) -> dict[str, str]:
 
 
 def _columns(header: Sequence[str], wanted: Iterable[str]) -> list[int]:
-    """The numbers of the columns that are called so, in the order of `wanted`.
+    """Return the numbers of the columns with these names, in the order of `wanted`.
 
-    A column is called so if its name begins so: HSSD explains some columns in their names.
+    Only the start of a column's name must agree, since HSSD explains some columns in their names.
     """
     folded = [_folded(name) for name in header]
     places = ([at for at, name in enumerate(folded) if f"{name} ".startswith(f"{_folded(one)} ")] for one in wanted)

@@ -1,4 +1,4 @@
-"""Pictures of a scene: PNG files that are rendered when they are first read."""
+"""Pictures of a scene: PNG files, each rendered at its first access."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Literal, Protocol, overload
 
 @dataclass(frozen=True)
 class Shot:
-    """One picture to take: of the scene (`subject` is None), or of an object, alone or among others."""
+    """One picture to render: of the scene (`subject` is None), or of an object, alone or among others."""
 
     kind: Literal["scene", "isolated", "context"]
     subject: str | None
@@ -18,23 +18,23 @@ class Shot:
 
     @property
     def label(self) -> str:
-        """The angle for people: "above 30°"."""
+        """Text for the angle, such as "above 30°"."""
         side = "above" if self.elevation_deg > 0 else "below"
         return f"{side} {self.azimuth_deg % 360:g}°"
 
 
 class ImageSource(Protocol):
-    """Renders and caches pictures. Calls from several threads are safe."""
+    """Interface of renderers that cache their pictures. Calls from several threads are safe."""
 
     def image(self, shot: Shot) -> bytes:
-        """The picture as a PNG file."""
+        """Return the picture as a PNG file."""
         ...
 
 
 class ImageSet(Sequence[bytes]):
-    """Pictures of one object or scene from several angles, each rendered when it is first read.
+    """Pictures of one object or scene from several angles, each rendered at its first access.
 
-    `shots` gives the angles without taking a picture.
+    `shots` gives the angles without rendering a picture.
     """
 
     def __init__(self, source: ImageSource, shots: Sequence[Shot]) -> None:
@@ -59,7 +59,7 @@ class ImageSet(Sequence[bytes]):
 
 @dataclass(frozen=True, eq=False)
 class ObjectImages:
-    """An object alone, and among its surroundings with an outline around it, from the same angles."""
+    """Pictures of an object alone, and among its surroundings with an outline around it, from the same angles."""
 
     isolated: ImageSet
     context: ImageSet

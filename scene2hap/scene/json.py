@@ -1,8 +1,8 @@
 """A scene as JSON, for engines that are not written in Python and for bundles.
 
-Geometry is stored once in a table, since instances share it; an object names its row, or contains its geometry. The
-dominant surface and the height of an object are measured if the file does not have them. docs/scene-json.md describes
-the format for authors of exporters.
+Instances share geometry, so it is stored once in a table. An object contains the key of its row, or the geometry
+itself. The dominant surface and the height of an object are measured if the file does not have them. docs/scene-json.md
+describes the format for authors of exporters.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ VERSION = 1
 
 _scene: TypeAdapter[SceneData] = TypeAdapter(SceneData)
 _geometry: TypeAdapter[Geometry] = TypeAdapter(Geometry)
-# Stands in for a surface until it is measured.
+# Placeholder for a surface until it is measured.
 _UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0, ("zero-thickness",))
 
 
 def dump(scene: SceneData) -> str:
-    """The scene as JSON text with a geometry table."""
+    """Return the scene as JSON text with a geometry table."""
     document = to_document(scene)
     geometries: dict[str, Any] = {}
     for item, row in zip(scene.objects, document["objects"], strict=True):
@@ -46,7 +46,7 @@ def dump(scene: SceneData) -> str:
 
 
 def parse(text: str) -> SceneData:
-    """The scene in a JSON text; raises SceneError with the field that is wrong."""
+    """Return the scene in a JSON text. Raises: SceneError: a field is wrong; the message names it."""
     if isinstance(text, bytes | bytearray):
         text = text.decode("utf-8", "replace")
     if not isinstance(text, str):
@@ -69,16 +69,16 @@ def parse(text: str) -> SceneData:
 
 
 def to_document(scene: SceneData) -> dict[str, Any]:
-    """The scene as plain JSON values, each object with its geometry."""
+    """Return the scene as plain JSON values, each object with its geometry."""
     hidden: Any = {"objects": {"__all__": {"appearance", "images"}}}
     document: dict[str, Any] = _scene.dump_python(scene, mode="json", exclude=hidden)
     return document
 
 
 def from_document(document: dict[str, Any]) -> SceneData:
-    """The scene in plain JSON values; objects may name a row of the table `geometries`.
+    """Return the scene in plain JSON values; objects may contain a key of the table `geometries`.
 
-    An object's `surface` and `relative_height_m` are measured where they are absent or null.
+    An object's `surface` and `relative_height_m` are measured if they are absent or null.
     """
     table = document.get("geometries", {})
     shared: dict[str, Geometry] = {}
@@ -119,7 +119,7 @@ def _with_geometry(row: Any, shared: dict[str, Geometry]) -> Any:
 
 
 def _without_nulls(row: Any) -> Any:
-    """Copy an object's row without its nulls. A row without a surface gets one to be measured."""
+    """Copy an object's row without its nulls. A row without a surface gets a placeholder."""
     if not isinstance(row, dict):
         return row
     return {"surface": _UNMEASURED, **{key: value for key, value in row.items() if value is not None}}
@@ -146,8 +146,8 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
 
 
 def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
-    """Return the scene with surfaces and heights measured where its rows lack them."""
-    # Imported by need: what this library wrote is never measured again.
+    """Return the scene with surfaces and heights measured if its rows lack them."""
+    # Imported only here, since files that this library wrote contain all measurements.
     from scene2hap.scene.surfaces import Surfaces
 
     surfaces = Surfaces()

@@ -9,7 +9,7 @@ from collections.abc import Hashable
 from scene2hap.scene.objects import SceneObject
 
 _HASH = re.compile(r"(?<![^\W_])(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{6,}(?![^\W_])", re.IGNORECASE)
-"""Serial numbers in base 16, as kits append them ("Mug_3a2f91bc")."""
+"""Serial numbers in base 16 at the end of names in kits ("Mug_3a2f91bc")."""
 _SIDES = frozenset({"left", "right"})
 _WORD = re.compile(r"[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+|[A-Z]+|[^\W\d_a-zA-Z]+")
 _LONGEST_NAME = 1000
@@ -40,7 +40,7 @@ def name_words(name: str) -> tuple[str, ...]:
 
 
 def material_names(item: SceneObject) -> tuple[str, ...]:
-    """The authored names of an object's materials, those of most faces first, each once."""
+    """Return the authored names of an object's materials, each once. The material of most faces comes first."""
     looks = item.appearance
     if looks is None:
         return ()

@@ -1,6 +1,6 @@
-"""Limits and budgets of scene files. Larger files are refused instead of filling time or memory.
+"""Limits and budgets of scene files. Larger files are refused, so that no file fills time or memory.
 
-All are assumed: some ten times what runs on a headset.
+All are assumed: about ten times the largest scenes that run on a headset.
 """
 
 from __future__ import annotations
@@ -10,24 +10,24 @@ from dataclasses import dataclass
 from scene2hap.errors import SceneError
 
 MAX_FILE_BYTES = 1 << 30
-"""Size of a scene file, or of a buffer that it names."""
+"""Largest size of a scene file, or of a buffer that it names [bytes]."""
 MAX_NODES = 100_000
-"""Nodes of a scene."""
+"""Most nodes of a scene."""
 MAX_DEPTH = 200
-"""Nodes on the way from the scene down to a leaf."""
+"""Most nodes on a path from the scene to a leaf."""
 MAX_TRIANGLES = 10_000_000
-"""Triangles that a scene draws; an instance counts as often as it is drawn."""
+"""Most triangles that a scene draws; each instance counts."""
 MAX_TEXTURE_PX = 8192
-"""Width and height of a texture; a larger one is left out, and the scene is read all the same."""
+"""Greatest width and height of a texture. A larger texture is left out, and the scene is still read."""
 MAX_COORDINATE_M = 1e6
-"""Distance of any point from the origin [m]; also keeps squares and cubes of it exact enough."""
+"""Greatest distance of any point from the origin [m]. It also keeps its squares and cubes exact enough."""
 
 MAX_OBJECTS = 4_000
-"""Objects of a scene; each takes half a millisecond to place, and a shape of its own two more to measure."""
+"""Most objects of a scene. Each takes 0.5 ms to place, and 2 ms more to measure if its shape is no copy."""
 MAX_DATASET_FILES = 500_000
-"""Files and folders of a dataset that are looked through for the templates of a scene."""
+"""Most files and folders of a dataset that are searched for the templates of a scene."""
 MAX_DATASET_BYTES = 1 << 32
-"""Size of all files of a dataset that one scene reads."""
+"""Greatest total size of the files of a dataset that one scene reads [bytes]."""
 
 
 def at_most(what: str, value: int, limit: str) -> None:
@@ -44,8 +44,9 @@ def at_most(what: str, value: int, limit: str) -> None:
 class Budget:
     """A bound on the total that all rows of one file may request.
 
-    A row within its own limit takes a few bytes and may request megabytes. So the total is compared with the bytes of
-    the file (or another measure of its content) before anything is allocated: `free`, plus `per_stored` for each byte.
+    A row of a few bytes may request megabytes within its own limit. So the total is compared with the bytes of the
+    file, or with another measure of its content, before anything is allocated. The bound is `free`, plus `per_stored`
+    for each byte.
     """
 
     what: str

@@ -1,5 +1,4 @@
-"""Scene files as snapshots: glTF, GLB, USD, OBJ, COLLADA, STL, PLY, URDF, MuJoCo's MJCF, Habitat scenes, and
-scene2hap's own JSON."""
+"""Read scene files as snapshots: glTF, USD, OBJ, COLLADA, STL, PLY, URDF, MJCF, Habitat, scene2hap's own JSON."""
 
 from __future__ import annotations
 
@@ -29,8 +28,8 @@ __all__ = ["TextureWarning", "UnitWarning", "load_scene"]
 
 _USD_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 SUFFIXES = (".glb", ".gltf", *_USD_SUFFIXES, ".obj", ".dae", ".stl", ".ply", ".urdf", ".xml", ".json")
-# Textures that a warning lists one by one (assumed: who reads five knows what is wrong with all).
-_TOLD = 5
+# Textures that a warning lists one by one (assumed: five examples show the cause).
+_LISTED = 5
 
 
 @clear_call
@@ -46,26 +45,28 @@ def load_scene(
     """Read a scene file.
 
     Parameters:
-    up_axis : "y" or "z"; None means what the file says, else "y". Nothing is turned; it only says which way is up.
-    unit_m : metres per unit of the file; None means what the file says, else 1.
-    group : which nodes are objects; see `scene2hap.scene.grouping`. In a MuJoCo model, bodies are.
-    assets_root : the folder that files beside the scene are read from, with those below it; None means the scene's own
-        folder. Nothing outside it is opened. Where textures lie in a folder beside the scene's own, give the folder
-        that holds both. For a Habitat scene (`NAME.scene_instance.json`) it is the dataset's folder; None means the
-        nearest folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
-    names : for Habitat scenes alone, whose templates may be hashes: names of objects by template, or the path of a
-        table of them: JSON that maps one to the other, or CSV with columns such as id and name. HSSD's own tables are
-        found without it; see `scene2hap.scene.habitat_names`.
+    up_axis : "y" or "z"; None means the file's own axis, else "y". Nothing is rotated; it only declares which axis is
+        up.
+    unit_m : metres per unit of the file; None means the file's own unit, else 1.
+    group : the rule by which nodes become objects; see `scene2hap.scene.grouping`. In a MuJoCo model, bodies are
+        objects.
+    assets_root : the folder from which files beside the scene are read, with its subfolders; None means the scene's own
+        folder. Nothing outside it is opened. If textures are in a sibling folder of the scene's, give the folder that
+        holds both. For a Habitat scene (`NAME.scene_instance.json`) it is the dataset's folder; None means the nearest
+        folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
+    names : only for Habitat scenes, whose templates may be hashes: names of objects by template, or the path of a table
+        of them: JSON that maps one to the other, or CSV with columns such as id and name. HSSD's own tables are found
+        without it; see `scene2hap.scene.habitat_names`.
 
-    Returns: the scene named after the file. Each object stands where the node that names it stands, without scale;
-    copies of one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names, with
-    `#2`, `#3`, ... behind the second and third of a name in file order, and the same on every load.
-    Raises: SceneFormatError: the file is not what its name says, or broken. SceneError: it is missing, too large
-    (`scene2hap.scene.limits`), empty, wants a file outside assets_root, or holds geometry that makes no sense.
-    MissingExtra: a decoder, MuJoCo or usd-core is not installed.
+    Returns: the scene named after the file. An object has the pose of the node that names it, without scale. Copies of
+        one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names. The second and
+        third object of a name, in file order, get `#2`, `#3`, ... Ids are the same on every load.
+    Raises: SceneFormatError: the file is broken, or its content does not fit its suffix. SceneError: it is missing, too
+    large (`scene2hap.scene.limits`), empty, wants a file outside assets_root, or holds invalid geometry. MissingExtra:
+    a decoder, MuJoCo or usd-core is not installed.
     Warns: UnitWarning: without unit_m, if sizes are implausible as metres. TextureWarning: textures are missing,
-    broken, too large or outside assets_root; the scene is read without them. SceneWarning: something of a Habitat
-    scene is left out.
+    broken, too large or outside assets_root; the scene is read without them. SceneWarning: something of a Habitat scene
+    is left out.
     """
     path = checks.path("path", path, error=SceneError)
     if up_axis is not None and not (isinstance(up_axis, str) and up_axis in ("y", "z")):
@@ -96,7 +97,7 @@ def load_scene(
             authored = _read(path, root)
         if authored.left_out:
             n = len(authored.left_out)
-            first = " ".join(authored.left_out[:_TOLD]) + (f" And {n - _TOLD} more." if n > _TOLD else "")
+            first = " ".join(authored.left_out[:_LISTED]) + (f" And {n - _LISTED} more." if n > _LISTED else "")
             message = f"{path.name!r} is read without {n} of its textures, in their plain colours: {first}"
             warnings.warn(message, TextureWarning, stacklevel=3)
         unit = unit_m or authored.unit_m or 1.0
@@ -113,7 +114,7 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
             f"{path.name!r} is of no kind that is read: {', '.join(SUFFIXES)}. Export the scene as GLB (.glb) from the "
             "program that made it."
         )
-    # Readers are imported by need: a game that loads GLB pays for no other.
+    # Each reader is imported at its first use: a game that loads GLB pays for no other.
     if suffix in (".glb", ".gltf"):
         from scene2hap.scene.gltf import read_gltf
 
@@ -163,7 +164,7 @@ def _from_mjcf(path: Path, up_axis: UpAxis | None, unit_m: float, group: Groupin
 
 
 def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
-    # Broken transforms may overflow on the way down the tree; MeshPool refuses what they lead to.
+    # Transforms of a broken file may overflow when they are multiplied; MeshPool refuses the results.
     with np.errstate(all="ignore"):
         groups = group_objects(authored.roots, group)
     if not groups:

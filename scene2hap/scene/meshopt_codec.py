@@ -1,8 +1,8 @@
-"""Decoders of meshopt data: attributes (versions 0 and 1), triangles, indices, and the filters behind them.
+"""Decoders of meshopt data: attributes (versions 0 and 1), triangles, indices, and their filters.
 
-Written here, since the PyPI package `meshoptimizer` (0.2.30a0) is an alpha release without wheels: installing it takes
-a C++ compiler. Data is untrusted: every read is checked against the end of the data, and no allocation exceeds the size
-that the caller requested. Callers bound `count * stride`.
+We do not use the PyPI package `meshoptimizer` (0.2.30a0): it is an alpha release without wheels, and installing it
+takes a C++ compiler. Data is untrusted. Every read is checked against the end of the data, and no allocation exceeds
+the size that the caller requested. Callers bound `count * stride`.
 
 Source: glTF extensions EXT_meshopt_compression and KHR_meshopt_compression, appendices "Bitstream" and "Filters".
 """
@@ -21,17 +21,17 @@ _Bytes = NDArray[np.uint8]
 
 # First bytes of data: kind of codec and version.
 _ATTRIBUTES, _TRIANGLES, _INDICES = (0xA0, 0xA1), 0xE1, 0xD1
-# Elements of an attribute block: at most this many, and at most this many bytes.
+# An attribute block has at most this many elements and at most this many bytes.
 _BLOCK_ELEMENTS, _BLOCK_BYTES = 256, 8192
 _GROUP = 16
-# Bits of a delta by the two header bits of its group: version 0, then version 1 with control 0 and 1.
+# Bits of a delta, by the two header bits of its group: version 0, then version 1 with control 0 and 1.
 _BITS = ((0, 2, 4, 8), (0, 1, 2, 4), (1, 2, 4, 8))
 _ALL_ZERO, _VERBATIM = 2, 3
-# Bytes at the end of attribute data, with the first element in them; shorter tails are padded to this.
+# Least number of bytes at the end of attribute data, with the first element in them. Shorter tails are padded.
 _SHORTEST_TAIL = (32, 24)
 # One channel of a block reads at most this many bytes: 16 groups of 24.
 _MOST_OF_A_CHANNEL = 512
-# Groups that are unpacked at once; bounds memory beside the result.
+# Groups that are unpacked at once. This bounds the memory beside the result.
 _GROUPS_AT_ONCE = 1 << 16
 _TRIANGLES_AT_ONCE = 1 << 16
 _CODES_BEHIND_TRIANGLES, _BYTES_BEHIND_INDICES = 16, 4
@@ -60,7 +60,7 @@ def attributes(data: bytes, count: int, stride: int) -> _Bytes:
     per_block = min(_BLOCK_BYTES // stride // _GROUP * _GROUP, _BLOCK_ELEMENTS)
     blocks_at_once = max(1, _GROUPS_AT_ONCE * _GROUP // (per_block * stride))
     while done < count:
-        # Blocks of one length are unpacked together; the last is shorter.
+        # Blocks of equal length are unpacked together; the last may be shorter.
         n_elements = min(per_block, count - done)
         n_blocks = max(1, min(blocks_at_once, (count - done) // per_block))
         for _ in range(n_blocks):
@@ -75,22 +75,22 @@ def attributes(data: bytes, count: int, stride: int) -> _Bytes:
 
 
 class _GroupReader:
-    """Finds groups of 16 deltas in attribute data, and unpacks those found so far together.
+    """Reader that finds groups of 16 deltas in attribute data, and unpacks all groups found since the last call.
 
-    Where a group ends depends on how many of its deltas are stored in full behind it; these are counted beforehand
-    for a group at any byte, so that finding the groups is one addition each.
+    The end of a group depends on the number of its deltas that are stored in full behind it. These numbers are computed
+    in advance for a group at any byte, so that finding a group is one addition.
     """
 
     def __init__(self, data: bytes, end: int) -> None:
         self._data, self._end = data, end
-        # A broken group may reach beyond the data; zeros are read there, and the end is compared afterwards.
+        # A broken group may reach beyond the data. It reads zeros there, and its end is checked later.
         self._bytes = np.frombuffer(data + bytes(_MOST_OF_A_CHANNEL + 32), np.uint8)
         self._sizes = {0: bytes(len(data) + _MOST_OF_A_CHANNEL), 8: bytes([_GROUP]) * (len(data) + _MOST_OF_A_CHANNEL)}
         self._starts: list[int] = []
         self._bits: list[int] = []
 
     def walk_block(self, at: int, n_elements: int, stride: int, version: int) -> int:
-        """Find the groups of a block that begins at a byte; where it ends. Raises: ValueError: it is cut short."""
+        """Find the groups of a block that begins at a byte. Returns its end. Raises: ValueError: it is cut short."""
         n_groups = -(-n_elements // _GROUP)
         n_headers = -(-n_groups // 4)
         control, at = at, at + stride // 4 * version
@@ -118,7 +118,7 @@ class _GroupReader:
         return at
 
     def _sizes_of(self, width: int) -> bytes:
-        """Bytes of a group of deltas of so many bits, by the byte at which it begins."""
+        """Return the size [bytes] of a group of `width`-bit deltas, by the byte at which it begins."""
         if width not in self._sizes:
             n, full = 2 * width, _N_FULL[width][self._bytes]
             sizes = np.full(len(full) - n, n, np.uint8)
@@ -128,7 +128,7 @@ class _GroupReader:
         return self._sizes[width]
 
     def unpack(self) -> _Bytes:
-        """The deltas (n, 16) of all groups found since the last call."""
+        """Return the deltas (n, 16) of all groups found since the last call."""
         starts, bits = np.array(self._starts, np.int64), np.array(self._bits, np.uint8)
         self._starts, self._bits = [], []
         deltas = np.zeros((len(starts), _GROUP), np.uint8)
@@ -148,18 +148,18 @@ class _GroupReader:
 
 
 def _fields(width: int) -> _Bytes:
-    """The fields (256, 8 / width) of each byte in order: single bits begin with the lowest, others with the highest."""
+    """Return the fields (256, 8 / width) of each byte. Single bits begin with the lowest, others with the highest."""
     shifts = np.arange(8) if width == 1 else np.arange(8 - width, -1, -width)
     return (np.arange(256)[:, None] >> shifts & ((1 << width) - 1)).astype(np.uint8)
 
 
 _FIELDS = {width: _fields(width) for width in (1, 2, 4)}
-# Fields of a byte that say: stored in full.
+# Fields of a byte that mean "stored in full".
 _N_FULL = {width: (fields == (1 << width) - 1).sum(axis=1).astype(np.uint8) for width, fields in _FIELDS.items()}
 
 
 def _summed(deltas: _Bytes, first: _Bytes, channels: bytes) -> _Bytes:
-    """Elements (n, stride) of their deltas (stride, n): each word counts from that of the element before it."""
+    """Return elements (n, stride) from deltas (stride, n). Each word is a difference from the element before it."""
     stride, n = deltas.shape
     if all(channel & 3 == 0 for channel in channels):
         steps = _unzigzag(deltas)
@@ -185,7 +185,7 @@ def _summed(deltas: _Bytes, first: _Bytes, channels: bytes) -> _Bytes:
 
 
 def _unzigzag(values: NDArray[Any]) -> NDArray[Any]:
-    """Differences, wrapped around as unsigned, of numbers that carry their sign in the lowest bit."""
+    """Return differences, wrapped around as unsigned, of numbers that carry their sign in the lowest bit."""
     return (values >> 1) ^ (0 - (values & 1))
 
 
@@ -206,7 +206,7 @@ def triangles(data: bytes, count: int) -> NDArray[np.uint32]:
     begin = 0
     try:
         for rows in _triangle_rows(data, n_triangles, end):
-            # Broken data may count beyond 32 bits, where the format counts from 0 again.
+            # Broken data may count beyond 32 bits; the format wraps around there.
             result[begin : begin + len(rows)] = np.array(rows, np.int64) & _WORD
             begin += len(rows)
     except IndexError as cause:
@@ -215,10 +215,10 @@ def triangles(data: bytes, count: int) -> NDArray[np.uint32]:
 
 
 def _triangle_rows(data: bytes, n_triangles: int, end: int) -> Iterator[list[int]]:
-    """Vertex numbers of so many triangles at once, three each.
+    """Yield vertex numbers of `_TRIANGLES_AT_ONCE` triangles at a time, three each.
 
-    A triangle shares an edge with one of the last 16, or a vertex with one of the last; what is new is the next vertex
-    that no triangle had, or is stored as a difference to the last one that was stored.
+    A triangle shares an edge with one of the last 16, or a vertex with one of the last. A new vertex is the next number
+    that no triangle has used, or is stored as a difference from the last stored number.
     """
     edges = deque(repeat((_WORD, _WORD), 16), maxlen=16)
     vertices = deque(repeat(_WORD, 16), maxlen=16)
@@ -296,7 +296,7 @@ def _triangle_rows(data: bytes, n_triangles: int, end: int) -> Iterator[list[int
                 push_edge((c, b))
                 push_edge((a, c))
             put((a, b, c))
-        # Behind the numbers is a table, which they may not reach into.
+        # A table follows the numbers, and they must not extend into it.
         if at > end:
             raise ValueError("triangles are cut short")
         yield rows
@@ -305,7 +305,7 @@ def _triangle_rows(data: bytes, n_triangles: int, end: int) -> Iterator[list[int
 
 
 def indices(data: bytes, count: int) -> NDArray[np.uint32]:
-    """Decode numbers (count,) of a sequence that counts from two baselines.
+    """Decode the numbers (count,) of a sequence of differences from two baselines.
 
     Raises: ValueError: the data is broken.
     """
@@ -342,13 +342,13 @@ def filtered(elements: _Bytes, name: str) -> _Bytes:
     if stride not in strides:
         known = " or ".join(map(str, strides))
         raise ValueError(f"filter {name} of elements of {stride} bytes; they must have {known}")
-    # Broken values divide by zero and overflow; what comes out is refused where it is used.
+    # Broken values divide by zero and overflow. The code that uses them refuses the results.
     with np.errstate(all="ignore"):
         return np.ascontiguousarray(undo(elements)).view(np.uint8)
 
 
 def _octahedral(elements: _Bytes) -> NDArray[Any]:
-    """Unit vectors, from points on an octahedron that was unfolded; the fourth number stays."""
+    """Return unit vectors from points on an unfolded octahedron; the fourth number is unchanged."""
     dtype = np.dtype("<i1" if elements.shape[1] == 4 else "<i2")
     stored = elements.view(dtype)
     largest = np.iinfo(dtype).max
@@ -363,7 +363,8 @@ def _octahedral(elements: _Bytes) -> NDArray[Any]:
 
 
 def _quaternion(elements: _Bytes) -> NDArray[Any]:
-    """Unit quaternions, from their three smaller components; the last number has scale and place of the largest."""
+    """Return unit quaternions from their three smaller components. The last number has scale and place of the
+    largest."""
     stored = elements.view("<i2").astype(np.int64)
     scale = np.sqrt(0.5) / (stored[:, 3] | 3)
     small = stored[:, :3] * scale[:, None]
@@ -377,7 +378,7 @@ def _quaternion(elements: _Bytes) -> NDArray[Any]:
 
 
 def _exponential(elements: _Bytes) -> NDArray[Any]:
-    """Floating-point numbers, from 8 bits of exponent above 24 bits of mantissa."""
+    """Return floating-point numbers from 8 bits of exponent above 24 bits of mantissa."""
     stored = elements.view("<i4")
     mantissa = (stored << 8) >> 8
     values: NDArray[Any] = np.ldexp(mantissa.astype(np.float64), stored >> 24).astype("<f4")
@@ -385,7 +386,7 @@ def _exponential(elements: _Bytes) -> NDArray[Any]:
 
 
 def _color(elements: _Bytes) -> NDArray[Any]:
-    """RGBA from YCoCg and alpha, whose highest bit marks how many bits all have."""
+    """Return RGBA from YCoCg and alpha. The highest bit of alpha shows how many bits all channels have."""
     bits = 2 * elements.shape[1]
     unsigned, signed = elements.view(f"<u{bits // 8}").astype(np.int64), elements.view(f"<i{bits // 8}")
     y, alpha = unsigned[:, 0], unsigned[:, 3]
@@ -398,7 +399,8 @@ def _color(elements: _Bytes) -> NDArray[Any]:
 
 
 def _whole(values: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Numbers rounded to whole ones of a type: 0 for those that are not finite, the type's end for those beyond it."""
+    """Round numbers to a whole-number type. Numbers that are not finite become 0, others are clipped to the type's
+    range."""
     bound = np.iinfo(dtype)
     rounded = np.floor(np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0) + 0.5)
     return np.clip(rounded, bound.min, bound.max).astype(dtype)

@@ -1,6 +1,6 @@
 """Material libraries of OBJ files: diffuse colour, opacity and colour texture.
 
-Colours are taken as sRGB, as viewers do. File names stand as they are, with blanks and with slashes either way.
+Colours are read as sRGB, as viewers do. File names are taken literally, and may contain blanks and either slash.
 
 Source: Wavefront, MTL material format, Lightwave/Wavefront (1995): Kd, d, Tr, map_Kd with -s and -o.
 """
@@ -21,28 +21,28 @@ from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.files import inside, read_bytes
 from scene2hap.scene.texture_files import TextureFiles
 
-# How many words follow an option of a texture, at most; numbers may be left out.
+# Most words that follow each option of a texture; numbers may be left out.
 _OPTIONS = {
     **dict.fromkeys(("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type", "-bm", "-boost", "-texres"), 1),
     **dict.fromkeys(("-mm",), 2),
     **dict.fromkeys(("-o", "-s", "-t"), 3),
 }
 MAX_LIBRARIES = 1_000
-"""Libraries that one OBJ file may name (assumed: a hundred times what exporters write)."""
+"""Most libraries that one OBJ file may name (assumed: a hundred times as many as exporters write)."""
 _WORD = re.compile(r"\S+")
 _WORDS_AS_VALUES = ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type")
 
 
 @dataclass(frozen=True, eq=False)
 class MtlMaterial:
-    """A material, and how its texture lies: image coordinates are `scale` times those of the faces, plus `offset`."""
+    """A material and its texture mapping: image coordinates are `scale` times those of the faces, plus `offset`."""
 
     paint: FaceMaterial
     scale: tuple[float, float] = (1.0, 1.0)
     offset: tuple[float, float] = (0.0, 0.0)
 
     def appearance(self, n_faces: int, uv: NDArray[np.float64] | None) -> Appearance:
-        """The looks of faces whose corners have coordinates uv (m, 3, 2), v running up; None if they have none."""
+        """Return the looks of m faces. uv : (m, 3, 2) texture coordinates of their corners, v running up, or None."""
         if uv is None or not self.paint.has_texture:
             return Appearance.plain(self.paint.untextured(), n_faces)
         image = uv * self.scale + self.offset
@@ -52,7 +52,7 @@ class MtlMaterial:
 
 @dataclass(eq=False)
 class MtlLibraries:
-    """The materials that the libraries of one OBJ file define, by name; later ones win."""
+    """The materials that the libraries of one OBJ file define, by name; a later one replaces an earlier one."""
 
     textures: TextureFiles
     materials: dict[str, MtlMaterial] = field(default_factory=dict)
@@ -62,7 +62,7 @@ class MtlLibraries:
     def read(self, names: str) -> None:
         """Read the libraries that a `mtllib` statement names: one name with blanks, or several.
 
-        One that is missing, broken or outside the assets root is refused in `textures`.
+        A library that is missing, broken or outside the assets root is recorded in `textures`.
         Raises: SceneError: the file names too many.
         """
         for name in (names,) if names.lower().endswith(".mtl") and not self._are_many(names) else names.split():
@@ -99,18 +99,18 @@ class MtlLibraries:
         elif (number := _numbers(rows.get("tr", ""), 1)) is not None:
             opacity = 1.0 - number[0]
         r, g, b, a = (min(max(channel, 0.0), 1.0) for channel in (*color, opacity))
-        file, lies = _texture(rows.get("map_kd", ""))
+        file, mapping = _texture(rows.get("map_kd", ""))
         if not file:
             return MtlMaterial(FaceMaterial((r, g, b, a), name=name))
         texture = self.textures.from_file(_uri(file), f"material {name!r}", keeps_alpha="map_d" in rows)
-        # Exporters that leave all colour to the texture write black or nothing, which would hide it.
+        # Some exporters write black or no colour if there is a texture. Multiplying by it would hide the texture.
         if texture is not None and (r == g == b == 0.0 or "kd" not in rows):
             r = g = b = 1.0
-        return replace(lies, paint=FaceMaterial((r, g, b, a), texture, name))
+        return replace(mapping, paint=FaceMaterial((r, g, b, a), texture, name))
 
 
 def _blocks(text: str) -> Iterator[tuple[str, dict[str, str]]]:
-    """Each material's name and statements by lower-case keyword."""
+    """Yield each material's name and its statements by lower-case keyword."""
     name, rows = None, dict[str, str]()
     for line in text.splitlines():
         keyword, _, rest = line.partition("#")[0].strip().replace("\t", " ").partition(" ")
@@ -125,9 +125,9 @@ def _blocks(text: str) -> Iterator[tuple[str, dict[str, str]]]:
 
 
 def _texture(statement: str) -> tuple[str, MtlMaterial]:
-    """The file that a map statement names, and how it lies."""
-    lies = MtlMaterial(FaceMaterial())
-    # Words are taken from where they stand, in one pass: a statement may have a megabyte of options.
+    """Return the file that a map statement names, and the texture's mapping."""
+    mapping = MtlMaterial(FaceMaterial())
+    # A statement may have a megabyte of options, so its words are split once, with their positions.
     words = list(_WORD.finditer(statement))
     at = 0
     while at < len(words) and words[at].group().startswith("-"):
@@ -142,11 +142,11 @@ def _texture(statement: str) -> tuple[str, MtlMaterial]:
             at += 1
         # Three values are for u, v and depth; v and depth may be left out.
         if option == "-s":
-            lies = replace(lies, scale=_pair(values, 1.0))
+            mapping = replace(mapping, scale=_pair(values, 1.0))
         elif option == "-o":
-            lies = replace(lies, offset=_pair(values, 0.0))
+            mapping = replace(mapping, offset=_pair(values, 0.0))
     file = statement[words[at].start() :] if at < len(words) else ""
-    return file.strip().strip('"'), lies
+    return file.strip().strip('"'), mapping
 
 
 def _pair(words: list[str], default: float) -> tuple[float, float]:

@@ -1,7 +1,7 @@
-"""Wavefront OBJ files as authored trees: one node for each `o`, or for each `g` where a file has no `o`.
+"""Wavefront OBJ files as authored trees: one node for each `o`, or for each `g` if a file has no `o`.
 
-Read here rather than by trimesh (5.2), which merges objects of one name, returns them in reverse order, and counts
-negative vertex numbers from the end of the file instead of from where they stand.
+We do not use trimesh's reader (5.2). It merges objects of one name and returns them in reverse order. It counts
+negative vertex numbers from the end of the file instead of from the current line.
 
 Source: Wavefront, Advanced Visualizer manual (1990s), appendix B1, "Object files".
 """
@@ -22,24 +22,27 @@ from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _Faces = list[tuple[int, int, int]]
-"""Corners, each one number for speed: that of its vertex from 0, shifted, plus that of its coordinates from 1 or 0."""
+"""Corners of triangles, each packed into one number for speed: vertex number from 0, shifted, plus coordinates number.
+
+Coordinates are counted from 1; 0 stands for none.
+"""
 _SHIFT = 32
 _Table = NDArray[np.float64]
 
 
 @dataclass
 class _Part:
-    """Faces under one `o` or `g` by material, in the order in which materials are first used."""
+    """Faces under one `o` or `g` by material, in the order of first use."""
 
     name: str
     faces: dict[str, _Faces] = field(default_factory=dict)
 
 
 def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> AuthoredScene:
-    """The objects of an OBJ text; `name` is for faces that stand in none.
+    """Return the objects of an OBJ text; `name` is for faces outside any object.
 
-    Without `textures`, material libraries are not read, and materials are distinguished by name alone.
-    Raises: SceneFormatError: a vertex or face is not made of numbers, or a face uses a vertex that is not there; the
+    Without `textures`, material libraries are not read, and materials are distinguished by name only.
+    Raises: SceneFormatError: a vertex or face is not made of numbers, or a face uses a vertex that does not exist; the
     message gives the line.
     """
     vertices: list[tuple[float, float, float]] = []
@@ -97,8 +100,8 @@ def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLi
 
 
 def _statements(text: str) -> Iterator[tuple[int, str, str]]:
-    """Line number, keyword and the rest of each statement."""
-    # Joined once: a file may be one statement of a hundred thousand lines.
+    """Yield line number, keyword and the rest of each statement."""
+    # Joined once per statement, since a file may be one statement of a hundred thousand lines.
     continued: list[str] = []
     for number, line in enumerate(text.splitlines(), start=1):
         line = line.partition("#")[0]
@@ -122,7 +125,7 @@ def _vertex(rest: str, number: int) -> tuple[float, float, float]:
 
 
 def _coordinates(rest: str) -> tuple[float, float]:
-    """Texture coordinates; those that are no numbers only cost a texture its place."""
+    """Return texture coordinates. Invalid ones become 0: only the texture is then misplaced."""
     try:
         u, v = map(float, [*rest.split(), "0"][:2])
     except ValueError:
@@ -131,7 +134,7 @@ def _coordinates(rest: str) -> tuple[float, float]:
 
 
 def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
-    """The triangles of a convex polygon."""
+    """Return the triangles of a convex polygon."""
     words = rest.split()
     try:
         vertices = [int(word.partition("/")[0]) for word in words]
@@ -149,7 +152,7 @@ def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
 
 
 def _mapped(word: str, n_coordinates: int) -> int:
-    """The number of a corner's texture coordinates from 1; 0 if it names none that are there."""
+    """Return the number of a corner's texture coordinates from 1; 0 if there are none."""
     try:
         number = int(word.split("/", 2)[1])
     except (ValueError, IndexError):

@@ -20,7 +20,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface, Geometry, geometry_of
 
 UpAxis = Literal["y", "z"]
-"""The axes that a scene may call up: "y" for glTF, "z" for MuJoCo."""
+"""The up axis of a scene: "y" as in glTF, "z" as in MuJoCo."""
 
 _LEAST_WEIGHT = 1e-30
 _AT_ORIGIN = Pose()
@@ -31,8 +31,8 @@ _AT_ORIGIN = Pose()
 class Contact:
     """A contact point of two objects, given by an engine or found from geometry. A pair may have several.
 
-    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 of the patch that the point represents;
-    weight : how much of a contact it is, 1 touching to 0 gone [-].
+    Parameters: point_m : world [m]; normal : unit, from `a` to `b`; area_m2 : of the patch that the point represents
+        [m2]; weight : from 1 (touching) to 0 (gone) [-].
     """
 
     a: str
@@ -57,22 +57,22 @@ class Contact:
             area = checks.number("area_m2", self.area_m2, "m2", at_least=0.0, error=SceneError)
             object.__setattr__(self, "area_m2", area)
         weight = checks.number("weight", self.weight, "-", at_least=0.0, at_most=1.0, error=SceneError)
-        # So little is nothing; its square would be too small for a number.
+        # A weight this small counts as none; its square would underflow.
         object.__setattr__(self, "weight", weight if weight > _LEAST_WEIGHT else 0.0)
 
 
 @clear_construction
 @dataclass(frozen=True, init=False)
 class SceneObject:
-    """One thing that a user would point at.
+    """One object that a user would point at.
 
-    `id` is unique in the scene and stable over loads; `name` is what the author wrote, which many objects may share;
-    the id if it is not given. `geometry` is a Box or a TriMesh; a pair of vertices and faces, or an object with both,
-    such as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured if it is not given, with y up;
+    `id` is unique in the scene and stable over loads. `name` is the author's name, which many objects may share; by
+    default it is the id. `geometry` is a Box or a TriMesh. A pair of vertices and faces, or an object with both, such
+    as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured with y up if it is not given;
     `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
-    `mass_kg` is the mass from an engine or an author [kg], None if unknown.
-    `appearance` is for pictures alone, None where unknown; `images` are those of `capture_images`.
+    `mass_kg` is the mass from an engine or an author [kg], None if unknown. `appearance` is used only for pictures,
+    None if unknown; `images` are those of `capture_images`.
     """
 
     id: str
@@ -85,7 +85,7 @@ class SceneObject:
     mass_kg: float | None = None
     appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
     images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
-    is_measured_with_y_up = False  # no field, so that a copy with its own surface has it not
+    is_measured_with_y_up = False  # no dataclass field: a copy with its own surface must not inherit it
 
     def __init__(
         self,
@@ -139,9 +139,9 @@ class SceneObject:
         return (self.surface.length_m, self.surface.width_m, self.surface.thickness_m)
 
     def whole_size_m(self, up_axis: UpAxis) -> tuple[float, float, float]:
-        """Longer and shorter side and height [m] of the object's box along its own axes.
+        """Return longer and shorter side and height [m] of the object's box along its own axes.
 
-        Height is along the axis nearest to the vertical, so that an object rotated about it keeps its size.
+        Height is along the axis nearest to the vertical, so the size does not change with rotation about the vertical.
         """
         edges = np.ptp(self.geometry.mesh.vertices_m, axis=0)
         upright = int(np.abs(self.pose.rotation[{"y": 1, "z": 2}[up_axis]]).argmax())
@@ -155,9 +155,9 @@ class SceneObject:
         return np.array([points.min(axis=0), points.max(axis=0)])
 
     def plate_coordinates(self, points_m: ArrayLike) -> NDArray[np.float64]:
-        """World points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.
+        """Return world points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.
 
-        Points beside the plate are taken to its nearest edge.
+        Points beside the plate are moved to its nearest edge.
         """
         points = np.atleast_2d(checks.floats("points_m", points_m, "m", error=SceneError))
         if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
@@ -167,14 +167,14 @@ class SceneObject:
 
 
 def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
-    """Return the dominant surface of an object at this rotation (`scene.dominant_surface`), once for equal meshes."""
+    """Return the dominant surface of an object at this rotation (`scene.dominant_surface`), cached for equal meshes."""
     up = pose.rotation[{"y": 1, "z": 2}[up_axis]].round(6)
     return _measured(geometry, tuple(up.tolist()))
 
 
 @lru_cache(maxsize=256)
 def _measured(geometry: Geometry, up: tuple[float, ...]) -> DominantSurface:
-    from scene2hap.scene.dominant_surface import dominant_surface  # what is given or read is not measured
+    from scene2hap.scene.dominant_surface import dominant_surface  # given or stored surfaces need no measurement
 
     return dominant_surface(geometry.mesh, up=up)
 
@@ -190,7 +190,7 @@ class SceneData:
 
 
 def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
-    """The sentence for an id that a scene does not have."""
+    """Return the sentence for an id that a scene does not have."""
     if not isinstance(object_id, str):
         how = ": give its .id" if isinstance(object_id, SceneObject) else ", of one object"
         some = next(iter(known), "")
@@ -200,7 +200,7 @@ def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
 
 
 def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:
-    """The objects with `relative_height_m` measured against the lowest of them."""
+    """Return the objects with `relative_height_m` measured from the lowest of them."""
     up = {"y": 1, "z": 2}[up_axis]
     bottoms = [float(item.bounds_m[0, up]) for item in objects]
     ground = min(bottoms, default=0.0)

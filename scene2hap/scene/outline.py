@@ -1,4 +1,4 @@
-"""The outline of a flat thing that is no rectangle: rings of corners, and what share of each pixel lies within them."""
+"""The outline of a flat shape that is no rectangle: rings of corners, and the covered share of each pixel."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ Ring = tuple[tuple[float, float], ...]
 
 MOST_CORNERS = 4096
 SHARPEST = math.radians(30.0)
-"""A corner that turns by less is part of a curve."""
+"""A corner whose direction changes by less is part of a curve."""
 _LINES = 4  # scan lines through a row of pixels; along a line the share is exact
 
 
 @clear_construction
 @dataclass(frozen=True)
 class Outline:
-    """The area of a plate: all points inside an odd number of rings, so that a ring within another cuts a hole.
+    """The area of a plate: all points inside an odd number of rings, so a ring within another cuts a hole.
 
-    Parameters: rings_m : rings of at least 3 corners (x, y) each [m], in either direction, closed by themselves; x and
-    y run along the plate's length and width, from its corner.
-    Raises: SceneError: no ring, a ring of fewer corners, more than `MOST_CORNERS` corners, a corner that is not
-    finite, or no area.
+    Parameters: rings_m : rings of at least 3 corners (x, y) each [m], in either direction; the last corner joins the
+        first. x and y run along the plate's length and width, from its corner.
+    Raises: SceneError: no ring, a ring of fewer corners, more than `MOST_CORNERS` corners, a corner that is not finite,
+    or no area.
     """
 
     rings_m: tuple[Ring, ...]
@@ -51,21 +51,21 @@ class Outline:
 
     @cached_property
     def box_m(self) -> tuple[float, float, float, float]:
-        """Its least and greatest x and y: (x0, y0, x1, y1) [m]."""
+        """Least and greatest x and y of the outline: (x0, y0, x1, y1) [m]."""
         corners = np.concatenate(self.rings_m)
         (x0, y0), (x1, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
         return x0, y0, x1, y1
 
     @cached_property
     def area_m2(self) -> float:
-        """Area within [m2], to a thousandth."""
+        """Area inside the outline [m2], to a thousandth."""
         x0, y0, x1, y1 = self.box_m
         shares = self.coverage(np.array([x0, x1]), np.linspace(y0, y1, 513))
         return float(shares.mean()) * (x1 - x0) * (y1 - y0)
 
     @cached_property
     def notches_m(self) -> Floats:
-        """Corners (n, 2) that point into what it covers, as an L's inner one, by `SHARPEST` or more [m]."""
+        """Corners (n, 2) [m] that point into the area by `SHARPEST` or more, such as the inner corner of an L."""
         corners, ways = [], []
         for ring in self.rings_m:
             at = np.array(ring)
@@ -80,7 +80,7 @@ class Outline:
 
     @property
     def extent_m(self) -> tuple[float, float]:
-        """Length and width of its box [m]."""
+        """Length and width of the outline's box [m]."""
         x0, y0, x1, y1 = self.box_m
         return x1 - x0, y1 - y0
 
@@ -100,7 +100,7 @@ class Outline:
         return Outline(tuple(tuple((a * x + c, b * y + d) for x, y in ring) for ring in self.rings_m))
 
     def holds(self, points_m: Floats) -> NDArray[np.bool_]:
-        """Mark the points (n, 2) that lie within."""
+        """Return a mask of the points (n, 2) inside the area."""
         starts, ends = self._edges
         (xa, ya), (xb, yb) = starts.T, ends.T
         x, y = points_m[:, :1], points_m[:, 1:]
@@ -117,10 +117,10 @@ class Outline:
         return np.concatenate(self.rings_m), np.concatenate(ends)
 
     def coverage(self, x_m: Floats, y_m: Floats) -> Floats:
-        """The share (nx, ny), 0..1, of each pixel that lies within: those between lines x (nx + 1,) and y (ny + 1,),
-        both rising [m].
+        """Return the share (nx, ny), 0..1, of each pixel that is inside the area.
 
-        Exact along x, and by four scan lines through each row across it.
+        Pixels are between lines x (nx + 1,) and lines y (ny + 1,), both rising [m]. The share is exact along x, and
+        from four scan lines through each row along y.
         """
         nx, ny = len(x_m) - 1, len(y_m) - 1
         scan = (y_m[:-1, None] + np.diff(y_m)[:, None] * (np.arange(_LINES) + 0.5) / _LINES).ravel()
@@ -132,7 +132,7 @@ class Outline:
         line = np.arange(len(edge)) - np.repeat(np.cumsum(count) - count - first, count)
         (xa, ya), (xb, yb) = starts[edge].T, ends[edge].T
         x = xa + (scan[line] - ya) / (yb - ya) * (xb - xa)
-        # Along a line, what lies within begins at every other crossing and ends at the next.
+        # Along a line, the covered part begins at every second crossing and ends at the next.
         order = np.lexsort((x, line))
         x, row = x[order].clip(x_m[0], x_m[-1]), line[order] // _LINES
         sign = np.where(np.arange(len(x)) % 2 == 0, 1.0, -1.0)

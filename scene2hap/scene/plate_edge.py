@@ -1,8 +1,8 @@
 """The boundary between a plate and parts fixed to its edge: a television's stand, a radio's handle, a bookcase's feet.
 
-Seen along the plate's normal, the rows of such a part are filled less than half as much as those of the plate, at least
-right beside it, and the part is not level with the plate. The arm of an L-shaped top and the wall beside a doorway are
-level with their plate and belong to it. A disc narrows gradually and has no such boundary.
+Seen along the plate's normal, the rows of such a part next to the plate are filled less than half as much as the
+plate's. And the part is not level with the plate. The arm of an L-shaped top and the wall beside a doorway are level
+with their plate and belong to it. A disc narrows gradually and has no such boundary.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 # Tuned on real scenes, with the labels in tests/data/dominant_surfaces.csv unchanged.
-_NARROW = 0.5  # rows filled by less than this part of the fullest row's rays are no part of the plate ...
-_ABRUPT = 0.9  # ... if the row beside them is filled by this part of what is usual
-_LEVEL = 0.5  # ... and less than this part of their hits is level with the plate
-_LEAST_ROWS = 0.5  # the plate has this part of all rows, or the mesh is no plate with something at its edge
+_NARROW = 0.5  # rows filled by less than this share of the fullest row's rays are no part of the plate ...
+_ABRUPT = 0.9  # ... if the row beside them is filled by this share of the median ...
+_LEVEL = 0.5  # ... and less than this share of their hits is level with the plate
+_LEAST_ROWS = 0.5  # the plate has at least this share of all rows, else the mesh is no plate with a part at its edge
 
 
 class Window(NamedTuple):
-    """Rows of the grid that are the plate's, from `first` up to, not including, `last`, of n."""
+    """Rows of the grid that belong to the plate, from `first` up to, but not including, `last`, of n."""
 
     first: int
     last: int
@@ -35,10 +35,10 @@ class Window(NamedTuple):
         return self.last - self.first == self.n
 
     def bounds_m(self, segments: Floats, along: int, low_m: float, high_m: float) -> tuple[float, float]:
-        """The plate's ends [m] along a coordinate of segments (2, 2, k), given those of the grid.
+        """Return the plate's ends [m] along a coordinate of segments (2, 2, k), from the ends of the grid.
 
-        An end that is no end of the grid is where the longest edge across stands within a cell of that row; without
-        any, it is the row's own.
+        An end inside the grid is at the longest edge across within a cell of that row; without such an edge, at the
+        row's own boundary.
         """
         cell_m = (high_m - low_m) / self.n
         return (
@@ -48,7 +48,8 @@ class Window(NamedTuple):
 
 
 def windows(seen: Bools, level: Bools) -> tuple[Window, Window]:
-    """The plate's rows along u and v, given which rays (n, n) meet anything, and which meet the plate's level."""
+    """Return the plate's rows along u and v. `seen` and `level` mark rays (n, n) that meet anything, or the plate's
+    level."""
     along_u, along_v = (_window(seen.sum(axis=axis), level.sum(axis=axis)) for axis in (1, 0))
     return along_u, along_v
 
@@ -71,7 +72,7 @@ def _window(n_seen: NDArray[np.int64], n_level: NDArray[np.int64]) -> Window:
 
 
 def _edge_m(segments: Floats, along: int, near_m: float, cell_m: float) -> float:
-    """Return the coordinate [m] of the longest of the segments (2, 2, k) across it, within a cell of a place."""
+    """Return the coordinate [m] of the longest of the segments (2, 2, k) across it, within a cell of `near_m`."""
     places, lengths = segments[along], np.abs(np.diff(segments[1 - along], axis=0)[0])
     lengths = np.where((np.abs(places - near_m) <= cell_m).all(axis=0), lengths, 0.0)
     if not lengths.max(initial=0.0) > 0:

@@ -14,13 +14,14 @@ if TYPE_CHECKING:
 
 LINES = "0.5"
 EMPTY = "0.82"
-"""Greys of outlines, and of surfaces on which there is nothing to show; both stand out on a light and a dark page."""
+"""Greys of outlines, and of surfaces without a value. Both are visible on light and dark pages."""
 
 
 def draw_values(axes: Axes, view: TopView, values: NDArray[np.float64], **options: Any) -> Any:
-    """Draw values (n_rows, n_columns) of a view's cells as colours, in metres, those that are NaN not at all.
+    """Draw values (n_rows, n_columns) of a view's cells as colours, in metres. NaN is not drawn.
 
-    Parameters: options : of `Axes.imshow`. Returns: the image.
+    Parameters: options : of `Axes.imshow`.
+    Returns: the image.
     """
     left, right, lower, upper = view.extent_m
     image = axes.imshow(

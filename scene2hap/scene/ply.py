@@ -1,7 +1,7 @@
-"""Triangle meshes as binary PLY files, to the last bit, so that bundles open in any mesh viewer.
+"""Triangle meshes as binary PLY files without loss of precision, so that bundles open in any mesh viewer.
 
-Written with doubles; float files, as Blender writes them, are read too. trimesh reads more, but rounds to single
-precision when it writes, and importing it would cost the playing side a quarter of a second.
+Files are written with doubles; float files, such as Blender's, are read too. trimesh reads more kinds, but it writes
+single precision, and its import would take the playing side a quarter of a second.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _HEADER = re.compile(
 
 
 def encode_ply(mesh: TriMesh) -> bytes:
-    """The mesh as a binary PLY file: double vertices, int faces."""
+    """Return the mesh as a binary PLY file: double vertices, int faces."""
     faces = np.empty(len(mesh.faces), dtype=[("n", "u1"), ("corners", "<i4", 3)])
     faces["n"], faces["corners"] = 3, mesh.faces
     header = (
@@ -43,7 +43,7 @@ def encode_ply(mesh: TriMesh) -> bytes:
 
 
 def decode_ply(data: bytes) -> TriMesh:
-    """The mesh in a binary PLY file of triangles.
+    """Return the mesh in a binary PLY file of triangles.
 
     Raises: SceneFormatError: another kind of PLY, cut short, or faces that are not triangles.
     """

@@ -17,14 +17,14 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene.scene_warning import warn_of
 
-# A quaternion this close to unit length is kept to the last bit, so that JSON round trips are exact.
+# A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical.
 _UNIT_TOLERANCE = 1e-9
-# Values rounded to one decimal are off by less, and so is the mean of two rotations 50 degrees apart.
+# Values rounded to one decimal have a smaller error, and so has the mean of two rotations 50 degrees apart.
 _FAR_FROM_UNIT = 0.1
-# Radians that are a whole number of these are degrees.
+# Angles in radians that are a multiple of this are probably degrees.
 _DEGREES = 15.0
 _LAST_ROW = 1e-6
-_LEAST_SLANT = 1e-9  # below this sine, a target is straight above or below, and no heading is defined
+_LEAST_SLANT = 1e-9  # below this sine, a target is straight above or below, and has no heading
 
 
 @clear_construction
@@ -55,7 +55,7 @@ class Pose:
 
     @classmethod
     def of_checked(cls, position_m: tuple[float, float, float], rotation_xyzw: tuple[float, ...]) -> Pose:
-        """A pose of numbers that were checked already, as those of a `PoseTable`: finite floats, a unit quaternion."""
+        """Return a pose of checked numbers, such as those of a `PoseTable`: finite floats, a unit quaternion."""
         pose = object.__new__(cls)
         object.__setattr__(pose, "position_m", position_m)
         object.__setattr__(pose, "rotation_xyzw", rotation_xyzw)
@@ -78,19 +78,19 @@ class Pose:
         return np.array(self.position_m)
 
     def to_world(self, points_own_m: ArrayLike) -> NDArray[np.float64]:
-        """Points (n, 3) [m] of the own frame, in the world."""
+        """Transform points (n, 3) [m] from the own frame to the world."""
         points = _points("points_own_m", points_own_m)
         moved: NDArray[np.float64] = points @ self.rotation.T + self._position
         return moved
 
     def to_own(self, points_m: ArrayLike) -> NDArray[np.float64]:
-        """Points (n, 3) [m] of the world, in the own frame."""
+        """Transform points (n, 3) [m] from the world to the own frame."""
         points = _points("points_m", points_m)
         own: NDArray[np.float64] = (points - self._position) @ self.rotation
         return own
 
     def compose(self, inner: Pose) -> Pose:
-        """The pose whose frame is `inner`, given in the frame of this one."""
+        """Return the world pose of `inner`, a pose given in this pose's frame."""
         if not isinstance(inner, Pose):
             raise SceneError(f"inner is {checks.represented(inner)}; it must be a Pose, as Pose(position_m).")
         ax, ay, az, aw = self.rotation_xyzw
@@ -106,7 +106,7 @@ class Pose:
 
     @classmethod
     def from_wxyz(cls, position_m: Sequence[float], rotation_wxyz: Sequence[float]) -> Pose:
-        """The pose of a quaternion that begins with w, as MuJoCo, Blender and PyTorch3D write it."""
+        """Return the pose of a quaternion that begins with w, as in MuJoCo, Blender and PyTorch3D."""
         w, x, y, z = checks.vector("rotation_wxyz", rotation_wxyz, "-", size=4, error=SceneError)
         return cls(_given(position_m), (x, y, z, w))
 
@@ -119,11 +119,11 @@ class Pose:
 
     @classmethod
     def from_euler(cls, position_m: Sequence[float], angles_rad: Sequence[float], *, order: str = "xyz") -> Pose:
-        """The pose of turns about the axes of the world, one after the other, in the order of the letters.
+        """Return the pose of successive rotations about the axes of the world, in the order of the letters.
 
-        Parameters: order : one to three of the letters x, y, z, without two equal neighbours; capitals turn about the
-            object's own axes, as each turn leaves them. angles_rad : one angle for each letter.
-        Raises: SceneError: the order or the number of angles is another.
+        Parameters: order : one to three of the letters x, y, z, without two equal neighbours; capitals rotate about the
+            object's own axes as they are after each rotation. angles_rad : one angle for each letter.
+        Raises: SceneError: the order or the number of angles is invalid.
         """
         letters = order.lower() if isinstance(order, str) else ""
         if (
@@ -150,7 +150,7 @@ class Pose:
     ) -> Pose:
         """Return the pose of an object whose front points at a target, with its upper side as far up as possible.
 
-        The front is the own axis z where y points up, as in glTF, and x where z points up, as in ROS (REP 103).
+        The front is the own axis z if y is up, as in glTF, and x if z is up, as in ROS (REP 103).
         Raises: SceneError: the target is at the object's position, or straight above or below it.
         """
         up = _axis(up_axis, "up_axis", "yz")
@@ -172,7 +172,7 @@ class Pose:
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> Pose:
-        """The pose of a rigid (4, 4) matrix, with the position in its last column.
+        """Return the pose of a rigid (4, 4) matrix, with the position in its last column.
 
         Raises: SceneError: the upper left 3 x 3 block is not a rotation, or the last row is not (0, 0, 0, 1).
         """
@@ -236,7 +236,8 @@ def _triple(values: Sequence[float] | NDArray[np.float64]) -> tuple[float, float
 
 
 def _quaternion(r: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Unit quaternion (x, y, z, w) of a rotation matrix, from its largest component so that nothing cancels.
+    """Return the unit quaternion (x, y, z, w) of a rotation matrix. The largest component comes first to avoid
+    cancellation.
 
     Source: S. W. Shepperd, Quaternion from rotation matrix, J. Guidance and Control 1 (1978) 223.
     """

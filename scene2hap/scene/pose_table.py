@@ -12,7 +12,7 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene.pose import Pose
 
-_UNIT_TOLERANCE = 1e-9  # As in `Pose`: such a rotation is kept as it is.
+_UNIT_TOLERANCE = 1e-9  # As in `Pose`: a rotation this close to unit length is kept unchanged.
 
 
 @clear_construction
@@ -20,7 +20,7 @@ class PoseTable(Mapping[str, Pose]):
     """A mapping from id to `Pose` that makes each pose on first access, for `ContactGraph.update` of many objects.
 
     Parameters: ids : n ids, each once; positions_m : (n, 3) [m]; rotations_xyzw : (n, 4), quaternions in glTF order,
-    normalised if they are not. The arrays are copied. Tables of one tuple of ids are read fastest.
+        normalised if they are not. The arrays are copied. Reading is fastest if tables share one tuple of ids.
     Raises: SceneError: shapes that do not fit, an id twice, a number that is not finite, a rotation of length 0.
     """
 
@@ -58,7 +58,7 @@ class PoseTable(Mapping[str, Pose]):
         return Pose.of_checked((x, y, z), tuple(self.rotations_xyzw[row].tolist()))
 
     def poses(self, rows: NDArray[np.intp]) -> dict[str, Pose]:
-        """The poses in some rows, by id; faster than one by one."""
+        """Return the poses in some rows, by id; faster than one by one."""
         x, y, z = self.positions_m[rows].T.tolist()
         qx, qy, qz, qw = self.rotations_xyzw[rows].T.tolist()
         ids, of_checked = self.ids, Pose.of_checked

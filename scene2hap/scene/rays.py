@@ -3,8 +3,8 @@
 The mesh is given in a frame whose third axis is the direction of the rays. So casting is rasterisation: each triangle
 is drawn onto the grid once, and a sort along every ray replaces a search tree.
 
-Letters: u, v across the rays and w along them [m]; n rays per side [-]. Triangles are held as arrays (3, 3, m) of
-coordinate, corner and triangle, so that arithmetic runs along the triangles.
+Letters: u, v across the rays and w along them [m]; n rays per side [-]. Triangles are arrays (3, 3, m) of coordinate,
+corner and triangle, since vectorised arithmetic is fastest along the last axis.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-# Pairs of triangle and ray that are tested at once; bounds memory to some 100 MB (assumed).
+# Pairs of triangle and ray that are tested at once. This bounds memory to about 100 MB (assumed).
 _MAX_PAIRS = 1_000_000
-# Pairs in all, so many layers on every ray and so many per triangle; a heap of large triangles beyond is not measured
+# Most pairs in all: this many layers on every ray, and this many pairs per triangle. Meshes with more are not measured
 # (assumed: ten times the densest foliage, and some seconds).
 _MAX_LAYERS, _MAX_PAIRS_PER_TRIANGLE = 1000, 4
-# Rays stand up to this part of a cell off its centre, so that none runs along the diagonal of a quad, where it would
-# meet both triangles or neither. The fractions are powers of the plastic number, which fill the plane evenly.
+# Greatest offset of a ray from the centre of its cell, in cells. Without it, rays would run along the diagonals of
+# quads and meet both triangles or none. The fractions are powers of the plastic number, which fill the plane evenly.
 _JITTER = 0.25
 _PLASTIC = (0.7548776662466927, 0.5698402909980532)
-# A mesh whose width is this part of its length is a line to the rays: rounding alone makes it that wide.
+# A mesh whose width is at most this share of its length counts as a line: rounding alone makes it that wide.
 _EDGE_ON = 1e-12
 
 
@@ -36,8 +36,8 @@ _EDGE_ON = 1e-12
 class Hits:
     """The hits of rays on triangles, sorted by ray and then by falling w.
 
-    Parameters: ray : (n_hits,) number of the ray; w : (n_hits,) [m]; side : (n_hits,) +1 where the triangle faces
-    against the ray as seen from above, -1 where it faces along it.
+    Parameters: ray : (n_hits,) number of the ray; w : (n_hits,) [m]; side : (n_hits,) +1 if the triangle faces against
+        the ray as seen from above, -1 if it faces along it.
     """
 
     ray: Ints
@@ -46,15 +46,15 @@ class Hits:
 
     @cached_property
     def starts(self) -> Ints:
-        """Index of the first hit of each ray that hits anything (n_rays,)."""
+        """Index of the first hit of each ray that has a hit (n_rays,)."""
         return np.flatnonzero(np.diff(self.ray, prepend=-1))
 
 
 def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n_pairs: None) -> Hits:
-    """Hits of n x n rays that run along w through the bounding rectangle of triangles (3, 3, m) [m].
+    """Return hits of n x n rays that run along w through the bounding rectangle of triangles (3, 3, m) [m].
 
-    None for a line, and for more than some thousand layers of triangles. `spend` is called with the number of pairs of
-    a ray and a triangle before they are tested, and may raise to prevent it.
+    There are no hits for a line, and for more than some thousand layers of triangles. `spend` is called with the number
+    of pairs of a ray and a triangle before they are tested, and may raise to prevent the tests.
     """
     corners = triangles.reshape(3, -1)
     low = corners.min(axis=1)
@@ -85,7 +85,7 @@ def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n
 
 
 def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: int) -> tuple[Ints, Floats, Ints]:
-    """Rays, heights and sides of the hits of some triangles, unsorted; u and v in cells of the grid."""
+    """Return rays, heights and sides of the hits of some triangles, unsorted; u and v are in cells of the grid."""
     pairs = span[0] * span[1]
     which = np.repeat(np.arange(len(pairs)), pairs)
     nth = np.arange(len(which)) - np.repeat(np.cumsum(pairs) - pairs, pairs)
@@ -113,7 +113,7 @@ def _off_centre(cell: Ints, ray: Ints, fraction: float) -> Floats:
 class Solids:
     """The first solid that each ray meets from above.
 
-    Parameters: top, bottom : (n_rays,) [m] where the ray enters and leaves; bottom is NaN if it meets nothing more.
+    Parameters: top, bottom : (n_rays,) [m] where the ray enters and leaves; bottom is NaN if there is no second hit.
     """
 
     top: Floats
@@ -121,11 +121,12 @@ class Solids:
 
 
 def first_solids(hits: Hits, tolerance: float) -> Solids:
-    """Follow each ray from above until it has left what it entered, counting faces as a winding number.
+    """Follow each ray from above until it leaves the first solid, with a winding number that counts faces.
 
-    Counting makes one solid of parts that overlap (legs that reach into a table top). Surfaces closer than `tolerance`
-    [m] are one; a sheet drawn from both sides is passed over if a solid follows, else it is a solid of no thickness. If
-    the count never returns to zero (inconsistent faces, or an open mesh), the solid ends at the second surface.
+    The winding number joins parts that overlap (legs that extend into a table top) to one solid. Surfaces closer than
+    `tolerance` [m] are one. A sheet drawn from both sides is ignored if a solid follows, else it is a solid of no
+    thickness. If the number never returns to zero (inconsistent faces, or an open mesh), the solid ends at the second
+    surface.
     """
     new_ray = np.zeros(len(hits.ray), dtype=bool)
     new_ray[hits.starts] = True
@@ -146,22 +147,22 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
 
 
 def _next(is_wanted: NDArray[np.bool_], start: Ints) -> Ints:
-    """Return the first wanted place from each `start` on; the length of `is_wanted` if none follows."""
+    """Return the first wanted index from each `start` on; the length of `is_wanted` if none follows."""
     places = np.append(np.flatnonzero(is_wanted), len(is_wanted))
     return places[np.searchsorted(places, start)]
 
 
 def share_open(hits: Hits) -> float:
-    """Return the share of rays whose numbers of entered and left faces differ [-]."""
+    """Return the share of rays for which the numbers of entered and left faces differ [-]."""
     return float(np.mean(np.add.reduceat(hits.side, hits.starts) != 0)) if len(hits.ray) else 0.0
 
 
 def cut(triangles: Floats, height: float) -> Floats:
-    """Segments (2, 2, n) [m], by coordinate and end, where triangles (3, 3, m) cross the plane w = height."""
+    """Return segments (2, 2, n) [m], by coordinate and end, where triangles (3, 3, m) cross the plane w = height."""
     above = triangles[2] > height
     n_above = above.sum(axis=0)
     crossing = np.flatnonzero((n_above == 1) | (n_above == 2))
-    # The corner that lies alone on its side of the plane is the end of both edges that cross.
+    # One corner is alone on its side of the plane. Both edges that cross the plane end in it.
     alone = np.argmax(above[:, crossing] == (n_above[crossing] == 1), axis=0)
     tip = triangles[:, alone, crossing]
     ends = [triangles[:, (alone + k) % 3, crossing] for k in (1, 2)]
@@ -169,22 +170,22 @@ def cut(triangles: Floats, height: float) -> Floats:
 
 
 def outline(triangles: Floats) -> Floats:
-    """Edges (2, 2, 3 m) [m], by coordinate and end, of triangles (3, 3, m), seen along w."""
+    """Return edges (2, 2, 3 m) [m], by coordinate and end, of triangles (3, 3, m), seen along w."""
     flat = triangles[:2]
     return np.stack((flat.reshape(2, -1), np.roll(flat, -1, axis=1).reshape(2, -1)), axis=1)
 
 
 def median_span(segments: Floats, along: int, n: int) -> tuple[float, float] | None:
-    """Median extent and median middle [m] of what n rays in the plane of the segments (2, 2, k) meet.
+    """Return median extent and median middle [m] of the chords of n rays in the plane of the segments (2, 2, k).
 
-    The rays run along coordinate `along` and stand evenly on the other one. None if none meets anything.
+    The rays run along coordinate `along` at equal distances on the other one. None if no ray meets anything.
     """
     across = segments[1 - along]
     low, high = across.min(initial=np.inf), across.max(initial=-np.inf)
     if not high > low:
         return None
     row = low + (high - low) * (np.arange(n) + 0.5) / n
-    # The rows that a segment crosses are neighbours: those from `first` up to, not including, `last`.
+    # A segment crosses a run of rows: from `first` up to, but not including, `last`.
     first, last = np.searchsorted(row, across.min(axis=0)), np.searchsorted(row, across.max(axis=0))
     count = last - first
     which = np.repeat(np.arange(len(count)), count)

@@ -21,19 +21,19 @@ from scene2hap.scene.shapes import TriMesh
 from scene2hap.scene.surfaces import Surfaces
 from scene2hap.scene.tree import Matrix, Piece, digest
 
-# Matrices that went through float32 differ in the seventh digit; instances may differ by this part of their size.
+# Matrices that were stored as float32 differ in the seventh digit, so instances may differ by this share of their size.
 _SAME_PLACE = 1e-6
-# Smaller than this [m], an object is a point: no surface can be measured on it (assumed; a hair is 5e-5 wide).
+# An object smaller than this [m] is a point: its surface cannot be measured (assumed; a hair is 5e-5 wide).
 _MIN_EXTENT_M = 1e-9
-# Vertices are rounded to this many decimals of a metre: turning to and fro costs doubles no more in a scene of 1e6 m.
+# Vertices are rounded to this many decimals of a metre. Rotating to and fro has smaller errors in a scene of 1e6 m.
 _DECIMALS = 9
-# Copies that are stored twice may be rounded to neighbouring steps [m].
+# Two stored copies may be rounded to neighbouring steps [m].
 _SAME_VERTEX_M = 1.5e-9
 
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """An object's mesh in its own frame, the pose of that frame, and the key that its copies share."""
+    """An object's mesh in its own frame, the pose of that frame, and a key that copies share."""
 
     pose: Pose
     mesh: TriMesh
@@ -43,9 +43,9 @@ class Placed:
 
 @dataclass(eq=False)
 class MeshPool:
-    """Bakes groups into meshes. Groups with equal results share one TriMesh; copies share their looks.
+    """Maker of meshes from groups. Groups with equal results share one TriMesh; copies share their looks.
 
-    `surfaces` measures the meshes, and counts each vertex that the file stores.
+    `surfaces` measures the meshes. Its budget counts each vertex that the file stores.
     """
 
     unit_m: float
@@ -59,7 +59,7 @@ class MeshPool:
     )
 
     def place(self, group: Group) -> Placed:
-        """The group's mesh, pose and looks.
+        """Return the group's mesh, pose and looks.
 
         Raises: SceneError: a coordinate is too large, or all vertices are in one point; the message names the object.
         """
@@ -75,7 +75,7 @@ class MeshPool:
         own = np.linalg.inv(rigid) @ world
         pieces = [piece for _, piece in group.parts]
         copies = self._copies.setdefault(tuple(piece.key for piece in pieces), _Copies())
-        # How far each entry moves a vertex, so that all are held against one length.
+        # The distance by which each entry moves a vertex, so that one length bounds all entries.
         with np.errstate(over="ignore"):
             moves = own[:, :3] * np.array([[[piece.reach] * 3 + [1.0]] for piece in pieces])
         _check_reach(group.name, float(np.abs(moves).max()))
@@ -88,7 +88,7 @@ class MeshPool:
 
     def _bake(self, group: Group, own: NDArray[np.float64]) -> TriMesh:
         pieces = [piece for _, piece in group.parts]
-        # Copies of a piece within one object are made as often as they stand there.
+        # A piece that occurs several times in one object is copied each time, so the budget counts each.
         for piece in pieces:
             if piece.key not in self._stored:
                 self._stored.add(piece.key)
@@ -103,7 +103,7 @@ class MeshPool:
             raise SceneError(
                 f"object {group.name!r} has no size: all its vertices are in one point. Remove it, or check its scale."
             )
-        # Adding zero turns -0 into 0, which is written with other bits.
+        # Adding zero turns -0 into 0; both are equal, but their bits and so their digests differ.
         vertices = np.round(vertices, _DECIMALS) + 0.0
         stored = self._by_faces.setdefault(hashlib.sha256(faces.tobytes()).digest(), _Copies())
         mesh = stored.find(vertices, _SAME_VERTEX_M)
@@ -126,13 +126,13 @@ class MeshPool:
 
 @dataclass(eq=False)
 class _Copies:
-    """Meshes by tables of numbers, sorted by a number that equal tables share, so that few are compared."""
+    """Meshes by tables of numbers, sorted by a mark that equal tables share, so that only few tables are compared."""
 
     marks: list[float] = field(default_factory=list)
     rows: list[tuple[NDArray[np.float64], TriMesh]] = field(default_factory=list)
 
     def find(self, table: NDArray[np.float64], tolerance: float) -> TriMesh | None:
-        """The mesh of a table of that shape of which no entry differs by more than the tolerance."""
+        """Return the mesh of a table of equal shape whose entries all differ by at most the tolerance."""
         mark, spread = self._mark(table), tolerance * table.size
         first = bisect_left(self.marks, mark - spread)
         last = bisect_right(self.marks, mark + spread)
@@ -142,7 +142,7 @@ class _Copies:
         return None
 
     def add(self, table: NDArray[np.float64], mesh: TriMesh) -> None:
-        """Keep the mesh of a table."""
+        """Add the mesh of a table."""
         mark = self._mark(table)
         at = bisect_left(self.marks, mark)
         self.marks.insert(at, mark)
@@ -150,14 +150,15 @@ class _Copies:
 
     @staticmethod
     def _mark(table: NDArray[np.float64]) -> float:
-        """A sum of the entries with weights below 1 that no plain ratio of entries cancels."""
+        """Return a weighted sum of the entries. The weights below 1 are irrational, so no plain ratio of entries
+        cancels."""
         return float(table.ravel() @ np.modf(np.arange(1, table.size + 1) * 0.6180339887498949)[0])
 
 
 def rigid_part(matrix: Matrix) -> Matrix:
-    """The rotation and translation of an affine matrix, without scale, shear and mirroring.
+    """Return the rotation and translation of an affine matrix, without scale, shear and mirroring.
 
-    L = Q P with Q orthogonal and P symmetric (polar decomposition). A mirroring Q has its x axis flipped, so that an
+    L = Q P with Q orthogonal and P symmetric (polar decomposition). If Q mirrors, its x axis is flipped, so that an
     upright object stays upright.
     """
     left, _, right = np.linalg.svd(matrix[:3, :3])
@@ -178,7 +179,8 @@ def _check_reach(name: str, reach_m: float) -> None:
 
 
 def _baked(piece: Piece, matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Vertices and faces of a piece under a matrix; faces still turn outwards if it mirrors."""
+    """Return vertices and faces of a transformed piece. Faces are reversed under mirroring, so they still face
+    outwards."""
     vertices = piece.vertices @ matrix[:3, :3].T + matrix[:3, 3]
     return vertices, piece.faces[:, ::-1] if _mirrors(matrix) else piece.faces
 

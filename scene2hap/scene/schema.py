@@ -2,8 +2,9 @@
 
     python -m scene2hap.scene.schema > docs/scene.schema.json
 
-It is generated from the types, so that both agree: pydantic gives names, shapes and defaults. This module adds what
-pydantic cannot see: bounds that the types hold in code, arrays, what may be left out, and words for exporters.
+It is generated from the types, so that both agree. Pydantic gives names, shapes and defaults. This module adds the
+parts that pydantic cannot see: bounds that the types check in code, arrays, optional fields, and descriptions for
+exporters.
 """
 
 from __future__ import annotations
@@ -69,14 +70,14 @@ _MEASURED = ("surface", "relative_height_m")
 
 
 class _Generator(GenerateJsonSchema):
-    """Pydantic's generator, which refuses types that have no JSON."""
+    """Pydantic's generator, changed for types that have no JSON: they are marked or left open instead of refused."""
 
     def handle_invalid_for_json_schema(self, schema: Any, error_info: str) -> _Json:
         return {_PYTHON_ONLY: True} if schema["type"] == "is-instance" else {}
 
 
 def scene_schema() -> _Json:
-    """The schema (JSON Schema, 2020-12) of the text that `SceneSnapshot.from_json` reads."""
+    """Return the schema (JSON Schema, 2020-12) of the text that `SceneSnapshot.from_json` reads."""
     plain = _plain(TypeAdapter(SceneSnapshot).json_schema(schema_generator=_Generator))
     parts: _Json = plain["$defs"]
     for name, part in parts.items():
@@ -115,7 +116,7 @@ def scene_schema() -> _Json:
 
 
 def _plain(schema: Any) -> Any:
-    """Return the schema without fields that exist in Python alone, and without titles and docstrings."""
+    """Return the schema without fields that exist only in Python, and without titles and docstrings."""
     if isinstance(schema, list):
         return [_plain(item) for item in schema]
     if not isinstance(schema, dict):
@@ -128,7 +129,7 @@ def _plain(schema: Any) -> Any:
             if not key.startswith("_") and _PYTHON_ONLY not in json.dumps(field)
         }
     if "const" in kept:
-        # Said in other words by other versions of pydantic.
+        # Versions of pydantic describe a constant differently.
         kept = {key: kept[key] for key in ("const", "default") if key in kept}
     return kept
 

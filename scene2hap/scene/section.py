@@ -10,13 +10,15 @@ from scene2hap.scene.outline import MOST_CORNERS, Outline
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-_SAME_POINT = 1e-6  # of the size: vertices that a file stores once for each face meet again
-_TOLERANCE = 1e-3  # of the size: corners that leave the ring by less are left out
+_SAME_POINT = 1e-6  # of the size: vertices this close are one, since a file may store a vertex once for each face
+_TOLERANCE = 1e-3  # of the size: corners whose removal changes the ring by less are left out
 
 
 def section_outline(triangles_m: Floats, level_m: float) -> Outline | None:
-    """The largest ring in which triangles (3, 3, m), axes by corners, cross the plane z = `level_m` [m], with the holes
-    in it; None where the mesh is not closed there, so that no ring is."""
+    """Return the outline in which triangles (3, 3, m), axes by corners, cross the plane z = `level_m` [m].
+
+    It is the largest ring with the holes in it. None if the mesh is not closed there.
+    """
     starts, ends = _segments(triangles_m, level_m)
     if not len(starts):
         return None
@@ -39,11 +41,11 @@ def section_outline(triangles_m: Floats, level_m: float) -> Outline | None:
 
 
 def _segments(triangles_m: Floats, level_m: float) -> tuple[Floats, Floats]:
-    """Return the segments in which triangles cross the plane, from (n, 2) to (n, 2)."""
+    """Return the segments in which triangles cross the plane, as starts (n, 2) and ends (n, 2)."""
     above = triangles_m[2] > level_m
     crossing = np.flatnonzero(above.any(axis=0) & ~above.all(axis=0))
     corner, side = triangles_m[:, :, crossing], above[:, crossing]
-    # One corner is alone on its side; the edges from it to the others cross.
+    # One corner is alone on its side; the edges from it to the others cross the plane.
     alone = np.where(side.sum(axis=0) == 1, side.argmax(axis=0), side.argmin(axis=0))
     every = np.arange(len(crossing))
     apex = corner[:, alone, every]
@@ -56,7 +58,8 @@ def _segments(triangles_m: Floats, level_m: float) -> tuple[Floats, Floats]:
 
 
 def _rings(segments: Ints, n_corners: int) -> list[Ints]:
-    """Closed rings of corners from segments between them (2, n); none where a corner is not where two meet."""
+    """Return closed rings of corners from segments (2, n). No ring if any corner is not the end of exactly two
+    segments."""
     segments = np.unique(np.sort(segments[:, segments[0] != segments[1]], axis=0), axis=1)
     at, meets = np.unique(segments, return_counts=True)
     if not len(at) or (meets != 2).any():
@@ -80,7 +83,7 @@ def _rings(segments: Ints, n_corners: int) -> list[Ints]:
 
 
 def _simplified(ring: Floats, tolerance_m: float) -> Floats:
-    """The ring without corners that lie within the tolerance of the rest.
+    """Return the ring without corners that are within the tolerance of the remaining ring.
 
     Source: D. Douglas, T. Peucker, Cartographica 10 (1973) 112.
     """

@@ -1,4 +1,4 @@
-"""Shapes of objects: boxes, triangle meshes, and the dominant surface of either. Metres, in the object's own frame."""
+"""Shapes of objects: boxes, triangle meshes and their dominant surfaces, in metres and in the object's own frame."""
 
 from __future__ import annotations
 
@@ -19,8 +19,11 @@ from scene2hap.scene.outline import Outline
 from scene2hap.scene.pose import Pose
 
 SurfaceFlag = Literal["open-mesh", "zero-thickness", "box-fallback"]
-"""Reasons to review a measured dominant surface: the mesh has a boundary; it has no thickness (a floor of two
-triangles); its shape has no rectangle of medians (an L, a curtain), so that its bounding box was used."""
+"""Reasons to review a measured dominant surface.
+
+"open-mesh": the mesh has a boundary. "zero-thickness": such as a floor of two triangles. "box-fallback": the shape has
+no rectangle of medians (an L, a curtain), so its bounding box was used.
+"""
 
 _JsonArray = (PlainValidator(lambda value: value), PlainSerializer(lambda array: array.tolist()))
 if TYPE_CHECKING:
@@ -34,7 +37,7 @@ else:
 @clear_construction
 @dataclass(frozen=True)
 class Box:
-    """A cuboid centred on its object's pose, axes along the object's own.
+    """A cuboid centred on its object's pose, with axes along the object's own.
 
     Raises: SceneError: an edge is not positive and finite.
     """
@@ -101,14 +104,14 @@ class TriMesh:
 
     @cached_property
     def digest(self) -> str:
-        """A name for the content: equal meshes, and only these, share it."""
+        """A hash of the content: equal for equal meshes only."""
         content = hashlib.sha256(self.vertices_m.tobytes())
         content.update(self.faces.tobytes())
         return content.hexdigest()[:16]
 
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
-        """Lowest and highest corner (2, 3) [m] of the vertices that faces use, in the own frame."""
+        """Lowest and highest corner (2, 3) [m] in the own frame, of the vertices that faces use."""
         used = self.vertices_m[np.unique(self.faces)]
         return np.array([used.min(axis=0), used.max(axis=0)])
 
@@ -117,7 +120,7 @@ Geometry = Box | TriMesh
 
 
 def geometry_of(value: object, owner: str) -> Geometry:
-    """Return a Box or TriMesh unchanged, or a TriMesh of a pair of vertices and faces, or of an object with both.
+    """Return a Box or TriMesh unchanged. A pair of vertices and faces, or an object with both, becomes a TriMesh.
 
     Raises: SceneError: it is something else; the message names the owner.
     """
@@ -136,14 +139,14 @@ def geometry_of(value: object, owner: str) -> Geometry:
 @clear_construction
 @dataclass(frozen=True)
 class DominantSurface:
-    """The plate of an object, such as the top of a table, and where it lies in the object's own frame.
+    """The plate of an object, such as the top of a table, and its pose in the object's own frame.
 
-    `pose` puts the plate's corner frame into the object's own frame: its origin is a corner of the plate's mid-plane,
-    x runs along the length, y along the width, z along the thickness (the plate's normal). `flags` are reasons to
-    review a measured value; they are empty for a stated one. `outline` is the area of a surface that is no rectangle,
-    from the same corner along length and width. It may extend beyond these, which are then those of an equivalent
-    rectangle.
-    Raises: SceneError: a size that is negative, or no thickness without the flag that says so.
+    `pose` maps the plate's corner frame to the object's own frame: its origin is a corner of the plate's mid-plane, x
+    runs along the length, y along the width, z along the thickness (the plate's normal). `flags` are reasons to review
+    a measured value; they are empty for a stated one. `outline` is the area of a surface that is no rectangle, from the
+    same corner along length and width. It may extend beyond the rectangle. Length and width are then those of an
+    equivalent rectangle.
+    Raises: SceneError: a size is negative, or the thickness is 0 without the flag for it.
     """
 
     pose: Pose

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 THINNEST_M = 2e-5
-"""Thickness of a foil [m]; no plate is stated to be thinner."""
+"""Thickness of a foil [m]; a stated thickness must not be less."""
 
 NOTHING = 1e-7
-"""A thickness below this part of the shorter edge is none."""
+"""A thickness below this share of the shorter edge counts as none."""
 
-# All assumed. Three times either way holds an L-shaped top against the box around it; the thickest walls and slabs are
-# half a metre; and what is thicker than a third of its width is no plate, unless it was measured so.
+# All assumed. An L-shaped top and the box around it differ by less than a factor of 3. The thickest walls and slabs are
+# half a metre. A shape thicker than a third of its width is no plate, unless it was measured so.
 FACTOR = 3.0
 _THICKEST_M = 0.5
 _THICK_SHARE = 1 / 3
@@ -27,7 +27,7 @@ Size = tuple[float, float, float]
 def faults(stated_m: Sequence[float], measured_m: Sequence[float]) -> dict[str, str]:
     """Return the errors of a stated length, width and thickness [m], by field: the value and the violated bounds.
 
-    Length and width may change places. An edge that was measured as 0 has only an upper bound, that of the other one.
+    Length and width may be exchanged. An edge that was measured as 0 has only the upper bound of the other edge.
     """
     wrong: dict[str, str] = {}
     shorter, longer = sorted(measured_m[:2])
@@ -51,11 +51,11 @@ def thickest_m(measured_m: Sequence[float]) -> float:
 
 
 def assumed_thickness_m(measured_m: Sequence[float]) -> float:
-    """Thickness of a sheet of unknown thickness [m]."""
+    """Return the assumed thickness of a sheet of unknown thickness [m]."""
     return max(min(_ASSUMED_M, _ASSUMED_SHARE * min(measured_m[:2])), THINNEST_M)
 
 
 def with_thickness(measured_m: Sequence[float]) -> Size:
-    """A measured size, with an assumed thickness where the mesh has none."""
+    """Return a measured size, with an assumed thickness if the mesh has none."""
     length, width, thickness = measured_m
     return length, width, thickness if thickness >= THINNEST_M else assumed_thickness_m(measured_m)

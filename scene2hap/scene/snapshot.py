@@ -32,7 +32,7 @@ from scene2hap.scene.pose import Pose
 
 
 class ObjectTuple(tuple[SceneObject, ...]):
-    """Objects in their order; an error names the ways to find one by its id."""
+    """A tuple of objects. Its error for a text as index explains how to find an object by its id."""
 
     __slots__ = ()
 
@@ -46,7 +46,7 @@ class ObjectTuple(tuple[SceneObject, ...]):
         return super().__getitem__(key)
 
 
-_MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # as an endless generator would exceed
+_MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # only an endless generator exceeds these
 
 
 @clear_calls
@@ -54,9 +54,9 @@ _MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # as an endless generat
 class SceneSnapshot(SceneData):
     """The state of a scene at one time.
 
-    `contacts` is None where the source of the scene has none; they are then found from geometry. `images` are
-    of the whole scene, None until `capture_images`.
-    Raises: SceneError: no object, or two objects with one id, or a contact with an object that is not there.
+    `contacts` is None if the source of the scene has none; they are then found from geometry. `images` are of the whole
+    scene, None until `capture_images`.
+    Raises: SceneError: no object, two objects with one id, or a contact with an object that does not exist.
     """
 
     images: InstanceOf[ImageSet] | None = field(default=None, compare=False, repr=False)
@@ -99,7 +99,7 @@ class SceneSnapshot(SceneData):
         up_axis: UpAxis = "y",
         contacts: Iterable[Contact] | None = None,
     ) -> SceneSnapshot:
-        """A scene of objects made in Python: surfaces that were not given and heights are measured for its up axis.
+        """Return a scene of objects made in Python. Missing surfaces, and heights, are measured for its up axis.
 
         Raises: SceneError: as the constructor.
         Warns: UnitWarning: the sizes cannot be metres.
@@ -123,7 +123,7 @@ class SceneSnapshot(SceneData):
         return scene
 
     def object(self, object_id: str) -> SceneObject:
-        """The object with that id.
+        """Return the object with an id.
 
         Raises: UnknownObject: there is none; the message names the nearest ids.
         """
@@ -132,14 +132,14 @@ class SceneSnapshot(SceneData):
         return self._by_id[object_id]
 
     def with_poses(self, moved: Mapping[str, Pose]) -> SceneSnapshot:
-        """Move some objects. Returns a scene with heights computed again, without given contacts and images."""
+        """Move some objects. Returns a scene with new heights, without given contacts and images."""
         for object_id in moved:
             self.object(object_id)
         objects = [replace(item, pose=moved.get(item.id, item.pose), images=None) for item in self.objects]
         return SceneSnapshot(self.name, self.up_axis, with_relative_heights(objects, self.up_axis))
 
     def check(self) -> tuple[Finding, ...]:
-        """Find likely mistakes: units, quaternions that begin with w, the up axis, objects that float or are sunk."""
+        """Find likely mistakes: units, quaternions that begin with w, the up axis, floating or sunken objects."""
         from scene2hap.scene.check import findings
 
         return tuple(findings(self))
@@ -155,14 +155,14 @@ class SceneSnapshot(SceneData):
         return html_table(title, columns, map(row, self.objects), count)
 
     def to_json(self) -> str:
-        """The whole scene as JSON; `from_json` gives it back exactly."""
+        """Return the whole scene as JSON; `from_json` restores it exactly."""
         from scene2hap.scene.json import dump
 
         return dump(self)
 
     @classmethod
     def from_json(cls, text: str) -> SceneSnapshot:
-        """A scene from JSON.
+        """Return a scene from JSON.
 
         Raises: SceneError: the text is not JSON or not a scene; the message names the field.
         """

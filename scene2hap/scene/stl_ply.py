@@ -1,4 +1,4 @@
-"""STL and PLY files, which hold one mesh each, through trimesh."""
+"""STL and PLY files, which hold one mesh each, read by trimesh."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from scene2hap.scene.colors import painted
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _HEADER_BYTES = 1 << 16
-# Where one solid of a text STL ends and the next begins.
+# Matches the lines between two solids of a text STL.
 _NEXT_SOLID = re.compile(rb"\n[ \t]*endsolid[^\n]*(?:\n[ \t\r]*)*\n[ \t]*solid\b[^\n]*(?=\n)", re.IGNORECASE)
 MAX_SOLIDS = 1_000
-"""Solids of a text STL that are written within its lines and so are read one by one (assumed)."""
+"""Most solids of a text STL that do not begin on a line of their own; each is read separately (assumed)."""
 
 
 def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
-    """The triangles of a file as one node called `name`; `file_type` is "stl" or "ply".
+    """Return the triangles of a file as one node called `name`; `file_type` is "stl" or "ply".
 
     Raises: SceneFormatError: trimesh cannot read it, or it was cut short.
     """
@@ -37,20 +37,20 @@ def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
     try:
         with _silent_log("trimesh"), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
-            # No resolver: neither format needs another file, so none is opened.
+            # No resolver: these formats need no other file, so none is opened.
             scene = trimesh.load_scene(io.BytesIO(data), file_type=file_type, process=False)
             meshes = [mesh for mesh in scene.geometry.values() if isinstance(mesh, trimesh.Trimesh)]
             tables = [(np.asarray(mesh.vertices), np.asarray(mesh.faces), _appearance(mesh)) for mesh in meshes]
-    # Its readers raise whatever the broken bytes lead to.
+    # Broken bytes may raise any error in trimesh's readers.
     except Exception as cause:
         raise SceneFormatError(f"{name!r} cannot be read as {file_type.upper()}: {cause}.") from cause
-    # trimesh reads as many lines of a text PLY as there are; its binary formats and STL are held to their counts.
+    # trimesh ignores the number of faces in a text PLY. It checks the numbers in binary PLY and in STL.
     promised = re.search(rb"^element face (\d+)", data[:_HEADER_BYTES], re.MULTILINE) if file_type == "ply" else None
     n_faces = sum(len(faces) for _, faces, _ in tables)
     if promised is not None and n_faces < int(promised[1]):
         raise SceneFormatError(f"{name!r} promises {int(promised[1])} faces and holds {n_faces}: cut short?")
     if file_type == "stl" and not n_faces and not data.lstrip().lower().startswith(b"solid"):
-        # Where it can guess encodings, trimesh takes a binary file whose count is wrong for a text without triangles.
+        # If trimesh can guess encodings, it reads a binary file with a wrong count as a text without triangles.
         promised_stl = int.from_bytes(data[80:84], "little")
         if promised_stl:
             raise SceneFormatError(
@@ -65,9 +65,10 @@ def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
 
 
 def _as_one_solid(data: bytes, name: str) -> bytes:
-    """A text STL without the lines between its solids, which trimesh takes a millisecond for each; others as they are.
+    """Remove the lines between the solids of a text STL, since trimesh takes a millisecond for each. Binary STL is
+    unchanged.
 
-    Raises: SceneError: many solids stand within lines.
+    Raises: SceneError: many solids begin within lines.
     """
     if len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
         return data
@@ -82,7 +83,7 @@ def _as_one_solid(data: bytes, name: str) -> bytes:
 
 
 def _appearance(mesh: Any) -> Appearance | None:
-    """Colours of faces, or of vertices by the mean of each face; None if the file has none."""
+    """Return colours of faces, or of vertices as the mean of each face; None if the file has none."""
     if mesh.visual.kind not in ("vertex", "face"):
         return None
     return painted(np.asarray(mesh.visual.face_colors) / 255.0, FaceMaterial((1.0, 1.0, 1.0, 1.0)))

@@ -1,4 +1,4 @@
-"""The dominant surfaces of one scene: each mesh is measured once, all of them within one budget."""
+"""The dominant surfaces of one scene: each mesh is measured once, and one budget bounds all measurements."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from scene2hap.scene.dominant_surface import dominant_surface
 from scene2hap.scene.shapes import DominantSurface, TriMesh
 
 _FREE = 18_000_000
-"""Tests of a ray against a triangle (measured: two seconds; some 700 small meshes, no two of one shape)."""
+"""Tests of a ray against a triangle (measured: two seconds; about 700 small meshes, all different)."""
 _PER_VERTEX = 100.0
-"""Further tests for each vertex that the file stores (assumed: 4,000 meshes of 200 vertices, each of its own)."""
+"""Further tests for each vertex that the file stores (assumed: 4,000 different meshes of 200 vertices)."""
 
 
 @dataclass(eq=False)
 class Surfaces:
-    """Measures meshes. `work` is the budget of that; the reader of a file raises it by the file's vertices."""
+    """Cache of measured surfaces. `work` is the budget; the reader of a file raises it by the file's vertices."""
 
     work: limits.Budget = field(
         default_factory=lambda: limits.Budget(
@@ -33,7 +33,7 @@ class Surfaces:
     _measured: dict[tuple[object, ...], DominantSurface] = field(default_factory=dict)
 
     def of(self, mesh: TriMesh, up: NDArray[np.float64], place: str, *, turns: bool = False) -> DominantSurface:
-        """Return the surface of a mesh, given the direction of up (3,) in its frame; see `dominant_surface`.
+        """Return the surface of a mesh; `up` (3,) is the upward direction in its frame. See `dominant_surface`.
 
         Copies share the surface of the first. With `turns`, copies with another up direction are measured separately.
         Raises: SceneError: measuring all shapes of the scene takes too long; the message names `place`.

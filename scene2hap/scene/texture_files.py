@@ -1,6 +1,6 @@
-"""The textures of one scene file: read once, from allowed places, shared by content, with the reasons of refusals.
+"""The textures of one scene file: read once, only from allowed places, shared by content. Refusals are recorded.
 
-A scene without its textures is still the same scene to the touch, so nothing here fails it.
+Touch does not depend on textures, so no refusal is an error.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from scene2hap.scene.textures import EncodedTexture
 
 @dataclass(eq=False)
 class TextureFiles:
-    """Reads the images of a scene in `folder`, only from inside `assets_root`; `left_out` has the reasons of
+    """Reader of the images of a scene in `folder`, only from inside `assets_root`. `left_out` has the reasons of
     refusals."""
 
     folder: Path
@@ -29,15 +29,16 @@ class TextureFiles:
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """A sentence for each texture or file of looks that could not be used, in the order in which they were met."""
+        """A sentence for each texture or material file that could not be used, in the order of first use."""
         return tuple(self._refused.values())
 
     def refuse(self, name: str, reason: str) -> None:
-        """Store the reason why a file of this name is not used; the first reason counts."""
+        """Store the reason why a file is not used; the first reason of a name counts."""
         self._refused.setdefault(name, reason)
 
     def from_file(self, uri: str, place: str, *, keeps_alpha: bool = True) -> EncodedTexture | None:
-        """Return the image at `uri`, percent-encoded and relative to the scene, named at `place`; None if refused."""
+        """Return the image at `uri` (percent-encoded, relative to the scene), or None if refused. `place` is for
+        messages."""
         if uri in self._refused:
             return None
         if uri not in self._paths:
@@ -47,7 +48,7 @@ class TextureFiles:
                 self.refuse(uri, str(error))
                 return None
         path = self._paths[uri]
-        # A file may be named in many ways; it is read once.
+        # Several names may lead to one file, so it is read once.
         first = self._first_names.setdefault(path, uri)
         if first in self._refused:
             self.refuse(uri, self._refused[first])
@@ -55,7 +56,7 @@ class TextureFiles:
         return self.named(first, lambda: read_bytes(path), keeps_alpha)
 
     def named(self, name: str, read: Callable[[], bytes], keeps_alpha: bool) -> EncodedTexture | None:
-        """Return the image whose bytes `read` returns, once for each name; None if it raises, or is no image."""
+        """Return the image whose bytes `read` returns, once for each name. None if `read` raises, or it is no image."""
         if name in self._refused:
             return None
         if name not in self._by_name:

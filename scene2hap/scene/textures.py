@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from PIL import Image
 
 DECODED_PX = 1024
-"""Textures are decoded to no more than this many pixels a side: twice what the largest picture can show (assumed)."""
+"""Most pixels a side of a decoded texture: twice the detail that a picture can show (assumed)."""
 
-# How a file of each format begins, and the Pillow plugin that reads it; without a match it can only be TGA.
+# The first bytes of each format, its name, and the Pillow plugin that reads it. Only TGA has no signature.
 _FORMATS = (
     (b"\x89PNG", "PNG", "PngImagePlugin"),
     (b"\xff\xd8", "JPEG", "JpegImagePlugin"),
@@ -36,12 +36,12 @@ _FORMATS = (
 
 
 class TextureWarning(UserWarning):
-    """Textures that a scene names and that are not shown; the colours of their materials are."""
+    """Textures of a scene that cannot be shown. The plain colours of their materials are shown instead."""
 
 
 @dataclass(frozen=True, eq=False)
 class EncodedTexture:
-    """The bytes of an image file; `name` is for messages, `has_alpha` is whether its opacity counts."""
+    """The bytes of an image file. `name` is for messages; `has_alpha` is False if its opacity is ignored."""
 
     encoded: bytes
     name: str
@@ -49,17 +49,17 @@ class EncodedTexture:
 
     @classmethod
     def checked(cls, encoded: bytes, name: str) -> EncodedTexture:
-        """A texture whose header makes sense; its pixels are not looked at yet.
+        """Return a texture after a check of its header; its pixels are not decoded.
 
         Raises: SceneFormatError: it is no image of a format that is read. SceneError: it is too large.
         """
         try:
-            # Pillow warns of images that our own limit refuses.
+            # Pillow warns of large images, which our own limit refuses.
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 with _opened(encoded) as image:
                     edge, has_alpha = max(image.size), image.has_transparency_data
-        # Its plugins raise whatever the broken bytes lead to.
+        # Broken bytes may raise any error in Pillow's plugins.
         except Exception as cause:
             known = ", ".join(dict.fromkeys(kind for _, kind, _ in _FORMATS))
             raise SceneFormatError(f"{name} is no image that is read ({known}): {cause}.") from cause
@@ -71,7 +71,7 @@ class EncodedTexture:
         return cls(encoded, name, has_alpha)
 
     def __reduce__(self) -> tuple[object, ...]:
-        # Another process decodes for itself; pixels would be much to send.
+        # Another process decodes the file itself, since decoded pixels would be large to send.
         return (EncodedTexture, (self.encoded, self.name, self.has_alpha))
 
     @property
@@ -81,7 +81,7 @@ class EncodedTexture:
 
     @cached_property
     def digest(self) -> str:
-        """A name for the content."""
+        """A hash of the content."""
         return hashlib.sha256(self.encoded + bytes([self.has_alpha])).hexdigest()[:16]
 
     @cached_property
@@ -90,7 +90,7 @@ class EncodedTexture:
         try:
             with _opened(self.encoded) as image:
                 texels = self._decoded(image)
-        # Pillow raises whatever the broken bytes lead to.
+        # Broken bytes may raise any error in Pillow.
         except Exception as cause:
             message = f"{self.name} is left out, its colour stays: its pixels cannot be decoded: {cause}."
             warnings.warn(message, TextureWarning, stacklevel=2)
@@ -101,11 +101,11 @@ class EncodedTexture:
     def _decoded(self, image: Image.Image) -> NDArray[np.uint8]:
         from PIL import Image
 
-        # JPEG decodes to a half, a quarter or an eighth in a fraction of the time.
+        # JPEG decodes to a half, a quarter or an eighth of its size in a fraction of the time.
         image.draft(None, (DECODED_PX, DECODED_PX))
         is_deep, has_alpha = image.mode.startswith("I"), self.has_alpha
         if is_deep:
-            # Grey of 16 bits, which Pillow would clip rather than scale.
+            # 16-bit grey, which Pillow would clip instead of scaling.
             image = Image.fromarray((np.asarray(image) >> 8).clip(0, 255).astype(np.uint8))
         elif image.has_transparency_data:
             image = image.convert("RGBA")

@@ -22,10 +22,10 @@ Matrix = NDArray[np.float64]
 class Piece:
     """Triangles of one material, in the frame of the node that draws them.
 
-    Parameters: key : equal for pieces that were read from the same place in the file, so for instances;
-    vertices : (n, 3) float64 in the file's unit, all of them used and finite; faces : (m, 3) int32; material : its
-    name in the file; appearance : the looks of its m faces, None where unknown; is_made : whether the file holds
-    a few numbers for it, such as a radius, and no vertices.
+    Parameters: key : equal for instances, which are read from one place in the file; vertices : (n, 3) float64 in the
+        file's unit, finite, without unused ones; faces : (m, 3) int32; material : its name in the file;
+        appearance : looks of the m faces, None if unknown; is_made : True if the file holds a few numbers for it, such
+        as a radius, and no vertices.
     """
 
     key: Hashable
@@ -37,7 +37,7 @@ class Piece:
 
     @property
     def paint(self) -> str:
-        """Equal for materials of equal name and looks."""
+        """A text that is equal for materials of equal name and looks."""
         return self.material if self.appearance is None else f"{self.material} {self.appearance.digest}"
 
     @cached_property
@@ -47,10 +47,10 @@ class Piece:
 
     @classmethod
     def checked(cls, key: Hashable, vertices: ArrayLike, faces: ArrayLike, material: str, place: str) -> Piece:
-        """A piece without the vertices that no face uses.
+        """Return a piece without the vertices that no face uses.
 
-        Raises: SceneFormatError: a face points outside the vertices. SceneError: a vertex is not finite. Both name
-        `place`, the node or mesh at fault.
+        Raises: SceneFormatError: a face refers to a vertex that does not exist. SceneError: a vertex is not finite.
+        Both messages name `place`, the node or mesh at fault.
         """
         points = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
         corners = np.asarray(faces).reshape(-1, 3)
@@ -67,7 +67,7 @@ class Piece:
 
 
 def _used(corners: NDArray[np.integer], n_points: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The vertices that corners use, in order, and the corners as places among these.
+    """Return the vertices that corners use, in order, and the corners as indices of these.
 
     The time grows with the corners, not with the table: thousands of pieces may share one table of vertices.
     """
@@ -83,8 +83,8 @@ def _used(corners: NDArray[np.integer], n_points: int) -> tuple[NDArray[np.int64
 class AuthoredNode:
     """A node of the author's tree: `matrix` places it in its parent; `name` is empty if the author gave none.
 
-    `is_object` : whether the file says that the node, with all below it, is one object. `mass_kg` is what the file says
-    that this object weighs [kg], None if it says nothing.
+    `is_object` : True if the file declares that the node, with all nodes below it, is one object. `mass_kg` is the mass
+        of this object in the file [kg], None if the file has none.
     """
 
     name: str
@@ -95,13 +95,13 @@ class AuthoredNode:
     mass_kg: float | None = None
 
     def walk(self) -> Iterator[AuthoredNode]:
-        """The node and all below it, in file order."""
+        """Yield the node and all nodes below it, in file order."""
         yield self
         for child in self.children:
             yield from child.walk()
 
     def with_geometry(self) -> AuthoredNode | None:
-        """The node without those below it that draw nothing (cameras, lights, bones); None if nothing is left."""
+        """Return the node without descendants that draw nothing (cameras, lights, bones); None if nothing is left."""
         children = tuple(kept for child in self.children if (kept := child.with_geometry()) is not None)
         if not children and not self.pieces:
             return None
@@ -110,10 +110,10 @@ class AuthoredNode:
 
 @dataclass(frozen=True, eq=False)
 class AuthoredScene:
-    """The nodes that stand at the top of a scene, with what the file says about axes and units.
+    """The top nodes of a scene, with the file's axes and units.
 
-    `unit_m` is None if the format does not define the unit, or if its files are often wrong about it.
-    `left_out` names, in a sentence each, the textures that could not be used.
+    `unit_m` is None if the format does not define the unit, or if its files often declare a wrong one. `left_out` has a
+    sentence for each texture that could not be used.
     """
 
     roots: tuple[AuthoredNode, ...]
@@ -123,5 +123,5 @@ class AuthoredScene:
 
 
 def digest(*parts: str) -> str:
-    """A short name for a text's content."""
+    """Return a short hash of texts."""
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:8]

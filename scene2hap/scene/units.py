@@ -22,21 +22,22 @@ class UnitWarning(UserWarning):
     """A scene whose sizes are implausible as metres."""
 
 
-_MAX_WIDTH_M, _MAX_HEIGHT_M = 100.0, 20.0  # a hall, and more than one room high (assumed)
-_MAX_MEDIAN_M = 10.0  # half of a room's or a park's objects are shorter than this at their longest (assumed)
+_MAX_WIDTH_M, _MAX_HEIGHT_M = 100.0, 20.0  # a hall, and more than one storey (assumed)
+_MAX_MEDIAN_M = 10.0  # half of the objects in a room or a park are shorter than this along their longest edge (assumed)
 _MOST_OF_A_KIND = 3
 _PARTS_TOO = frozenset({DOOR})  # a lone door may be a dishwasher's
 _MIN_WIDTH_M = 0.2
-_MIN_OBJECTS = 5  # fewer objects than this may well be a close-up of something small
+_MIN_OBJECTS = 5  # a scene with fewer objects may be a close-up of something small
 _ROOM_WIDTH_M, _ROOM_HEIGHT_M = (1.0, 30.0), (1.8, 6.0)
 _TYPICAL_WIDTH_M = 5.0
 _UNITS = {0.01: "centimetres", 0.001: "millimetres", 0.0254: "inches", 0.1: "decimetres", 0.3048: "feet"}
 _SAME_FACTOR = 1.25
-# Off by more than this is doubted: one piece of furniture may well be odd, several hardly (tuned on real scenes).
+# Evidence that differs from the usual size by more than this factor causes a warning. One piece of furniture may have
+# an odd size, several hardly (tuned on real scenes).
 _DOUBT_ONE, _DOUBT_SEVERAL = 2.2, 1.5
 
 
-class _Voice(NamedTuple):
+class _Evidence(NamedTuple):
     """Evidence of one named object: the factors between its size and the usual size, and the usual range."""
 
     factor: float
@@ -59,10 +60,10 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> str | None:
     bounds = np.array([item.bounds_m for item in snapshot.objects])
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
     extents = np.ptp(bounds, axis=1)
-    voices = _voices(snapshot.objects, bounds[:, 1, up] - low[up], extents)
-    by_name = _by_names(voices) if voices else None
-    # One name may mislead (a worktop called `Table`), so the whole scene is evaluated first.
-    found = by_name if len(voices) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
+    evidence = _evidence_of(snapshot.objects, bounds[:, 1, up] - low[up], extents)
+    by_name = _by_names(evidence) if evidence else None
+    # A single name may mislead (a worktop called `Table`), so the size of the whole scene is checked first.
+    found = by_name if len(evidence) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
     if found is None:
         return None
     factor, reason = found
@@ -76,10 +77,10 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> str | None:
     )
 
 
-def _voices(
+def _evidence_of(
     objects: Sequence[SceneObject], tops_m: NDArray[np.float64], extents_m: NDArray[np.float64]
-) -> list[_Voice]:
-    """Evidence of the named objects; of a kind at most three, the middle ones, so that many chairs outvote nobody."""
+) -> list[_Evidence]:
+    """Return evidence of the named objects: of each kind the middle three, or many chairs would outvote the rest."""
     named = [
         (known, item.name, float(top), tuple(f"{edge:.3g}" for edge in sorted(extent)), float(extent.max()))
         for item, top, extent in zip(objects, tops_m, extents_m, strict=True)
@@ -88,41 +89,41 @@ def _voices(
     kinds_of_shape: dict[tuple[str, ...], set[str]] = {}
     for known, _, _, shape, _ in named:
         kinds_of_shape.setdefault(shape, set()).add(known.kind)
-    voices: dict[str, list[_Voice]] = {}
+    evidence: dict[str, list[_Evidence]] = {}
     for known, name, top, shape, edge in named:
         measured = top if known.is_top else edge
         # Prototypes of games use placeholder boxes: a cube, or one size for objects of two kinds.
-        stands_in = len(kinds_of_shape[shape]) > 1 or (not known.is_top and len(set(shape)) == 1)
-        if measured > 0 and not stands_in:
+        is_placeholder = len(kinds_of_shape[shape]) > 1 or (not known.is_top and len(set(shape)) == 1)
+        if measured > 0 and not is_placeholder:
             middle = float(np.sqrt(known.low_m * known.high_m))
             nearest = min(max(measured, known.low_m), known.high_m)
-            voice = _Voice(middle / measured, nearest / measured, name, measured, known)
-            voices.setdefault(known.kind, []).append(voice)
-    if voices.keys() <= _PARTS_TOO:
+            one = _Evidence(middle / measured, nearest / measured, name, measured, known)
+            evidence.setdefault(known.kind, []).append(one)
+    if evidence.keys() <= _PARTS_TOO:
         return []
-    return [voice for of_kind in voices.values() for voice in _middle(sorted(of_kind))]
+    return [one for of_kind in evidence.values() for one in _middle(sorted(of_kind))]
 
 
-def _middle(voices: Sequence[_Voice]) -> Sequence[_Voice]:
-    start = max(0, (len(voices) - _MOST_OF_A_KIND) // 2)
-    return voices[start : start + _MOST_OF_A_KIND]
+def _middle(evidence: Sequence[_Evidence]) -> Sequence[_Evidence]:
+    start = max(0, (len(evidence) - _MOST_OF_A_KIND) // 2)
+    return evidence[start : start + _MOST_OF_A_KIND]
 
 
-def _by_names(voices: Sequence[_Voice]) -> tuple[float, str] | None:
-    ordered = sorted(np.log([voice.excess for voice in voices]))
-    # If two halves of the evidence differ, the one with plausible sizes counts.
+def _by_names(evidence: Sequence[_Evidence]) -> tuple[float, str] | None:
+    ordered = sorted(np.log([one.excess for one in evidence]))
+    # If two halves of the evidence differ, the half with plausible sizes counts.
     excess = min(ordered[(len(ordered) - 1) // 2], ordered[len(ordered) // 2], key=abs)
-    kinds = {voice.usual.kind for voice in voices}
+    kinds = {one.usual.kind for one in evidence}
     if abs(excess) <= np.log(_DOUBT_ONE if len(kinds) == 1 else _DOUBT_SEVERAL):
         return None
-    same = [voice for voice in voices if (voice.excess > 1) == (excess > 0) and voice.excess != 1]
-    factor = float(np.median([voice.factor for voice in same]))
-    voice = min(same, key=lambda voice: abs(np.log(voice.factor / factor)))
+    same = [one for one in evidence if (one.excess > 1) == (excess > 0) and one.excess != 1]
+    factor = float(np.median([one.factor for one in same]))
+    one = min(same, key=lambda one: abs(np.log(one.factor / factor)))
     near = [unit for unit in _UNITS if factor / _SAME_FACTOR < unit < factor * _SAME_FACTOR]
-    where = "reaches {:.3g} m above the floor" if voice.usual.is_top else "is {:.3g} m long"
-    low, high = voice.usual.low_m, voice.usual.high_m
+    where = "reaches {:.3g} m above the floor" if one.usual.is_top else "is {:.3g} m long"
+    low, high = one.usual.low_m, one.usual.high_m
     span = f"{low:g} m" if low == high else f"{low:g} to {high:g} m"
-    return (near[0] if near else factor), f"{voice.name!r} {where.format(voice.measured_m)}, where {span} is usual"
+    return (near[0] if near else factor), f"{one.name!r} {where.format(one.measured_m)}, where {span} is usual"
 
 
 def _by_size(size_m: NDArray[np.float64], up: int, edges_m: NDArray[np.float64]) -> tuple[float, str] | None:

@@ -1,14 +1,14 @@
 """URDF files, robots and furniture with joints, as authored trees.
 
-1. Every link that draws something is an object; its name is the link's, and it stands where the link's frame does with
-   all joints at 0. Fixed joints keep links apart. A link that draws nothing is a frame, and no object.
+1. Every link with geometry is an object. It has the link's name, and the pose of the link's frame with all joints at 0.
+   Links with a fixed joint stay separate. A link without geometry is a frame, and no object.
 2. The <visual> geometry of a link is drawn; its <collision> geometry only if it has no other.
-3. A mesh keeps its own materials; what has none, as STL and boxes, has that of its <visual>. Meshes are not turned,
-   whatever axis their files call up; COLLADA's unit counts. Both are as in ROS.
+3. A mesh keeps its own materials. A mesh without any, such as STL, or a box has that of its <visual>. Meshes are never
+   rotated to another up axis; COLLADA's unit counts. Both are as in ROS.
 4. <inertial> gives the object's mass.
 
-Read here rather than by MuJoCo (4.0), which knows neither COLLADA nor textures, refuses sheets that are flat, and opens
-whatever a file names. A model that MuJoCo compiles of the same file has the same names and poses.
+We do not use MuJoCo's reader (4.0). It does not read COLLADA or textures, refuses flat sheets, and opens any file that
+a file names. A model that MuJoCo compiles from the same file has the same names and poses.
 
 Source: URDF XML specification (ROS), `link`, `joint`, `material`; MuJoCo documentation, "URDF extensions".
 """
@@ -35,14 +35,14 @@ from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
 from scene2hap.scene.urdf_files import UrdfFiles
 
 MAX_XML_BYTES = 1 << 24
-"""Size of a URDF file (assumed: a hundred times a large robot)."""
+"""Largest size of a URDF file [bytes] (assumed: a hundred times a large robot)."""
 _MESHES = (".obj", ".stl", ".dae", ".ply", ".glb", ".gltf")
 
 Element = ElementTree.Element
 
 
 def read_urdf(path: Path, assets_root: Path, read_mesh: Callable[[Path, Path], AuthoredScene]) -> AuthoredScene:
-    """The links of a URDF file in metres, Z up, in the order of the file; `read_mesh` reads a file in a root.
+    """Return the links of a URDF file in metres, Z up, in file order; `read_mesh(file, root)` reads a mesh file.
 
     Raises: SceneFormatError: the file is not URDF, or broken. SceneError: a mesh is missing, too large or outside
     `assets_root`; the message names the root that is needed. MissingExtra: a mesh is COLLADA, and pycollada is not
@@ -52,7 +52,7 @@ def read_urdf(path: Path, assets_root: Path, read_mesh: Callable[[Path, Path], A
 
 
 def _parsed(path: Path) -> Element:
-    """The root element of a file without a document type, of bounded size and depth."""
+    """Return the root element of a file without a document type. Size and depth are bounded."""
     data = read_bytes(path)
     if len(data) > MAX_XML_BYTES:
         raise SceneError(f"{path.name!r} has {len(data):,} bytes; URDF of up to {MAX_XML_BYTES:,} is read.")
@@ -86,7 +86,7 @@ def _parsed(path: Path) -> Element:
     parser.StartDoctypeDeclHandler, parser.StartElementHandler, parser.EndElementHandler = refuse, start, end
     try:
         parser.Parse(data, True)
-    # ValueError and LookupError: an encoding that is none, or of many bytes.
+    # ValueError and LookupError: an encoding that does not exist, or that has several bytes per character.
     except (expat.ExpatError, ValueError, LookupError) as cause:
         if isinstance(cause, SceneError):
             raise
@@ -96,7 +96,7 @@ def _parsed(path: Path) -> Element:
 
 @dataclass(eq=False)
 class _Reader:
-    """Reads one robot; each mesh file is read once."""
+    """Reader of one robot. It reads each mesh file once."""
 
     path: Path
     root: Path
@@ -113,7 +113,7 @@ class _Reader:
         self._textures = TextureFiles(self.path.parent, self.root)
         self._files = UrdfFiles(self.path, self.root, self.robot.find("mujoco/compiler"))
         for row in self.robot.iter("material"):
-            # One that only names another has nothing in it.
+            # A material without content only refers to another by name.
             if len(row) and (name := row.get("name")):
                 self._materials.setdefault(name, row)
 
@@ -125,7 +125,7 @@ class _Reader:
         return AuthoredScene(nodes, "z", 1.0, (*self._left_out, *self._textures.left_out))
 
     def _named(self, tag: str) -> dict[str, Element]:
-        """The elements of that tag right below the root, by name."""
+        """Return the direct children of the root with a tag, by name."""
         found: dict[str, Element] = {}
         for row in self.robot.findall(tag):
             name = _text(row, "name", f"a <{tag}>")
@@ -134,7 +134,7 @@ class _Reader:
             found[name] = row
         return found
 
-    # -- where links are ---------------------------------------------------------------------------------------------
+    # -- poses of links ----------------------------------------------------------------------------------------------
 
     def _frames(self, links: dict[str, Element]) -> dict[str, Matrix]:
         """Return the world transform of each link's frame, with all joints at 0."""
@@ -154,7 +154,7 @@ class _Reader:
             below.setdefault(parent, []).append(child)
         frames: dict[str, Matrix] = {name: np.eye(4) for name in links if name not in above}
         todo = list(frames)
-        with np.errstate(all="ignore"):  # what overflows is refused where it is placed
+        with np.errstate(all="ignore"):  # overflows are refused when meshes are placed
             while todo:
                 parent = todo.pop()
                 for child in below.get(parent, ()):
@@ -165,7 +165,7 @@ class _Reader:
             raise SceneFormatError(f"link {ring!r} hangs below itself; the links of a robot form a tree.")
         return frames
 
-    # -- what links look like ----------------------------------------------------------------------------------------
+    # -- looks of links ----------------------------------------------------------------------------------------------
 
     def _link(self, name: str, row: Element, frame: Matrix) -> AuthoredNode:
         place = f"link {name!r}"
@@ -185,7 +185,7 @@ class _Reader:
         return AuthoredNode(name, frame, (), tuple(drawn), is_object=True, mass_kg=mass_kg or None)
 
     def _drawn(self, row: Element, geometry: Element, place: str, name: str) -> AuthoredNode:
-        """A node with the geometry of a <visual> or <collision>, in the frame of its link."""
+        """Return a node with the geometry of a <visual> or <collision>, in the frame of its link."""
         shape, origin = geometry[0], _origin(row, place)
         material = row.find("material")
         if shape.tag == "mesh":
@@ -225,7 +225,7 @@ class _Reader:
         return replace(Piece.checked(key, vertices, faces, "", place), is_made=True)
 
     def _painted(self, mesh: AuthoredNode, row: Element, place: str) -> AuthoredNode:
-        """A node whose pieces without looks of their own have those of a <material>."""
+        """Return a node whose pieces without looks of their own have those of a <material>."""
         name = row.get("name") or ""
         look = row if len(row) else self._materials.get(name)
         colour, texture = (None, None) if look is None else (look.find("color"), look.find("texture"))
@@ -253,7 +253,8 @@ class _Reader:
         return painted(mesh)
 
     def _mean_rgba(self, row: Element, place: str) -> tuple[float, float, float, float] | None:
-        """The mean colour of a texture, which lies on shapes that say nothing of how; None if it cannot be read."""
+        """Return the mean colour of a texture; None if it cannot be read. Shapes of URDF have no texture
+        coordinates."""
         name = row.get("filename") or ""
         try:
             path = self._files.find(name, f"{place}, <texture>")
@@ -286,19 +287,19 @@ class _Reader:
             self._left_out += scene.left_out
             unit = scene.unit_m or 1.0
             node = AuthoredNode("", np.diag([unit, unit, unit, 1.0]), (), scene.roots)
-            # Files number their pieces alike.
+            # Piece keys are unique only within one file.
             self._meshes[path] = _with_keys(node, str(path))
         return self._meshes[path]
 
 
 def _with_keys(node: AuthoredNode, file: str) -> AuthoredNode:
-    """The node with keys of pieces that no other file has."""
+    """Return the node with piece keys that no other file has."""
     pieces = tuple(replace(piece, key=(file, piece.key)) for piece in node.pieces)
     return replace(node, pieces=pieces, children=tuple(_with_keys(child, file) for child in node.children))
 
 
 def _origin(row: Element, place: str) -> Matrix:
-    """The matrix of an element's <origin>: turns about the fixed axes x, y, z [rad], then a move [m]."""
+    """Return the matrix of an <origin>: rotations about the fixed axes x, y, z [rad], then a translation [m]."""
     origin = row.find("origin")
     if origin is None:
         return np.eye(4)
@@ -324,9 +325,9 @@ def _text(row: Element, key: str, place: str) -> str:
 
 
 def _numbers(row: Element, key: str, place: str, n: int, default: str | None = None) -> list[float]:
-    """The n numbers of an attribute; `default` where it is missing.
+    """Return the n numbers of an attribute; `default` is used if it is missing.
 
-    Raises: SceneFormatError: it has others, or one that is not finite.
+    Raises: SceneFormatError: it does not have n finite numbers.
     """
     text = row.get(key, default)
     words = [] if text is None else text.split()

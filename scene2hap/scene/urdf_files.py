@@ -1,4 +1,4 @@
-"""The files that a URDF file names: beside it, in ROS packages around it, and nothing outside the root."""
+"""The files that a URDF file names: beside it or in ROS packages around it, and only inside the root."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _PACKAGES = ("package", "model")
 
 @dataclass(frozen=True, eq=False)
 class UrdfFiles:
-    """Finds files for the URDF file `path` inside `root`; `compiler` is MuJoCo's own element in it, if any."""
+    """Search for files of the URDF file `path` inside `root`; `compiler` is MuJoCo's own element in it, if any."""
 
     path: Path
     root: Path
@@ -25,7 +25,7 @@ class UrdfFiles:
     def find(self, name: str, place: str) -> Path:
         """Return the path of a named file.
 
-        Raises: SceneError: there is none, or it lies outside the root.
+        Raises: SceneError: there is none, or it is outside the root.
         """
         root, outside = self.root.resolve(), None
         try:
@@ -35,7 +35,7 @@ class UrdfFiles:
                     outside = outside or path
                 elif path.is_file():
                     return path
-        # Raised by a too long name, a zero byte and a ring of links.
+        # A name that is too long, a zero byte and a ring of links raise these.
         except (ValueError, OSError, RuntimeError) as cause:
             if isinstance(cause, SceneError):
                 raise
@@ -51,14 +51,14 @@ class UrdfFiles:
         )
 
     def _candidates(self, name: str, place: str) -> Iterator[Path]:
-        """Yield the paths that a name may mean: beside the file, in MuJoCo's folder, or in a package around it."""
+        """Yield the paths that a name may refer to: beside the file, in MuJoCo's folder, or in a package around it."""
         folder = self.path.resolve().parent
         scheme, is_address, rest = name.partition("://")
         if not is_address:
             plain = name.replace("\\", "/")
             yield folder / plain
             if (compiler := self.compiler) is not None:
-                # MuJoCo takes only the last part of a name, unless `strippath` is "false".
+                # MuJoCo uses only the last part of a name, unless `strippath` is "false".
                 is_whole = compiler.get("strippath") == "false"
                 yield folder / (compiler.get("meshdir") or "") / (plain if is_whole else PurePosixPath(plain).name)
         elif scheme == "file":

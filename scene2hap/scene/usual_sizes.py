@@ -1,8 +1,8 @@
 """Usual sizes of named objects: height of the top above the floor, or longest edge.
 
-Names are read narrowly: what may be another thing (a doormat, a chair leg) says nothing. The lexicon of `llm` knows far
-more nouns, with bounds so wide that miniatures and kits at half scale pass; here the unit is to be found, which takes
-objects of little variation in size.
+Names are read narrowly: a name that may mean another object (a doormat, a chair leg) has no usual size. The lexicon of
+`llm` has far more nouns, with bounds so wide that miniatures and kits at half scale pass. Finding the unit needs
+objects whose size varies little.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 
 class Usual(NamedTuple):
-    """The span that is usual of a kind of thing [m]: of its top above the floor, or of its longest edge."""
+    """The usual span of a kind of object [m]: of its top above the floor, or of its longest edge."""
 
     kind: str
     low_m: float
@@ -22,10 +22,10 @@ class Usual(NamedTuple):
 
 
 DOOR = r"(front |main |room |entrance |folding |sliding |wooden |interior )?door"
-"""The kind of doors, which are parts of furniture as well."""
+"""The kind of doors. Doors are also parts of furniture."""
 
-# Height of the top above the floor [m] by what a name says, with the words that it must be (assumed, from usual
-# furniture; whatever hangs, lies on something or is only part of another thing is left out).
+# Height of the top above the floor [m], by a pattern that the whole name must match (assumed, from usual furniture).
+# Objects that hang, rest on another or are only part of another are left out.
 _TOPS_M: tuple[tuple[str, float], ...] = (
     (DOOR, 2.0),
     (r"(arm |office |kitchen |dining |desk )?chair", 0.9),
@@ -39,7 +39,7 @@ _TOPS_M: tuple[tuple[str, float], ...] = (
     (r"bath ?tub", 0.6),
 )
 
-# Span of the longest edge [m] (assumed). Only what is much alike everywhere, and no furniture that stands above.
+# Span of the longest edge [m] (assumed). Only objects that have similar sizes everywhere, and none of the list above.
 _LONGEST_M: tuple[tuple[str, float, float], ...] = (
     (r"(computer |mechanical |gaming |pc |wireless )?keyboard", 0.25, 0.5),
     (r"(computer |pc |wireless |gaming )mouse", 0.08, 0.14),
@@ -82,7 +82,7 @@ _AROUND = (
 
 @lru_cache(maxsize=4096)
 def usual(name: str) -> Usual | None:
-    """Usual size of an object by its name; None if the name does not say."""
+    """Return the usual size of an object by its name; None if the name does not show it."""
     apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name[:_LONGEST_NAME])
     words = " ".join(re.findall(r"[a-z]{2,}", apart.lower()))
     for pattern, top_m in _TOPS_M:
@@ -95,4 +95,4 @@ def usual(name: str) -> Usual | None:
     return None
 
 
-_LONGEST_NAME = 200  # letters that are read of a name
+_LONGEST_NAME = 200  # number of letters of a name that are read

@@ -6,7 +6,7 @@ Source: Cheshire and Baker, Consistent Overhead Byte Stuffing, IEEE/ACM Transact
 from __future__ import annotations
 
 LONGEST_RUN = 254
-"""Most bytes of a run without zeros; the overhead is at most one byte for each such run, and one."""
+"""Most bytes of a run without zeros. The overhead is one byte, and at most one more for each such run."""
 
 
 def encode(data: bytes) -> bytes:
@@ -18,7 +18,7 @@ def encode(data: bytes) -> bytes:
             out.append(0xFF)
             out += run[:LONGEST_RUN]
             run = run[LONGEST_RUN:]
-            # A full run encodes no zero, so at the end of the data it needs no further code.
+            # A full run encodes no zero, so no code follows it at the end of the data.
             if not run and number == len(runs) - 1:
                 return bytes(out)
         out.append(len(run) + 1)

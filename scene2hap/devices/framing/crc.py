@@ -13,7 +13,7 @@ def with_crc32(data: bytes) -> bytes:
 
 
 def without_crc32(data: bytes) -> bytes | None:
-    """The bytes without their checksum, or None if the checksum does not fit."""
+    """Return the bytes without their checksum, or None if the checksum is wrong."""
     body = data[:-CRC_SIZE]
     if len(data) < CRC_SIZE or zlib.crc32(body) != int.from_bytes(data[-CRC_SIZE:], "little"):
         return None

@@ -23,7 +23,7 @@ from scene2hap.errors import DeviceError
 
 VERSION = 1
 MAX_PAYLOAD = 1024
-"""Bytes; keeps a frame inside one Ethernet datagram and inside a small board's memory."""
+"""Most bytes of a payload, so that a frame fits into one Ethernet datagram and into a small board's memory."""
 
 _HEADER = struct.Struct("<BBHBBHI")
 _LONGEST_ENCODED = cobs.LONGEST_RUN + MAX_PAYLOAD + _HEADER.size + 4
@@ -50,7 +50,7 @@ class SampleFormat(IntEnum):
 
     @property
     def dtype(self) -> np.dtype[np.int16] | np.dtype[np.float32]:
-        """Little-endian samples of this format."""
+        """Little-endian data type of this format."""
         return np.dtype("<i2") if self is SampleFormat.INT16 else np.dtype("<f4")
 
 
@@ -75,45 +75,45 @@ class Frame:
 
     @property
     def payload_size(self) -> int:
-        """Bytes that the header announces."""
+        """Number of payload bytes by the header."""
         if self.type is not FrameType.PCM:
             return self.count
         return self.count * self.channels * (self.format.dtype.itemsize if self.format else 0)
 
 
 def message(type: FrameType, payload: bytes = b"", *, sequence: int = 0, time_us: int = 0) -> Frame:
-    """A frame without samples."""
+    """Return a frame without samples."""
     return Frame(type, sequence, count=len(payload), time_us=time_us, payload=payload)
 
 
 def pcm(block: Block, *, sequence: int, time_us: int = 0, format: SampleFormat = SampleFormat.INT16) -> Frame:
-    """A frame of samples (n_frames, n_channels)."""
+    """Return a frame of samples (n_frames, n_channels)."""
     payload = to_int16(block) if format is SampleFormat.INT16 else block.astype("<f4").tobytes()
     return Frame(FrameType.PCM, sequence, block.shape[1], format, len(block), time_us, payload)
 
 
 def to_int16(block: Block) -> bytes:
-    """Convert samples to 16-bit integers: 1.0 becomes 32767, rounded to nearest and clipped; nan becomes silence."""
+    """Convert samples to 16-bit integers: 1.0 becomes 32767, rounded to nearest and clipped; NaN becomes silence."""
     within = np.clip(np.nan_to_num(block, nan=0.0), -1.0, 1.0)
     whole: NDArray[np.int16] = np.rint(within * np.float32(_FULL_SCALE)).astype("<i2")
     return whole.tobytes()
 
 
 def samples(frame: Frame) -> Block:
-    """The samples of a PCM frame (n_frames, n_channels) float32."""
+    """Return the samples of a PCM frame (n_frames, n_channels) float32."""
     raw = np.frombuffer(frame.payload, dtype=frame.format.dtype).astype(np.float32)
     scale = np.float32(_FULL_SCALE) if frame.format is SampleFormat.INT16 else np.float32(1.0)
     return (raw / scale).reshape(frame.count, frame.channels)
 
 
 def to_datagram(frame: Frame) -> bytes:
-    """Header, payload and CRC-32, without framing."""
+    """Return header, payload and CRC-32, without framing."""
     header = _HEADER.pack(VERSION, frame.type, frame.sequence, frame.channels, frame.format, frame.count, frame.time_us)
     return with_crc32(header + frame.payload)
 
 
 def from_datagram(data: bytes) -> Frame | None:
-    """The frame, or None where a byte is wrong; never raises."""
+    """Return the frame, or None if any byte is wrong; never raises."""
     body = without_crc32(data)
     if body is None or len(body) < _HEADER.size:
         return None
@@ -133,7 +133,7 @@ def to_wire(frame: Frame) -> bytes:
 
 
 class FrameParser:
-    """Takes bytes as they come and finds frames; `damaged` counts runs of bytes that were not a frame."""
+    """Parser of frames in a stream of bytes; `damaged` counts runs of bytes that were no frame."""
 
     def __init__(self) -> None:
         self._rest = bytearray()
@@ -141,7 +141,7 @@ class FrameParser:
         self.damaged = 0
 
     def feed(self, data: bytes) -> Iterator[Frame]:
-        """The frames that are complete with these bytes. Never raises; keeps at most one frame's bytes."""
+        """Yield the frames that these bytes complete. Never raises; stores at most one frame's bytes."""
         self._rest += data
         *ended, rest = self._rest.split(b"\0")
         self._rest = rest

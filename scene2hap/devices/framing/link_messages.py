@@ -1,4 +1,4 @@
-"""Messages of a serial link besides samples; specified in docs/serial-protocol.md."""
+"""Messages of a serial link other than samples; specified in docs/serial-protocol.md."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _FORMAT = struct.Struct("<IBHH")
 _CREDIT = struct.Struct("<HBHHIII")
 
 GREETED = 1
-"""CREDIT flag: a HELLO came since the device woke; without it the device must be greeted again."""
+"""CREDIT flag: the device has received a HELLO since its start. Without it the host must send HELLO again."""
 
 HEARD = 2
 """CREDIT flag: `last_sequence` is that of a PCM frame."""
 
 MUTED = 4
-"""CREDIT flag: the output is silent, since the watchdog or a MUTE said so."""
+"""CREDIT flag: the output is silent because of the watchdog or a MUTE."""
 
 
 @dataclass(frozen=True)
@@ -29,12 +29,12 @@ class Hello:
     channels: int
 
     def to_frame(self, sequence: int = 0) -> Frame:
-        """As a frame."""
+        """Return the message as a frame."""
         return message(FrameType.HELLO, _HELLO.pack(self.sample_rate_hz, self.channels), sequence=sequence)
 
     @classmethod
     def from_frame(cls, frame: Frame) -> Hello | None:
-        """From a frame, None where it is something else."""
+        """Return the message of a frame, None if the frame is another message."""
         return cls(*_HELLO.unpack(frame.payload)) if _is(frame, FrameType.HELLO, _HELLO) else None
 
 
@@ -48,19 +48,19 @@ class DeviceFormat:
     block_frames: int
 
     def to_frame(self) -> Frame:
-        """As a frame."""
+        """Return the message as a frame."""
         packed = _FORMAT.pack(self.sample_rate_hz, self.channels, self.queue_frames, self.block_frames)
         return message(FrameType.FORMAT, packed)
 
     @classmethod
     def from_frame(cls, frame: Frame) -> DeviceFormat | None:
-        """From a frame, None where it is something else."""
+        """Return the message of a frame, None if the frame is another message."""
         return cls(*_FORMAT.unpack(frame.payload)) if _is(frame, FrameType.FORMAT, _FORMAT) else None
 
 
 @dataclass(frozen=True)
 class Credit:
-    """The device's whole state in each message, so that a lost CREDIT costs nothing.
+    """The device's whole state. Each message repeats it, so a lost CREDIT has no effect.
 
     last_sequence : of the newest PCM frame it accepted; free_frames, queued_frames : of its queue; accepted_frames,
     damaged, underruns : totals since HELLO, modulo 2^32. The frame's `time_us` repeats that of the PCM frame.
@@ -75,7 +75,7 @@ class Credit:
     underruns: int
 
     def to_frame(self, time_us: int = 0) -> Frame:
-        """As a frame."""
+        """Return the message as a frame."""
         packed = _CREDIT.pack(
             self.last_sequence,
             self.flags,
@@ -89,12 +89,12 @@ class Credit:
 
     @classmethod
     def from_frame(cls, frame: Frame) -> Credit | None:
-        """From a frame, None where it is something else."""
+        """Return the message of a frame, None if the frame is another message."""
         return cls(*_CREDIT.unpack(frame.payload)) if _is(frame, FrameType.CREDIT, _CREDIT) else None
 
 
 def is_newer(sequence: int, than: int) -> bool:
-    """Return True if a 16-bit sequence number comes after another one, across the wrap."""
+    """Return True if a 16-bit sequence number is newer than another one, modulo 2^16."""
     return 0 < (sequence - than) % 2**16 < 2**15
 
 

@@ -24,19 +24,20 @@ MIDDLE = 128
 _HALF_SCALE = 127.0
 
 SLIM_HEADER = bytes([0xC8, 0xC9, 0x11, 0x80])
-"""The board counts bytes and ignores these; the last should be 96 and is 128 in everything that talks to it."""
+"""Header of a slim frame. The board counts bytes and ignores these. The last should be 96, but all known programs send
+128."""
 
 SLIM_CREDIT = b"buffer_copied"
-"""The line by which the slim board requests a frame."""
+"""The line with which the slim board requests a frame."""
 
 SLIM_QUEUE_FRAMES = 8
-"""Slim frames that the board gathers before it swaps buffers; its counter must land on exactly their 800 bytes."""
+"""Slim frames that the board collects before it swaps buffers. Its byte counter must reach exactly their 800 bytes."""
 
 _START = 200
 _PACKET_SIZE = 132
 _HEADER_SIZE = 4
 MORE = 23
-"""The byte by which the sleeve requests the next packet."""
+"""The byte with which the sleeve requests the next packet."""
 
 
 class Recipient(IntEnum):
@@ -72,7 +73,7 @@ class Message:
 
 
 def to_bytes(block: Block) -> bytes:
-    """Eight frames (8, up to 12) as 96 bytes; channels that the block lacks rest at mid-scale.
+    """Return eight frames (8, up to 12) as 96 bytes; missing channels are at mid-scale.
 
     Raises: DeviceError: another shape.
     """
@@ -85,7 +86,7 @@ def to_bytes(block: Block) -> bytes:
 
 
 def from_bytes(data: bytes) -> Block:
-    """The samples (8, 12) float32 of 96 bytes. Raises: DeviceError: another size."""
+    """Return the samples (8, 12) float32 of 96 bytes. Raises: DeviceError: another size."""
     if len(data) != FRAMES * CHANNELS:
         raise DeviceError(f"a VHP block has {FRAMES * CHANNELS} bytes, got {len(data)}.")
     raw = np.frombuffer(data, dtype=np.uint8).astype(np.float32)
@@ -93,17 +94,17 @@ def from_bytes(data: bytes) -> Block:
 
 
 def slim_frame(block: Block) -> bytes:
-    """The 100 bytes that the slim board takes over USB."""
+    """Return the 100 bytes of a frame for the slim board over USB."""
     return SLIM_HEADER + to_bytes(block)
 
 
 def slim_ending() -> bytes:
-    """Return eight frames of rest: an idle board repeats its last buffer for ever, which must be silence."""
+    """Return eight frames at rest. An idle board repeats its last buffer for ever, so that must be silence."""
     return (SLIM_HEADER + bytes([MIDDLE]) * (FRAMES * CHANNELS)) * SLIM_QUEUE_FRAMES
 
 
 def packet(message: Message) -> bytes:
-    """The sleeve's wired form: 132 bytes, padded by zeros. Raises: DeviceError: no recipient."""
+    """Return the sleeve's wired form: 132 bytes, padded by zeros. Raises: DeviceError: no recipient."""
     if message.recipient is None:
         raise DeviceError("a wired VHP message needs a recipient, such as Recipient.SLEEVE.")
     head = bytes([_START, message.recipient, message.type, len(message.payload)])
@@ -111,25 +112,25 @@ def packet(message: Message) -> bytes:
 
 
 def sleeve_packet(block: Block, recipient: Recipient = Recipient.SLEEVE) -> bytes:
-    """The packet with samples for all channels."""
+    """Return the packet with samples for all channels."""
     return packet(Message(MessageType.ALL_TACTORS_SAMPLES, to_bytes(block), recipient))
 
 
 def from_packet(data: bytes) -> Message | None:
-    """The message of a wired packet, or None where it is not one; never raises. It has no sum of its own."""
+    """Return the message of a wired packet, or None if it is not valid; never raises. The packet has no checksum."""
     if len(data) != _PACKET_SIZE or data[0] != _START or data[3] > _PACKET_SIZE - _HEADER_SIZE:
         return None
     return Message(data[2], data[_HEADER_SIZE : _HEADER_SIZE + data[3]], data[1])
 
 
 def wireless(message: Message) -> bytes:
-    """The Bluetooth form: a Fletcher sum, beginning at 1 and little-endian, in place of start byte and recipient."""
+    """Return the Bluetooth form: a Fletcher sum (start 1, little-endian) in place of start byte and recipient."""
     rest = bytes([message.type, len(message.payload)]) + message.payload
     return fletcher16(rest).to_bytes(2, "little") + rest
 
 
 def from_wireless(data: bytes) -> Message | None:
-    """The message of a Bluetooth packet, or None where a byte is wrong; never raises."""
+    """Return the message of a Bluetooth packet, or None if any byte is wrong; never raises."""
     if len(data) < _HEADER_SIZE or data[3] != len(data) - _HEADER_SIZE or data[3] > _PACKET_SIZE - _HEADER_SIZE:
         return None
     if fletcher16(data[2:]) != int.from_bytes(data[:2], "little"):

@@ -1,4 +1,4 @@
-"""AHAP: iPhone (Core Haptics). One file a channel, or two where there are transients, to be played together."""
+"""AHAP: iPhone (Core Haptics). One file per channel, or two with transients, to be played together."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class AhapExport:
         self.settings = CurveSettings(**settings)
 
     def export(self, track: Track) -> Exported:
-        """One or two files for each channel."""
+        """Return one or two files for each channel."""
         clips = {name: curves_of(channel, self.settings, power=2.0) for name, channel in track.channels.items()}
         files = {
             file_name(track, name, f"{ending}{SUFFIX}"): json_bytes(document)

@@ -1,4 +1,4 @@
-"""Android's VibrationEffect.createWaveform: amplitudes of 0 to 255 at steps of 10 ms. One file a channel."""
+"""Android's VibrationEffect.createWaveform: amplitudes of 0 to 255 at steps of 10 ms. One file per channel."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _FULL = 255
 
 
 class AndroidExport:
-    """Timings, amplitudes and repeat, in the order in which the call takes them. Frequency is not in the format."""
+    """Timings, amplitudes and repeat, in the order of the call's arguments. The format has no frequency."""
 
     def export(self, track: Track) -> Exported:
-        """One file for each channel."""
+        """Return one file for each channel."""
         files, played = {}, {}
         for name, channel in track.channels.items():
             amplitudes = np.rint(amplitudes_at_steps(channel, STEP_S) * _FULL)

@@ -1,4 +1,4 @@
-"""DualSense on USB: a sound card of four channels, of which the third and fourth move the left and right actuator."""
+"""DualSense on USB: a sound card of four channels. The third and fourth move the left and right actuator."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _ACTUATOR = {"left": 2, "right": 3}
 
 
 class DualSenseExport:
-    """WAV of four channels, 16 bits, 48 kHz, as the card takes it. A track of one channel moves both actuators."""
+    """WAV of four channels, 16 bits, 48 kHz, as the card needs it. A track of one channel moves both actuators."""
 
     def export(self, track: Track) -> Exported:
-        """One file with every channel; those that are neither left nor right are left out, if there are others."""
+        """Return one file with all channels. If there is a left or right channel, others are left out."""
         at_rate = {name: one.at_rate(SAMPLE_RATE_HZ) for name, one in track.channels.items()}
         hands = {name: samples for name, samples in at_rate.items() if name in _ACTUATOR}
         if not hands:

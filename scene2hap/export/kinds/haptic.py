@@ -1,4 +1,4 @@
-"""`.haptic`, version 1: Meta Quest (Haptics SDK for Unity, Unreal), and programs that read it. One file a channel."""
+"""`.haptic`, version 1: Meta Quest (Haptics SDK for Unity, Unreal), and programs that read it. One file per channel."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class HapticExport:
         self.settings = CurveSettings(**settings)
 
     def export(self, track: Track) -> Exported:
-        """One file for each channel."""
+        """Return one file for each channel."""
         clips = {name: curves_of(channel, self.settings) for name, channel in track.channels.items()}
         files = {file_name(track, name, SUFFIX): json_bytes(compose_haptic(clip)) for name, clip in clips.items()}
         return Exported(files, clips)

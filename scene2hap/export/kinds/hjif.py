@@ -1,6 +1,6 @@
-"""HJIF, the JSON form of MPEG haptics coding (ISO/IEC 23090-31). One file a track, one channel a hand.
+"""HJIF, the JSON form of MPEG haptics coding (ISO/IEC 23090-31). One file per track, one channel per hand.
 
-The continuous part is a band of vectorial waves, sine waves whose amplitude and frequency follow keyframes; transients
+The continuous part is a band of vectorial waves: sine waves whose amplitude and frequency follow keyframes. Transients
 are a band of their own. The required fields are those of the loader of MPEG's reference software (`IOJson`).
 """
 
@@ -20,20 +20,20 @@ from scene2hap.export.track import Track
 SUFFIX = ".hjif"
 Profile = Literal["Simple Parametric", "Main"]
 _TIMESCALE = {"Simple Parametric": 1000, "Main": 48_000}
-"""Ticks a second: the number that the profile requires, and the most that it allows."""
+"""Ticks per second: the required number for the first profile, and the largest allowed number for the second."""
 _DATE = "2023-01-01"
-"""Date of the edition of the standard; the date of writing would make equal exports differ."""
+"""Date of the standard's edition. With the date of writing, equal exports would differ."""
 _MOST_CHANNELS = 127
 _BODY_PARTS = {"left": ["Left", "Hand"], "right": ["Right", "Hand"]}
 _TRANSIENT_HZ = (65.0, 300.0)
-"""Frequencies between which MPEG's encoder places transients by their sharpness."""
+"""Frequency range of transients in MPEG's encoder, from dull to sharp."""
 
 
 class HjifExport:
     """Curves as HJIF.
 
-    Parameters: profile : "Simple Parametric", with times in milliseconds, or "Main", with times in 48,000 parts of a
-    second. Other settings: those of `CurveSettings`.
+    Parameters: profile : "Simple Parametric", with times in milliseconds, or "Main", with times in 1/48,000 s. Other
+        settings: those of `CurveSettings`.
     Raises: ConfigError.
     """
 
@@ -44,7 +44,7 @@ class HjifExport:
         self.settings = CurveSettings(range_hz=range_hz, **settings)
 
     def export(self, track: Track) -> Exported:
-        """One file with every channel. Raises: ConfigError: more channels than a file of level 1 holds."""
+        """Return one file with all channels. Raises: ConfigError: more channels than a file of level 1 may have."""
         if len(track.channels) > _MOST_CHANNELS:
             raise ConfigError(f"{track.name} has {len(track.channels)} channels; HJIF holds {_MOST_CHANNELS}.")
         ticks = _TIMESCALE[self.profile]
@@ -78,7 +78,7 @@ def _on_ticks(clip: HapticClip, ticks: int) -> HapticClip:
     """Return the clip with times in whole ticks and frequencies in whole hertz, as in the file."""
     low, high = clip.range_hz
     times = np.round(clip.amplitude.times_s * ticks) / ticks
-    times[-1] = max(times[-1], 1 / ticks)  # a clip has a length
+    times[-1] = max(times[-1], 1 / ticks)  # a clip must not have length 0
     amplitude = Curve(times, clip.amplitude.values)
     frequency = None
     if clip.frequency is not None:
@@ -135,7 +135,7 @@ def _effect(position: int, keyframes: list[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _keyframes(clip: HapticClip, ticks: int) -> list[dict[str, Any]]:
-    """Amplitude and frequency at every point of either curve."""
+    """Return amplitude and frequency at every point of either curve."""
     low, high = clip.range_hz
     rows = [
         (round(time * ticks), "amplitude_modulation", value)
@@ -148,7 +148,7 @@ def _keyframes(clip: HapticClip, ticks: int) -> list[dict[str, Any]]:
     ]
     frames: list[dict[str, Any]] = []
     for position, name, value in sorted(rows, key=lambda row: row[0]):
-        # A point of the other curve at the same time shares a keyframe; a jump has two.
+        # Points of both curves at one time share a keyframe; a jump has two keyframes.
         if not frames or frames[-1]["relative_position"] != position or name in frames[-1]:
             frames.append({"relative_position": position})
         frames[-1][name] = value

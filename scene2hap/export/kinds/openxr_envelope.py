@@ -1,4 +1,4 @@
-"""OpenXR, XR_FB_haptic_amplitude_envelope: amplitudes at equal steps, for any controller. One file a channel."""
+"""OpenXR, XR_FB_haptic_amplitude_envelope: amplitudes at equal steps, for any controller. One file per channel."""
 
 from __future__ import annotations
 
@@ -15,19 +15,20 @@ MAX_AMPLITUDES = 4000
 
 
 class OpenXrEnvelopeExport:
-    """Calls of at most 4,000 amplitudes each, to be made one behind the other.
+    """Calls of at most 4,000 amplitudes each, to be made one after the other.
 
-    Parameters: step_s : time between two amplitudes [s]. Raises: ConfigError.
+    Parameters: step_s : time between two amplitudes [s].
+    Raises: ConfigError.
     """
 
     def __init__(self, step_s: float = 0.005) -> None:
         self.step_s = checks.number("step_s", step_s, "s", at_least=0.001, at_most=0.1, error=ConfigError)
 
     def export(self, track: Track) -> Exported:
-        """One file for each channel."""
+        """Return one file for each channel."""
         files, played = {}, {}
         for name, channel in track.channels.items():
-            # A whole number of equal steps, since a call has its duration and no step.
+            # A whole number of equal steps, since a call has a duration and no step.
             n = max(1, round(channel.duration_s / self.step_s))
             step_s = channel.duration_s / n
             amplitudes = np.round(amplitudes_at_steps(channel, step_s)[:n], 6)

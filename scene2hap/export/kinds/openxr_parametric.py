@@ -1,8 +1,8 @@
-"""OpenXR, XR_EXT_haptic_parametric: curves and transients, near to `.haptic`. One file a channel.
+"""OpenXR, XR_EXT_haptic_parametric: curves and transients, similar to `.haptic`. One file per channel.
 
 The extension is not ratified (number 776, revision 1). A clip of at most 500 points of each kind is one call; a longer
-one is a stream of frames. Times count from the beginning of the clip, in every frame; the frequency range stands in the
-first frame alone, and is unspecified, 0, in the others.
+one is a stream of frames. In every frame, times count from the beginning of the clip. Only the first frame has the
+frequency range; in the others it is unspecified, 0.
 """
 
 from __future__ import annotations
@@ -30,9 +30,11 @@ class OpenXrParametricExport:
     """Calls of the parametric extension.
 
     Parameters:
-    first_frame_s, frame_s : how long the first frame of a stream and each later one are [s], at least. A runtime tells
-        what it wants: minimumFirstFrameDuration and idealFrameSubmissionRate of XrHapticParametricPropertiesEXT.
-    stream : whether short clips are streams of frames too.
+    first_frame_s, frame_s : least length of the first frame of a stream, and of each later one [s]. A runtime reports
+        the values that it needs: minimumFirstFrameDuration and idealFrameSubmissionRate of
+        XrHapticParametricPropertiesEXT.
+    stream : write short clips as streams of frames too.
+
     Other settings: those of `CurveSettings`; `range_hz` is 20 to 500 Hz.
     Raises: ConfigError.
     """
@@ -54,7 +56,7 @@ class OpenXrParametricExport:
         checks.number("range_hz[0]", self.settings.range_hz[0], "Hz", at_least=_LEAST_HZ, error=ConfigError)
 
     def export(self, track: Track) -> Exported:
-        """One file for each channel."""
+        """Return one file for each channel."""
         files, played = {}, {}
         for name, channel in track.channels.items():
             clip = curves_of(channel, self.settings)
@@ -93,7 +95,7 @@ class OpenXrParametricExport:
         return calls
 
     def _edges(self, end: int, rows: tuple[Rows, ...]) -> list[int]:
-        """Ends of the frames, of the requested length; the last frame takes in a rest of less than 1 ms."""
+        """Return ends of frames of the requested length. A rest of less than 1 ms is added to the last frame."""
         edges = []
         length, edge = nanoseconds(self.first_frame_s), 0
         while edge < end:
@@ -114,7 +116,7 @@ class OpenXrParametricExport:
 
 
 def _rows(clip: HapticClip) -> tuple[Rows, Rows, Rows]:
-    """All points and transients, the amplitude and the frequency from time 0 on, as the first frame requires."""
+    """Return all points and transients. Amplitude and frequency begin at time 0, as the first frame requires."""
     end = nanoseconds(clip.duration_s)
     amplitude = _points(clip.amplitude)
     if amplitude[0]["time_ns"] > 0:

@@ -1,4 +1,5 @@
-"""OpenXR, XR_FB_haptic_pcm: samples for controllers with a voice coil. A header and raw floats, one pair a channel."""
+"""OpenXR, XR_FB_haptic_pcm: samples for controllers with a voice coil. One pair per channel: a header and raw
+floats."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ class OpenXrPcmExport:
         )
 
     def export(self, track: Track) -> Exported:
-        """A JSON file and a file of samples for each channel."""
+        """Return a JSON file and a file of samples for each channel."""
         files: dict[str, bytes] = {}
         played = {}
         for name, channel in track.channels.items():

@@ -1,4 +1,4 @@
-"""Raw samples at any rate: little-endian 32-bit floats, channels interleaved, and a header. One pair a track."""
+"""Raw samples at any rate: little-endian 32-bit floats, channels interleaved, and a header. One pair per track."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class PcmExport:
         )
 
     def export(self, track: Track) -> Exported:
-        """A JSON file and a file of samples."""
+        """Return a JSON file and a file of samples."""
         channels = [one.at_rate(self.sample_rate_hz) for one in track.channels.values()]
         frames = np.zeros((max(map(len, channels)), len(channels)), dtype="<f4")
         for i, samples in enumerate(channels):

@@ -12,9 +12,9 @@ from scene2hap.export.track import ANALYSIS_HZ, Channel
 
 
 def amplitudes_at_steps(channel: Channel, step_s: float) -> NDArray[np.float64]:
-    """The amplitude of a channel in each step (n,), 0..1 [-]; the last step may be shorter.
+    """Return the amplitude of a channel in each step (n,), 0..1 [-]; the last step may be shorter.
 
-    Smoothed over one step, so that it keeps the attacks that the format can hold.
+    Power is smoothed over one step, which keeps the attacks that the format can hold.
     """
     samples = channel.at_rate(ANALYSIS_HZ) if channel.clip is None else synthesize(channel.clip, ANALYSIS_HZ)
     n = max(1, int(np.ceil(channel.duration_s / step_s - 1e-6)))
@@ -24,7 +24,7 @@ def amplitudes_at_steps(channel: Channel, step_s: float) -> NDArray[np.float64]:
 
 
 def steps_as_clip(amplitudes: NDArray[np.float64], step_s: float, duration_s: float) -> HapticClip:
-    """The signal that a player makes of steps: it holds each amplitude until the next."""
+    """Return the signal that a player makes of steps: it holds each amplitude until the next."""
     starts = np.arange(len(amplitudes)) * step_s
     ends = np.append(starts[1:], max(duration_s, starts[-1] + 1e-6))
     times = np.stack([starts, ends], axis=1).ravel()

@@ -1,4 +1,4 @@
-"""WAV at any rate, for a sound card, an engine's audio, or another program. One file a track, a channel a hand."""
+"""WAV at any rate, for a sound card, an engine's audio, or another program. One file per track, a channel per hand."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class WavExport:
         )
 
     def export(self, track: Track) -> Exported:
-        """One file with every channel."""
+        """Return one file with all channels."""
         channels = [one.at_rate(self.sample_rate_hz) for one in track.channels.values()]
         frames = np.zeros((max(map(len, channels)), len(channels)))
         for i, samples in enumerate(channels):
@@ -33,7 +33,7 @@ class WavExport:
 
 
 def wav_bytes(frames: NDArray[np.float64], sample_rate_hz: int, bits: int = 24) -> bytes:
-    """Frames (n, channels) in [-1, 1] as a WAV file of 16 or 24 bits; equal frames give equal bytes."""
+    """Return frames (n, channels) in [-1, 1] as a WAV file of 16 or 24 bits; equal frames give equal bytes."""
     full = 2.0 ** (bits - 1)
     steps = np.minimum(np.rint(frames * full), full - 1).astype(np.int32) << (32 - bits)
     encoded = io.BytesIO()

@@ -51,7 +51,7 @@ RENDERERS = PluginGroup(
     },
     extras={"embree": "pictures", "panda3d": "panda3d"},
 )
-"""Registered renderers: classes or functions that are called with a `Stage` and whether to smooth edges."""
+"""Registered renderers: classes or functions that are called with a `Stage` and a flag for smooth edges."""
 
 
 @clear_call
@@ -64,20 +64,20 @@ def capture_images(
     config: CaptureConfig | Mapping[str, Any] | None = None,
     alone: bool = False,
 ) -> SceneSnapshot:
-    """Return the scene with images. Each picture is rendered when it is first read.
+    """Return the scene with images. Each picture is rendered at its first access.
 
     Parameters:
     object_ids : the objects that get images, None for all. The scene gets its own in any case.
-    size_px, renderer : override what `config` says, which is 512 pixels and "embree". A renderer is a kind of
-        `RENDERERS`, or a factory of your own (one that can be pickled, if workers are to use it).
+    size_px, renderer : replace the values of `config`, by default 512 pixels and "embree". A renderer is a kind of
+        `RENDERERS`, or a factory of your own. Workers need a factory that can be pickled.
     alone : take each object upright at the origin, and without images of its surroundings. Equal objects of several
-        scenes then have equal images, so that `share_scenes` can make one question of them.
+        scenes then have equal images, so that `share_scenes` needs only one inference for all.
 
     Returns: a scene with `images`, 4 of the scene from above, and objects with `images.isolated` and `images.context`,
         8 each, of which the first 4 are from above. A scene captured before has its pictures in memory, or in
         `config.cache_dir`, by their content.
     Raises: UnknownObject; ConfigError: a setting out of bounds; UnknownPlugin: no such renderer; MissingExtra: its
-        package is not installed.
+    package is not installed.
     """
     scene = given_scene(scene)
     kind = renderer if isinstance(renderer, str) else None

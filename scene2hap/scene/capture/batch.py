@@ -1,4 +1,4 @@
-"""All pictures of a captured scene at once, on several cores."""
+"""Render all pictures of a captured scene at once, on several cores."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ from scene2hap.scene.images import ImageSet, Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 
 Progress = Callable[[int, int], None]
-"""Called with the number of finished pictures, and of all."""
+"""Callback with the number of finished pictures, and of all pictures."""
 
-# Portions that each of the other processes has been given, so that none waits while this one takes its own.
+# Groups of pictures queued for each other process, so that none is idle while this process renders a picture.
 _AHEAD = 2
 
 
 def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Progress | None = None) -> CaptureStats:
-    """Render all pictures of a captured scene that are not cached, so that reading them is immediate.
+    """Render all pictures of a captured scene that are not cached. Reading them is then immediate.
 
-    Parameters: workers : processes, of which this is one; None means what the configuration says. The others import the
-        main module, so that a script guards its entry with ``if __name__ == "__main__"``.
-    Returns: what the capture did so far.
+    Parameters: workers : number of processes, this one included; None means the value of the configuration. The other
+        processes import the main module, so a script must guard its entry with ``if __name__ == "__main__"``.
+    Returns: counters of the capture so far.
     Raises: ConfigError: the scene was not captured, or the workers died.
     """
     studio = _studio(scene)
@@ -48,7 +48,7 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
     is_alone = workers <= 1 or len(wanted) <= 1
     taken = _alone(studio, wanted) if is_alone else _shared(studio, wanted, workers - 1)
     total = len(wanted) + sum(map(len, by_themselves))
-    # An object shown alone has a small stage of its own, which need not be sent to another process.
+    # An object shown alone has a small scene of its own, so another process would not save time.
     for n_done, _ in enumerate(chain(taken, chain.from_iterable(by_themselves)), start=1):
         if progress is not None:
             progress(n_done, total)
@@ -56,7 +56,7 @@ def render_all(scene: SceneSnapshot, workers: int | None = None, *, progress: Pr
 
 
 def capture_stats(scene: SceneSnapshot) -> CaptureStats:
-    """Progress of the capture of a scene.
+    """Return the progress of the capture of a scene.
 
     Raises: ConfigError: the scene was not captured.
     """
@@ -80,11 +80,11 @@ def _shared(studio: Studio, wanted: list[Shot], others: int) -> Iterator[Shot]:
     """Render pictures in this process, which needs no start-up time, and in others."""
     # Spawned processes are the same on every system, and inherit no thread that holds a lock.
     context = multiprocessing.get_context("spawn")
-    # An object's pictures go together: its search tree is built in one process.
+    # All pictures of an object go to one process, so that its search tree is built once.
     portions = deque(list(group) for _, group in groupby(wanted, key=lambda shot: (shot.kind, shot.subject)))
     given: set[Future[list[tuple[Shot, bytes]]]] = set()
     try:
-        # A file, since a pipe would keep this process waiting until the others have started and read it.
+        # A file, since through a pipe this process would wait until the others have started and read it.
         with (
             _written((studio.stage, studio.config, studio.factory, studio.below)) as setting,
             ProcessPoolExecutor(others, mp_context=context, initializer=_set_up, initargs=(setting,)) as pool,

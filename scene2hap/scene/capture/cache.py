@@ -11,13 +11,13 @@ from threading import Lock
 from scene2hap.errors import ConfigError
 
 MEMORY_BYTES = 256 * 2**20
-"""Pictures that this process keeps, the longest unused going first: some 2000 of 512 pixels (assumed)."""
+"""Bytes of pictures that this process keeps, least recently used first out: about 2000 of 512 pixels (assumed)."""
 
 _PNG_END = b"IEND\xaeB\x60\x82"
 
 
 class MemoryCache:
-    """PNG files by key, up to a number of bytes."""
+    """An LRU cache of PNG files by key, bounded in bytes."""
 
     def __init__(self, limit_bytes: int = MEMORY_BYTES) -> None:
         self._limit = limit_bytes
@@ -26,14 +26,14 @@ class MemoryCache:
         self._lock = Lock()
 
     def get(self, key: str) -> bytes | None:
-        """The picture, or None."""
+        """Return the picture, or None."""
         with self._lock:
             if key in self._kept:
                 self._kept.move_to_end(key)
             return self._kept.get(key)
 
     def put(self, key: str, png: bytes) -> None:
-        """Keep a picture."""
+        """Add a picture."""
         with self._lock:
             self._size += len(png) - len(self._kept.get(key, b""))
             self._kept[key] = png
@@ -53,7 +53,7 @@ MEMORY = MemoryCache()
 
 
 class FolderCache:
-    """PNG files in a folder, each written whole or not at all, so that several processes may share it.
+    """PNG files in a folder. Each is written atomically, so several processes may share the folder.
 
     Raises: ConfigError: the folder cannot be made or written to.
     """
@@ -62,7 +62,7 @@ class FolderCache:
         self._folder = folder
 
     def get(self, key: str) -> bytes | None:
-        """The picture, or None; a file that was cut short does not count."""
+        """Return the picture, or None. A file that was cut short is ignored."""
         try:
             png = self._path(key).read_bytes()
         except OSError:
@@ -70,7 +70,7 @@ class FolderCache:
         return png if png.endswith(_PNG_END) else None
 
     def put(self, key: str, png: bytes) -> None:
-        """Keep a picture."""
+        """Add a picture. Raises: ConfigError: the folder cannot be written to."""
         path = self._path(key)
         try:
             path.parent.mkdir(parents=True, exist_ok=True)

@@ -12,24 +12,25 @@ from scene2hap.settings import Settings
 
 
 class CaptureConfig(Settings):
-    """Settings of pictures of a scene. Every number here is a choice of ours where the paper names none.
+    """Settings of pictures of a scene. All numbers are our choice unless the paper is named.
 
     size_px : edge of the square pictures.
-    azimuths : views around the vertical axis, evenly spread; the paper's four are 90 degrees apart.
-    first_azimuth_deg : where they start; 0 looks at what faces +z (y up) or -y (z up). The default shows a box on two
-        sides of different width.
+    azimuths : views around the vertical axis, at equal angles; the paper's four are 90 degrees apart.
+    first_azimuth_deg : azimuth of the first view; 0 looks at the side that faces +z (y up) or -y (z up). The default
+        shows two sides of a box at different widths.
     elevation_deg : angle above and below the horizontal; 45 in the paper.
-    fill : part of the frame that the object's larger extent takes in its isolated images.
-    context_factor : how many times wider context images look, from the same eye. Objects that span much of the scene
-        are not framed wider than the scene is.
-    outline_share, outline_rgb : width of the outline as a part of `size_px`, and its colour.
-    near_share : things whose box is nearer to the target's than this part of its diagonal are its surroundings.
-    hidden_share : part of the target's silhouette that its surroundings may hide together; see `culling`.
+    fill : share of the frame that the object's larger extent fills in its isolated images.
+    context_factor : context images are this many times wider, from the same eye. Objects that span much of the scene
+        are not framed wider than the scene.
+    outline_share, outline_rgb : width of the outline as a share of `size_px`, and its colour.
+    near_share : an object is part of the target's surroundings if the gap of their boxes is less than this share of the
+        target's diagonal.
+    hidden_share : share of the target's silhouette that its surroundings may hide together; see `culling`.
     antialias : smooth edges by two more rays where neighbouring pixels differ; costs a seventh more time.
-    share_copies : objects of one `instance_key` share isolated images, and context images too if they are copies
-        (names and size as well, `scene.likeness`) that stand on the same kind of thing; False takes every object's own.
-    workers : processes of `render_all`, this one among them; 0 and 1 render here alone.
-    cache_dir : a folder that keeps pictures between runs, None for memory alone.
+    share_copies : objects of one `instance_key` share isolated images. They also share context images if they are
+        copies (equal names and sizes, `scene.likeness`) on supports of the same kind. False renders every object.
+    workers : processes of `render_all`, this one included; 0 and 1 render only in this process.
+    cache_dir : a folder that keeps pictures between runs; None keeps them only in memory.
     """
 
     of_what = "capture"
@@ -57,15 +58,15 @@ class CaptureConfig(Settings):
 
     @property
     def look(self) -> str:
-        """All settings that a pixel can depend on, as text; equal settings give equal pictures."""
+        """All settings that affect a pixel, as text; equal settings give equal pictures."""
         return self.model_dump_json(exclude={"workers", "cache_dir", "share_copies"})
 
     def scene_shots(self) -> tuple[Shot, ...]:
-        """The pictures of the whole scene, all from above."""
+        """Return the pictures of the whole scene, all from above."""
         return tuple(Shot("scene", None, azimuth, self.elevation_deg) for azimuth in self._azimuths_deg)
 
     def object_shots(self, kind: Literal["isolated", "context"], subject: str) -> tuple[Shot, ...]:
-        """The pictures of an object: those from above, then those from below."""
+        """Return the pictures of an object: those from above, then those from below."""
         elevations = (self.elevation_deg, -self.elevation_deg)
         return tuple(Shot(kind, subject, azimuth, tilt) for tilt in elevations for azimuth in self._azimuths_deg)
 

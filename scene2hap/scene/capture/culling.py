@@ -2,21 +2,21 @@
 
 The paper casts a ray to the object and removes all objects that it meets. It calls this a flaw, since the object's
 support and neighbours, its context, may be removed as well. Here rays go to all of the target's silhouette, on a coarse
-grid. An object that they meet on the way is
+grid. An object between the eye and the target is
 
-1. *opened*, if it is a shell (`surroundings.shells`: walls, floor, ceiling, a room in one piece): it loses only the
+1. *opened*, if it is a shell (`surroundings.shells`: walls, floor, ceiling, a room in one piece). It loses only the
    faces whose plane separates the eye from the target's middle, and so keeps floor and far walls. All shells are opened
-   where they hide more than `_UNCOVERED` of the other objects in the picture, so that walls do not hide the room from
-   outside, nor the floor the objects from below;
-2. *kept*, if it is the target's support or near it (`surroundings.near`), as long as all that is kept hides no more
-   than `hidden_share` of the silhouette together; the support comes first, then what hides least;
-3. *opened* like a shell, if it would be kept but hides too much, and holds the target inside it: a cabinet around
+   if they hide more than `_UNCOVERED` of the other objects in the picture. So walls do not hide the room from outside,
+   and the floor does not hide objects from below;
+2. *kept*, if it is the target's support or near it (`surroundings.near`), and all kept objects together hide at most
+   `hidden_share` of the silhouette. The support is tried first, then the objects that hide least;
+3. *opened* like a shell, if rule 2 would keep it but it hides too much, and it contains the target: a cabinet around
    plates;
-4. *culled*, that is left out, in all other cases: distant objects, and those that hide too much even when opened,
-   where too much is `_REMAINDER` for distant ones.
+4. *culled*, that is left out, in all other cases: distant objects, and objects that hide too much even when opened. For
+   distant objects the bound is `_REMAINDER`.
 
-Scene pictures have no target. As in the paper, objects on the ray from the eye to the middle of the scene are culled,
-except those whose box contains that middle; shells are opened by rule 1.
+Scene pictures have no target. As in the paper, objects on the ray from the eye to the middle of the scene are culled.
+Objects whose box contains that middle are kept; shells are opened by rule 1.
 """
 
 from __future__ import annotations
@@ -36,17 +36,17 @@ Mask = NDArray[np.bool_]
 Triple = tuple[float, float, float]
 
 _GRID_PX = 64
-"""Rays across the target's frame, and across the picture, by which blockers are found (tuned: 1 ms a view)."""
+"""Rays along each side of the picture, or of the target's frame, that find hiding objects (tuned: 1 ms a view)."""
 
 _UNCOVERED = 0.05
 _REMAINDER = 0.02
-# Most layers of blockers that are searched; a target behind more layers stays hidden (assumed).
+# Most layers of hiding objects that are searched; a target behind more layers stays hidden (assumed).
 _MAX_LAYERS = 64
 
 
 @dataclass(frozen=True)
 class Culler:
-    """Decides for one stage; `near_share` and `hidden_share` as in `CaptureConfig`."""
+    """Selection of the objects of each picture of a `Stage`; `near_share` and `hidden_share` as in `CaptureConfig`."""
 
     stage: Stage
     renderer: Renderer
@@ -64,12 +64,12 @@ class Culler:
         hidden_share: float,
         below: tuple[int | None, ...] | None = None,
     ) -> Culler:
-        """Build a culler for a stage; `below` is the result of `supports`, if known."""
+        """Build a culler; `below` is the result of `supports`, if known."""
         below = supports(stage) if below is None else below
         return cls(stage, renderer, below, shells(stage), near_share, hidden_share)
 
     def around(self, target: int, close: Camera, wide: Camera) -> Selection:
-        """Select the actors of the context picture `wide`; `close` is the same eye framing the target alone."""
+        """Select the objects of the context picture `wide`; `close` has the same eye and frames only the target."""
         aim = _Aim(self, target, close.resized(_GRID_PX))
         opened = self._hiding_shells(self.shells - {target}, wide, aim.focus_m)
         blockers = aim.blockers(opened)
@@ -90,7 +90,7 @@ class Culler:
         return Selection(kept, opened & kept, aim.focus_m)
 
     def overview(self, wide: Camera) -> Selection:
-        """Select the actors of a picture of the whole scene."""
+        """Select the objects of a picture of the whole scene."""
         low, high = self.stage.box_m
         focus = _triple((low + high) / 2)
         opened = self._hiding_shells(self.shells, wide, focus)
@@ -109,7 +109,7 @@ class Culler:
         return shells if uncovered.sum() > _UNCOVERED * things.sum() else frozenset()
 
     def _on_the_way(self, wide: Camera, middle: Floats) -> frozenset[int]:
-        """Actors that the ray from the eye to the middle meets before it, unless they are around the middle."""
+        """Return objects that the ray from the eye meets before the middle, except those around the middle."""
         pixel, _ = wide.project(middle[None])
         spot = wide.at_pixel(pixel[0])
         found = set()
@@ -124,7 +124,7 @@ class Culler:
 
 
 class _Aim:
-    """A target in its frame, and the actors that hide its silhouette from the eye."""
+    """A target in its frame, and the objects that hide its silhouette from the eye."""
 
     def __init__(self, culler: Culler, target: int, close: Camera) -> None:
         self._culler, self._target, self._close = culler, target, close
@@ -133,7 +133,7 @@ class _Aim:
         self._masks: dict[tuple[int, bool], Mask] = {}
 
     def blockers(self, opened: frozenset[int]) -> frozenset[int]:
-        """Everything that some ray to the silhouette meets on its way, found layer by layer."""
+        """Return all objects between the eye and the silhouette, found layer by layer."""
         everyone = self._culler.stage.everyone
         found: frozenset[int] = frozenset()
         for _ in range(_MAX_LAYERS):
@@ -145,7 +145,7 @@ class _Aim:
         return found
 
     def hidden_by(self, number: int, is_opened: bool) -> Mask:
-        """The part of the silhouette that one actor alone hides."""
+        """Return the part of the silhouette that one object alone hides."""
         key = (number, is_opened)
         if key not in self._masks:
             ids = self._ids(frozenset({number, self._target}), frozenset({number} if is_opened else ()))

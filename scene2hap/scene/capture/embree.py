@@ -1,10 +1,10 @@
 """Pictures by ray casting with Intel Embree: exact ids in the same pass, and no system package.
 
-A tree over the whole stage is built once. Actors that a picture leaves out stay in the tree: rays that hit them are
-continued behind them. Only opened shells are left out of the tree, since half of a picture's rays would have to pass
-them; a second tree holds the few large faces that they show in this view. Objects alone have trees of their own.
-
-Embree uses single precision; a ray is continued a little behind the surface that it passed, so as not to hit it again.
+One search tree over the whole scene is built once. Objects that a picture leaves out stay in the tree; rays that hit
+them continue behind them. Only opened shells are left out of the tree, since half of a picture's rays would have to
+pass them. A second tree holds the few large faces of shells that remain in this view. Isolated objects have trees of
+their own. Embree uses single precision; a ray continues a little behind the surface that it passed, so that it does not
+hit the surface again.
 """
 
 from __future__ import annotations
@@ -29,26 +29,26 @@ Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 Levels = NDArray[np.uint8]
 
-# Step behind a passed hit, as a part of its depth and of the scene's size: some ulps of float32 (tuned).
+# Step behind a passed hit, as a share of its depth and of the scene's size: some ulps of float32 (tuned).
 _STEP_OF_DEPTH, _STEP_OF_SCENE = 1e-6, 1e-6
-# Most actors that one ray passes; beyond it the ray counts as free (assumed: no scene is that deep).
+# Most hits that one ray passes; then the ray counts as free (assumed: no scene is that deep).
 _MAX_PASSES = 512
-# Pictures of up to this many actors use the actors' own trees.
+# Pictures of at most this many objects use the objects' own trees.
 _FEW = 2
-# Opened actors of up to this many triangles are kept out of the tree (tuned: 5 ms to build the second tree).
+# Opened objects of at most this many triangles are left out of the tree (tuned: 5 ms to build the second tree).
 _LIGHT = 4096
-# Trees over more than one actor that are kept; each takes some 150 bytes a triangle (assumed).
+# Most cached trees over more than one object; each takes about 150 bytes a triangle (assumed).
 _LARGE_TREES = 4
 # A pixel is smoothed if a channel differs from the next pixel's by more than this, of 255 (tuned by eye).
 _VISIBLE_STEP = 24
-# Where the added rays of a smoothed pixel pass, off its middle, which counts as well: level, upright and slanted edges
-# all get three steps (assumed).
+# Offsets [px] of the added rays from the middle of a smoothed pixel, which counts as well. With them, level, upright
+# and slanted edges all get three steps (assumed).
 _ADDED_RAYS = ((-0.33, 0.17), (0.17, -0.33))
 
 
 @dataclass(frozen=True, eq=False)
 class _Hits:
-    """Hits of rays: triangle (n,) of the stage, -1 for none; depth (n,) [m]; weights (2, n) of its corners 2 and 3."""
+    """Hits of rays: triangle (n,) of the `Stage`, -1 for none; depth (n,) [m]; weights (2, n) of corners 2 and 3."""
 
     triangle: Ints
     depth: Floats
@@ -57,26 +57,26 @@ class _Hits:
 
 @dataclass(frozen=True, eq=False)
 class _Tree:
-    """A search tree over some triangles of the stage; `numbers` are their numbers, and ends with -1, no triangle."""
+    """A search tree over some triangles; `numbers` are their numbers in the `Stage`, then -1 for no triangle."""
 
     scene: Any
     numbers: Ints
 
     def cast(self, origins: Floats, directions: Floats) -> _Hits:
-        """The first hits of rays; depths count from their origins."""
+        """Return the first hits of rays; depths are measured from their origins."""
         run = self.scene.run(origins, directions, output=True)
         return _Hits(self.numbers.take(run["primID"]), run["tfar"], np.stack((run["u"], run["v"])))
 
 
 class EmbreeRenderer:
-    """Draws a stage by ray casting. See `Renderer`."""
+    """Renderer of a `Stage` by ray casting. See `Renderer`."""
 
     def __init__(self, stage: Stage, antialias: bool = False) -> None:
         self._stage = stage
         self._antialias = antialias
         counts = [len(actor.triangles_m) for actor in stage.actors]
         self._first = np.cumsum([0, *counts])
-        # The entry behind the last is for -1, no triangle.
+        # The last entry is for triangle -1, which is no triangle.
         self._actor_of = np.append(np.repeat(np.arange(len(counts), dtype=np.int32), counts), np.int32(-1))
         self._corners = np.concatenate([actor.triangles_m for actor in stage.actors])
         self._material = np.concatenate([actor.material for actor in stage.actors])
@@ -88,17 +88,17 @@ class EmbreeRenderer:
         self._trees: dict[frozenset[int], _Tree] = {}
         self._light = frozenset(k for k, count in enumerate(counts) if count <= _LIGHT)
         self._cut: tuple[object, list[_Tree]] = (None, [])
-        # Many rays share an eye; Embree needs it for each ray.
+        # All rays of a picture share an eye, but Embree needs an origin for each ray, so the array is reused.
         self._origins = np.empty((0, 3), np.float32)
         self._step = float(np.linalg.norm(np.ptp(stage.box_m, axis=0))) * _STEP_OF_SCENE
 
     def identify(self, camera: Camera, selection: Selection) -> Ids:
-        """The actor that each pixel's middle shows."""
+        """Return the object at the middle of each pixel."""
         pixels = self._covered(camera, selection)
         return self._ids(camera, pixels, self._cast(camera, camera.directions(pixels), selection))
 
     def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
-        """The picture, and the ids as from `identify`."""
+        """Return the picture, and the ids as from `identify`."""
         pixels = self._covered(camera, selection)
         directions = camera.directions(pixels)
         hits = self._cast(camera, directions, selection)
@@ -117,7 +117,7 @@ class EmbreeRenderer:
         return picture.reshape(camera.size_px, camera.size_px, 3), ids
 
     def _covered(self, camera: Camera, selection: Selection) -> Ints:
-        """Numbers of the pixels that the selection can cover."""
+        """Return the numbers of the pixels that the selection can cover."""
         few = len(selection.shown) <= _FEW
         boxes = [self._stage.actors[k].box_m for k in selection.shown] if few else [self._stage.box_m]
         is_covered = np.zeros((camera.size_px, camera.size_px), bool)
@@ -128,7 +128,7 @@ class EmbreeRenderer:
         return np.flatnonzero(is_covered)
 
     def _cast(self, camera: Camera, directions: Floats, selection: Selection) -> _Hits:
-        """Return the first hits on actors that the selection shows."""
+        """Return the first hits on objects that the selection shows."""
         passed = self._passed(camera, selection)
         if len(selection.shown) <= _FEW:
             trees = [self._tree(frozenset({number})) for number in sorted(selection.shown)]
@@ -139,7 +139,7 @@ class EmbreeRenderer:
         return _nearest(found) if found else _nothing(len(directions))
 
     def _first_hits(self, tree: _Tree, camera: Camera, directions: Floats, passed: Flags | None) -> _Hits:
-        """First hits that are not passed."""
+        """Return the first hits that are not passed."""
         eye = camera.eye_m.astype(np.float32)
         if len(self._origins) < len(directions) or (self._origins[:1] != eye).any():
             self._origins = np.tile(eye, (len(directions), 1))
@@ -159,7 +159,7 @@ class EmbreeRenderer:
         return hits
 
     def _is_passed(self, hits: _Hits, passed: Flags | None) -> Flags:
-        """Mark the rays to continue: their hit is not shown, or is in a hole of a texture."""
+        """Return a mask of the rays to continue: their hit is not shown, or is in a hole of a texture."""
         triangle = hits.triangle
         is_passed = np.zeros(len(triangle), bool) if passed is None else passed.take(triangle)
         if self._has_cutouts:
@@ -170,7 +170,8 @@ class EmbreeRenderer:
         return is_passed
 
     def _passed(self, camera: Camera, selection: Selection) -> Flags | None:
-        """Triangles that the selection does not show, with False at the end for "no triangle"; None if it shows all."""
+        """Return a mask of the triangles that the selection hides; None if it shows all. The last entry is for no
+        triangle."""
         if not selection.opened and selection.shown == self._stage.everyone:
             return None
         is_left_out = np.ones(len(self._stage.actors) + 1, bool)
@@ -182,8 +183,8 @@ class EmbreeRenderer:
         return passed
 
     def _colors(self, camera: Camera, hits: _Hits) -> NDArray[np.uint8]:
-        """The colour that each ray sees."""
-        # One light per triangle and view, since the light comes straight along the view; the last row is no triangle.
+        """Return the colour of each ray."""
+        # The light comes along the view, so each triangle has one brightness per view. The last row is for no triangle.
         paint = np.vstack((self._paint * light(self._normals, camera.axes[2], self._stage.up)[:, None], BACKGROUND_RGB))
         colors = paint.astype(np.uint8).take(hits.triangle, axis=0)
         patterned = np.flatnonzero(self._is_patterned.take(hits.triangle))
@@ -195,7 +196,7 @@ class EmbreeRenderer:
         return colors
 
     def _uv_at(self, triangle: Ints, weights: Floats) -> Floats:
-        # Column by column: numpy is six times slower along rows of two.
+        # Column by column, since numpy is six times slower along rows of two.
         u, v = (
             corner.take(triangle) + weights[0] * to_second.take(triangle) + weights[1] * to_third.take(triangle)
             for corner, to_second, to_third in self._uv
@@ -208,7 +209,7 @@ class EmbreeRenderer:
         return ids.reshape(camera.size_px, camera.size_px)
 
     def _tree(self, actors: frozenset[int]) -> _Tree:
-        """The tree over whole actors, built when first needed."""
+        """Return the tree over whole objects, built at the first use."""
         if actors not in self._trees:
             large = [known for known in self._trees if len(known) > 1]
             if len(actors) > 1 and len(large) >= _LARGE_TREES:
@@ -219,7 +220,8 @@ class EmbreeRenderer:
     def _faces_left(
         self, actors: frozenset[int], camera: Camera, selection: Selection, passed: Flags | None
     ) -> list[_Tree]:
-        """A tree over the faces that opened actors show; the last one is kept, as a view needs it several times."""
+        """Return a tree over the visible faces of opened objects. The last one is cached, since a view needs it several
+        times."""
         view = (actors, camera.eye_m.tobytes(), selection.focus_m)
         if passed is None or not actors:
             return []
@@ -260,7 +262,7 @@ def _nearest(found: list[_Hits]) -> _Hits:
 
 
 def _edges(picture: Pixels) -> Flags:
-    """Mark both pixels of each pair of neighbours, to the right or below, that differ visibly."""
+    """Return a mask of pixels that differ visibly from their right or lower neighbour, and of these neighbours."""
     is_edge = np.zeros(picture.shape[:2], bool)
     across, down = is_edge[:, 1:].copy(), is_edge[1:].copy()
     for level in np.moveaxis(picture, 2, 0):

@@ -13,14 +13,14 @@ Floats32 = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# How far coordinates in single precision may be off [px]; a triangle that is left out wrongly for it is a sliver
-# (assumed).
+# Assumed error of coordinates in single precision [px]. Triangles that are wrongly left out because of it are slivers.
 _BLUR_PX = np.float32(0.05)
 _LEAST_DEPTH_M = np.float32(1e-9)
 
 
 def planes(triangles_m: Floats32) -> Floats:
-    """Planes (m, 4) of triangles (m, 3, 3): unit normal and offset, x . normal = offset; zero for those of no area."""
+    """Return planes (m, 4) of triangles (m, 3, 3): unit normal and offset, x . normal = offset. Zero for triangles of
+    no area."""
     a, b, c = np.moveaxis(triangles_m.astype(np.float64), 1, 0)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -29,7 +29,8 @@ def planes(triangles_m: Floats32) -> Floats:
 
 
 def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bool_]:
-    """Mark the planes (m, 4) that separate eye and focus; only a face on such a plane can hide the focus."""
+    """Return a mask of the planes (m, 4) that separate eye and focus. Only a face on such a plane can hide the
+    focus."""
     of_eye = planes_m[:, :3] @ eye_m - planes_m[:, 3]
     of_focus = planes_m[:, :3] @ focus_m - planes_m[:, 3]
     is_between: NDArray[np.bool_] = of_eye * of_focus < 0
@@ -38,7 +39,7 @@ def separates(planes_m: Floats, eye_m: Floats, focus_m: Floats) -> NDArray[np.bo
 
 @dataclass(frozen=True, eq=False)
 class Extents:
-    """Bounds of projected triangles: `low`, `high` (2, n) right and down at depth 1 [-], of those that are `is_ahead`.
+    """Bounds of projected triangles: `low`, `high` (2, n) right and down at depth 1 [-], valid if `is_ahead`.
 
     `is_cut` : triangles that extend behind the eye's plane, and have no bounds.
     """
@@ -50,7 +51,7 @@ class Extents:
 
 
 def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
-    """Return the bounds of triangles (3 axes, 3 corners, n), for all cameras with the eye and axes of this one."""
+    """Return the bounds of triangles (3 axes, 3 corners, n), for all cameras with this camera's eye and axes."""
     right, up, forward = camera.axes
     axes = np.stack((right, -up, forward))
     offsets = (axes @ camera.eye_m).astype(np.float32)
@@ -68,12 +69,13 @@ def extents(by_axis_m: Floats32, camera: Camera) -> Extents:
 
 
 def in_view(seen: Extents, camera: Camera) -> Flags:
-    """Mark the triangles (n,) that can colour a pixel if corners are rounded down to whole pixels (p3tinydisplay).
+    """Return a mask of the triangles (n,) that can colour a pixel if corners are rounded down to pixels
+    (p3tinydisplay).
 
-    Triangles behind the eye or beside the picture are left out, and those whose corners all fall into one row or column
-    of pixels, as most do in a finely meshed scene.
+    It leaves out triangles behind the eye or beside the picture, and triangles whose corners all are in one row or
+    column of pixels. Most triangles of a finely meshed scene are of the latter kind.
     """
-    # The picture's last half pixel is never reached: so the rasteriser scales.
+    # p3tinydisplay scales so that the picture's last half pixel is never reached.
     edge = np.float32(camera.size_px - 0.5)
     scale = edge / np.float32(2 * camera.half)
     visible = seen.is_ahead

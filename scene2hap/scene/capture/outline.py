@@ -11,7 +11,7 @@ Mask = NDArray[np.bool_]
 
 
 def outline_of(is_target: Mask, width_px: int) -> Mask:
-    """Pixels not of the target within `width_px` of it: its dilation by a disc, less itself."""
+    """Return the pixels within `width_px` of the target: its dilation by a disc, without the target."""
     is_outline = np.zeros_like(is_target)
     near = _neighbourhood(is_target, width_px)
     is_outline[near] = _rim(is_target[near], width_px)
@@ -25,7 +25,7 @@ def mark(picture: Pixels, is_target: Mask, width_px: int, rgb: tuple[int, int, i
 
 
 def _neighbourhood(is_target: Mask, width_px: int) -> tuple[slice, slice]:
-    """Rows and columns where the outline may be: a small part of most pictures."""
+    """Return rows and columns that contain the outline: a small part of most pictures."""
     rows, columns = np.flatnonzero(is_target.any(axis=1)), np.flatnonzero(is_target.any(axis=0))
     if not len(rows):
         return (slice(0), slice(0))
@@ -40,7 +40,7 @@ def _rim(is_target: Mask, width_px: int) -> Mask:
     padded = np.pad(is_target, width_px)
     grown = np.zeros_like(is_target)
     for down in range(-width_px, width_px + 1):
-        # Row by row of the disc; half a pixel is added to its radius, as its rim would else be single pixels.
+        # Row by row of the disc. Half a pixel is added to its radius, or its rim would have single pixels.
         reach = int(np.sqrt((width_px + 0.5) ** 2 - down**2))
         band = padded[width_px + down : width_px + down + height]
         for across in range(-reach, reach + 1):

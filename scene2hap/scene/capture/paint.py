@@ -1,7 +1,7 @@
-"""Colours of surfaces: materials in one table, so that all pixels of a picture are coloured in one go.
+"""Colours of surfaces: all materials are in one table, so that numpy colours all pixels of a picture at once.
 
-Light comes from the eye and a little from above; both sides of a face are lit alike. It works on sRGB values as they
-are: the pictures are to be recognised, not measured.
+Light comes from the eye and a little from above; both sides of a face are lit equally. Lighting multiplies sRGB values
+directly, since the pictures need to be recognisable, not photometric.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 BACKGROUND_RGB = (190, 194, 200)
-"""The background: light enough for black objects, dark enough for white ones (assumed)."""
+"""Background: light enough for black objects, dark enough for white ones (assumed)."""
 
 AMBIENT, HEADLIGHT, SKYLIGHT = 0.40, 0.50, 0.10
 """Weights of ambient light, of light from the eye, and of light from above (minus below) (tuned by eye)."""
 
-# Textures are shrunk to this edge, which is what a picture of 512 pixels can show, and what memory is spent on.
+# Textures are reduced to this edge. A picture of 512 pixels shows no more, and memory grows with it.
 _TEXTURE_PX = 512
-# Brightness that shows through glass, instead of the objects behind it: glass must be visible as a pale surface.
+# Brightness behind glass, in place of the objects behind it: glass must be visible as a pale surface.
 _BEHIND_GLASS = 0.85
 
 
 @dataclass(eq=False)
 class PaletteBuilder:
-    """Collects materials, each once; `keys` name the content of the rows."""
+    """Collector of materials, each once; `keys` are digests of the rows' content."""
 
     keys: list[str] = field(default_factory=list)
     _rows: list[tuple[tuple[float, float, float], NDArray[np.uint8], bool]] = field(default_factory=list)
@@ -42,9 +42,9 @@ class PaletteBuilder:
     _known: dict[int, tuple[int, FaceMaterial]] = field(default_factory=dict)
 
     def add(self, material: FaceMaterial) -> int:
-        """The row of a material."""
+        """Return the row of a material."""
         if id(material) not in self._known:
-            # The material is kept, so that its id stays its own.
+            # The material is stored too: its id must not be reused while it is a key.
             self._known[id(material)] = (self._row(material), material)
         return self._known[id(material)][0]
 
@@ -63,7 +63,7 @@ class PaletteBuilder:
         return self._index[key]
 
     def build(self) -> Palette:
-        """The table of all materials added."""
+        """Return the table of all materials added."""
         sizes = [texels.shape[0] * texels.shape[1] for _, texels, _ in self._rows]
         return Palette(
             rgb=np.array([rgb for rgb, _, _ in self._rows], np.float32),
@@ -77,9 +77,9 @@ class PaletteBuilder:
 
 @dataclass(frozen=True, eq=False)
 class Palette:
-    """Materials by row: `rgb` 0..1, and a texture among the `texels` (n, 4) at `start`, `width` x `height`.
+    """Materials by row: `rgb` 0..1, and a texture of `width` x `height` among the `texels` (n, 4) at `start`.
 
-    `is_cutout` : the texture has holes, as leaves of plants do.
+    `is_cutout` : the texture has holes, like leaves of plants.
     """
 
     rgb: Floats
@@ -92,7 +92,7 @@ class Palette:
     def texel(self, material: Ints, uv: Floats) -> Ints:
         """Return the index in `texels` of the texel nearest to uv (n, 2) for materials (n,)."""
         width, height = self.width.take(material), self.height.take(material)
-        # Coordinates that are no numbers occur in broken files; any texel will do for them.
+        # Broken files contain NaN coordinates; any texel will do for them.
         u, v = np.nan_to_num(uv - np.floor(uv), copy=False).T
         column = np.minimum((u * width).astype(np.int32), width - 1)
         row = np.minimum((v * height).astype(np.int32), height - 1)
@@ -100,12 +100,12 @@ class Palette:
         return where
 
     def pattern(self, material: Ints, uv: Floats) -> Floats:
-        """Factors of the colours from textures (n, 3), 0..1."""
+        """Return the textures' factors of the colours (n, 3), 0..1."""
         return self.texels.take(self.texel(material, uv), axis=0)[:, :3] * np.float32(1 / 255)
 
     @cached_property
     def is_patterned(self) -> NDArray[np.bool_]:
-        """Marks of the rows with a texture."""
+        """Mask of the rows with a texture."""
         return self.width * self.height > 1
 
 
@@ -118,7 +118,7 @@ def light(normals: Floats, forward: NDArray[np.float64], up: NDArray[np.float64]
 
 
 def neutral(key: str) -> FaceMaterial:
-    """The paint of an object of unknown looks: a light grey with a cast that its key decides."""
+    """Return the paint of an object of unknown looks: a light grey whose slight hue depends on its key."""
     seed = hashlib.sha256(key.encode()).digest()
     red, green, blue = hsv_to_rgb(seed[0] / 256, 0.10 + 0.12 * seed[1] / 255, 0.68 + 0.22 * seed[2] / 255)
     return FaceMaterial((red, green, blue, 1.0))

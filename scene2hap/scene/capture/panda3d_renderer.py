@@ -1,9 +1,9 @@
 """Pictures by Panda3D's software rasteriser (p3tinydisplay): several times faster, without smooth edges.
 
-It needs no graphics card, and of system packages libx11-6 alone. What costs it time is corners rather than pixels, so
-that a picture is made of those triangles alone that can colour a pixel of it (`in_view`): a ninth of a furnished house.
-Light is baked into their colours, so that pictures look like those of ray casting. The actor of a pixel is encoded in
-its opacity, which nothing else needs, so that a picture and its ids are one pass.
+It needs no graphics card, and only libx11-6 as a system package. Its time grows with corners rather than pixels, so
+only triangles that can colour a pixel are drawn (`in_view`): a ninth of a furnished house. Light is baked into their
+colours, so that pictures look like those of ray casting. The object of a pixel is encoded in its opacity, which is
+otherwise unused, so a picture and its ids take one pass.
 """
 
 from __future__ import annotations
@@ -23,29 +23,29 @@ Ints = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
-# Actors are encoded by digits of this base plus one, as zero is the background. Textures multiply by 255 / 256 and
-# round down, so that a digit that passes through one starts out larger by one.
+# Objects are encoded by digits of this base plus one, as zero is the background. Textures multiply by 255 / 256 and
+# round down, so a digit that passes through a texture starts larger by one.
 _BASE = 250
 
 _MOST_DIRECTIONS = 72
 
 
 class Panda3DRenderer:
-    """Draws a stage with a software rasteriser, without smooth edges. See `Renderer`."""
+    """Renderer of a `Stage` with a software rasteriser, without smooth edges. See `Renderer`."""
 
     def __init__(self, stage: Stage, antialias: bool = False) -> None:
         self._stage = stage
         palette = stage.palette
         counts = [len(actor.triangles_m) for actor in stage.actors]
         material = np.concatenate([actor.material for actor in stage.actors])
-        # Triangles of one texture are drawn together, and those of none, which come first.
+        # Triangles of one texture are drawn together. Triangles without a texture come first.
         order = np.argsort(np.where(palette.is_patterned[material], material, -1), kind="stable")
         material = material[order]
         self._actor_of = np.repeat(np.arange(len(counts)), counts)[order]
         self._triangles_of = np.split(np.argsort(self._actor_of, kind="stable"), np.cumsum(counts)[:-1])
         corners = np.concatenate([actor.triangles_m for actor in stage.actors])[order]
         u, v = np.concatenate([actor.uv for actor in stage.actors])[order].transpose(2, 0, 1)
-        # Panda's textures start below.
+        # The texture coordinate v of Panda3D runs up.
         self._corners = np.concatenate((corners, np.stack((u, 1 - v), axis=2)), axis=2)
         self._by_axis = np.ascontiguousarray(corners.transpose(2, 1, 0))
         self._planes = planes(corners)
@@ -61,33 +61,33 @@ class Panda3DRenderer:
         self._holed = {row: self._look(row, only_holes=True) for row in np.flatnonzero(palette.is_cutout).tolist()}
         self._paint_row = np.where(palette.is_patterned, np.arange(len(palette.rgb)), -1)[material]
         self._hole_row = np.where(palette.is_cutout, np.arange(len(palette.rgb)), -1)[material]
-        # A picture and the passes before it share their eye, and some of them the camera.
+        # A picture and the passes before it share their eye, and some of them the camera, so both results are cached.
         self._eye: tuple[bytes, Extents] | None = None
         self._view: tuple[Camera, Ints] | None = None
 
     def identify(self, camera: Camera, selection: Selection) -> Ids:
-        """The actor that each pixel's middle shows."""
+        """Return the object at the middle of each pixel."""
         triangles = self._shown(camera, selection)
         groups = _groups(self._hole_row[triangles], self._holed)
         pixels = self._screen.draw(camera, self._corners[triangles], self._codes[triangles], groups, (0, 0, 0))
         image = pixels.astype(np.int32)
-        # In memory red stands third.
+        # The order in memory is blue, green, red.
         ids: Ids = np.maximum((image[..., 2] - 1) * _BASE + image[..., 1] - 1, -1)
         return ids
 
     def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
-        """The picture, and the ids as from `identify`."""
+        """Return the picture, and the ids as from `identify`."""
         triangles = self._shown(camera, selection)
         groups = _groups(self._paint_row[triangles], self._painted)
         colors = self._lit(camera.axes[2])[triangles]
         image = self._screen.draw(camera, self._corners[triangles], colors, groups, BACKGROUND_RGB)
         ids = _opacity(image) - 1 if len(self._stage.actors) <= _BASE else self.identify(camera, selection)
-        # Pillow is five times faster than numpy in leaving out every fourth byte.
+        # Pillow is five times faster than numpy in dropping every fourth byte.
         picture = Image.frombuffer("RGB", image.shape[:2], image, "raw", "BGRX", 0, 1)
         return np.array(picture), ids
 
     def _lit(self, forward: Floats) -> Bytes:
-        """Colours of all triangles (n, 4), seen along `forward`; pictures of all objects share few directions."""
+        """Return colours of all triangles (n, 4), seen along `forward`. Cached, since pictures share few directions."""
         key = forward.tobytes()
         if key not in self._lit_along:
             if len(self._lit_along) >= _MOST_DIRECTIONS:
@@ -99,7 +99,7 @@ class Panda3DRenderer:
         return self._lit_along[key]
 
     def _shown(self, camera: Camera, selection: Selection) -> Ints:
-        """Triangles that the selection shows and that can colour a pixel, in the order of drawing."""
+        """Return the triangles that the selection shows and that can colour a pixel, in the order of drawing."""
         triangles = self._visible(camera, selection.shown)
         is_shown = np.zeros(len(self._stage.actors), bool)
         is_shown[list(selection.shown)] = True
@@ -114,7 +114,7 @@ class Panda3DRenderer:
         return triangles[~is_hiding]
 
     def _visible(self, camera: Camera, shown: frozenset[int]) -> Ints:
-        """Triangles that can colour a pixel, of one actor if it is alone, else of all."""
+        """Return the triangles that can colour a pixel: of one object if it is shown alone, else of all."""
         if len(shown) == 1:
             triangles = self._triangles_of[next(iter(shown))]
             return triangles[in_view(extents(self._by_axis[..., triangles], camera), camera)]
@@ -135,7 +135,7 @@ class Panda3DRenderer:
 
 
 def _groups(rows: Ints, looks: dict[int, Look]) -> list[tuple[int, Look | None]]:
-    """Ends of the ranges of triangles with one texture, and what they are drawn with."""
+    """Return the ends of the ranges of triangles with one texture, and their looks."""
     if not looks:
         return [(len(rows), None)]
     ends = [*(np.flatnonzero(rows[1:] != rows[:-1]) + 1).tolist(), len(rows)] if len(rows) else []
@@ -143,6 +143,6 @@ def _groups(rows: Ints, looks: dict[int, Look]) -> list[tuple[int, Look | None]]
 
 
 def _opacity(image: Bytes) -> Ids:
-    # As whole numbers of four bytes, which numpy shifts ten times faster than it picks every fourth byte.
+    # Read as 4-byte integers, which numpy shifts ten times faster than it copies every fourth byte.
     opacity: Ids = (image.view("<u4")[..., 0] >> 24).astype(np.int32)
     return opacity

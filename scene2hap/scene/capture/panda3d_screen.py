@@ -18,20 +18,20 @@ from scene2hap.scene.capture.views import Camera
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 
-# Depth range as parts of the scene's diagonal. This rasteriser resolves depths the better, the nearer it begins
+# Depth range as shares of the scene's diagonal. This rasteriser resolves depths better the nearer the range begins
 # (tuned: from 0.01 on, a carpet 1 mm over the floor is lost).
 _NEAR, _FAR = 1e-3, 8.0
 
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """Colours of triangles: their own, times a texture."""
+    """Colours of triangles: their own, multiplied by a texture."""
 
     state: Any
 
     @classmethod
     def plain(cls) -> Look:
-        """Without a texture, from both sides, in the order in which they come."""
+        """Return the looks without a texture: visible from both sides, drawn in the given order."""
         return cls(
             core.RenderState.make(
                 core.ColorAttrib.make_vertex(),
@@ -43,9 +43,9 @@ class Look:
 
     @classmethod
     def of(cls, texels: Bytes, has_holes: bool) -> Look:
-        """With a texture (height, width, 4), RGBA, that is opaque but for holes, if it has any."""
+        """Return the looks with a texture (height, width, 4), RGBA. It is opaque, except for holes if `has_holes`."""
         height, width = texels.shape[:2]
-        # The rasteriser takes powers of two alone.
+        # The rasteriser accepts only powers of two.
         size = tuple(1 << max(0, round(np.log2(edge))) for edge in (width, height))
         image = np.array(Image.fromarray(texels).resize(size, Image.Resampling.BOX))[::-1, :, [2, 1, 0, 3]]
         image[..., 3] = np.where(image[..., 3] < 128, 0, 255) if has_holes else 255
@@ -63,11 +63,11 @@ class Look:
 
 
 class Screen:
-    """Draws triangles of a scene that measures `reach_m` across."""
+    """Off-screen buffers that show triangles of a scene with the diagonal `reach_m`."""
 
     def __init__(self, reach_m: float) -> None:
         self._engine = core.GraphicsEngine.get_global_ptr()
-        # The module's default wants an X server.
+        # The module's default pipe needs an X server.
         self._pipe = core.GraphicsPipeSelection.get_global_ptr().make_pipe("TinyOffscreenGraphicsPipe", "p3tinydisplay")
         if self._pipe is None:
             raise BackendUnavailable("Panda3D's p3tinydisplay does not load. Install libx11-6, or choose 'embree'.")
@@ -75,7 +75,7 @@ class Screen:
         self._lens.set_near_far(_NEAR * reach_m, _FAR * reach_m)
         self._lens.set_focal_length(1.0)
         self._node = core.GeomNode("triangles")
-        # Nothing is left to cull, and bounds would be computed for every picture.
+        # Culling is done already, and Panda3D would compute bounds for every picture.
         self._node.set_bounds(core.OmniBoundingVolume())
         self._node.set_final(True)
         root = core.NodePath("root")
@@ -94,10 +94,10 @@ class Screen:
         groups: Sequence[tuple[int, Look | None]],
         background: tuple[int, int, int],
     ) -> Bytes:
-        """Blue, green, red and opacity of pixels (size_px, size_px, 4); opacity 0 where no triangle is.
+        """Return blue, green, red and opacity of pixels (size_px, size_px, 4). Opacity is 0 without a triangle.
 
-        Parameters: corners : (n, 3, 5), places [m] and texture coordinates; colors : (n, 4), RGBA; groups : ends of
-            ranges of triangles, and what those are drawn with, None for no texture.
+        Parameters: corners : (n, 3, 5), positions [m] and texture coordinates; colors : (n, 4), RGBA; groups : ends of
+            ranges of triangles, and their looks, None for no texture.
         """
         vertices = core.GeomVertexData("", self._layout, core.Geom.UH_static)
         vertices.unclean_set_num_rows(3 * len(corners))
@@ -116,7 +116,7 @@ class Screen:
         self._aim(camera)
         buffer, texture = self._buffer(camera.size_px)
         buffer.set_clear_color(core.LColor(*(channel / 255 for channel in background), 0.0))
-        # The engine is global: it draws all active buffers of this process.
+        # The engine is global and draws all active buffers of this process.
         buffer.set_active(True)
         self._engine.render_frame()
         buffer.set_active(False)
@@ -127,7 +127,7 @@ class Screen:
         self._lens.set_film_size(2 * camera.half, 2 * camera.half)
         self._lens.set_film_offset(*camera.centre.tolist())
         right, up, forward = camera.axes
-        # Panda looks along y with z up, and multiplies rows.
+        # Panda3D looks along y with z up, and its vectors are rows.
         placed = np.eye(4)
         placed[:3, :3], placed[3, :3] = (right, forward, up), camera.eye_m
         self._eye.set_mat(core.LMatrix4f(*placed.ravel().tolist()))
@@ -156,7 +156,7 @@ def _close(engine: Any, buffers: dict[int, tuple[Any, Any]]) -> None:
 
 
 def _layout() -> Any:
-    """Two arrays of columns: places with texture coordinates, and colours."""
+    """Return the format of two arrays: positions with texture coordinates, and colours."""
     places, colors = core.GeomVertexArrayFormat(), core.GeomVertexArrayFormat()
     places.add_column(core.InternalName.get_vertex(), 3, core.Geom.NT_float32, core.Geom.C_point)
     places.add_column(core.InternalName.get_texcoord(), 2, core.Geom.NT_float32, core.Geom.C_texcoord)

@@ -1,4 +1,4 @@
-"""From a shot to a PNG file: camera, culling, picture, outline."""
+"""Render a shot as a PNG file: camera, culling, picture, outline."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera, frame
 from scene2hap.scene.images import Shot
 
-# Part of the frame that a whole scene fills, and a context image at least leaves around its target (assumed).
+# Share of the frame that a whole scene fills, and least width of a context image relative to its target (assumed).
 _SCENE_FILL = 0.95
 _LEAST_FACTOR = 1.25
 
 
 @dataclass(frozen=True, eq=False)
 class Photographer:
-    """Takes pictures of a stage with a renderer; same input, same bytes. `below` : its `supports`, if known."""
+    """Producer of pictures of a `Stage`; equal input gives equal bytes. `below` : its `supports`, if known."""
 
     stage: Stage
     renderer: Renderer
@@ -32,11 +32,11 @@ class Photographer:
 
     @cached_property
     def culler(self) -> Culler:
-        """Decides which objects are left out."""
+        """The `Culler` that selects the objects of each picture."""
         return Culler.of(self.stage, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
 
     def aim(self, shot: Shot) -> tuple[Camera, Selection]:
-        """Return the camera, and the selection that it shows."""
+        """Return the camera, and its selection of objects."""
         config = self.config
         angles = (shot.azimuth_deg, shot.elevation_deg, self.stage.up_axis)
         if shot.subject is None:
@@ -54,7 +54,7 @@ class Photographer:
         return wide, self.culler.around(target, close, wide)
 
     def take(self, shot: Shot) -> bytes:
-        """The picture as a PNG file."""
+        """Return the picture as a PNG file."""
         camera, selection = self.aim(shot)
         picture, ids = drawn(self.renderer, camera, selection)
         if shot.kind == "context" and shot.subject is not None:

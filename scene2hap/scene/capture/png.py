@@ -1,8 +1,8 @@
-"""PNG files, packed for speed.
+"""A fast writer of PNG files.
 
-Trying five filters on every line, as encoders do, takes longer than packing. Here every line is stored as its
-difference to the one above (filter 2, "up"), which leaves runs of zeros where a picture is plain or shaded from side to
-side, and ISA-L packs what is left: pictures of scenes are as small as at zlib's level 1, in a fifth of its time.
+Most encoders try five filters on every line, which takes longer than packing. Here every line is stored as its
+difference from the line above (filter 2, "up"). This gives runs of zeros where a picture is plain or shaded from side
+to side, and ISA-L packs the rest. Pictures of scenes are as small as with zlib's level 1, in a fifth of its time.
 
 Source: Portable Network Graphics (PNG) Specification, third edition (W3C 2025), sections 5 (chunks) and 9 (filters).
 """
@@ -17,13 +17,13 @@ from isal import isal_zlib
 from numpy.typing import NDArray
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
-# Eight bits a channel, red green blue; the standard's compression and filters; not interlaced.
+# Eight bits per channel, red green blue, the standard's compression and filters, not interlaced.
 _FORM = (8, 2, 0, 0, 0)
 _UP = 2
 
 
 def png(picture: NDArray[np.uint8]) -> bytes:
-    """Pixels (height, width, 3), sRGB, as a PNG file."""
+    """Return pixels (height, width, 3), sRGB, as a PNG file."""
     height, width, _ = picture.shape
     flat = picture.reshape(height, 3 * width)
     lines = np.empty((height, 1 + 3 * width), np.uint8)

@@ -18,7 +18,7 @@ from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera
 
 Ids = NDArray[np.int32]
-"""The actor that each pixel shows (size_px, size_px), numbered as in the stage; -1 for the background."""
+"""The object of each pixel (size_px, size_px), as its number in `Stage.actors`; -1 for the background."""
 
 Pixels = NDArray[np.uint8]
 """Colours (size_px, size_px, 3), sRGB."""
@@ -26,7 +26,7 @@ Pixels = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Selection:
-    """The contents of a picture: the actors `shown`; of those `opened` only faces that cannot hide the `focus_m`.
+    """The content of a picture: objects `shown`. Objects `opened` show only faces that cannot hide the point `focus_m`.
 
     A face can hide a point if its plane separates the point from the eye. So an opened room loses the walls between it
     and the camera and keeps floor and far walls, whether it is one mesh or several.
@@ -38,25 +38,25 @@ class Selection:
 
 
 class Renderer(Protocol):
-    """Draws a stage. Calls come one at a time."""
+    """Interface of renderers of a `Stage`. The library makes one call at a time."""
 
     def identify(self, camera: Camera, selection: Selection) -> Ids:
-        """The actor that each pixel's middle shows."""
+        """Return the object at the middle of each pixel."""
         ...
 
     def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
-        """The picture, and the ids as from `identify`."""
+        """Return the picture, and the ids as from `identify`."""
         ...
 
 
 RendererFactory = Callable[[Stage, bool], Renderer]
-"""Builds a renderer for a stage; the flag requests smooth edges."""
+"""Function that builds a renderer for a `Stage`; the flag requests smooth edges."""
 
 _RENDERER: Members = {"identify": ("camera", "selection"), "draw": ("camera", "selection")}
 
 
 def drawn(renderer: Renderer, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
-    """Draw a picture. Raises: ConfigError: the renderer returned something else."""
+    """Draw a picture. Raises: ConfigError: the renderer returned an invalid result."""
     size, given = (camera.size_px, camera.size_px), renderer.draw(camera, selection)
     by = f"{type(renderer).__name__}.draw"
     if not isinstance(given, tuple) or len(given) != 2:
@@ -71,7 +71,7 @@ def drawn(renderer: Renderer, camera: Camera, selection: Selection) -> tuple[Pix
 
 
 def made_renderer(factory: RendererFactory, stage: Stage, smooth: bool) -> Renderer:
-    """Build a renderer for a stage. Raises: ConfigError: the factory returned something else."""
+    """Build a renderer. Raises: ConfigError: the factory returned no `Renderer`."""
     name = getattr(factory, "__qualname__", repr(factory))
     if misfit(factory, (stage, smooth), {}):
         raise ConfigError(f"{name}{signature(factory)} must take (stage, smooth) and give a Renderer.")

@@ -22,12 +22,12 @@ _INK, _PAPER = "#22313f", "#ffffff"
 _MARGIN, _TITLE, _LABEL = 8, 34, 20
 _THUMB_PX = 256
 _PLAN_PX = 1400
-# A cut through the room at this part of its height leaves out what hangs above it, such as a ceiling (assumed).
+# A cut through the room at this share of its height leaves out higher objects, such as a ceiling (assumed).
 _CUT = 0.8
 
 
 def contact_sheet(item: SceneObject, *, thumb_px: int = _THUMB_PX) -> bytes:
-    """All images of a captured object in a labelled grid, as a PNG file.
+    """Return all images of a captured object in a labelled grid, as a PNG file.
 
     Rows: alone from above, alone from below, in its surroundings from above, from below.
     Raises: ConfigError: the object has no images.
@@ -55,7 +55,7 @@ def _rows(item: SceneObject) -> tuple[tuple[str, ImageSet], ...]:
 
 
 def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
-    """The scene straight from above with every object's id, as a PNG file; needs no renderer.
+    """Return the scene straight from above with every object's id, as a PNG file. Needs no renderer.
 
     Objects above four fifths of the scene's height are cut off. The front is at the bottom (`axes_of`).
     """
@@ -87,7 +87,7 @@ def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
 
 
 def _flat_colors(stage: Stage, number: int) -> NDArray[np.float32]:
-    """One colour (m, 3), 0..255, per face of an actor: its paint in the middle of the face."""
+    """Return one colour (m, 3), 0..255, per face of an object: its paint in the middle of the face."""
     actor = stage.actors[number]
     return stage.palette.rgb[actor.material] * stage.palette.pattern(actor.material, actor.uv.mean(axis=1)) * 255
 
@@ -100,7 +100,7 @@ def _write_names(
     scale: float,
     size_px: tuple[int, int],
 ) -> None:
-    """Ids over their objects, shifted down until they do not print over each other; walls and floors go without."""
+    """Write ids over their objects, shifted down until they do not overlap. Walls and floors get none."""
     font = ImageFont.load_default(12)
     written: list[tuple[float, float, float, float]] = []
     for number, actor in enumerate(stage.actors):

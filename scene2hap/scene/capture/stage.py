@@ -1,4 +1,4 @@
-"""A scene made ready for cameras: triangles in one frame, colours in one table, and names for their content."""
+"""A scene prepared for renderers: triangles in one frame, colours in one table, and digests of the content."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 Vector = NDArray[np.float64]
 
-# How far faces of objects are drawn in, as a part of the scene's diagonal: 0.03 mm in a room of 10 m, far below a pixel
-# and more than what float32 and a ray's step blur.
+# Distance by which faces of objects are moved inwards, as a share of the scene's diagonal: 0.03 mm in a room of 10 m.
+# It is far below a pixel, and larger than the errors of float32 and of a ray's step.
 _INSET = 3e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Actor:
-    """One object: triangles (m, 3, 3) [m] relative to the stage's origin, rows of the palette (m,), uv (m, 3, 2).
+    """One object: triangles (m, 3, 3) [m] relative to the `Stage` origin, rows of the palette (m,), uv (m, 3, 2).
 
-    `digest` names its shape as turned, and its looks, but not its place.
+    `digest` covers its rotated shape and its looks, but not its position.
     """
 
     id: str
@@ -48,23 +48,23 @@ class Actor:
     @cached_property
     def points_m(self) -> Vector:
         """All corners (n, 3) [m], each once."""
-        # As plain bytes, which numpy sorts three times faster than rows.
+        # Rows as plain bytes, which numpy sorts three times faster.
         corners = np.ascontiguousarray(self.triangles_m).reshape(-1, 3)
         each_once = np.unique(corners.view(np.dtype((np.void, corners.strides[0]))))
         return each_once.view(corners.dtype).reshape(-1, 3).astype(np.float64)
 
     @property
     def diagonal_m(self) -> float:
-        """The diagonal of its box [m]."""
+        """Diagonal of the object's box [m]."""
         return float(np.linalg.norm(self.box_m[1] - self.box_m[0]))
 
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """All objects of a scene, in scene order; plain arrays, so that it travels to worker processes.
+    """All objects of a scene, in scene order, as plain arrays that can be sent to worker processes.
 
-    Coordinates are relative to the middle of the scene, so that float32, which renderers use, resolves scenes that
-    stand far from the world's origin.
+    Coordinates are relative to the middle of the scene. Renderers use float32, which would lose precision in scenes far
+    from the world's origin.
     """
 
     actors: tuple[Actor, ...]
@@ -74,7 +74,7 @@ class Stage:
 
     @classmethod
     def of(cls, scene: SceneSnapshot) -> Stage:
-        """The stage of a scene."""
+        """Prepare a scene."""
         bounds = np.array([item.bounds_m for item in scene.objects])
         low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
         origin = (low + high) / 2
@@ -85,17 +85,17 @@ class Stage:
 
     @cached_property
     def index(self) -> dict[str, int]:
-        """Number of each actor by its id."""
+        """Number of each object by its id."""
         return {actor.id: number for number, actor in enumerate(self.actors)}
 
     @cached_property
     def everyone(self) -> frozenset[int]:
-        """All actors' numbers."""
+        """The numbers of all objects."""
         return frozenset(range(len(self.actors)))
 
     @cached_property
     def box_m(self) -> Vector:
-        """Lowest and highest corner (2, 3) [m] of all actors."""
+        """Lowest and highest corner (2, 3) [m] of all objects."""
         boxes = np.array([actor.box_m for actor in self.actors])
         return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
@@ -107,7 +107,7 @@ class Stage:
 
     @cached_property
     def digest(self) -> str:
-        """A name for everything that a picture of the whole stage can show."""
+        """A digest of everything that a picture of the whole scene can show."""
         parts: list[object] = [self.up_axis]
         for actor in self.actors:
             parts += (actor.digest, actor.box_m.tobytes())
@@ -135,10 +135,11 @@ def _actor(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBu
 
 
 def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats:
-    """Corners (n, 3) scaled about their box's middle so that its faces move in by the inset, or a tenth of its size.
+    """Scale corners (n, 3) about their box's middle, so that its faces move in by the inset, at most a tenth of its
+    size.
 
-    So faces of touching objects do not lie in one plane, where the first hit of a ray would depend on rounding. A room
-    in one piece, whose box contains the scene's middle, is not scaled: it would move towards its contents.
+    Otherwise faces of touching objects would be in one plane, and the first hit of a ray would depend on rounding. A
+    room in one piece, whose box contains the scene's middle, is not scaled: it would move towards its contents.
     """
     low, high = box_m
     if (low < 0).all() and (high > 0).all():

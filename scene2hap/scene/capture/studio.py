@@ -1,4 +1,4 @@
-"""Renders each picture once, when it is first read, and caches it."""
+"""Render each picture once, at its first access, and cache it."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from scene2hap.scene.capture.surroundings import Copies, supports
 from scene2hap.scene.images import Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 
-# Part of every key; raised when pictures of the same settings change.
+# Part of every key. Increase it when the pictures of equal settings change.
 _FORMAT = 2
 
 
 @dataclass(frozen=True)
 class CaptureStats:
-    """Counters of a capture: pictures rendered, and pictures found in memory and in `cache_dir` instead."""
+    """Counters of a capture: pictures rendered, and pictures found in memory or in `cache_dir` instead."""
 
     rendered: int = 0
     from_memory: int = 0
@@ -33,7 +33,7 @@ class CaptureStats:
 class Studio:
     """The `ImageSource` of one captured scene.
 
-    The stage and the renderer are made when the first picture is read that is not cached.
+    It makes the `Stage` and the renderer for the first picture that is not cached.
     """
 
     def __init__(self, scene: SceneSnapshot, config: CaptureConfig, factory: RendererFactory, name: str) -> None:
@@ -44,11 +44,11 @@ class Studio:
         self._lock = RLock()
 
     def __reduce__(self) -> tuple[object, ...]:
-        # A copy in another process has the same pictures to take; those taken here would be much to send.
+        # A copy in another process renders the same pictures again, since these pictures would be large to send.
         return (Studio, (self.scene, self.config, self.factory, self.name))
 
     def image(self, shot: Shot) -> bytes:
-        """Return the picture; copies share that of another object."""
+        """Return the picture. Copies share one picture."""
         shot = self.shared(shot)
         with self._lock:
             picture = self.find(shot)
@@ -94,12 +94,12 @@ class Studio:
                 self._folder.put(key, picture)
 
     def missing(self, shots: Iterable[Shot]) -> list[Shot]:
-        """Return the shots that must be rendered so that all shots can be read, each once, in order."""
+        """Return the shots that must be rendered so that all given shots can be read, each once, in order."""
         return [shot for shot in dict.fromkeys(map(self.shared, shots)) if self.find(shot) is None]
 
     @cached_property
     def stage(self) -> Stage:
-        """The scene ready for cameras."""
+        """The scene prepared for renderers."""
         return Stage.of(self.scene)
 
     @cached_property

@@ -1,6 +1,6 @@
-"""Spatial relations of the objects of a stage: supports, neighbours, containers, walls and rooms.
+"""Spatial relations of the objects of a `Stage`: supports, neighbours, containers, walls and rooms.
 
-All but the supports follow from boxes, so that this takes milliseconds and needs no renderer.
+All but the supports follow from AABBs, so they take milliseconds and need no renderer.
 """
 
 from __future__ import annotations
@@ -16,21 +16,23 @@ from scene2hap.scene.objects import SceneObject
 
 Floats = NDArray[np.float64]
 
-# How much of the scene a shell spans; how thin a piece of wall is for its height; how near the scene's rim it stands,
-# as a part of the scene (assumed).
+# Least extent of a shell, greatest thickness of a wall by its height, and greatest distance of a wall from the scene's
+# boundary. The first and last are shares of the scene's extent (assumed).
 _SHELL_SPAN, _THIN, _RIM = 0.6, 0.15, 0.1
-# A container holds this part of an object's box, as a cabinet around plates (assumed).
+# A container holds at least this share of an object's box, like a cabinet around plates (assumed).
 _CONTAINED = 0.9
-# Supports are searched below a grid of this many points a side, away from the rim of the footprint (assumed).
+# Supports are searched below a grid of this many points a side, with this margin in the footprint (assumed).
 _FEET, _INSET = 5, 0.1
-# An object may be sunk into its support by this part of its height (assumed; real scenes overlap as often as they gap).
+# An object may be sunk into its support by this share of its height (assumed; in real scenes overlaps are as frequent
+# as gaps).
 _SUNK = 0.2
 
 
 def shells(stage: Stage) -> frozenset[int]:
-    """Walls, floors, ceilings and rooms.
+    """Return walls, floors, ceilings and rooms.
 
-    These span `_SHELL_SPAN` of the scene along two axes; or are pieces of wall: as high, thin, and at the scene's rim.
+    They span `_SHELL_SPAN` of the scene along two axes. Or they are pieces of wall: they span the same share of its
+    height, are thin, and are at its boundary.
     """
     up = {"y": 1, "z": 2}[stage.up_axis]
     low, high = stage.box_m
@@ -48,7 +50,7 @@ def shells(stage: Stage) -> frozenset[int]:
 
 
 def near(stage: Stage, target: int, share: float) -> frozenset[int]:
-    """Objects whose box touches the target's or lies within `share` of its diagonal."""
+    """Return the objects whose box is within `share` of the target's diagonal from the target's box."""
     low, high = stage.actors[target].box_m
     reach = share * stage.actors[target].diagonal_m
     boxes = np.array([actor.box_m for actor in stage.actors])
@@ -57,18 +59,18 @@ def near(stage: Stage, target: int, share: float) -> frozenset[int]:
 
 
 def containers(stage: Stage, target: int) -> frozenset[int]:
-    """Objects whose box holds nearly all of the target's."""
+    """Return the objects whose box contains nearly all of the target's box."""
     low, high = stage.actors[target].box_m
     boxes = np.array([actor.box_m for actor in stage.actors])
     common = np.minimum(boxes[:, 1], high) - np.maximum(boxes[:, 0], low)
-    # Flat targets have an extent of zero, along which being inside is all or nothing.
+    # Along an axis without extent, a flat target is either inside or outside.
     extent = high - low
     share = np.where(extent > 0, common / np.where(extent > 0, extent, 1.0), common >= 0)
     return frozenset(np.flatnonzero(np.clip(share, 0.0, 1.0).prod(axis=1) >= _CONTAINED).tolist()) - {target}
 
 
 def supports(stage: Stage) -> tuple[int | None, ...]:
-    """The support of each object: the object that most of its footprint meets first, looking down; None for nothing."""
+    """Return the support of each object: the first object below most of its footprint; None for none."""
     up = {"y": 1, "z": 2}[stage.up_axis]
     level = [axis for axis in range(3) if axis != up]
     return tuple(_support(stage, number, up, level) for number in range(len(stage.actors)))
@@ -78,7 +80,7 @@ def _support(stage: Stage, number: int, up: int, level: list[int]) -> int | None
     low, high = stage.actors[number].box_m
     part = np.linspace(_INSET, 1 - _INSET, _FEET)
     size = high - low
-    # One side is a little shorter, so that points do not stand on the diagonals of authored quads.
+    # One side is a little shorter, so that no point is on the diagonal of an authored quad.
     u, v = np.meshgrid(low[level[0]] + 0.993 * part * size[level[0]], low[level[1]] + part * size[level[1]])
     feet = np.stack((u.ravel(), v.ravel()), axis=1)
     below = low[up] + _SUNK * size[up]
@@ -96,7 +98,7 @@ def _support(stage: Stage, number: int, up: int, level: list[int]) -> int | None
 
 
 def _heights_under(actor: Actor, feet: Floats, below: float, up: int, level: list[int]) -> Floats:
-    """The highest point of the actor at or under `below` at each foot (n,), -inf where there is none."""
+    """Return the highest point of the object at or below `below` at each foot (n,), -inf if there is none."""
     triangles = actor.triangles_m
     flat = triangles[:, :, level]
     reaches = (flat.max(axis=1) >= feet.min(axis=0)).all(axis=1) & (flat.min(axis=1) <= feet.max(axis=0)).all(axis=1)
@@ -122,10 +124,10 @@ def _cross(a: Floats, b: Floats) -> Floats:
 class Copies:
     """The groups of objects that share pictures.
 
-    Objects of one `instance_key` share isolated images, also if their names differ: those of the first in scene
-    order, at its own rotation. A *context class* is the kind of an object (`likeness.copy_key`) and that of the object
-    below it (`supports`). The objects of one class share context images: those of the first of the class, among its
-    own surroundings. An object without a key has pictures of its own.
+    Objects of one `instance_key` share isolated images, even if their names differ: those of the first in scene order,
+    at its own rotation. A *context class* is the kind of an object (`likeness.copy_key`) together with the kind of its
+    support (`supports`). Objects of one class share the context images of its first object, with that object's
+    surroundings. An object without a key has pictures of its own.
     """
 
     def __init__(self, objects: Sequence[SceneObject], below: Sequence[int | None], share: bool) -> None:

@@ -1,8 +1,8 @@
 """Camera positions and framing.
 
-The eye stands on a sphere around the object's box; perspective is fixed by its distance, and framing is a window on the
-image plane, shifted and scaled until it fits. So isolated and context images of one angle share one eye: what hides the
-target in one would hide it in the other, and framing is exact without iteration.
+The eye is on a sphere around the object's box. Its distance fixes the perspective. Framing is a window on the image
+plane, shifted and scaled until it fits. So isolated and context images of one angle share one eye: an object that hides
+the target in one hides it in the other, and framing is exact without iteration.
 
 Letters: d is depth along the axis of view [m]; x, y are right and up on the image plane at depth 1 [-].
 """
@@ -18,8 +18,8 @@ from scene2hap.scene.objects import UpAxis
 
 Floats = NDArray[np.float64]
 
-# Eye to centre in radii of the bounding sphere: far enough for little distortion in the wider context images, near
-# enough for a sense of depth (assumed).
+# Distance from eye to centre in radii of the bounding sphere. It is large enough for little distortion in the wider
+# context images, and small enough for a sense of depth (assumed).
 _DISTANCE_RADII = 4.5
 
 
@@ -34,7 +34,8 @@ class Camera:
     size_px: int
 
     def directions(self, pixels: NDArray[np.int64], offset_px: tuple[float, float] = (0.0, 0.0)) -> NDArray[np.float32]:
-        """Directions (n, 3) of the rays through pixels, numbered row by row, scaled so that a step of 1 is depth 1.
+        """Return directions (n, 3) of the rays through pixels, numbered row by row, scaled so that a step of 1 is depth
+        1.
 
         `offset_px` moves the ray from the middle of its pixel, right and down.
         """
@@ -49,7 +50,8 @@ class Camera:
         return directions
 
     def project(self, points_m: Floats) -> tuple[Floats, Floats]:
-        """Pixel coordinates (n, 2), right and down, and depths (n,) [m] of points; only depths > 0 are in front."""
+        """Return pixel coordinates (n, 2), right and down, and depths (n,) [m] of points. Only depths > 0 are in
+        front."""
         placed = (points_m - self.eye_m) @ self.axes.T
         depth = placed[:, 2]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -58,7 +60,7 @@ class Camera:
         return pixels * self.size_px, depth
 
     def window_of(self, points_m: Floats) -> tuple[int, int, int, int]:
-        """Pixels that points can cover, as (first row, last row + 1, first column, last column + 1)."""
+        """Return the pixels that points can cover, as (first row, last row + 1, first column, last column + 1)."""
         pixels, depth = self.project(points_m)
         if (depth <= 0).any():
             return (0, self.size_px, 0, self.size_px)
@@ -67,7 +69,7 @@ class Camera:
         return (int(low[1]), int(high[1]), int(low[0]), int(high[0]))
 
     def at_pixel(self, pixel: Floats) -> Camera:
-        """Return a camera at the same eye, with a window of one pixel around a place (2,), right and down."""
+        """Return a camera at the same eye, with a window of one pixel around a position (2,), right and down."""
         away = (pixel / self.size_px - 0.5) * (1, -1) * 2 * self.half
         return replace(self, centre=self.centre + away, half=self.half / self.size_px, size_px=1)
 
@@ -90,9 +92,10 @@ def axes_of(up_axis: UpAxis) -> Floats:
 def frame(
     points_m: Floats, azimuth_deg: float, elevation_deg: float, up_axis: UpAxis, fill: float, size_px: int
 ) -> Camera:
-    """The camera that looks at the middle of the points' box from an angle, with the points filling `fill` of it.
+    """Return the camera that looks at the middle of the points' box from an angle. The points fill `fill` of the
+    picture.
 
-    Parameters: points_m : (n, 3) [m], n >= 1; fill : larger of the width and height of their projection, as a part of
+    Parameters: points_m : (n, 3) [m], n >= 1; fill : larger of the width and height of their projection, as a share of
         the picture's edge [-].
     """
     low, high = points_m.min(axis=0), points_m.max(axis=0)

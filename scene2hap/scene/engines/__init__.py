@@ -1,7 +1,7 @@
-"""Running Python engines as snapshots, each through an optional extra that is imported on first use.
+"""Snapshots of running Python engines. Each engine is an optional extra that is imported at its first use.
 
 `scene2hap.scene.engines.mujoco` reads MuJoCo models and MJCF files, `scene2hap.scene.engines.panda3d` reads Panda3D
-scene graphs. Engines that are not written in Python hand over JSON (docs/scene-json.md).
+scene graphs. Engines that are not written in Python send JSON (docs/scene-json.md).
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ from scene2hap.errors import ConfigError, MissingExtra
 
 
 def engine(module: str) -> Any:
-    """An engine's module, such as "panda3d.core"; the package in front is also the name of our extra.
+    """Return an engine's module, such as "panda3d.core". The package's name is also the name of our extra.
 
-    Raises: MissingExtra: it is not installed. ConfigError: it is, and does not import.
+    Raises: MissingExtra: it is not installed. ConfigError: it is installed, but cannot be imported.
     """
     extra = module.partition(".")[0]
     try:
         return import_module(module)
     except ModuleNotFoundError as cause:
         raise MissingExtra(f"{extra} is not installed. Run: pip install 'scene2hap[{extra}]'") from cause
-    # Engines load drivers when they are imported, and raise whatever these lead to.
+    # Engines load drivers when they are imported, and these may raise any error.
     except Exception as cause:
         raise ConfigError(
             f"{extra} is installed but does not import: {cause}. Try: python -c 'import {extra}'"

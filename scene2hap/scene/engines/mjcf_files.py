@@ -1,8 +1,8 @@
 """Find and bound the files that an MJCF file makes MuJoCo read, before MuJoCo opens any.
 
-MuJoCo opens whatever an MJCF file names, `../../x` and absolute paths included, and builds as many copies as it asks
-for. So the include graph is read here first. Where a name may mean several files, since MuJoCo's versions differ in
-what included files are relative to, none of them may lie outside.
+MuJoCo opens any file that an MJCF file names, `../../x` and absolute paths included, and makes any number of copies. So
+the include graph is read here first. MuJoCo's versions differ in the base folder of included files, so a name may mean
+several files. None of them may be outside the root.
 
 Source: MuJoCo documentation (Google DeepMind), XML reference, `include`, `compiler`, `asset`, `replicate`.
 """
@@ -22,39 +22,42 @@ from scene2hap.scene import limits
 from scene2hap.scene.files import read_bytes
 
 MAX_XML_BYTES = 1 << 26
-"""Size of one XML file (assumed: a hundred times a large robot)."""
+"""Largest size of one XML file [bytes] (assumed: a hundred times a large robot)."""
 MAX_FILES_DEEP = 20
-"""Files within files (assumed)."""
+"""Greatest depth of files within files (assumed)."""
 MAX_COPIES = 10_000
-"""Bodies that one place in the file may be multiplied to (assumed: MuJoCo takes 14 s to compile 10,000)."""
+"""Most copies of one place in the file (assumed: MuJoCo takes 14 s to compile 10,000 bodies)."""
 MAX_COPIED_ELEMENTS = 50_000
 """Most elements of all copies together (assumed: MuJoCo takes some seconds for them)."""
 MAX_CELLS = 1 << 25
-"""Cells of all textures and height fields together, those that pictures store apart (assumed: eight of 2048 x 2048)."""
+"""Most cells of all textures and height fields, besides those of stored pictures (assumed: eight of 2048 x 2048)."""
 _CELLS_PER_BYTE = 20.0
-"""Cells that a byte of a picture may unpack to (assumed: ten times the cells of photographs)."""
+"""Cells allowed for each stored byte of a picture (assumed: ten times the cells of photographs)."""
 MAX_INCLUDED = 1_000
 """Most files that one model includes (assumed: those of a kitchen with hundreds of objects)."""
 MAX_MODELS = 200
-"""Models within models, each as often as it is named (assumed)."""
+"""Most models within models; a model counts each time it is named (assumed)."""
 MAX_RESERVED = 1_000
-"""Numbers for which <size> may reserve room in each element, or for key frames (assumed)."""
+"""Greatest number of values that <size> may reserve in each element, or of key frames (assumed)."""
 MAX_MESH_STEPS = 200
-"""Steps that a built-in mesh may be divided into (assumed: 80,000 triangles)."""
+"""Most subdivisions of a built-in mesh (assumed: 80,000 triangles)."""
 MAX_MADE_TRIANGLES = 400_000
-"""Triangles of all built-in meshes together (assumed: MuJoCo takes 600 bytes for each while it compiles)."""
+"""Most triangles of all built-in meshes together (assumed: MuJoCo takes 600 bytes for each while it compiles)."""
 FREE_MESH_BYTES, MESH_BYTES_PER_STORED = 8 << 20, 2.0
-"""Bytes that all rows with mesh files may read together, a file counted for each row: a fixed number, and more for each
-byte that is stored (assumed: MuJoCo decodes a file again for every row, a megabyte in 0.2 s)."""
+"""Bounds on the bytes that all rows with mesh files read together; a file counts for each row.
 
-# Whatever multiplies what it holds, and whatever makes a grid of that many cells.
+The bound is a fixed number, plus a multiple of the stored bytes. Assumed: MuJoCo decodes a file again for every row, a
+megabyte in 0.2 s.
+"""
+
+# Elements that multiply their content, and elements that make a grid of cells, with the attributes for the numbers.
 _COPIES = {"replicate": "count", "composite": "count", "flexcomp": "count"}
 _BODIES = frozenset({"body", "composite", "flexcomp"})
 _GRIDS = {"texture": ("width", "height"), "hfield": ("nrow", "ncol")}
 
 
 def check_files(path: Path, assets_root: Path) -> None:
-    """Make sure that an MJCF file, and all that it names, may be given to MuJoCo.
+    """Check that MuJoCo may open an MJCF file and all files that it names.
 
     Raises: SceneFormatError: it is not well-formed XML, not MJCF, has a document type, or includes a file twice.
     SceneError: a file is missing, too large or outside `assets_root`; the message names the root that is needed.
@@ -67,7 +70,7 @@ def check_files(path: Path, assets_root: Path) -> None:
 
 
 class _Wanted(NamedTuple):
-    """A file that an element names: where it is named and in which folder, the name, and the element's kind."""
+    """A file that an element names: the place and folder of the element, the file's name, and the element's kind."""
 
     place: str
     folder: Path
@@ -77,7 +80,7 @@ class _Wanted(NamedTuple):
 
 @dataclass
 class _Totals:
-    """Totals of the whole model, with all models in it, since a million small rows take as much as a large one."""
+    """Totals of the whole model and of all models in it, since a million small rows take as much as a large one."""
 
     cells: limits.Budget = field(
         default_factory=lambda: limits.Budget(
@@ -100,7 +103,7 @@ class _Totals:
     n_models: int = 0
 
     def add_copies(self, n: int, place: str) -> None:
-        """Raises: SceneError: all copies together have too many elements."""
+        """Count copies. Raises: SceneError: all copies together have too many elements."""
         self.n_copied += n
         if self.n_copied > MAX_COPIED_ELEMENTS:
             raise SceneError(
@@ -109,12 +112,12 @@ class _Totals:
             )
 
     def add_bodies(self, n: int) -> None:
-        """Raises: SceneError: there are more bodies than objects are read."""
+        """Count bodies. Raises: SceneError: the number of bodies exceeds the bound on objects."""
         self.n_bodies += n
         limits.at_most("the number of bodies", self.n_bodies, "MAX_OBJECTS")
 
     def add_model(self, place: str) -> None:
-        """Raises: SceneError: too many models stand in models."""
+        """Count a model. Raises: SceneError: there are too many models within models."""
         self.n_models += 1
         if self.n_models > MAX_MODELS:
             raise SceneError(f"{place} is one of more than {MAX_MODELS} models within models. Name fewer.")
@@ -122,7 +125,7 @@ class _Totals:
 
 @dataclass
 class _Model:
-    """An MJCF file with all that it includes; `around` are the models that this one is part of."""
+    """An MJCF file with all included files; `around` are the models that contain this one."""
 
     path: Path
     root: Path
@@ -138,7 +141,7 @@ class _Model:
     def check(self) -> None:
         _not_too_deep(self.path, len(self.around))
         self.read(self.path, copies=1, depth=0)
-        # Only now are the folders known: the last <compiler> that names one decides for all that stand before it too.
+        # Only now are the folders known: the last <compiler> with a folder also decides for the elements before it.
         read: set[Path] = set()
         for wanted in self.assets:
             found = self.find(wanted)
@@ -170,11 +173,11 @@ class _Model:
         _Reader(self, path, copies, depth).read()
 
     def find(self, wanted: _Wanted) -> Path | None:
-        """The file that is meant; None, with a note, if it lies outside."""
+        """Return the file with a wanted name. If it is outside the root: None, and the file is recorded."""
         try:
             candidates = [(base / self._name(wanted)).resolve() for base in self._bases(wanted)]
             existing = [path for path in candidates if _is_there(path)]
-        # Raised by a too long name and by a ring of links.
+        # A name that is too long and a ring of links raise these.
         except (ValueError, OSError, RuntimeError) as cause:
             raise SceneError(f"{wanted.place} wants {wanted.name!r}, which is no usable file name: {cause}.") from cause
         beyond = [path for path in existing or candidates if not path.is_relative_to(self.root)]
@@ -211,7 +214,7 @@ class _Model:
 
 @dataclass
 class _Reader:
-    """Reads one XML file and gives its model the named files; `open_copies` has a row for each open element."""
+    """Reader of one XML file. It adds the named files to its model; `open_copies` has a row for each open element."""
 
     model: _Model
     path: Path
@@ -224,7 +227,7 @@ class _Reader:
         data = read_bytes(self.path)
         if len(data) > MAX_XML_BYTES:
             raise SceneError(f"{self.path.name!r} has {len(data):,} bytes; MJCF of up to {MAX_XML_BYTES:,} is read.")
-        # MuJoCo reads UTF-8 whatever a file declares, so nothing else may be understood here.
+        # MuJoCo always reads UTF-8 and ignores a declared encoding, so this parser must too.
         parser = expat.ParserCreate("utf-8")
         parser.StartDoctypeDeclHandler = self._refuse_doctype
         parser.StartElementHandler = lambda tag, attributes: self._start(tag, attributes, parser.CurrentLineNumber)
@@ -258,11 +261,11 @@ class _Reader:
             for number in attributes.get("params", "").split():
                 _at_most(f"a parameter of {place}", number, MAX_MESH_STEPS)
             self.model.totals.made.spend(_made_triangles(attributes), place)
-        # The longest row of numbers for the user is reserved in each element of its kind.
+        # MuJoCo reserves the longest row of user numbers in each element of its kind.
         if "user" in attributes and (n := len(attributes["user"].split())) > MAX_RESERVED:
             raise SceneError(f"user of {place} has {n:,} numbers; up to {MAX_RESERVED:,} are read.")
         for key, name in attributes.items():
-            # A cube's sides are called fileright, fileleft, ...
+            # The attributes for a cube's sides are fileright, fileleft, ...
             if key.startswith("file") and name:
                 wanted = _Wanted(place, self.path.parent, name, tag)
                 if tag != "include":
@@ -271,7 +274,7 @@ class _Reader:
                     self.model.read(found, self.open_copies[-1], self.depth + 1)
 
     def _counted(self, tag: str, attributes: Mapping[str, str], place: str, around: int) -> int:
-        """Return the number of copies that are made of the content of this element."""
+        """Return the number of copies of this element's content."""
         if tag in _COPIES:
             around *= _product(attributes.get(_COPIES[tag], ""))
             if around > MAX_COPIES:
@@ -302,7 +305,7 @@ def _not_too_deep(path: Path, depth: int) -> None:
 
 
 def _png_cells(path: Path) -> int:
-    """Pixels of a PNG file by its header, before MuJoCo unpacks it; 0 for other files, which are as large as they say.
+    """Return the pixels of a PNG file by its header, before MuJoCo unpacks it; 0 for other files, which are not packed.
 
     Raises: SceneError: the file cannot be read.
     """
@@ -317,19 +320,19 @@ def _png_cells(path: Path) -> int:
 
 
 def _made_triangles(attributes: Mapping[str, str]) -> int:
-    """About how many triangles a built-in mesh has: spheres are divided again and again, all else into squares."""
+    """Estimate the triangles of a built-in mesh: a sphere is subdivided again and again, other shapes into squares."""
     steps = max((_product(number) for number in attributes.get("params", "").split()), default=1)
     return 20 * 4 ** min(steps, 10) if attributes["builtin"] == "sphere" else 4 * steps**2
 
 
 def _at_most(what: str, number: str, most: int) -> None:
-    """Raises: SceneError: a number is larger; what is no number is left to MuJoCo."""
+    """Check a number in a text. Raises: SceneError: it is larger. Texts that are no numbers are left to MuJoCo."""
     if _product(number) > most:
         raise SceneError(f"{what} is {number[:40]!r}; up to {most:,} is read.")
 
 
 def _is_there(path: Path) -> bool:
-    """Return True if a path exists. Raises: OSError: it is invalid; `exists` does not raise from Python 3.14 on."""
+    """Return True if a path exists. Raises: OSError: it is invalid (`exists` does not raise from Python 3.14 on)."""
     try:
         path.stat()
     except (FileNotFoundError, NotADirectoryError):
@@ -338,12 +341,12 @@ def _is_there(path: Path) -> bool:
 
 
 def _plain(name: str) -> str:
-    """MuJoCo takes a backslash for a slash on every system."""
+    """Replace backslashes by slashes, as MuJoCo does on every system."""
     return name.replace("\\", "/")
 
 
 def _product(numbers: str) -> int:
-    """The product of the numbers in a text, 1 for what MuJoCo will refuse as none."""
+    """Return the product of the numbers in a text; 1 if it has invalid numbers, which MuJoCo will refuse."""
     try:
         return prod(max(1, int(float(number))) for number in numbers.split())
     except (ValueError, OverflowError):

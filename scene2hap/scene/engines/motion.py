@@ -1,4 +1,4 @@
-"""Select the objects of a simulation that really move.
+"""Select the objects of a simulation that move by more than numerical noise.
 
 Objects at rest tremble in a simulation, and each moved pose makes the contact graph search for contacts again.
 """
@@ -12,23 +12,23 @@ from operator import mul
 from scene2hap.scene.pose import Pose
 
 AT_REST_M, AT_REST_RAD = 1e-4, 1e-3
-"""Largest motion and rotation of an object that counts as at rest (assumed: 0.1 mm, and that at 10 cm from the pivot;
-contacts are found to millimetres)."""
+"""Largest motion and rotation of an object at rest. Assumed: 0.1 mm, and 0.1 mm at 10 cm from the pivot; contacts are
+found to millimetres."""
 
 
 def moved(
     now: Mapping[str, Pose], before: Mapping[str, Pose], *, by_m: float = AT_REST_M, by_rad: float = AT_REST_RAD
 ) -> dict[str, Pose]:
-    """The poses among `now` that differ from those `before`, or are new.
+    """Return the poses in `now` that differ from those in `before`, or are new.
 
-    Parameters: by_m, by_rad : largest motion and rotation that count as at rest. Keep the poses that counted as
-        moved as the next `before`, so that slow motion adds up:
+    Parameters: by_m, by_rad : largest motion [m] and rotation [rad] of an object at rest. Add the returned poses to the
+        next `before`, so that slow motion adds up:
 
         changed = moved(poses(model, data), known)
         known.update(changed)
         session.update(changed, touches)
     """
-    # |q . p| = cos(angle / 2); either sign of a quaternion is the same rotation.
+    # |q . p| = cos(angle / 2), since q and -q are the same rotation.
     at_least = math.cos(by_rad / 2)
     return {
         object_id: pose

@@ -1,15 +1,16 @@
 """MuJoCo models as snapshots: a running `MjModel` with its `MjData`, or an MJCF file.
 
-1. Every body that draws something is an object, with all its geoms in one mesh. Doors, drawers and knobs are bodies
-   that hang below others, so they are objects of their own. A body without geoms is looked through.
+1. Every body with drawn geoms is an object, with all its geoms in one mesh. Doors, drawers and knobs are bodies below
+   others, so they are objects too. A body without geoms is no object.
 2. Every geom of the world body (floor, walls) is an object.
-3. If a body has geoms that cannot collide (contype and conaffinity 0) and can be seen, these are its looks; if not, all
-   its geoms are. Of the world's geoms, which are not drawn in pairs, those are left out that collide and are in groups
-   3 to 5, which MuJoCo's viewer hides. `geom_groups` overrides both.
-4. An object's id is the name of the body (or world geom), unique in MuJoCo. Without a name, the id is made of that of
-   the body that it hangs on and its place there: `cabinet/body2`, `world/geom1`. Its name is that too, unless a
-   wrapper lends it one: a body without geoms that holds nothing else, and does not move against it (`microwave` over
-   `microroot`), by the rule (c) of `scene2hap.scene.grouping`. Without any, the name of a geom or mesh in it serves.
+3. If a body has visible geoms that cannot collide (contype and conaffinity 0), only these are drawn; otherwise all its
+   geoms are. Geoms of the world have no such pairs. Of these, geoms that collide and are in groups 3 to 5, which
+   MuJoCo's viewer hides, are left out. `geom_groups` overrides both.
+4. An object's id is the name of the body (or world geom), which is unique in MuJoCo. Without a name, the id is made of
+   the parent's id and the body's number there: `cabinet/body2`, `world/geom1`. The object's name is the body's name, or
+   that of a wrapper: a body without geoms that contains nothing else, and does not move against it (`microwave` over
+   `microroot`), by the rule (c) of `scene2hap.scene.grouping`. Without both, it is the name of a geom or mesh in the
+   body.
 
 Poses are the bodies' own (xpos, xquat). Infinite planes are cut to twice the model's extent. Deformable bodies and
 skins are left out. Nothing here steps or changes the simulation.
@@ -57,7 +58,7 @@ def snapshot(
     masses: Literal["engine"] | None = None,
     unit_m: float = 1.0,
 ) -> SceneSnapshot:
-    """The scene as it stands in `data`: after `mj_forward` now, after `mj_step` one time step ago.
+    """Return the scene in its state in `data`: current after `mj_forward`, one time step old after `mj_step`.
 
     Parameters:
     model, data : `mujoco.MjModel` and `mujoco.MjData`.
@@ -65,11 +66,10 @@ def snapshot(
     geom_groups : the numbers of the groups that are drawn, instead of rule 3.
     contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo has none between
         bodies that cannot move against each other, such as a kettle welded to its stove.
-    masses : None has them inferred; "engine" takes `model.body_mass`, if its author gave masses: MuJoCo makes up those
-        that are missing, as if all were solid water.
+    masses : None has them inferred; "engine" takes `model.body_mass`. Use that only if the model's author gave masses:
+        MuJoCo computes missing ones as if all bodies were solid water.
     unit_m : metres per unit of the model.
-
-    Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number makes no sense.
+    Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number is invalid.
     """
     mujoco = _engine(model, data)
     unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
@@ -96,7 +96,7 @@ def snapshot(
 
 
 def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> PoseTable:
-    """Return the present pose of every object of the last `snapshot` with the same arguments."""
+    """Return the current pose of every object of the last `snapshot` with the same arguments."""
     unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
@@ -104,15 +104,16 @@ def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, 
 def contacts(
     model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0
 ) -> tuple[Contact, ...]:
-    """The engine's contacts between objects of the last `snapshot` with the same arguments."""
+    """Return the engine's contacts between objects of the last `snapshot` with the same arguments."""
     unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
 
 def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
-    """Mark the geoms (n_geoms + 1,) of a body and of the bodies below it, as the fingers of a hand; the last is False.
+    """Return a mask of the geoms (n_geoms + 1,) of a body and of the bodies below it, such as a hand's fingers.
 
-    Raises: UnknownObject: the model has no body of that name. SceneError: none of them can collide.
+    The last entry, for "no geom", is False.
+    Raises: UnknownObject: the model has no body of that name. SceneError: none of the geoms can collide.
     """
     mujoco = _engine(model, data)
     named = {mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, k) or "": k for k in range(1, model.nbody)}
@@ -122,7 +123,7 @@ def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
         raise UnknownObject(f"the model has no body {checks.represented(body)}. {hint}".rstrip())
     is_below = np.zeros(model.nbody, dtype=bool)
     is_below[named[body]] = True
-    # MuJoCo numbers a body after the one that it hangs on.
+    # In MuJoCo a parent has a lower number than its children, so one pass finds all.
     for below in range(named[body] + 1, model.nbody):
         is_below[below] = is_below[model.body_parentid[below]]
     found = is_below[model.geom_bodyid]
@@ -144,8 +145,10 @@ def touched(
     geom_groups: Collection[int] | None = None,
     unit_m: float = 1.0,
 ) -> list[tuple[str, tuple[float, float, float]]]:
-    """Objects that the geoms of a part, from `geoms_below`, touch now, and where [m]: one for each contact
-    point with what is not of the part itself."""
+    """Return the objects that the geoms of a part, from `geoms_below`, touch now, with the contact points [m].
+
+    There is one entry for each contact point with a geom outside the part.
+    """
     items = _layout(_engine(model, data), model, geom_groups)
     if not data.ncon:
         return []
@@ -161,16 +164,16 @@ def touched(
 def load_mjcf(
     path: str | os.PathLike[str], *, assets_root: str | os.PathLike[str] | None = None, unit_m: float = 1.0
 ) -> SceneSnapshot:
-    """The scene in an MJCF file as it is first posed, named after the file; see `open_mjcf`."""
+    """Return the scene in an MJCF file in its initial pose, named after the file; see `open_mjcf`."""
     model, data = open_mjcf(path, assets_root=assets_root)
     return snapshot(model, data, name=Path(path).stem, unit_m=unit_m)
 
 
 def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[str] | None = None) -> tuple[Any, Any]:
-    """`MjModel` and `MjData` of an MJCF file, to be stepped by the caller; bodies are posed, nothing else is computed.
+    """Return `MjModel` and `MjData` of an MJCF file, for the caller to step. Only the poses of bodies are computed.
 
-    Parameters: assets_root : the folder that all included files, meshes and textures must be in or below; None means
-    the file's own folder. Nothing outside it is opened.
+    Parameters: assets_root : the folder that must contain all included files, meshes and textures; None means the
+        file's own folder. Nothing outside it is opened.
     Raises: MissingExtra: MuJoCo is not installed. SceneFormatError: the file is not MJCF, or MuJoCo refuses it.
     SceneError: it is missing, too large, or wants a file outside assets_root (the message names the root it needs).
     """
@@ -181,7 +184,7 @@ def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[st
         with _silence(mujoco):
             model = mujoco.MjModel.from_xml_path(str(path.resolve()))
             data = mujoco.MjData(model)
-            # Enough for poses; contacts of a model that never moved say little, and may take minutes to find.
+            # Enough for poses. Contacts of a model that never moved are not useful, and may take minutes to find.
             mujoco.mj_kinematics(model, data)
     except (ValueError, RuntimeError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError) as cause:
         reason = " ".join(str(cause).split()).removeprefix("Error: ")
@@ -203,18 +206,18 @@ def _engine(model: Any, data: Any) -> Any:
             "mujoco.MjData(model)."
         )
     own = getattr(data, "model", model)
-    # A copy of the model is as good as the model.
+    # A copy of the model is accepted too.
     if own is not model and own.names != model.names:
         raise SceneError("data is of another model, whose names differ. Make it by mujoco.MjData(model).")
     return mujoco
 
 
-# -- which bodies and geoms are objects ------------------------------------------------------------------------------
+# -- bodies and geoms that are objects -------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class _Item:
-    """A future object: the geoms that a body draws, or one geom of the world body."""
+    """A future object: the drawn geoms of a body, or one geom of the world body."""
 
     id: str
     body: int
@@ -233,7 +236,7 @@ class _Items:
         self._row_of_geom: NDArray[np.intp] | None = None
 
     def row_of_geom(self, model: Any) -> NDArray[np.intp]:
-        """The row of the object that each geom (n + 1,) belongs to, -1 for none and in the last place."""
+        """Return the row of each geom's object (n + 1,), -1 for none. The last entry is -1."""
         if self._row_of_geom is None:
             of_body = {item.body: row for row, item in enumerate(self.all) if item.body != _WORLD}
             of_geom = {item.geoms[0]: row for row, item in enumerate(self.all) if item.body == _WORLD}
@@ -246,7 +249,7 @@ _layouts: WeakKeyDictionary[Any, dict[frozenset[int] | None, _Items]] = WeakKeyD
 
 
 def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, read_again: bool = False) -> _Items:
-    """The items of a model. A snapshot reads them again; the frames after it use the items of that snapshot."""
+    """Return the items of a model. A snapshot reads them again; later frames use the items of that snapshot."""
     if geom_groups is not None and (isinstance(geom_groups, str) or not isinstance(geom_groups, Collection)):
         raise SceneError(f"geom_groups is {geom_groups!r}; it must be a set of group numbers, such as {{1}}.")
     known = _layouts.setdefault(model, {})
@@ -257,7 +260,7 @@ def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, rea
 
 
 def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[_Item]:
-    """The bodies in order, then the world's geoms. Ids do not depend on what is drawn."""
+    """Return the bodies in order, then the world's geoms. Ids do not depend on which geoms are drawn."""
     kind = mujoco.mjtObj
     ids, n_children = ["world"], [0] * model.nbody
     for body in range(1, model.nbody):
@@ -265,7 +268,7 @@ def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[
         n_children[parent] += 1
         name = mujoco.mj_id2name(model, kind.mjOBJ_BODY, body)
         ids.append(name or f"{ids[parent]}/body{n_children[parent]}")
-    # MuJoCo numbers the geoms of the world first.
+    # In MuJoCo the geoms of the world have the first numbers.
     on_world = range(int(model.body_geomnum[_WORLD]))
     ids += [mujoco.mj_id2name(model, kind.mjOBJ_GEOM, geom) or f"world/geom{geom + 1}" for geom in on_world]
     ids = unique_ids(ids[1:])
@@ -277,7 +280,7 @@ def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[
 
 
 def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
-    """Mark the geoms (n_geoms,) that are drawn, by rule 3."""
+    """Return a mask of the geoms (n_geoms,) that are drawn by rule 3."""
     drawn: NDArray[np.bool_]
     if geom_groups is not None:
         drawn = np.isin(model.geom_group, list(geom_groups))
@@ -292,7 +295,7 @@ def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
 
 
 def _group(mujoco: Any, model: Any, item: _Item, pieces: tuple[Piece, ...]) -> Group:
-    """The item's pieces, named by rule 4; its frame is the body's."""
+    """Return the item's pieces, named by rule 4, in the frame of the body."""
 
     def name(body: int) -> str:
         return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, body) or ""
@@ -325,7 +328,7 @@ def _name_of_geoms(mujoco: Any, model: Any, item: _Item) -> str:
     return ""
 
 
-# -- where they are, and what they touch -----------------------------------------------------------------------------
+# -- poses and contacts ----------------------------------------------------------------------------------------------
 
 
 def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
@@ -341,10 +344,10 @@ def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
 
 
 def _contacts(model: Any, data: Any, items: _Items, unit_m: float) -> tuple[Contact, ...]:
-    """The engine's contacts between objects; those with what is not drawn are left out."""
+    """Return the engine's contacts between objects. Contacts with geoms that are not drawn are left out."""
     if not data.ncon:
         return ()
-    # A deformable body has no geom, and its contacts say -1, which is the last place.
+    # A deformable body has no geom. Its contacts have geom -1, which indexes the last entry.
     rows = items.row_of_geom(model)[np.asarray(data.contact.geom)]
     wanted = (rows >= 0).all(axis=1) & (rows[:, 0] != rows[:, 1]) & (np.asarray(data.contact.exclude) != _IN_GAP)
     kept = np.flatnonzero(wanted)
@@ -357,7 +360,7 @@ def _contacts(model: Any, data: Any, items: _Items, unit_m: float) -> tuple[Cont
 
 @contextmanager
 def _silence(mujoco: Any) -> Iterator[None]:
-    """Keep MuJoCo's warnings off the terminal and out of MUJOCO_LOG.TXT, where it writes them if nobody listens."""
+    """Keep MuJoCo's warnings off the terminal and out of MUJOCO_LOG.TXT, its output if there is no handler."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda text: None)
     try:

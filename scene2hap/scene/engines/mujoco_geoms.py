@@ -1,7 +1,7 @@
 """MuJoCo geoms as triangles with looks.
 
-Compiled meshes stand in the frame of their principal inertia, and their geoms are placed to fit; both are taken as
-they are, so that the whole is where its author put it.
+MuJoCo transforms compiled meshes to the frame of their principal inertia, and moves their geoms accordingly. Both are
+used unchanged, so the whole has the pose that its author gave it.
 
 Source: MuJoCo documentation (Google DeepMind), XML reference, `geom`, `mesh`, `texture`, `material`; mjmodel.h.
 """
@@ -25,18 +25,18 @@ _PLANE, _TERRAIN = 0, 1
 _TEXTURE_2D, _ROLE_RGB = 0, 1
 # A geom of this colour takes the colour of its material (MuJoCo's default).
 _NO_COLOUR = (0.5, 0.5, 0.5, 1.0)
-# A plane without end is cut to this many times the model's own extent, and to no less than this [model unit] (assumed:
-# whatever moves about stays over it).
+# An infinite plane is cut to this multiple of the model's extent, and to at least this size [model unit]. Assumed:
+# moving objects stay above it.
 _PLANE_EXTENTS, _MIN_PLANE = 2.0, 5.0
-# Triangles to draw of what is no mesh, and how many for each that a mesh has (assumed: a height field of 1,000 x 1,000,
-# or two thousand spheres).
+# Triangles allowed for geoms that are no meshes, and a number for each triangle of a mesh (assumed: a height field of
+# 1,000 x 1,000, or two thousand spheres).
 _FREE_TRIANGLES, _PER_TRIANGLE = 2_000_000, 4.0
 _TRIANGLES_OF_A_SOLID = 2 * solids.SIDES**2
 
 
 @dataclass(eq=False)
 class GeomReader:
-    """Reads the geoms of one `MjModel`; materials and textures are read once."""
+    """Reader of the geoms of one `MjModel`; materials and textures are read once."""
 
     model: Any
     _colours: NDArray[np.float64] = field(init=False)
@@ -56,9 +56,9 @@ class GeomReader:
         )
 
     def piece(self, geom: int) -> Piece:
-        """The geom in the frame of its body; a geom of the world body in its own frame, as authored.
+        """Return the geom in the frame of its body; a geom of the world body in its own frame, as authored.
 
-        Raises: SceneError: its numbers make no sense.
+        Raises: SceneError: its numbers are invalid.
         """
         model = self.model
         kind, mesh = int(model.geom_type[geom]), self._mesh(geom)
@@ -77,7 +77,7 @@ class GeomReader:
     # -- shapes ------------------------------------------------------------------------------------------------------
 
     def _shape(self, geom: int) -> solids.Triangles:
-        """Triangles in the compiled frame of the geom."""
+        """Return triangles in the compiled frame of the geom."""
         model = self.model
         kind, size, mesh = int(model.geom_type[geom]), model.geom_size[geom].tolist(), self._mesh(geom)
         if kind == _PLANE:
@@ -100,7 +100,7 @@ class GeomReader:
         return model.mesh_vert[first : first + n].astype(np.float64), self._of_faces(model.mesh_face, mesh)
 
     def _n_triangles(self, geom: int) -> int:
-        """At most how many triangles the geom has, before there are any."""
+        """Return an upper bound on the triangles of the geom, before they are made."""
         model, kind, mesh = self.model, int(self.model.geom_type[geom]), self._mesh(geom)
         if kind == _TERRAIN:
             number = int(model.geom_dataid[geom])
@@ -128,7 +128,7 @@ class GeomReader:
     # -- looks -------------------------------------------------------------------------------------------------------
 
     def _appearance(self, geom: int, n_faces: int) -> Appearance:
-        """Its texture where a mesh says how that lies, else the texture's mean colour."""
+        """Return the geom's texture if its mesh has texture coordinates, else the texture's mean colour."""
         model, mesh, texture = self.model, self._mesh(geom), self._texture(geom)
         is_image = texture >= 0 and model.tex_type[texture] == _TEXTURE_2D
         uv = self._texture_coordinates(mesh) if is_image and mesh is not None else None
@@ -144,7 +144,7 @@ class GeomReader:
         return Appearance.plain(self._materials[key], n_faces, uv)
 
     def _texture(self, geom: int) -> int:
-        """The number of the colour texture, -1 for none."""
+        """Return the number of the colour texture, -1 for none."""
         material = int(self.model.geom_matid[geom])
         return int(self.model.mat_texid[material, _ROLE_RGB]) if material >= 0 else -1
 
@@ -166,7 +166,7 @@ class GeomReader:
 
 
 def colours_rgba(model: Any) -> NDArray[np.float64]:
-    """The geoms' own colours (n_geoms, 4) [-]; where they have none, those of their materials."""
+    """Return the geoms' own colours (n_geoms, 4) [-]; geoms without one have the colour of their material."""
     colours: NDArray[np.float64] = model.geom_rgba.astype(np.float64)
     borrows = (model.geom_matid >= 0) & (model.geom_rgba == _NO_COLOUR).all(axis=1)
     colours[borrows] = model.mat_rgba[model.geom_matid[borrows]]
@@ -174,14 +174,14 @@ def colours_rgba(model: Any) -> NDArray[np.float64]:
 
 
 def pose(position: NDArray[np.float64], quaternion_wxyz: NDArray[np.float64]) -> Pose:
-    """A pose from MuJoCo's numbers."""
+    """Return a pose from MuJoCo's numbers."""
     x, y, z = position.tolist()
     qw, qx, qy, qz = quaternion_wxyz.tolist()
     return Pose((x, y, z), (qx, qy, qz, qw))
 
 
 def authored_pose(model: Any, geom: int) -> Pose:
-    """Return the pose of a geom of the world body, without the frame that compiling gave to its mesh."""
+    """Return the pose of a geom of the world body, without the frame that the compiler gave to its mesh."""
     compiled = pose(model.geom_pos[geom], model.geom_quat[geom])
     mesh = int(model.geom_dataid[geom])
     if mesh < 0 or model.geom_type[geom] <= _BOX:

@@ -1,4 +1,4 @@
-"""Groups of pieces as scene objects with measured surfaces: what all engines have in common."""
+"""Groups of pieces as scene objects with measured surfaces; shared by all engines."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _UP = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
 
 @dataclass(eq=False)
 class ObjectMaker:
-    """Makes the objects of one scene; copies share mesh, looks and measured surface."""
+    """Maker of the objects of one scene; copies share mesh, looks and measured surface."""
 
     up_axis: UpAxis
     unit_m: float = 1.0
@@ -28,9 +28,9 @@ class ObjectMaker:
         self._pool = MeshPool(self.unit_m)
 
     def make(self, object_id: str, name: str, group: Group, pose: Pose, mass_kg: float | None = None) -> SceneObject:
-        """The object made of a group's parts, at `pose` [m].
+        """Return the object made of a group's parts, at `pose` [m].
 
-        Raises: SceneError: the geometry makes no sense, or the object is too far away; see `MeshPool.place`.
+        Raises: SceneError: the geometry is invalid, or the object is too far away; see `MeshPool.place`.
         """
         reach_m = max(map(abs, pose.position_m))
         if reach_m > limits.MAX_COORDINATE_M:

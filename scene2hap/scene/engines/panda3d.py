@@ -1,9 +1,9 @@
 """Panda3D scene graphs as snapshots.
 
-Objects are found by the rule of the file loaders (`scene2hap.scene.grouping`), since a scene graph is as its artists
-left it. An object stands and moves with the innermost node that holds all its triangles, whichever node names it.
-Instances are objects of their own that share a mesh. Hidden and stashed nodes, lines and points are left out; of levels
-of detail, the finest is read; animated characters stand as they were modelled.
+Objects are found by the rule of the file loaders (`scene2hap.scene.grouping`), since a scene graph keeps the structure
+of its artists' files. The pose of an object is that of the innermost node that contains all its triangles, even if
+another node names it. Instances are separate objects that share a mesh. Hidden and stashed nodes, lines and points are
+left out. Of levels of detail, the finest is read. Animated characters keep the pose in which they were modelled.
 
 A session follows a graph by `scene2hap.engines.Panda3DLink`, which reads poses by a `PoseReader`.
 """
@@ -32,11 +32,11 @@ from scene2hap.scene.tree import AuthoredNode, Matrix
 def snapshot(
     render: Any, *, name: str | None = None, up_axis: UpAxis = "z", group: Grouping = "authored"
 ) -> SceneSnapshot:
-    """The scene below a NodePath, in the coordinates of the graph's top.
+    """Return the scene below a NodePath, in the coordinates of the graph's root.
 
     Parameters: render : a `panda3d.core.NodePath`; name : of the scene, None means the NodePath's; up_axis : "z" unless
-    the game set `coordinate-system` to y-up; group : which nodes are objects.
-    Raises: MissingExtra: Panda3D is not installed. SceneError: there are no triangles, or a number makes no sense.
+        the game set `coordinate-system` to y-up; group : the rule by which nodes become objects.
+    Raises: MissingExtra: Panda3D is not installed. SceneError: there are no triangles, or a number is invalid.
     """
     if up_axis not in ("y", "z"):
         raise SceneError(f"up_axis is {up_axis!r}; it must be 'y' or 'z'.")
@@ -52,16 +52,16 @@ def snapshot(
 
 
 def nodes(render: Any, *, group: Grouping = "authored") -> dict[str, Any]:
-    """The NodePath of every object of `snapshot` with the same arguments, by id; for `poses`."""
+    """Return the NodePath of every object of `snapshot` with the same arguments, by id; for `poses`."""
     return {object_id: path for object_id, (_, path) in _Graph.read(render).objects(group).items()}
 
 
 def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
-    """Return the present poses of the objects of a snapshot, for `HapticSession.update`.
+    """Return the current poses of the objects of a snapshot, for `HapticSession.update`.
 
-    Parameters: render_or_nodes : what `nodes` gave, or a NodePath. The latter reads the whole graph again, by the rule
-    "authored"; do that once rather than every frame.
-    Returns: a pose for every object whose node is still there. Scale is as it was in the snapshot.
+    Parameters: render_or_nodes : the result of `nodes`, or a NodePath. With a NodePath the whole graph is read again by
+        the rule "authored"; do not do that every frame.
+    Returns: a pose for every object whose node still exists. Scale is as it was in the snapshot.
     """
     known = render_or_nodes if isinstance(render_or_nodes, Mapping) else nodes(render_or_nodes)
     placed = ((item.id, known.get(item.id)) for item in snapshot.objects)
@@ -73,10 +73,10 @@ def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
 
 
 class PoseReader:
-    """Reads the poses of the objects of `snapshot` with the same arguments again and again. Nodes are looked up once.
+    """Reader of the poses of the objects of `snapshot` with the same arguments. Nodes are looked up once.
 
-    A node at rest costs almost nothing: Panda3D never changes a transform object, and the last one is kept alive here,
-    so that an equal address means an equal transform.
+    A node at rest costs almost nothing. Panda3D never changes a transform object, and the last one is kept alive here,
+    so an equal address means an equal transform.
     """
 
     def __init__(self, render: Any, *, group: Grouping = "authored") -> None:
@@ -84,7 +84,7 @@ class PoseReader:
         self._last: dict[str, tuple[Any, Pose]] = {}
 
     def read(self) -> dict[str, Pose]:
-        """Return the present pose of every object, by id; without those whose node is no longer in the graph."""
+        """Return the current pose of every object, by id; without objects whose node has left the graph."""
         last, placed = self._last, {}
         for object_id, path in self._nodes.items():
             if path.is_empty() or not (path == self._render or self._render.is_ancestor_of(path)):
@@ -99,9 +99,9 @@ class PoseReader:
 
 @dataclass(eq=False)
 class _Graph:
-    """A scene graph as an authored tree, with the way back from its pieces to NodePaths.
+    """A scene graph as an authored tree, with a map from its pieces back to NodePaths.
 
-    `trails` has, for every piece, the world transforms and NodePaths from the top down to the node that draws it.
+    `trails` has, for every piece, the world transforms and NodePaths from the root to the node that draws it.
     """
 
     core: Any
@@ -121,7 +121,7 @@ class _Graph:
         return graph
 
     def objects(self, group: Grouping) -> dict[str, tuple[Group, Any]]:
-        """The objects by id, each in the frame of the NodePath that it moves with."""
+        """Return the objects by id, each in the frame of the NodePath that moves it."""
         groups = group_objects([self.root], group)
         ids = unique_ids([found.name for found in groups])
         return {object_id: self._bound(found) for object_id, found in zip(ids, groups, strict=True)}
@@ -156,7 +156,8 @@ class _Graph:
         return [child for child in children if not child.is_hidden()]
 
     def _name(self, path: Any, is_below: bool) -> str:
-        """Return the authored name. The top of a graph names no object; a loaded model has its file's: `lamp.egg`."""
+        """Return the authored name. The root of a graph has none; a loaded model is named after its file:
+        `lamp.egg`."""
         if not is_below and not path.has_parent():
             return ""
         name = str(path.get_name()).strip()
@@ -164,12 +165,12 @@ class _Graph:
 
 
 def _matrix(transform: Any) -> Matrix:
-    # Panda3D multiplies rows from the left.
+    # Panda3D's vectors are rows, so its matrices are transposed.
     return np.array([tuple(row) for row in transform.get_mat().get_rows()], dtype=np.float64).T
 
 
 def _pose(transform: Any) -> Pose:
-    """A node's place in the graph's top, without scale; as `rigid_part` where there is some."""
+    """Return a node's pose in the graph's root, without scale. Transforms with shear or mirroring use `rigid_part`."""
     is_similar = transform.has_components() and transform.has_uniform_scale() and not transform.has_nonzero_shear()
     if is_similar and transform.get_uniform_scale() > 0:
         w, x, y, z = transform.get_quat()

@@ -24,7 +24,7 @@ _WHITE = (1.0, 1.0, 1.0, 1.0)
 
 @dataclass(eq=False)
 class GeomReader:
-    """Reads the geoms of one scene graph; `core` is `panda3d.core`. What instances share is read once."""
+    """Reader of the geoms of one scene graph; `core` is `panda3d.core`. Data that instances share is read once."""
 
     core: Any
     _shapes: dict[tuple[Any, int, str], _Shape] = field(default_factory=dict)
@@ -32,9 +32,9 @@ class GeomReader:
     _images: dict[Any, NDArray[np.uint8]] = field(default_factory=dict)
 
     def read(self, path: Any) -> list[Piece]:
-        """The triangles that a NodePath's own node draws, in its own frame; none but for a GeomNode.
+        """Return the triangles of a NodePath's own node, in its own frame; none if it is no GeomNode.
 
-        Raises: SceneFormatError, SceneError: a face uses a vertex that is not there, or a vertex is not finite.
+        Raises: SceneFormatError, SceneError: a face refers to a vertex that does not exist, or a vertex is not finite.
         """
         node = path.node()
         if not isinstance(node, self.core.GeomNode):
@@ -75,7 +75,7 @@ class GeomReader:
         triangles = [self._faces(primitive) for primitive in geom.decompose().get_primitives()]
         faces = np.concatenate([np.empty((0, 3), np.int64), *triangles])
         vertices = rows[:, :3].astype(np.float64)
-        # Panda3D counts v from the lower edge of a picture.
+        # In Panda3D v runs up from the lower edge of a picture.
         uv = np.stack((rows[:, 3], 1 - rows[:, 4]), axis=1) if has_uv else None
         colour = rows[:, 5:9].mean(axis=0).astype(np.float64) if has_colour and len(rows) else None
         return _Shape(_name_of(vertices, faces), vertices, faces, uv, colour)
@@ -116,7 +116,7 @@ class GeomReader:
         return np.array(tuple(colour), dtype=np.float64) * np.array(tuple(scaled), dtype=np.float64)
 
     def _texture(self, state: Any) -> tuple[Any, Any]:
-        """The first stage that paints colour, and its texture; (None, None) without."""
+        """Return the first texture stage that changes the colour, and its texture; (None, None) without."""
         core = self.core
         textures = state.get_attrib(core.TextureAttrib)
         stage_modes = core.TextureStage
@@ -129,7 +129,7 @@ class GeomReader:
         return None, None
 
     def _image(self, texture: Any) -> NDArray[np.uint8] | None:
-        """The picture, upper row first; None where Panda3D no longer has it."""
+        """Return the picture, upper row first; None if Panda3D has released it."""
         if texture is None or not texture.has_ram_image():
             return None
         if texture not in self._images:
@@ -141,7 +141,7 @@ class GeomReader:
 
 
 def _name_of(*arrays: NDArray[Any]) -> str:
-    """Equal for equal arrays."""
+    """Return a hash that is equal for equal arrays."""
     content = hashlib.sha256()
     for array in arrays:
         content.update(f"{array.shape}".encode())
@@ -151,7 +151,7 @@ def _name_of(*arrays: NDArray[Any]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Shape:
-    """Triangles of one geom: `uv` (n_vertices, 2) as in `Appearance`; `colour` the mean of its vertices' (4,)."""
+    """Triangles of one geom: `uv` (n_vertices, 2) as in `Appearance`; `colour` (4,) is the mean of its vertices."""
 
     key: str
     vertices: NDArray[np.float64]

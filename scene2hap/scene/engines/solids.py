@@ -1,7 +1,7 @@
 """Primitive shapes as triangles that face outwards, in their own frame [m].
 
-Round shapes are inscribed: their corners lie on the true surface, which stands up to 0.5 % of the radius above the
-middle of a face, and they reach as far as the true shape along x, y and z.
+Round shapes are inscribed: their corners are on the true surface, and the middle of a face is up to 0.5 % of the radius
+below it. Along x, y and z they have the extent of the true shape.
 """
 
 from __future__ import annotations
@@ -19,32 +19,32 @@ Triangles = tuple[NDArray[np.float64], NDArray[np.int32]]
 
 
 def box(half_m: ArrayLike) -> Triangles:
-    """A cuboid with half edges (3,) along x, y, z."""
+    """Return a cuboid with half edges (3,) along x, y, z."""
     x, y, z = 2 * np.asarray(half_m, dtype=np.float64)
     mesh = Box((x, y, z)).mesh
     return mesh.vertices_m, mesh.faces
 
 
 def ellipsoid(half_m: ArrayLike) -> Triangles:
-    """An ellipsoid with half axes (3,) along x, y, z; a sphere if they are equal."""
+    """Return an ellipsoid with half axes (3,) along x, y, z; a sphere if they are equal."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, SIDES // 2 + 1)[1:-1]
     vertices, faces = _turned(np.cos(angles), np.sin(angles), -1.0, 1.0)
     return vertices * np.asarray(half_m, dtype=np.float64), faces
 
 
 def cylinder(radius_m: float, half_length_m: float) -> Triangles:
-    """A closed cylinder along z."""
+    """Return a closed cylinder along z."""
     rims = np.array([-half_length_m, half_length_m])
     return _turned(np.full(2, radius_m), rims, -half_length_m, half_length_m)
 
 
 def cone(radius_m: float, half_length_m: float) -> Triangles:
-    """A closed cone along z, its base below and its tip above."""
+    """Return a closed cone along z, its base below and its tip above."""
     return _turned(np.array([radius_m]), np.array([-half_length_m]), -half_length_m, half_length_m)
 
 
 def capsule(radius_m: float, half_length_m: float) -> Triangles:
-    """A cylinder along z whose ends are half spheres beyond its half length."""
+    """Return a cylinder along z with half spheres at its ends, beyond its half length."""
     angles = np.linspace(0.0, np.pi / 2, SIDES // 4 + 1)[:-1]
     radii, rise = radius_m * np.cos(angles), half_length_m + radius_m * np.sin(angles)
     tip = half_length_m + radius_m
@@ -52,13 +52,13 @@ def capsule(radius_m: float, half_length_m: float) -> Triangles:
 
 
 def rectangle(half_x_m: float, half_y_m: float) -> Triangles:
-    """A sheet in the x-y plane without thickness, facing +z."""
+    """Return a sheet in the x-y plane without thickness, facing +z."""
     corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], dtype=np.float64)
     return corners * [half_x_m, half_y_m, 1.0], np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)
 
 
 def terrain(heights_m: NDArray[np.float64], half_x_m: float, half_y_m: float) -> Triangles:
-    """A sheet of heights (n_rows, n_columns) over the x-y plane, rows along y, facing up."""
+    """Return a sheet of heights (n_rows, n_columns) over the x-y plane, rows along y, facing up."""
     n_rows, n_columns = heights_m.shape
     y, x = np.meshgrid(
         np.linspace(-half_y_m, half_y_m, n_rows), np.linspace(-half_x_m, half_x_m, n_columns), indexing="ij"
@@ -70,7 +70,7 @@ def terrain(heights_m: NDArray[np.float64], half_x_m: float, half_y_m: float) ->
 
 
 def _turned(radii: NDArray[np.float64], heights: NDArray[np.float64], bottom: float, top: float) -> Triangles:
-    """The closed surface of a profile turned about z: rings of radii (k,) at rising heights (k,) between two tips."""
+    """Return the surface of a profile rotated about z: rings of radii (k,) at rising heights (k,) between two tips."""
     k, angles = len(radii), np.arange(SIDES) * (2 * np.pi / SIDES)
     rings = np.stack(
         (np.outer(radii, np.cos(angles)), np.outer(radii, np.sin(angles)), np.repeat(heights[:, None], SIDES, axis=1)),

@@ -1,7 +1,7 @@
 """USD scenes (`.usd`, `.usda`, `.usdc`, `.usdz`) as authored trees, through the package usd-core.
 
-The format has a reader in C++ alone, which crashes on some broken files. So a file is read in a child process, which
-hands back the tree: a crash, or a file that takes all memory, is one SceneError. See `scene2hap.scene.usd.process`.
+The format's only reader is in C++ and crashes on some broken files. So a child process reads the file and returns the
+tree. A crash, or a file that fills the memory, then gives one SceneError. See `scene2hap.scene.usd.process`.
 
 Source: OpenUSD 26.11 documentation (Pixar / AOUSD), schemas UsdGeom, UsdShade, UsdPhysics.
 """
@@ -18,9 +18,9 @@ from scene2hap.scene.usd.process import read_in_child
 
 
 def read_usd(path: Path, assets_root: Path) -> AuthoredScene:
-    """The composed scene of a USD file with its looks and masses; `up_axis` and `unit_m` are those of the stage.
+    """Return the composed scene of a USD file with its looks and masses; `up_axis` and `unit_m` come from the stage.
 
-    Layers and textures are read from inside `assets_root` alone. Matrices, sizes and vertices are in the stage's unit.
+    Layers and textures are read only from inside `assets_root`. Matrices, sizes and vertices are in the stage's unit.
     Raises: MissingExtra: usd-core is not installed. SceneFormatError: the file is not USD, or broken. SceneError: it is
     missing, too large, takes too long, or needs a layer that is missing or outside `assets_root`.
     """

@@ -1,4 +1,4 @@
-"""Archives of USD (`.usdz`): ZIP files whose entries are stored as they are.
+"""Archives of USD (`.usdz`): ZIP files with uncompressed entries.
 
 Source: OpenUSD, "USDZ File Format Specification": zero compression, no encryption, the first entry is the root layer.
 """
@@ -15,7 +15,7 @@ from scene2hap.scene import limits
 class Archive:
     """The entries of a `.usdz` file.
 
-    Raises: SceneFormatError: it is no ZIP file, its entries are packed or overlap, or the first is no layer.
+    Raises: SceneFormatError: it is no ZIP file, its entries are compressed or overlap, or the first is no layer.
     """
 
     def __init__(self, path: Path) -> None:
@@ -23,7 +23,7 @@ class Archive:
         try:
             self._zip = zipfile.ZipFile(path)
             entries = [entry for entry in self._zip.infolist() if not entry.is_dir()]
-        # zipfile raises whatever broken records lead to.
+        # Broken records may raise any error in zipfile.
         except Exception as cause:
             raise SceneFormatError(f"{path.name!r} cannot be read as USDZ: {cause}.") from cause
         self._sizes = {entry.filename: entry.file_size for entry in entries}
@@ -34,7 +34,7 @@ class Archive:
             raise SceneFormatError(
                 f"{path.name!r} packs or encrypts {packed[0]!r}; USDZ stores its files as they are. Make it by usdzip."
             )
-        # Entries may name the same bytes, as often as they like.
+        # Any number of entries may refer to the same bytes, so their sizes are summed.
         total = sum(entry.file_size for entry in entries)
         if not entries or total > path.stat().st_size:
             raise SceneFormatError(
@@ -47,7 +47,7 @@ class Archive:
         return name in self._sizes
 
     def read(self, name: str) -> bytes:
-        """The content of an entry. Raises: SceneError: there is none of that name, or its bytes are damaged."""
+        """Return the content of an entry. Raises: SceneError: there is no such entry, or its bytes are damaged."""
         try:
             return self._zip.read(name)
         except Exception as cause:

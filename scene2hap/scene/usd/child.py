@@ -1,7 +1,6 @@
 """The child process that reads one USD file: `python -m scene2hap.scene.usd.child`, a `Request` in, an `Answer` out.
 
-Both are pickles, on standard input and output. Time and memory are limited, and what usd-core prints is dropped by the
-parent.
+Both are pickles, on standard input and output. Time and memory are limited. The parent drops usd-core's own output.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ from scene2hap.scene.usd.process import (
 
 
 class _Allowance:
-    """Time and memory of this process, which grow by the bytes and the prims that it reads."""
+    """Time and memory of this process. They grow with the bytes and the prims that it reads."""
 
     def __init__(self) -> None:
         self._n_bytes = self._n_prims = 0
@@ -36,7 +35,8 @@ class _Allowance:
     def add(self, n_bytes: int, n_prims: int) -> None:
         self._n_bytes += n_bytes
         self._n_prims += n_prims
-        # Its watchdog runs while C++ holds the interpreter's lock, which no thread or signal handler of Python does.
+        # faulthandler's watchdog also runs while C++ holds the interpreter's lock; Python's threads and signal handlers
+        # do not.
         allowed_s = TIME_S + TIME_S_PER_BYTE * self._n_bytes + TIME_S_PER_PRIM * self._n_prims
         faulthandler.dump_traceback_later(allowed_s, exit=True)
         if sys.platform == "linux":
@@ -51,7 +51,7 @@ class _Allowance:
 def main() -> None:
     """Answer the request on standard input."""
     request: Request = pickle.load(sys.stdin.buffer)
-    # Whatever prints must not get into the answer.
+    # Printed text must not get into the answer.
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     for name, value in request.limits.items():
@@ -60,11 +60,11 @@ def main() -> None:
         answer = Answer(_scene(request))
     except (SceneError, ConfigError) as error:
         answer = Answer(None, type(error).__name__, str(error))
-    # A tree is pickled by recursion, several calls for each node on the way down.
+    # Pickling a tree is recursive, with several calls for each level.
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20 * limits.MAX_DEPTH + 1000))
     pickle.dump(answer, answers, protocol=5)
     answers.close()
-    # Releasing a stage takes long, and is of no use here.
+    # Releasing a stage takes long, and this process ends anyway.
     os._exit(0)
 
 

@@ -1,10 +1,10 @@
 """Bound on the work of composing a stage, counted before usd-core begins.
 
-A few lines of references to references, two at each step, expand to any number of prims, and usd-core composes all of
-them before it returns the first. So the sources of opinions are counted here, each as often as it is used: a prim
-counts once for each layer and arc with an opinion about it. Copies of a native instance count one by one, as they do
-among the nodes of a scene. The count is approximate: only the largest variant of a set counts, and arcs to prims that
-exist only by other arcs do not count. The child's limits of time and memory bound the rest.
+A few lines of references to references, two at each step, expand to any number of prims. usd-core composes all of them
+before it returns the first. So the sources of opinions are counted here, once per use: a prim counts once for each
+layer and arc with an opinion about it. Copies of a native instance count one by one, like other nodes of a scene. The
+count is approximate: only the largest variant of a set counts, and arcs to prims that exist only by other arcs do not
+count. The child's limits of time and memory bound the rest.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from typing import Any
 from scene2hap.scene import limits
 
 FREE_SITES, SITES_PER_PRIM = 500_000, 20.0
-"""Places of opinions that a stage may use, and how many more for each prim that its layers describe (assumed: usd-core
-composes some 100,000 a second)."""
+"""Sites of opinions that a stage may use, and a further number for each prim that its layers describe (assumed:
+usd-core composes about 100,000 a second)."""
 
-# Sums are cut here, since each of thousands of steps may double them.
+# Sums are bounded here, since each of thousands of steps may double them.
 _MANY = 10**9
 
 Key = tuple[str, Any]
@@ -36,7 +36,7 @@ class _Prim:
 
 
 class Composition:
-    """The prims that layers describe, and what they refer to."""
+    """The prims that layers describe, and their arcs."""
 
     def __init__(self) -> None:
         self._prims: dict[Key, _Prim] = {}
@@ -46,32 +46,35 @@ class Composition:
 
     @property
     def n_prims(self) -> int:
-        """The number of prims that the layers describe."""
+        """Number of prims that the layers describe."""
         return len(self._prims)
 
     def add_layer(self, identifier: str, default_prim: Any, sublayers: Iterable[str]) -> None:
-        """Note a layer's sublayers, and the path of its default prim, None without one."""
+        """Record a layer's sublayers, and the path of its default prim (None without one)."""
         self._default[identifier], self._stack[identifier] = default_prim, tuple(sublayers)
         for below in self._stack[identifier]:
             self._over.setdefault(below, identifier)
 
     def add_prim(self, key: Key, children: Iterable[Any], variants: Iterable[Iterable[Any]]) -> None:
-        """Note a prim with the paths of its children and of the variants of each set."""
+        """Record a prim with the paths of its children and of the variants of each set."""
         layer = key[0]
         self._prims[key] = _Prim(
             [(layer, path) for path in children], [[(layer, path) for path in each] for each in variants]
         )
 
     def add_arc(self, key: Key, layer: str, path: Any) -> None:
-        """Note that a prim refers to another: in the layer of that identifier, "" for its own stack of layers; at a
-        path, empty for the default prim."""
+        """Record that a prim refers to another.
+
+        Parameters: layer : identifier of the target's layer, "" for the prim's own stack of layers; path : of the
+            target, empty for the default prim.
+        """
         root = layer or self._root_of_stack(key[0])
         target = path or self._default.get(root)
         if target is not None:
             self._prims[key].arcs.append((root, target))
 
     def check(self, root: str) -> None:
-        """Raise SceneError if composing the layer of that identifier takes too long."""
+        """Check the size of the composition of a root layer. Raises: SceneError: composing it takes too long."""
         sizes: dict[Key, int] = {}
         budget = limits.Budget(
             "the opinions to compose",
@@ -86,8 +89,8 @@ class Composition:
             budget.spend(self._size(top, sizes), f"prim {top[1]}")
 
     def _size(self, top: Key, sizes: dict[Key, int]) -> int:
-        """Return the number of opinions of a prim, of the prims below it, and of those they refer to."""
-        # By a list of what is to be done, since arcs follow arcs for longer than Python can recurse.
+        """Return the number of opinions of a prim, of its descendants, and of all targets of their arcs."""
+        # With a stack instead of recursion, since chains of arcs may exceed Python's recursion limit.
         to_do = [(top, False)]
         while to_do:
             key, is_ready = to_do.pop()
@@ -100,7 +103,7 @@ class Composition:
                 size += sum(max((sizes.get(each, 0) for each in one), default=0) for one in prim.variants)
                 sizes[key] = min(size, _MANY)
             else:
-                # Arcs that lead back here do not count: usd-core refuses them.
+                # Cyclic arcs do not count: usd-core refuses them.
                 sizes[key] = 0
                 to_do.append((key, True))
                 below = (*prim.children, *(each for one in prim.variants for each in one), *arcs)
@@ -108,7 +111,7 @@ class Composition:
         return sizes.get(top, 0)
 
     def _layers(self, root: str) -> tuple[str, ...]:
-        """A layer and its sublayers, and theirs."""
+        """Return a layer and its direct and indirect sublayers."""
         found, to_do = [], [root]
         while to_do:
             layer = to_do.pop()

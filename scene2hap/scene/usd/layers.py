@@ -1,12 +1,12 @@
-"""The layers of a USD scene, opened without usd-core's own way of finding files.
+"""The layers of a USD scene, opened without usd-core's own search for files.
 
-usd-core opens whatever a layer names: absolute paths, addresses (where the host has such a resolver), and files in
-search paths of the environment. So each layer is opened alone here, as an anonymous layer, and every name of another
+usd-core opens any file that a layer names: absolute paths, addresses (if the host has such a resolver), and files in
+search paths of the environment. So each layer is opened separately here, as an anonymous layer. Every name of another
 layer in it is replaced by that layer's anonymous identifier. Composition then finds all layers in memory and opens no
-file. A layer that must not be read, or is missing, gets an identifier that finds nothing; it is an error only if the
-composed stage needs it, since variants that are not selected may name files that were never delivered.
+file. A layer that must not be read, or is missing, gets an identifier that finds nothing. It is an error only if the
+composed stage needs it, since unselected variants may name files that were never delivered.
 
-Animation by value clips is removed, since clips name files of their own.
+Animation by value clips is removed, since clips name further files.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ from scene2hap.scene.usd.archive import Archive
 from scene2hap.scene.usd.composition import Composition
 
 MAX_LAYER_BYTES = 1 << 32
-"""Size of all layers of one scene (assumed)."""
+"""Largest size of all layers of one scene [bytes] (assumed)."""
 
 _SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
-# Files that hold materials alone: a scene without them is the same to the touch.
+# Files that hold only materials: touch does not depend on them.
 _LOOKS = (".mtlx", ".mdl")
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 _REFUSED = "scene2hap-refused-{}.usda"
@@ -41,17 +41,17 @@ _CLIPS = ("clips", "clipSets")
 
 @dataclass(frozen=True)
 class _Home:
-    """The base of relative names in a layer: a folder, or one within an archive."""
+    """The base of relative names in a layer: a folder, or a folder within an archive."""
 
     folder: Path | str
     archive: Archive | None = None
 
 
 class Layers:
-    """Opens a scene's layers from inside `assets_root`, and its textures.
+    """The layers of a scene from inside `assets_root`, and its textures.
 
-    Parameters: path : the root layer or archive; textures : reads textures beside the root layer; allow : is given the
-    bytes and the prims of each layer, so that a watched process may take longer for more.
+    Parameters: path : the root layer or archive; textures : reads textures beside the root layer; allow : called with
+        the numbers of bytes and prims of each layer, so that a watched process gets more time for larger files.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class Layers:
     ) -> None:
         self._path, self._assets_root, self.textures, self._allow = path, assets_root, textures, allow
         self.n_bytes = 0
-        # Anonymous layers live as long as a reference to them.
+        # usd-core frees an anonymous layer with its last reference.
         self._kept: list[Any] = []
         self._homes: dict[str, _Home] = {}
         self._names: dict[str, str] = {}
@@ -73,10 +73,10 @@ class Layers:
         self._composition = Composition()
 
     def root(self) -> Any:
-        """The root layer (`Sdf.Layer`); all layers that it needs are in memory.
+        """Return the root layer (`Sdf.Layer`), with all layers that it needs in memory.
 
         Raises: SceneFormatError: a layer is broken. SceneError: a sublayer is missing or outside `assets_root`, or the
-        layers come to too many prims.
+        layers have too many prims.
         """
         self._file(self._path)
         while self._to_visit:
@@ -85,7 +85,7 @@ class Layers:
         return self._kept[0]
 
     def check(self, stage: Any) -> None:
-        """Raise SceneError if an active prim of the composed stage needs a layer that was refused."""
+        """Check the composed stage. Raises: SceneError: an active prim needs a layer that was refused."""
         for error in stage.GetCompositionErrors():
             found = re.search(_REFUSED.format(r"\d+"), str(error))
             refusal = self._refused.get(found[0]) if found else None
@@ -94,7 +94,8 @@ class Layers:
                 raise refusal
 
     def texture(self, spec: Any, place: str, *, keeps_alpha: bool) -> EncodedTexture | None:
-        """The image that an attribute spec names by its default; None, and a word about it, if it is refused."""
+        """Return the image that an attribute spec names by its default. If it is refused: None, and the reason is
+        recorded."""
         home, asset = self._homes.get(spec.layer.identifier), spec.default
         name = asset.path.strip().replace("\\", "/").replace("<UDIM>", "1001") if asset else ""
         if home is None or not name:
@@ -109,7 +110,7 @@ class Layers:
     # -- opening -----------------------------------------------------------------------------------------------------
 
     def _file(self, path: Path) -> str:
-        """The anonymous identifier of the layer in a file that may be read."""
+        """Return the anonymous identifier of the layer in an allowed file."""
         if path not in self._known:
             check_file(path)
             home = _Home(path.parent)
@@ -207,7 +208,8 @@ class Layers:
         prim.SetInfo(key, edits)
 
     def _identifier(self, asset: str, home: _Home, place: str) -> str:
-        """The anonymous identifier of the layer that `place` calls `asset`; one that finds nothing if it is refused."""
+        """Return the anonymous identifier of the layer that `place` names `asset`. If refused: one that finds
+        nothing."""
         if (home, asset) not in self._known:
             refusal: SceneError | None
             try:
@@ -236,7 +238,7 @@ class Layers:
             raise SceneError(f"{place} names {name!r}; layers that are read end in {', '.join(_SUFFIXES)}.")
         path = self._inside(name, Path(home.folder), place)
         if not path.exists() and not name.startswith(("./", "../", "/")):
-            # A name without a dot in front may also start from the folder of the root layer (Ar, search paths).
+            # A name without a leading dot may also start from the folder of the root layer (Ar, search paths).
             beside_root = self._inside(name, self._path.parent, place)
             path = beside_root if beside_root.exists() else path
         if not path.exists():
@@ -257,7 +259,7 @@ class Layers:
             )
         if (archive, entry) not in self._known:
             home = _Home(posixpath.dirname(entry), archive)
-            # The archive's bytes count once, as its root layer.
+            # The archive's bytes were counted with its root layer.
             self._known[(archive, entry)] = self._open(
                 f"{archive.path}[{entry}]", f"{archive.path.name}/{entry}", home, 0
             )
@@ -265,7 +267,7 @@ class Layers:
 
 
 def _relative(path: str, folder: Path) -> str:
-    """The path as seen from a folder; itself if it is on another drive."""
+    """Return the path relative to a folder; the path itself if it is on another drive."""
     try:
         return Path(os.path.relpath(path, folder)).as_posix()
     except ValueError:
@@ -273,7 +275,7 @@ def _relative(path: str, folder: Path) -> str:
 
 
 def reason_of(cause: Exception) -> str:
-    """The message of usd-core about a file, in one line, without the places in its own source."""
+    """Return usd-core's message about a file, in one line, without positions in its own source code."""
     said = " ".join(str(cause).split())
     quoted = re.search(r" : '(.*?)'(?: Error in|$)", said)
     return (quoted[1] if quoted else said)[:300].rstrip(". ")

@@ -1,9 +1,9 @@
-"""Masses of the prims of a USD stage, as far as the file has them.
+"""Masses of the prims of a USD stage, if the file has them.
 
 The mass of a prim includes all prims below it; masses there are ignored. Without a mass, density times volume counts:
 the density of the prim, else of the nearest prim above, else of its physics material. Only closed meshes have a volume.
-The mass of a prim with neither is unknown, and so is that of a prim above it; the simulators' default of 1000 kg/m3 is
-not used.
+Without both, the mass of the prim is unknown, and so is that of the prims above it. The simulators' default of 1000
+kg/m3 is not used.
 
 Source: OpenUSD 26.11, UsdPhysics: MassAPI and MaterialAPI, "physics:mass" and "physics:density".
 """
@@ -20,11 +20,11 @@ from scene2hap.scene.usd.meshes import Triangles
 from scene2hap.scene.usd.values import positive
 
 MAX_KG = 1e9
-"""A mass above this is no mass (`SceneObject.mass_kg` has the same bound)."""
+"""A larger mass is ignored (`SceneObject.mass_kg` has the same bound)."""
 
 
 class Masses:
-    """Reads masses [kg] of a stage's prims."""
+    """Reader of the masses [kg] of a stage's prims."""
 
     def __init__(self, stage: Any) -> None:
         scale = UsdPhysics.GetStageKilogramsPerUnit(stage)
@@ -32,21 +32,21 @@ class Masses:
         self._volumes: dict[Hashable, float | None] = {}
 
     def of_all_below(self, prim: Any) -> float | None:
-        """The mass that is written at a prim [kg]; None if there is none."""
+        """Return the authored mass of a prim [kg]; None if there is none."""
         if not prim.HasAPI(UsdPhysics.MassAPI):
             return None
         return self._kg(positive(UsdPhysics.MassAPI(prim).GetMassAttr()))
 
     def density(self, prim: Any, above: float | None) -> float | None:
-        """The density that is written at a prim, else the one `above` it [stage's mass unit per its length cubed]."""
+        """Return the authored density of a prim, else `above` [stage's mass unit per its length cubed]."""
         own = positive(UsdPhysics.MassAPI(prim).GetDensityAttr()) if prim.HasAPI(UsdPhysics.MassAPI) else None
         return own or above
 
     def of_shape(self, prim: Any, key: Hashable, found: Triangles, density: float | None, scale: float) -> float | None:
-        """The mass of a gprim [kg] from its volume; None without a density, or if its mesh is not closed.
+        """Return the mass of a gprim [kg] from its volume; None without a density, or if its mesh is not closed.
 
-        Parameters: key : equal for equal triangles; density : as `density` returns it; scale : by how much the prim's
-        place enlarges volumes [-].
+        Parameters: key : equal for equal triangles; density : as `density` returns it; scale : factor of volumes in the
+            prim's world transform [-].
         """
         density = density or self._density_of_material(prim)
         if density is None:
@@ -68,7 +68,7 @@ class Masses:
 
 
 def _closed_volume(found: Triangles) -> float | None:
-    """The volume of a closed mesh whose faces all turn outwards, or all inwards; None of any other."""
+    """Return the volume of a closed mesh whose faces all face outwards, or all inwards; None for any other mesh."""
     import trimesh
 
     mesh = trimesh.Trimesh(found.points, found.vertices, process=True)

@@ -1,7 +1,7 @@
 """Looks of USD prims: UsdPreviewSurface with its texture, else the primvar displayColor.
 
-A broken material loses its texture; the scene is read all the same. Wrap modes are not read: textures repeat. Of
-materials of other renderers (MDL, MaterialX), only the names are read.
+A broken material loses its texture, but the scene is still read. Wrap modes are not read: textures repeat. Of materials
+of other renderers (MDL, MaterialX), only the names are read.
 
 Source: OpenUSD, "UsdPreviewSurface Specification", version 2.6: nodes UsdPreviewSurface, UsdUVTexture,
 UsdPrimvarReader_float2, UsdTransform2d.
@@ -23,7 +23,7 @@ from scene2hap.scene.usd.layers import Layers
 from scene2hap.scene.usd.meshes import Triangles
 from scene2hap.scene.usd.values import rest_time, value
 
-# Nodes between a texture and its primvar: a transform or two (assumed).
+# Most nodes between a texture and its primvar: a transform or two (assumed).
 _MAX_NODES_OF_ST = 4
 
 
@@ -37,18 +37,18 @@ class _Paint:
 
 
 class UsdMaterials:
-    """Reads each material of a stage once."""
+    """Reader of a stage's materials. It reads each material once."""
 
     def __init__(self, layers: Layers) -> None:
         self._layers, self._textures = layers, layers.textures
         self._paints: dict[Any, _Paint | None] = {}
 
     def bound(self, prim: Any) -> Any:
-        """The material that is bound to a prim or to one above it (`UsdShade.Material`, false if there is none)."""
+        """Return the material bound to a prim or to one above it (`UsdShade.Material`, false if there is none)."""
         return UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
 
     def looks(self, prim: Any, bound: Any, found: Triangles, rows: NDArray[np.int64]) -> Appearance | None:
-        """The looks of some triangles of a gprim under its bound material; None if the file has none."""
+        """Return the looks of some triangles of a gprim under its bound material; None if the file has none."""
         paint = self._paint(bound) if bound else None
         if paint is None:
             return self._displayed(prim, found, rows)
@@ -76,7 +76,8 @@ class UsdMaterials:
         return painted(rgba, FaceMaterial((1.0, 1.0, 1.0, 1.0)))
 
     def _primvar(self, prim: Any, name: str, columns: int, found: Triangles) -> NDArray[np.float64] | None:
-        """Values (m, 3, columns) at the corners; None if there are none, and a word about it if they do not fit."""
+        """Return values (m, 3, columns) at the corners; None if there are none. If they do not fit, the reason is
+        recorded."""
         primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name)
         if not primvar or not primvar.HasValue():
             return None
@@ -85,7 +86,7 @@ class UsdMaterials:
             stored = primvar.ComputeFlattened(rest_time((primvar.GetAttr(),)))
             values = np.array(stored, dtype=np.float64).reshape(-1, columns)
             corners = found.at_corners(values, str(primvar.GetInterpolation()))
-        # Values of another type than the name promises.
+        # The values may have another type than the name implies.
         except (Tf.ErrorException, TypeError, ValueError) as cause:
             self._textures.refuse(place, f"{place} makes no sense: {' '.join(str(cause).split())[:200]}.")
             return None
@@ -117,7 +118,7 @@ class UsdMaterials:
         if source is None:
             r, g, b = srgb(np.nan_to_num(np.array(color, dtype=np.float64))).tolist()
             return _Paint(FaceMaterial((r, g, b, alpha), name=name))
-        # Opacity of the image counts where the material takes it from the same image.
+        # The image's opacity counts only if the material reads its opacity from the same image.
         keeps_alpha = opacity_source is not None and opacity_source.GetPath() == source.GetPath()
         spec = _file_spec(source)
         texture = None if spec is None else self._layers.texture(spec, place, keeps_alpha=keeps_alpha)
@@ -132,7 +133,7 @@ class UsdMaterials:
 
 
 def _input(shader: Any, name: str, default: Any) -> tuple[Any, Any]:
-    """The value of a shader's input, and the shader that it is connected to, None where it holds the value itself."""
+    """Return the value of a shader's input, and the shader that it is connected to (None if it holds the value)."""
     given = shader.GetInput(name)
     if not given:
         return default, None
@@ -145,7 +146,7 @@ def _input(shader: Any, name: str, default: Any) -> tuple[Any, Any]:
 
 
 def _file_spec(texture: Any) -> Any | None:
-    """The attribute spec in a layer that names a texture's file. Asking for the value would look for the file."""
+    """Return the attribute spec in a layer that names a texture's file. Reading its value would search for the file."""
     given = texture.GetInput("file")
     attributes = given.GetValueProducingAttributes() if given else ()
     for attribute in attributes:
@@ -156,7 +157,7 @@ def _file_spec(texture: Any) -> Any | None:
 
 
 def _coordinates(texture: Any) -> tuple[str, NDArray[np.float64]]:
-    """The primvar that a texture is laid by, and how its values (u, v, 1) are transformed (2, 3)."""
+    """Return the primvar of a texture's coordinates, and the transform (2, 3) of its values (u, v, 1)."""
     matrix = np.eye(3)
     _, shader = _input(texture, "st", None)
     for _ in range(_MAX_NODES_OF_ST):

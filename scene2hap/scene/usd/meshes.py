@@ -1,7 +1,7 @@
 """Gprims of USD as triangles: meshes as their control cages, and the implicit shapes.
 
-A subdivision surface is taken as the mesh that controls it, which stands a little outside of it. Points, curves and
-NURBS are left out.
+A subdivision surface is read as its control mesh, which is a little outside of it. Points, curves and NURBS are left
+out.
 
 Source: OpenUSD 26.11, schemas Mesh, GeomSubset, Cube, Sphere, Cylinder, Cone, Capsule, Plane.
 """
@@ -26,7 +26,7 @@ from scene2hap.scene.usd.values import floats, integers, positive, value
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-# Where x, y and z of a shape about z go, for each axis that a shape may have.
+# Order of the coordinates of a shape about z, for each axis that the shape may have.
 _TURNED = {"X": [2, 0, 1], "Y": [1, 2, 0], "Z": [0, 1, 2]}
 
 
@@ -34,9 +34,9 @@ _TURNED = {"X": [2, 0, 1], "Y": [1, 2, 0], "Z": [0, 1, 2]}
 class Triangles:
     """The triangles of one gprim.
 
-    `points` (n, 3) float64 in the stage's unit; `vertices` (m, 3) int64, places in `points`; `corners` (m, 3) int64,
-    places in the prim's list of corners; `face_of` (m,) int64, the authored face of each; `is_made` : whether the file
-    holds a few numbers for it alone; `n_faces` : how many faces the author gave.
+    `points` (n, 3) float64 in the stage's unit; `vertices` (m, 3) int64, indices of `points`; `corners` (m, 3) int64,
+    indices of the prim's list of corners; `face_of` (m,) int64, the authored face of each; `is_made` : True if the file
+    holds only a few numbers, such as a radius; `n_faces` : number of authored faces.
     """
 
     points: Floats
@@ -47,7 +47,7 @@ class Triangles:
     n_faces: int
 
     def at_corners(self, values: Floats, interpolation: str) -> Floats | None:
-        """Values (k, columns) of a primvar at each corner (m, 3, columns); None if there are too few of them."""
+        """Return values (k, columns) of a primvar at each corner (m, 3, columns); None if there are too few values."""
         m = len(self.vertices)
         if interpolation == "constant" and len(values):
             return np.broadcast_to(values[0], (m, 3, values.shape[1]))
@@ -63,7 +63,7 @@ class Triangles:
 
 
 def mesh_triangles(mesh: Any, place: str, numbers: limits.Budget) -> Triangles:
-    """The triangles of a `UsdGeom.Mesh`, whose corners turn left seen from outside; holes are left out.
+    """Return the triangles of a `UsdGeom.Mesh`, counter-clockwise seen from outside; holes are left out.
 
     Raises: SceneFormatError: the lists of faces do not fit each other. SceneError: too many numbers are read.
     """
@@ -90,9 +90,9 @@ def mesh_triangles(mesh: Any, place: str, numbers: limits.Budget) -> Triangles:
 
 
 def subsets(mesh: Any, found: Triangles) -> list[tuple[Any | None, Ints]]:
-    """The triangles of each material: (subset prim, places in `found`), and those of no subset under None.
+    """Return the triangles of each material: (subset prim, indices of `found`). The prim is None for the rest.
 
-    A face that several subsets claim belongs to the first.
+    A face of several subsets belongs to the first.
     """
     family = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, "materialBind")
     owner = np.full(found.n_faces, -1, np.int64)
@@ -106,7 +106,7 @@ def subsets(mesh: Any, found: Triangles) -> list[tuple[Any | None, Ints]]:
 
 
 def shape_triangles(prim: Any) -> Triangles | None:
-    """The triangles of an implicit shape; None if the prim is no shape that is read, or has no size."""
+    """Return the triangles of an implicit shape; None if the prim is no shape that is read, or has no size."""
     kind = str(prim.GetTypeName())
     if kind not in _SHAPES:
         return None
@@ -116,11 +116,11 @@ def shape_triangles(prim: Any) -> Triangles | None:
     return _shape(kind, str(value(prim.GetAttribute("axis")) or "Z"), numbers)
 
 
-# Scenes of primitives have thousands of equal ones.
+# Scenes made of primitives have thousands of equal ones.
 @lru_cache(maxsize=64)
 def _shape(kind: str, axis: str, numbers: tuple[float, ...]) -> Triangles:
     if kind == "Plane" and axis in ("X", "Y"):
-        # Width lies along x, or along z where the plane faces x; length along y, or along z where it faces y.
+        # Width is along x, or along z if the plane faces x; length is along y, or along z if it faces y.
         numbers = numbers[::-1]
     points, faces = _SHAPES[kind][1](*(number / 2 for number in numbers))
     vertices = faces.astype(np.int64)
@@ -137,4 +137,4 @@ _SHAPES: dict[str, tuple[tuple[str, ...], Callable[..., solids.Triangles]]] = {
     "Cone": (("radius", "height"), lambda half_radius, half: solids.cone(2 * half_radius, half)),
     "Plane": (("width", "length"), solids.rectangle),
 }
-"""Attributes of each shape, and what makes its triangles of half of each of them."""
+"""Attributes of each shape, and the function that makes its triangles from half of each value."""

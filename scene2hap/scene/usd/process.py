@@ -1,8 +1,8 @@
-"""The child process that reads a USD file, seen from the parent.
+"""The parent's side of the child process that reads a USD file.
 
 usd-core parses files in C++. Of 8,000 broken binary files it crashed on 11, and deep text overflows its stack
-(`stress/fuzz_scenes.py --kinds usd`); neither can be caught within a process. The child also has a limit of memory
-(Linux alone) and of time, since a few bytes may ask for any number of prims.
+(`stress/fuzz_scenes.py --kinds usd`). A process cannot catch its own crash. The child also has limits of memory (only
+on Linux) and of time, since a few bytes may define any number of prims.
 
 A program that is no Python interpreter, such as a frozen application, cannot start a child; it reads in process.
 """
@@ -22,18 +22,20 @@ from scene2hap.scene import limits
 from scene2hap.scene.tree import AuthoredScene
 
 TIME_S, TIME_S_PER_BYTE, TIME_S_PER_PRIM = 30.0, 4e-7, 2e-3
-"""How long the child may take once it has started, and how much longer for each byte and each prim that its layers have
-(assumed: three times what a slow laptop takes)."""
+"""Time for the child after its start [s], and further time for each byte and each prim of its layers.
+
+Assumed: three times the time of a slow laptop.
+"""
 MEMORY_BYTES, MEMORY_PER_BYTE = 1 << 30, 40
-"""How much data the child may hold, and how much more for each byte that it reads (assumed; on Linux)."""
-# Each thread of usd-core counts its stack as memory, and a large machine has hundreds.
+"""Memory for the child's data [bytes], and further bytes for each byte that it reads (assumed; on Linux)."""
+# Each thread of usd-core reserves memory for its stack, and a large machine has hundreds of threads.
 _THREADS = "PXR_WORK_THREAD_LIMIT"
 TIMED_OUT = "Timeout ("
-"""Start of the message that the child leaves when its time is over."""
+"""Start of the message that the child prints when its time is over."""
 
 
 class Request(NamedTuple):
-    """The file that the child reads, and the limits of the parent."""
+    """The file for the child to read, and the limits of the parent."""
 
     path: str
     assets_root: str
@@ -49,7 +51,7 @@ class Answer(NamedTuple):
 
 
 def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
-    """The scene in a USD file, read in a child process.
+    """Return the scene in a USD file, read in a child process.
 
     Raises: SceneError or MissingExtra of the child; SceneFormatError: the child crashed, or ran out of memory or time.
     """
@@ -59,7 +61,7 @@ def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
         return read_stage(path, assets_root)
     chosen = {name: value for name, value in vars(limits).items() if name.startswith("MAX_")}
     request = Request(os.path.abspath(path), os.path.abspath(assets_root), chosen)
-    # The child finds the packages that this process has, wherever it was started.
+    # The child must find the packages of this process in any working directory.
     found_in = os.pathsep.join(folder or os.getcwd() for folder in sys.path)
     try:
         done = subprocess.run(
@@ -73,7 +75,7 @@ def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
     except OSError as cause:
         raise SceneError(f"{path.name!r} is not read, since no process can be started for it: {cause}.") from cause
     if done.returncode != 0:
-        raise SceneFormatError(f"{path.name!r} cannot be read as USD: {_fate(done)} The file may be broken.")
+        raise SceneFormatError(f"{path.name!r} cannot be read as USD: {_failure(done)} The file may be broken.")
     answer: Answer = pickle.loads(done.stdout)
     if answer.scene is None:
         raise getattr(errors, answer.error)(answer.message)
@@ -81,13 +83,13 @@ def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
 
 
 def can_start_python() -> bool:
-    """Return True if `sys.executable` is a Python interpreter, not a program that Python is built into."""
+    """Return True if `sys.executable` is a Python interpreter, not a program with an embedded Python."""
     is_frozen = getattr(sys, "frozen", False)
     return not is_frozen and bool(sys.executable) and Path(sys.executable).stem.lower().startswith(("python", "pypy"))
 
 
-def _fate(done: subprocess.CompletedProcess[bytes]) -> str:
-    """A sentence about a child that gave no answer."""
+def _failure(done: subprocess.CompletedProcess[bytes]) -> str:
+    """Return a sentence about a child that gave no answer."""
     said = done.stderr.decode("utf-8", "replace")
     if TIMED_OUT in said:
         return f"it takes longer than {TIME_S:g} s, and {TIME_S_PER_PRIM * 1e3:g} s for each 1,000 prims."

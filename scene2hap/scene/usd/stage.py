@@ -1,12 +1,12 @@
 """A composed USD stage as an authored tree.
 
-Left out: prims that are inactive, abstract or invisible, those of purpose "guide" or "proxy", skinning (a skinned mesh
-stands as it was modelled), points, curves and volumes. Copies of native instances and point instancers share their
-pieces.
+Left out: prims that are inactive, abstract or invisible, or of purpose "guide" or "proxy"; points, curves and volumes.
+Skinning is left out too: a skinned mesh keeps the pose in which it was modelled. Copies of native instances and point
+instancers share their pieces.
 
-One object, with all below it, is: a rigid body (`PhysicsRigidBodyAPI`) with no other rigid body below it; a model of
-kind "component" with at most one rigid body below it, unless it holds all that is drawn; and each copy that a point
-instancer makes. Other prims become objects by the rules of `scene2hap.scene.grouping`.
+Three kinds of prims are one object with all prims below: a rigid body (`PhysicsRigidBodyAPI`) without another rigid
+body below it; a model of kind "component" with at most one rigid body below it, unless it holds the whole scene; each
+copy of a point instancer. Other prims become objects by the rules of `scene2hap.scene.grouping`.
 
 Source: OpenUSD 26.11, schemas Xformable, Imageable, PointInstancer, RigidBodyAPI; `UsdGeomGetStageMetersPerUnit`.
 """
@@ -34,21 +34,24 @@ from scene2hap.scene.usd.meshes import Triangles, mesh_triangles, shape_triangle
 from scene2hap.scene.usd.values import integers, rest_time, value
 
 _FREE_NUMBERS, _NUMBERS_PER_BYTE = 20_000_000, 4.0
-"""Numbers that all meshes may hold, and how many more for each byte of the layers: binary files pack them, and may name
-one list in many meshes (assumed: `usdcat` packs the indices of a grid to 1.1 bytes each)."""
+"""Most numbers in all meshes: a fixed number, and a further number for each byte of the layers.
+
+Binary files pack numbers, and may use one list in many meshes (assumed: `usdcat` packs the indices of a grid to 1.1
+bytes each).
+"""
 
 _DRAWN = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
-# Prototypes may lie below prims that are only over or class, so that they are not drawn by themselves.
+# Prototypes may be below prims that are only over or class and so are not drawn themselves.
 _PROTOTYPE = Usd.TraverseInstanceProxies(Usd.PrimIsActive & Usd.PrimIsLoaded)
 _NOT_DRAWN = ("guide", "proxy")
-# Parts of meshes and of materials, not of the scene's tree.
+# Parts of meshes and of materials, which are no nodes of the scene's tree.
 _NO_NODES = ("GeomSubset", "Material", "NodeGraph", "Shader")
 
 
 def read_stage(
     path: Path, assets_root: Path, allow: Callable[[int, int], None] = lambda n_bytes, n_prims: None
 ) -> AuthoredScene:
-    """The scene in a USD file, read in this process; see `read_usd`, and `Layers` for `allow`."""
+    """Return the scene in a USD file, read in this process; see `read_usd`, and `Layers` for `allow`."""
     folder = path.parent.resolve()
     textures = TextureFiles(folder, assets_root)
     with _silent():
@@ -74,7 +77,7 @@ def _up_axis(stage: Any, name: str) -> UpAxis:
 
 
 def _unit_m(stage: Any, name: str) -> float:
-    # A stage that says nothing is in centimetres: that is part of the format, and other programs read it so.
+    # The format defines centimetres for a stage without a unit, and other programs read it so.
     unit_m = float(UsdGeom.GetStageMetersPerUnit(stage))
     if not np.isfinite(unit_m) or unit_m <= 0:
         raise SceneFormatError(f"{name!r} has metersPerUnit {unit_m}; it must be above 0. Give unit_m.")
@@ -93,7 +96,7 @@ class _Above:
 
 
 class _Reader:
-    """Turns prims into authored nodes, and reads each gprim once."""
+    """Convert prims to authored nodes. Each gprim is read once."""
 
     def __init__(self, stage: Any, layers: Layers) -> None:
         self._stage, self._materials, self._masses = stage, UsdMaterials(layers), Masses(stage)
@@ -106,13 +109,14 @@ class _Reader:
         self._n_nodes = self._n_triangles = self._n_bodies = 0
 
     def roots(self) -> tuple[AuthoredNode, ...]:
-        """The prims at the top of the stage."""
+        """Return the nodes of the prims at the top of the stage."""
         found = self._below(self._stage.GetPseudoRoot(), _Above())
         n_pieces = sum(_n_pieces(node) for node in found)
         return tuple(self._unwrapped(node, n_pieces) for node in found)
 
     def _unwrapped(self, node: AuthoredNode, n_pieces: int) -> AuthoredNode:
-        """The node; a component that holds all that is drawn is no object, since exporters call any file one."""
+        """Return the node. A component that holds the whole scene is no object, since exporters declare any file a
+        component."""
         if _n_pieces(node) < n_pieces or not node.children:
             return node
         is_object = node.is_object and id(node) not in self._components
@@ -125,7 +129,7 @@ class _Reader:
         return tuple(node for child in children if (node := self._node(child, above)) is not None)
 
     def _node(self, prim: Any, above: _Above) -> AuthoredNode | None:
-        """The node of a prim and of all below it; None for what is never drawn."""
+        """Return the node of a prim and of its descendants. Returns None for prims that are never drawn."""
         if prim.GetTypeName() in _NO_NODES:
             return None
         depth = above.depth + 1
@@ -147,7 +151,7 @@ class _Reader:
         pieces: tuple[Piece, ...] = ()
         own_kg: float | None = 0.0
         if prim.IsA(UsdGeom.PointInstancer):
-            # Prototypes below an instancer are drawn where it puts them, and nowhere else.
+            # Prototypes below an instancer are drawn only as its copies.
             children = self._copies(UsdGeom.PointInstancer(prim), within)
         else:
             if purpose not in _NOT_DRAWN and is_imageable:
@@ -177,7 +181,7 @@ class _Reader:
     # -- gprims ------------------------------------------------------------------------------------------------------
 
     def _drawn(self, prim: Any) -> tuple[Piece, ...]:
-        """The pieces of a gprim, one for each material; none for other prims."""
+        """Return the pieces of a gprim, one for each material; none for other prims."""
         key = _key(prim)
         if key not in self._triangles:
             self._triangles[key] = self._shape(prim)
@@ -188,7 +192,7 @@ class _Reader:
         limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
         parts = [(None, np.arange(len(found.vertices)))] if found.is_made else subsets(UsdGeom.Mesh(prim), found)
         bound = [self._materials.bound(subset or prim) for subset, _ in parts]
-        # Copies share their triangles, and may have materials of their own.
+        # Copies share their triangles, but may have materials of their own.
         painted = (key, *(each.GetPath() if each else None for each in bound))
         if painted not in self._pieces:
             pieces = []
@@ -214,7 +218,7 @@ class _Reader:
     # -- point instancers --------------------------------------------------------------------------------------------
 
     def _copies(self, instancer: Any, above: _Above) -> tuple[AuthoredNode, ...]:
-        """The nodes of a point instancer: each copy is one object."""
+        """Return the nodes of a point instancer: each copy is one object."""
         place = f"prim {instancer.GetPath()}"
         targets = instancer.GetPrototypesRel().GetForwardedTargets()
         prototypes = [self._stage.GetPrimAtPath(target) for target in targets]
@@ -225,7 +229,7 @@ class _Reader:
             instancer.GetScalesAttr(),
         )
         which = integers(attributes[0])
-        # Checked before usd-core makes a matrix for each.
+        # Checked before usd-core makes a matrix for each copy.
         self._count(len(which))
         if which.min(initial=0) < 0 or which.max(initial=-1) >= len(prototypes):
             raise SceneFormatError(
@@ -245,7 +249,7 @@ class _Reader:
         for number in np.flatnonzero(shown) if len(shown) == len(which) else range(len(which)):
             matrix, prototype = matrices[number].T, prototypes[which[number]]
             world = above.world @ matrix
-            # Masses that follow from density grow with scale.
+            # Masses from density grow with the scale, so copies of different scale are read separately.
             key = (int(which[number]), round(float(np.linalg.det(world[:3, :3])), 9))
             if key not in made:
                 made[key] = self._prototype(prototype, replace(above, world=world, predicate=_PROTOTYPE))
@@ -263,7 +267,7 @@ class _Reader:
 
 
 def _key(prim: Any) -> str:
-    """Equal for the copies of a prim that native instances share."""
+    """Return a key that is equal for the copies of a prim in native instances."""
     shared = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
     return str(shared.GetPath())
 
@@ -273,14 +277,14 @@ def _n_pieces(node: AuthoredNode) -> int:
 
 
 def _sum_kg(own_kg: float | None, children: tuple[AuthoredNode, ...]) -> float | None:
-    """The mass of a prim's own shape and of its children that are drawn; None if one of them is unknown, or no mass."""
+    """Return the mass of a prim's own shape and its drawn children; None if a mass is unknown, or there is none."""
     below = [child.mass_kg for child in children if child.mass_kg is not None or _n_pieces(child)]
     known = [kg for kg in (own_kg, *below) if kg is not None]
     return sum(known) or None if len(known) == len(below) + 1 else None
 
 
 def _matrix(prim: Any, above: Matrix) -> Matrix:
-    """The prim's transform in its parent, of column vectors."""
+    """Return the prim's transform in its parent, for column vectors."""
     xformable = UsdGeom.Xformable(prim)
     operations = xformable.GetOrderedXformOps()
     if not operations:
@@ -306,7 +310,7 @@ def _matrix(prim: Any, above: Matrix) -> Matrix:
 
 @contextmanager
 def _silent() -> Iterator[None]:
-    """Keep what usd-core prints off the terminal; errors of ours state the cause."""
+    """Keep usd-core's output off the terminal; our own errors state the cause."""
     delegate = UsdUtils.CoalescingDiagnosticDelegate()
     try:
         yield

@@ -1,7 +1,7 @@
 """Values of USD attributes at rest.
 
-An attribute that has a default is read there. One that has time samples alone, as animation exporters write even for
-what stands still, is read at its first.
+An attribute with a default value is read there. An attribute with only time samples is read at its first sample:
+animation exporters write such attributes even for objects at rest.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _WEAK = (Usd.ResolveInfoSourceNone, Usd.ResolveInfoSourceFallback)
 
 
 def rest_time(attributes: Sequence[Any]) -> Any:
-    """The time at which attributes that belong together are read (`Usd.TimeCode`)."""
+    """Return the time (`Usd.TimeCode`) at which attributes that belong together are read."""
     for attribute in attributes:
         if attribute.GetNumTimeSamples() and attribute.GetResolveInfo(Usd.TimeCode.Default()).GetSource() in _WEAK:
             return Usd.TimeCode.EarliestTime()
@@ -25,21 +25,21 @@ def rest_time(attributes: Sequence[Any]) -> Any:
 
 
 def value(attribute: Any) -> Any:
-    """The value of an attribute; None if it does not exist or is empty."""
+    """Return the value of an attribute; None if it does not exist or is empty."""
     return attribute.Get(rest_time((attribute,))) if attribute else None
 
 
 def floats(attribute: Any, columns: int) -> NDArray[np.float64]:
-    """An array attribute as (n, columns) float64; empty if it holds nothing."""
+    """Return an array attribute as (n, columns) float64; empty if it holds nothing."""
     return np.array(value(attribute) or (), dtype=np.float64).reshape(-1, columns)
 
 
 def integers(attribute: Any) -> NDArray[np.int64]:
-    """An array attribute as (n,) int64; empty if it holds nothing."""
+    """Return an array attribute as (n,) int64; empty if it holds nothing."""
     return np.array(value(attribute) or (), dtype=np.int64).reshape(-1)
 
 
 def positive(attribute: Any) -> float | None:
-    """A number above 0; None if it is none, which for masses and sizes means that the author gave none."""
+    """Return a number above 0. None if it is not: the author then gave no mass or size."""
     number = value(attribute)
     return float(number) if number is not None and np.isfinite(number) and number > 0 else None
