@@ -1,4 +1,4 @@
-"""The account of a bake as rows of text: calls, tokens, cost, and saved questions."""
+"""The report of a bake as rows of text: calls, tokens, cost, and saved questions."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _SAVED = {
     "table_material": "materials that were looked up",
     "unreached_material": "materials that no source reaches",
 }
-"""Reasons of `InferenceReport.skipped` in words."""
+"""Reasons of `InferenceReport.skipped`, as text."""
 
 
 def account_table(account: Mapping[str, Any]) -> dict[str, Any]:
-    """Rows of a label and a text, and problems by object or material word.
+    """Return rows of a label and a text, and problems by object or material word.
 
-    Parameters: account : as of `InferenceReport.as_json`; `cost_usd` and `ended` may be there.
-    Raises: ConfigError: it is something else.
+    Parameters: account : as of `InferenceReport.as_json`, optionally with `cost_usd` and `ended`.
+    Raises: ConfigError: it has another shape.
     """
     try:
         return {"rows": _rows(account), "problems": _problems(account)}

@@ -1,4 +1,4 @@
-"""Objects that stay silent or unfelt, and objects that a bake leaves as they are, each with the reason."""
+"""Objects without vibration, or without effect in a bake or on the map, each with the reason."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _UNKNOWN = ("", "unknown", "undefined")
 
 
 def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> list[dict[str, Any]]:
-    """Reasons, each with the ids of the objects that it holds for; leaves out reasons without objects."""
+    """Return each reason with the ids of its objects. Reasons without objects are left out."""
     categories = {item.id: "" for item in bundle.snapshot.objects}
     categories |= {key: haptics.object_category for key, haptics in bundle.objects.items()}
     wishes = bundle.overrides
@@ -52,7 +52,7 @@ def _is_error(haptics: ObjectHaptics, field: str) -> bool:
 
 
 def _reached(felt: FeltMap) -> dict[str, bool]:
-    """Whether anything arrives at an object, by the first model, of objects with points."""
+    """Return, for each object with points, True if vibration arrives at it by the first model."""
     found: dict[str, bool] = {}
     if not felt.models or len(felt.sources) < 2:
         return found
