@@ -118,7 +118,7 @@ async def abake_many(
     with Pool(executor) as pool:
         run = Run(
             checks.path("folder", folder, error=ConfigError),
-            parsed.model_copy(update={"llm": _Lanes(parsed.llm, parsed.concurrency)}),
+            parsed.model_copy(update={"llm": _Limited(parsed.llm, parsed.concurrency)}),
             # Workers get the lexicon in place of a network model: they send no questions, and a connection cannot be
             # pickled.
             parsed.model_copy(update={"llm": LexiconBackend()}) if "base_url" in identity(parsed.llm) else parsed,
@@ -141,16 +141,16 @@ def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
     return paths
 
 
-class _Lanes(Wrapper):
+class _Limited(Wrapper):
     """Limits the number of concurrent questions over all scenes."""
 
-    def __init__(self, inner: Any, n_lanes: int) -> None:
+    def __init__(self, inner: Any, n_at_once: int) -> None:
         super().__init__(inner)
-        self._lanes = asyncio.Semaphore(n_lanes)
+        self._slots = asyncio.Semaphore(n_at_once)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the inner backend's answer, waiting if too many questions are in progress."""
-        async with self._lanes:
+        async with self._slots:
             return await self.inner.complete(request)
 
 
