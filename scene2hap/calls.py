@@ -81,7 +81,7 @@ def clear_attributes(cls: Class) -> Class:
 
 
 def read_only(cls: Class) -> Class:
-    """Decorate a class so that public attributes cannot be set, since that would have no effect. Names with _ can."""
+    """Decorate a class so that public attributes cannot be set, since that would have no effect. `_names` can."""
 
     def refuse(self: Any, name: str, value: object) -> None:
         if name[:1] != "_":

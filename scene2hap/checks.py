@@ -59,7 +59,7 @@ def described(value: object) -> str:
     if value is None or isinstance(value, str | bytes | bool | Real | os.PathLike):
         return represented(value)
     name = type(value).__name__
-    if isinstance(value, dict) or (isinstance(value, tuple) and not hasattr(value, "_fields")):  # also of ours
+    if isinstance(value, dict) or (isinstance(value, tuple) and not hasattr(value, "_fields")):  # and their subclasses
         name = "dict" if isinstance(value, dict) else "tuple"
     return f"{'an' if name[0] in 'aeiouAEIOU' else 'a'} {name}"
 

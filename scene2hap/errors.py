@@ -8,7 +8,7 @@ that ``except ValueError`` works for callers who do not know the tree::
         ├── UnknownAttribute (AttributeError)   an attribute that does not exist; suggests a similar one
     ├── ReadOnlyAttribute (AttributeError)  an attribute that cannot be set
     ├── ConfigError (ValueError)            a setting that cannot work
-    │   ├── UnknownPlugin (LookupError)     a `kind` that nobody registered
+    │   ├── UnknownPlugin (LookupError)     a `kind` that is not registered
     │   └── MissingExtra (ImportError)      an optional dependency is not installed; names the extra
     ├── SceneError (ValueError)             a scene that cannot be read or makes no sense
         │   ├── SceneFormatError                the content does not match the file's name or header
@@ -65,7 +65,7 @@ class ConfigError(Scene2HapError, ValueError):
 
 
 class UnknownPlugin(ConfigError, LookupError):
-    """A `kind` that neither scene2hap nor an installed package registered."""
+    """A `kind` that is not registered, in scene2hap or in an installed package."""
 
 
 class MissingExtra(ConfigError, ImportError):

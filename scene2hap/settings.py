@@ -55,7 +55,7 @@ class Settings(BaseModel):
     def parse(cls, settings: Self | Mapping[str, Any] | str | os.PathLike[str] | None, **changes: Any) -> Self:
         """Return a configuration from settings or defaults, overridden by `changes`; changes of None are ignored.
 
-        A path is the path of a TOML or JSON file, of which the table `of_what` is read.
+        A path names a TOML or JSON file; its table `of_what` is read.
         Raises: ConfigError: an unknown setting, one out of bounds, or a file that cannot be read.
         """
         wanted = {name: value for name, value in changes.items() if value is not None}

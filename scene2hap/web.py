@@ -267,7 +267,7 @@ def _client(transport: Transport | None, timeout_s: float, check: Callable[..., 
             event_hooks={"request": [check]},
         )
     except (ImportError, ValueError):
-        # The address of a proxy may hold a password, so neither the address nor the cause is shown.
+        # The address of a proxy may hold a password, so the address and the cause are not shown.
         raise ConfigError(
             "the proxy that the environment names cannot be used. Check ALL_PROXY, HTTPS_PROXY and HTTP_PROXY (SOCKS "
             "needs the package socksio), or unset them."

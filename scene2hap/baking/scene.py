@@ -61,7 +61,7 @@ def bake(
     config : a BakeConfig, its settings, or the path of a TOML or JSON file with a table `bake`.
     user_prompt : instruction to the model, with priority over all others.
     on_report : receives the report of the inference: calls, skipped calls, tokens, errors of single objects.
-    overrides : a person's corrections by id, such as those of an earlier bundle; they replace inferred values.
+    overrides : a person's corrections by id, for example of an earlier bundle; they replace inferred values.
 
     Raises: ConfigError; BackendError: inference failed; AudioError: no source has a sound for a vibrating object.
     """
@@ -139,7 +139,7 @@ def rebake(
     """Bake some objects of a bundle again, and make every loop again whose inputs have changed.
 
     Inputs are the overrides, edits of `objects.json`, and the given settings. Settings of the loops that are not given
-    (actuator, tactile, spread, seed) are those stored in the bundle. All sources are placed together, as by `bake`. A
+    (actuator, tactile, spread, seed) are taken from the bundle. All sources are placed together, as by `bake`. A
     sound is chosen again only if its words changed, if `audio` or `enough_candidates` is given and differs, or if its
     object is in `objects`. Otherwise loops are made from the sound in the bundle.
 
@@ -238,7 +238,7 @@ def _made_with(config: BakeConfig) -> MadeWith:
 
 
 def _settings_of(bundle: HapticBundle, config: BakeConfig) -> BakeConfig:
-    """Return the settings, completed with those of the bundle. Raises: ConfigError: see `rebake`."""
+    """Return the settings. The bundle's settings replace absent ones. Raises: ConfigError: see `rebake`."""
     if bundle.made_with is None:
         return config
     kept = {name: getattr(bundle.made_with, name) for name in ("actuator", "spread", "seed", "tactile")}
@@ -259,8 +259,8 @@ def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
     if unknown:
         some = ", ".join(unknown[:3]) + (", ..." if len(unknown) > 3 else "")
         warnings.warn(
-            f"the loops of {len(unknown)} sources ({some}) do not tell what they were "
-            "made from, as in bundles of before, and stay as they are. Name actuator or tactile to make them again.",
+            f"the loops of {len(unknown)} sources ({some}) have no fingerprint, as in older bundles, and "
+            "stay as they are. Give actuator or tactile to make them again.",
             BundleWarning,
             stacklevel=3,
         )

@@ -37,7 +37,7 @@ async def answer(request: messages.Request, client: Client, host: Host) -> Docum
     """Run a client's request. Raises: Scene2HapError: it failed; the connection stays open."""
     match request:
         case messages.Hello():
-            raise BridgeError("hello was said already; it comes once, as the first message.")
+            raise BridgeError("hello was sent already; send it only once, as the first message.")
         case messages.Bake():
             return _bake(request, client, host)
         case messages.Cancel():

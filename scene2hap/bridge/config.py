@@ -21,10 +21,10 @@ class BridgeConfig(Settings):
     host : the interface to listen on; one that is not loopback needs a token. port : 0 for a free one.
     token : the secret that `hello` must carry, None for no token.
     root : the folder whose scenes and bundles clients may read and write, None for none.
-    origins : web pages that may connect, besides those on loopback, such as "https://game.example".
+    origins : web pages that may connect, besides pages on loopback, such as "https://game.example".
     sink : a kind of sink, or a mapping with `kind`, for the output of one session; with None, clients play the gains.
-    udp : whether frames are also accepted as datagrams.
-    bake, session : settings of bakes and sessions; those of clients override them.
+    udp : True to accept frames as datagrams too.
+    bake, session : settings of bakes and sessions; clients can override them.
     heartbeat_s : time between two pings. max_message_bytes : of one message. max_clients : at the same time.
     """
 

@@ -30,8 +30,8 @@ Tell = Callable[[dict[str, Any]], None]
 class PlayedSession:
     """A session, the layout of its frames, and its clock.
 
-    Without a sink, or with a sink without a clock, the session's clock follows the times of the frames, so that equal
-    frames give equal gains.
+    The session's clock follows the times of the frames if there is no sink, or the sink has no clock. Equal frames then
+    give equal gains.
 
     Parameters: sink : the session's sink, not yet started; tell : receives JSON messages for clients.
     """

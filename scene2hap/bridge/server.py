@@ -40,7 +40,7 @@ class BridgeServer:
     """Serves clients until it is closed; use `async with server.listening():`.
 
     Parameters: config : a BridgeConfig, its settings, or the path of a file with a table `bridge`; owns_process :
-    whether the process runs only the bridge, which may then control its garbage collector.
+    True if the process runs only the bridge, which may then control its garbage collector.
     Raises: ConfigError; MissingExtra: `websockets` is not installed.
     """
 

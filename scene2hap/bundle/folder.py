@@ -189,7 +189,7 @@ def _reading(path: Path) -> Iterator[None]:
         raise BundleError(f"{path} lacks {cause}. Bake again, or mend the file.") from cause
     except _DAMAGE as cause:  # a file may be damaged in any way
         reason = str(cause)[:200] or type(cause).__name__
-        raise BundleError(f"{path} holds what cannot be: {reason}. Bake again, or mend the file.") from cause
+        raise BundleError(f"{path} has invalid content: {reason}. Bake again, or correct the file.") from cause
 
 
 def _identity(folder: Path) -> tuple[int, int] | None:

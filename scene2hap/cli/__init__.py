@@ -86,7 +86,7 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
         console.fail(str(error))
         return 1
     except KeyboardInterrupt:
-        console.fail("interrupted; nothing was left half written.")
+        console.fail("interrupted; no file was left incomplete.")
         return 130
     except MemoryError:
         console.fail("out of memory. Use a smaller scene or shorter sounds, or a machine with more memory.")

@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         else:
             _play(session, touch, actuator, seconds)
     if actuator.problem or not actuator.has_played:
-        console.warn(f"nobody felt anything: {actuator.problem or 'the actuator was not reached'}")
+        console.warn(f"nothing was played: {actuator.problem or 'the actuator did not start'}")
     if arguments.output:
         console.say(f"wrote {arguments.output}")
     return {"source": arguments.id, "state": arguments.state, "wav": arguments.output, "played": actuator.has_played}

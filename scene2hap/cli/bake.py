@@ -173,5 +173,5 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
             service_tier=getattr(innermost(config.llm), "service_tier", ""),
         )
     )
-    console.table(f"{scene.name}: what a bake would ask", ("what", ">how much"), estimate.rows())
+    console.table(f"{scene.name}: questions of a bake", ("item", ">number"), estimate.rows())
     return estimate.as_json()

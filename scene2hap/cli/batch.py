@@ -79,8 +79,8 @@ def _show(console: Console, report: BatchReport) -> None:
         console.fail(f"{scene}: {error}")
     console.say(str(report))
     if report.n_scenes and report.n_ready == report.n_scenes:
-        console.say("all is answered: `scene2hap bake-many` with the same arguments makes the bundles")
+        console.say("all questions are answered: `scene2hap bake-many` with the same arguments makes the bundles")
     elif report.n_to_send:
-        console.say("`scene2hap batch submit` with the same arguments sends what is left to ask")
+        console.say("`scene2hap batch submit` with the same arguments sends the remaining questions")
     elif report.n_under_way:
         console.say("`scene2hap batch collect` with the same arguments fetches the answers once batches have ended")

@@ -199,7 +199,9 @@ def _rebaked(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade
 def _undone(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
     kept = _kept(arguments.bundle)
     if not kept.exists():
-        raise BundleError(f"there is nothing to undo: {str(kept)!r}, which an edit leaves, is not there.")
+        raise BundleError(
+            f"there is nothing to undo: the folder {str(kept)!r} of the bundle before an edit does not exist."
+        )
     return HapticBundle.load(kept)
 
 

@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
                 progress=tell,
             )
     _show(console, report)
-    console.say(f"wrote {len(report.files)} files below {arguments.output}; what each lost: report.txt")
+    console.say(f"wrote {len(report.files)} files below {arguments.output}; report.txt has the error of each")
     return report.to_data()
 
 

@@ -77,7 +77,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             screen.update(player.view(frame, actuator.problem, watch.problem))
             time.sleep(UPDATE_S)
     if not actuator.has_played:
-        console.warn(f"nobody felt anything: {actuator.problem or 'the actuator was not reached'}")
+        console.warn(f"nothing was played: {actuator.problem or 'the actuator did not start'}")
     return {"bundle": arguments.bundle, "ended_on": player.on, "played": actuator.has_played}
 
 
@@ -164,8 +164,8 @@ class Player:
         """Return plan, touched object, a meter per source, and problems of the actuator or of an edit."""
         state = self.on or "nothing" if self._is_down else "lifted"
         lines = [f"hand on: {state}    level {self.gain_db:+g} dB    arrows, space, + -, q"]
-        warning = f"NOBODY FEELS THIS: {problem}" if problem else ""
-        lines.append(warning or (f"not felt yet: {watch_problem}" if watch_problem else ""))
+        warning = f"NOT PLAYED: {problem}" if problem else ""
+        lines.append(warning or (f"edit not loaded: {watch_problem}" if watch_problem else ""))
         for source_id in frame.sources:
             gain = min(frame.gain(HAND, source_id), 1.0)
             lines.append(f"{source_id:<28.28} {'#' * round(_METER * gain):<{_METER}} {gain:5.3f}")

@@ -108,7 +108,7 @@ def _account_of_state(state: SourceState, loop: HapticLoop | None) -> str:
 
 def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
     if object_id not in bundle.objects:
-        raise BundleError(f"{object_id!r} stands in the scene, but nothing was inferred of it. Bake again.")
+        raise BundleError(f"{object_id!r} is in the scene, but no properties were inferred for it. Bake again.")
     haptics = bundle.objects[object_id]
     by, loops = haptics.provenance, bundle.loops.get(object_id, {})
     rows = [

@@ -165,7 +165,7 @@ def show_report(console: Console, report: InferenceReport, prices: Mapping[str, 
     """Show an inference's calls, tokens, cost, skipped questions, and errors."""
     n_calls = sum(report.calls.values())
     tokens = sum(used.get("total_tokens", 0) for used in report.tokens.values())
-    said = [f"{n_calls} calls, {report.kept} of them answered before"]
+    said = [f"{n_calls} calls, {report.kept} of them answered from a cache or recording"]
     said += [f"{number} skipped: {reason.replace('_', ' ')}" for reason, number in report.skipped.items() if number]
     if report.tokens:
         cost = report.cost_usd(price_list(prices))

@@ -160,7 +160,7 @@ class _Chain:
         standing_for = copies(self._scene, self._graph) if self._settings.share_copies else {}
         groups: dict[tuple[str, bool], list[SceneObject]] = {}
         for item in wanted:
-            # A wish for one object does not apply to its copies, so the object neither gives nor takes a shared answer.
+            # A wish for one object does not apply to its copies, so such an object does not share an answer.
             is_alone = self._questions.has_wish(item.id)
             first = item.id if is_alone else standing_for.get(item.id, item.id)
             groups.setdefault((first, is_alone), []).append(item)

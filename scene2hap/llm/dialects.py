@@ -1,7 +1,7 @@
 """The two request formats of local servers: OpenAI's chat completions, and Ollama's own chat.
 
-Ollama's own format is needed because its /v1 turns each picture into a message, drops the first ones if they exceed the
-context, and has no option for the size of the context.
+Ollama's /v1 turns each picture into a message, and drops the first messages if they exceed the context. It also has no
+option for the size of the context. So Ollama's own format is used.
 """
 
 from __future__ import annotations

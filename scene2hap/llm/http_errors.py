@@ -1,6 +1,6 @@
 """Interpret an HTTP error status: whether a retry can help, and when.
 
-The rules are those of OpenAI's own Python client: retry 408, 409, 429 and 500 upwards, unless `x-should-retry`
+The rules follow OpenAI's own Python client: retry 408, 409, 429 and 500 upwards, unless `x-should-retry`
 decides otherwise. An empty account also answers 429, but waiting does not help there.
 """
 

@@ -29,7 +29,7 @@ class LostImages:
         self._warned = False
 
     def look(self, request: LLMRequest, said: chat.Said) -> None:
-        """Compare the tokens of one request with those of its answer. Warns: BackendWarning."""
+        """Compare the reported tokens of one request with the expected number. Warns: BackendWarning."""
         expected = len(request.prompt) / _CHARACTERS_PER_TOKEN + _LEAST_PER_IMAGE * len(request.images)
         read = said.usage.get("prompt_tokens")
         if self._warned or not request.images or read is None or read >= _FAR_BELOW * expected:
@@ -52,7 +52,7 @@ class ImagesAsText:
         self._warned = False
 
     def look(self, request: LLMRequest, said: chat.Said) -> None:
-        """Compare the tokens of one request with those of its answer. Warns: BackendWarning."""
+        """Compare the reported tokens of one request with the expected number. Warns: BackendWarning."""
         text = (len(request.prompt) + len(str(request.answer_schema))) / _CHARACTERS_PER_TOKEN
         most = _FAR_ABOVE * text + self._most_per_image * len(request.images)
         read = said.usage.get("prompt_tokens", 0)

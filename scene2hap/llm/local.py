@@ -179,7 +179,7 @@ class LocalBackend:
     def _warn_of_ollama(self, is_ollama: bool) -> None:
         if is_ollama and not self._eyes_checked:
             warnings.warn(
-                f"{self._endpoint.base_url} is an Ollama, whose /v1 drops pictures that do not fit without a word. "
+                f"{self._endpoint.base_url} is an Ollama, whose /v1 drops pictures that do not fit, without an error. "
                 "Use dialect='ollama' and the address without /v1.",
                 chat.BackendWarning,
                 stacklevel=2,

@@ -35,8 +35,8 @@ _GIVES_WAY = {
     "service_tier": None,
     "max_tokens": "max_completion_tokens",
 }
-"""Parameters that some models reject, and the other name that these models accept. Models that always reason accept
-neither temperature nor top_p. Some models are not offered in the flex tier."""
+"""Parameters that some models reject, and the other name that these models accept. Models that always reason reject
+temperature and top_p. Some models are not offered in the flex tier."""
 
 TIMEOUT_S, FLEX_TIMEOUT_S = 120.0, 900.0
 """Longest wait for one answer [s]. The value for the flex tier is from OpenAI's guide "Flex processing"."""

@@ -1,6 +1,6 @@
 """Pace: one common pause for all calls to one server.
 
-A rate limit counts all concurrent calls together. If the server tells one call to wait and the others go on, they use
+A rate limit counts all concurrent calls together. If only one call waited as the server requests, the others would use
 up the limit as it refills. So all calls wait before they send.
 """
 

@@ -1,6 +1,6 @@
 """Comparison of an answer's numbers with measured sizes and with published material constants.
 
-A model is asked once more for all numbers out of bounds, in one repair (`validation.find_fault`). Numbers that stay out
+One repair requests all numbers out of bounds again (`validation.find_fault`). Numbers that stay out
 of bounds are replaced by the measured size (`measured`) or by the table's constant (`trust`).
 """
 
@@ -19,7 +19,7 @@ EDGES = ("length", "width", "thickness")
 _WHOLE = ("length", "width", "height")
 
 # Factors beyond the published range (assumed). A wrong unit gives a factor of a thousand or a million; materials with
-# the same name ("wood", "foam") differ by less. Loss factors of assembled objects far exceed those of the material.
+# the same name ("wood", "foam") differ by less. Assembled objects have far higher loss factors than their material.
 _DENSITY_FAR, _MODULUS_FAR, _LOSS_FAR = 3.0, 10.0, 100.0
 _POISSON_FAR = 0.2
 _ANY_SOLID_KG_M3 = (5.0, 25000.0)

@@ -1,6 +1,6 @@
-"""The models that a local server offers, and whether they read pictures.
+"""The models of a local server, and their ability to read pictures.
 
-Servers differ in what they report. A missing field counts as unknown, never as absent.
+Servers report different fields. A missing field counts as unknown, never as absent.
 """
 
 from __future__ import annotations

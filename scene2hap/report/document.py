@@ -55,8 +55,8 @@ def document(
     """Return all visible and audible content of a bundle.
 
     Parameters: models : kinds or settings of the propagation models of the felt map; pictures : the scene from
-    `capture_images`, for images and colours; most_points : of the felt map; account : the report of the bake, as
-    `InferenceReport.as_json` returns it. Raises: as `felt_map` and `account_table`.
+    `capture_images`, for images and colours; most_points : of the felt map; account : the inference report of the bake,
+    as `InferenceReport.as_json` returns it. Raises: as `felt_map` and `account_table`.
     """
     scene = bundle.snapshot
     meshes: dict[str, int] = {}

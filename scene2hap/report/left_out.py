@@ -23,17 +23,17 @@ def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> li
     reached = _reached(felt)
     reasons: Mapping[str, Callable[[str, ObjectHaptics], bool]] = {
         "not answered: the model's answer failed": lambda _, haptics: _is_error(haptics, "object_category"),
-        "unknown: nobody could tell what it is, so it is silent": lambda _, haptics: (
+        "unknown: it was not recognised, so it is silent": lambda _, haptics: (
             haptics.object_category in _UNKNOWN and not haptics.vibrates and not _is_error(haptics, "object_category")
         ),
-        "material unknown: nothing spreads through it": lambda _, haptics: haptics.material is None,
+        "material unknown: no vibration spreads through it": lambda _, haptics: haptics.material is None,
         "vibrates, but has no sound": lambda key, haptics: haptics.vibrates and not bundle.loops.get(key),
-        "waits for a contact that nothing here can give": lambda key, haptics: bool(
+        "needs a contact that no object here can provide": lambda key, haptics: bool(
             unmet_needs(key, haptics.states, categories)
         ),
         "muted until a game unmutes it": lambda key, _: bundle.is_muted(key),
         "locked: rebake leaves its loops as they are": lambda key, _: key in wishes and wishes[key].locked,
-        "out of reach: nothing arrives of any source": lambda key, _: key in reached and not reached[key],
+        "out of reach: no vibration of any source arrives": lambda key, _: key in reached and not reached[key],
         "hides the room: its surface is not on the felt map": lambda key, _: key in shells,
         "silent: it does not vibrate by itself": lambda key, haptics: (
             not haptics.vibrates and haptics.object_category not in _UNKNOWN
@@ -44,7 +44,7 @@ def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> li
         for why, holds in reasons.items()
     ]
     absent = [item.id for item in bundle.snapshot.objects if item.id not in bundle.objects]
-    return [row for row in [{"why": "nothing was inferred of it", "objects": absent}, *rows] if row["objects"]]
+    return [row for row in [{"why": "no properties were inferred for it", "objects": absent}, *rows] if row["objects"]]
 
 
 def _is_error(haptics: ObjectHaptics, field: str) -> bool:

@@ -30,7 +30,7 @@ class Patch:
 def patches_of(objects: Sequence[SceneObject], most_points: int = MOST_POINTS) -> list[Patch]:
     """Make a patch for each object, with points as dense as `most_points` in total allows.
 
-    Every point is a vertex of the object's mesh, or was interpolated between vertices within a few steps.
+    Every point is a vertex of the object's mesh, or between its vertices, at most a few steps from the mesh.
     """
     area_m2 = sum(_area_m2(item) for item in objects)
     # Distance of points in equilateral triangles on that area, if all of it were flat.

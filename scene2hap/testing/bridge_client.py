@@ -54,7 +54,7 @@ def check_bridge_client(
 
     Parameters: command : starts the client; rate_hz : frames per second, 0 for as fast as answers come; cuts : True to
     cut the connection once in the middle; timeout_s : for the client to end [s]; environment : variables in addition
-    to those of the protocol.
+    to the variables of the protocol.
     Raises: AssertionError: the client ends with an error status, lacks frames, or has other gains.
     """
     with tempfile.TemporaryDirectory() as folder, serving(token=_TOKEN) as server:

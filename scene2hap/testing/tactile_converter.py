@@ -25,8 +25,8 @@ _SIZES = (0, 1, 2, 3, 17, 128, 1000, 4096)
 def check_tactile_converter(converter: TactileConverter) -> None:
     """Check a converter against its protocol.
 
-    The inputs are a machine's hum at all rates and in blocks of all sizes, full scale and beyond, silence, no samples,
-    a value that is not finite, and two streams at once.
+    The inputs are a machine's hum at all rates and in blocks of all sizes, samples at full scale and beyond, silence,
+    and no samples. A value that is not finite, and two streams at once, are checked too.
     Raises: AssertionError: names the broken promise.
     """
     problem = lacking(converter, CONVERTERS.members)

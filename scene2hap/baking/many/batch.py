@@ -103,7 +103,7 @@ def submit_batch(
 ) -> BatchReport:
     """Send all questions about scenes that are ready now and were not sent before.
 
-    Parameters are those of `bake_many`. The model must be of kind "openai", at OpenAI or at a compatible service with
+    For parameters, see `bake_many`. The model must be of kind "openai", at OpenAI or at a compatible service with
     batches. An interrupted run can be repeated: no batch is begun twice.
     Raises: ConfigError: a setting that cannot work, or another run uses the folder. BudgetExceeded: the cost would
     exceed `max_cost_usd`. BackendUnavailable: the server cannot be reached, or refuses.
@@ -127,7 +127,7 @@ def collect_batch(
 ) -> BatchReport:
     """Fetch the answers of batches that have ended, and write the next questions.
 
-    Parameters are those of `bake_many`. Answers are stored on disk before they are read. The next `submit_batch` sends
+    For parameters, see `bake_many`. Answers are stored on disk before they are read. The next `submit_batch` sends
     the unanswered questions of an expired or cancelled batch again.
     Raises: as `submit_batch`.
     """

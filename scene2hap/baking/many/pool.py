@@ -21,7 +21,7 @@ _TRIES = 4
 
 
 class Submits(Protocol):
-    """An executor with the interface of `concurrent.futures`, such as those of Dask, MPI and Slurm."""
+    """An executor with the interface of `concurrent.futures`; Dask, MPI and Slurm have such executors."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
         """Schedule a function. Returns its future."""

@@ -16,7 +16,7 @@ Outcome = Literal["baked", "kept", "failed"]
 class SceneReport:
     """One scene.
 
-    Parameters: outcome : "baked"; "kept" if neither file nor settings have changed since an earlier run; or "failed";
+    Parameters: outcome : "baked"; "kept" if file and settings are unchanged since an earlier run; or "failed";
     seconds : by stage: "baking" in a worker, and with a model also "reading" and "inference"; calls : number of
     questions; kept : number answered from the cache; cost_usd : None if unknown.
     """

@@ -238,8 +238,9 @@ class Run:
             return replace(report, error=f"{type(error).__name__}: {error}")
 
     async def infer_ahead(self, path: Path, backend: LLMBackend, is_whole: Callable[[], bool]) -> bool:
-        """Infer a scene with a backend, and write its draft if `is_whole` then returns True. Returns True if it has
-        one.
+        """Infer a scene with a backend, and write its draft if `is_whole` then returns True.
+
+        Returns True if the scene now has a draft or a bundle.
 
         Raises: as `load_scene` and `infer_scene`.
         """

@@ -17,7 +17,7 @@ _SLIP = 0.6
 
 _SHORTEST_PIECE = 3  # letters; shorter pieces occur inside almost any word
 _SHORT_PIECES = frozenset({"tv", "pc"})
-_LONGEST_RUN = 40  # letters; nobody writes longer words
+_LONGEST_RUN = 40  # letters; longer words do not occur
 _SHORTEST_SLIP = 8  # letters; in shorter words one changed letter often gives another word (certain, curtain)
 
 

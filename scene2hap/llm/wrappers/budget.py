@@ -99,7 +99,7 @@ class BudgetBackend(Wrapper):
             if used is None:
                 lacks = "the usage of an answer" if self._blind else f"a price for {', '.join(sorted(self._unpriced))}"
                 raise BudgetExceeded(
-                    f"max_{name} = {limit:g} cannot be kept: what was used is unknown, for want of {lacks}. "
+                    f"max_{name} = {limit:g} cannot be kept: the use so far is unknown without {lacks}. "
                     "Add it to prices, or limit calls instead."
                 )
             if used >= limit:
