@@ -21,7 +21,7 @@ have stayed unchanged for one interval."""
 
 @clear_calls
 class BundleWatch:
-    """Passes a bundle to a session whenever its folder is written again.
+    """Pass a bundle to a session whenever its folder is written again.
 
     A worker checks the folder and reads it. `update`, called in the game loop, passes a new bundle to the session.
     Files that are edited by hand are reloaded too. `problem` is the reason why the present folder cannot be played, ""

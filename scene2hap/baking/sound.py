@@ -158,7 +158,7 @@ def _is_same(states: Mapping[str, HapticLoop], others: Mapping[str, HapticLoop])
 
 
 class _Chooser:
-    """Finds the sound of each state: a person's own, the earlier bundle's, or the best one from the sources."""
+    """Find the sound of each state: a person's own, the earlier bundle's, or the best one from the sources."""
 
     def __init__(self, config: BakeConfig, wishes: Mapping[str, Override], earlier: Earlier) -> None:
         self._config, self._wishes, self._earlier = config, wishes, earlier
@@ -219,7 +219,7 @@ class _Chooser:
 
 
 class _Maker:
-    """Makes the loops of each sound; equal ones are made once. Threads may share it."""
+    """Make the loops of each sound; equal ones are made once. Threads may share it."""
 
     def __init__(self, config: BakeConfig) -> None:
         self._config = config

@@ -6,7 +6,7 @@ import gc
 
 
 def settle_garbage() -> None:
-    """Collect now, and exempt the remaining objects from later collections, which take some 60 ms within a frame.
+    """Collect garbage, and exempt the rest from later collections, which take some 60 ms within a frame.
 
     Call this after loading or closing something large.
     """

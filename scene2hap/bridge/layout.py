@@ -15,7 +15,7 @@ N_KEPT = 8
 
 @dataclass(frozen=True)
 class Layout:
-    """Order of objects, hands and sources; the first `n_moving` objects have a pose in each frame."""
+    """Order of objects, hands and sources. The first `n_moving` objects have a pose in each frame."""
 
     number: int
     objects: tuple[str, ...]

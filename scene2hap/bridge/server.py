@@ -37,7 +37,7 @@ NO_HELLO, OTHER_VERSION, WRONG_TOKEN, TOO_MANY = 4000, 4001, 4003, 4009
 
 
 class BridgeServer:
-    """Serves clients until it is closed; use `async with server.listening():`.
+    """Serve clients until it is closed; use `async with server.listening():`.
 
     Parameters: config : a BridgeConfig, its settings, or the path of a file with a table `bridge`; owns_process :
     True if the process runs only the bridge, which may then control its garbage collector.

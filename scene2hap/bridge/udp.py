@@ -16,7 +16,7 @@ Address = tuple[str, int]
 
 
 class FrameDatagrams(asyncio.DatagramProtocol):
-    """Receives frames for sessions. Datagrams without a valid session key are dropped without an answer.
+    """Receive frames for sessions. Datagrams without a valid session key are dropped without an answer.
 
     Parameters: find : returns the session with a key, None if there is none.
     """

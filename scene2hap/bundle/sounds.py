@@ -62,7 +62,7 @@ def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dic
 
 
 class SoundReader:
-    """Reads the loops in rows of loops.json, each file once."""
+    """Read the loops in rows of loops.json, each file once."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder

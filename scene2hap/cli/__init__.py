@@ -100,7 +100,7 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
 
 
 class _Parser(argparse.ArgumentParser):
-    """Escapes arguments in messages as `Console` escapes names, since a file name may hold any character."""
+    """Escape arguments in messages as `Console` escapes names, since a file name may hold any character."""
 
     def _print_message(self, message: str, file: Any = None) -> None:
         # Some versions of argparse raise this error and others ignore it; `Console.close` reports failed output.

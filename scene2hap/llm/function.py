@@ -18,7 +18,7 @@ Returned = LLMReply | Mapping[str, Any] | str
 
 @clear_construction
 class FunctionBackend:
-    """Answers by calling `function(request)`, which may be async. Its exceptions pass through.
+    """Answer by calling `function(request)`, which may be async. Its exceptions pass through.
 
     `requests` holds all requests so far, in order. `model` appears in the replies and in the keys of a cache.
     """

@@ -20,7 +20,7 @@ tiles of 768 x 2,048 px (gpt-4o-mini). Source: OpenAI, "Images and vision", sect
 
 
 class LostImages:
-    """Warns once if a model read far fewer tokens than the prompt and its pictures have.
+    """Warn once if a model read far fewer tokens than the prompt and its pictures have.
 
     Ollama drops messages that exceed its context, and reports this only in its debug log.
     """
@@ -45,7 +45,7 @@ class LostImages:
 
 
 class ImagesAsText:
-    """Warns once if a model billed far more tokens than pictures can have, for example if it read base64 as text."""
+    """Warn once if a model billed far more tokens than pictures can have, for example if it read base64 as text."""
 
     def __init__(self, detail: str) -> None:
         self._most_per_image = MOST_PER_IMAGE[detail]

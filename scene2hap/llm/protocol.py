@@ -57,7 +57,7 @@ class LLMReply:
 
 @runtime_checkable
 class LLMBackend(Protocol):
-    """Answers requests. It may get several at the same time."""
+    """Answer requests. A backend may get several at the same time."""
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the answer. Raises: BackendUnavailable, BadAnswer, ReplayMiss."""

@@ -22,7 +22,7 @@ AnswerType = TypeVar("AnswerType", bound=Answer)
 
 
 class Questions:
-    """Sends questions to a backend, at most `concurrency` at once, and keeps the report.
+    """Send questions to a backend, at most `concurrency` at once, and keep the report.
 
     An error that would affect every further question (an exhausted budget, a rejected key, a recording that does not
     match) stops all. Running calls end, so that their answers are kept, and no new call begins.

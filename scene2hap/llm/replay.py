@@ -50,7 +50,7 @@ class _Entry(BaseModel):
 
 @clear_construction
 class ReplayBackend:
-    """Answers from a recording only. If a request has several answers, the last one is used.
+    """Answer from a recording only. If a request has several answers, the last one is used.
 
     model : use only answers of this model; None for all.
     Raises: ConfigError: the file cannot be read. BadAnswer: a line is broken; names file and line.
@@ -96,7 +96,7 @@ class ReplayBackend:
 
 @clear_construction
 class RecordingBackend:
-    """Passes requests on to `inner` and writes each answer to a file before returning it.
+    """Pass requests on to `inner`, and write each answer to a file before returning it.
 
     Raises: ConfigError: the file cannot be written. BadAnswer: the file exists and has a broken line.
     """

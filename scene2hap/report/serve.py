@@ -17,7 +17,7 @@ _HOST = "127.0.0.1"
 
 
 class ReportServer:
-    """Serves one page, and writes its corrections.
+    """Serve one page, and write its corrections.
 
     Parameters: page : HTML; corrections : the file to write; port : 0 for a free one; saved : called with the file
     after each save. Raises: ConfigError: the port is taken.

@@ -146,7 +146,7 @@ def serving(**settings: object) -> Iterator[BridgeServer]:
 
 
 class _Disturbance:
-    """Sends a message of an unknown type, and cuts the connection once after a given frame; `n_cuts` counts this."""
+    """Send a message of an unknown type, and cut the connection once after a given frame; `n_cuts` counts this."""
 
     def __init__(self, server: BridgeServer, cuts_at: int | None) -> None:
         self._server, self._cuts_at = server, cuts_at

@@ -273,7 +273,7 @@ class _Work:
 
 
 class _Watched(Wrapper):
-    """Counts the questions of one scene that have no answer yet."""
+    """Count the questions of one scene that have no answer yet."""
 
     def __init__(self, inner: CacheBackend) -> None:
         super().__init__(inner)

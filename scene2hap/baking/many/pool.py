@@ -29,7 +29,7 @@ class Submits(Protocol):
 
 
 class Pool:
-    """Runs tasks for coroutines.
+    """Run tasks for coroutines.
 
     Parameters: executor : None for this process, one task at a time; "processes" or "processes:N" for our own worker
     processes, where a new worker replaces one that dies; "dask:ADDRESS" for a Dask scheduler; or an object with

@@ -142,7 +142,7 @@ def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
 
 
 class _Limited(Wrapper):
-    """Limits the number of concurrent questions over all scenes."""
+    """Limit the number of concurrent questions over all scenes."""
 
     def __init__(self, inner: Any, n_at_once: int) -> None:
         super().__init__(inner)

@@ -72,7 +72,7 @@ class BatchFolder:
     # -- rows ---------------------------------------------------------------------------------------------------------
 
     def rows(self) -> list[BatchRow]:
-        """All batches, in the order in which they were written."""
+        """Return all batches, in the order in which they were written."""
         found = []
         for path in sorted(self.path.glob("[0-9]*.json")):
             try:
@@ -137,7 +137,7 @@ class BatchFolder:
 
 
 class RequestWriter:
-    """Writes requests into files of limited size, and a row for each complete file."""
+    """Write requests into files of limited size, and a row for each complete file."""
 
     def __init__(self, folder: BatchFolder) -> None:
         self._folder = folder

@@ -18,7 +18,7 @@ _Facts = Mapping[str, Any]
 
 @clear_construction
 class LexiconBackend:
-    """Answers from `request.facts` alone; ignores prompt, pictures and temperature.
+    """Answer from `request.facts` alone; ignore prompt, pictures and temperature.
 
     An object that is not in the table gets the category "unknown", a confidence of at most 0.2, and is silent.
     Raises (from `complete`): BadAnswer: a fact is missing or of the wrong kind, or the requested material is not in the

@@ -16,7 +16,7 @@ from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 @clear_construction
 class BudgetBackend(Wrapper):
-    """Passes calls on while the limits hold. A limit of None means no limit.
+    """Pass calls on while the limits hold. A limit of None means no limit.
 
     prices : model name -> `Price`, or (input, output) or (input, output, cached input) [US dollars per million
     tokens]. They add to the dated list (`price_list()`) and override it. A model in neither has an unknown price,

@@ -20,7 +20,7 @@ LEAST_SHARE = 0.75
 
 @clear_construction
 class RetryBackend(Wrapper):
-    """Repeats a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
+    """Repeat a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
 
     Waits as long as the server states. Otherwise each wait is longer than the last, times a random share that spreads
     the calls of many clients.
