@@ -4,8 +4,8 @@
     bundle = bake(scene)
     session = HapticSession(scene, bundle)
 
-Every public name below is imported when it is first used, so that ``import scene2hap`` costs next to nothing and a
-game pays only for the playing side.
+Every public name below is imported at its first use. So ``import scene2hap`` takes almost no time, and a game imports
+only the playing side.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ def __getattr__(name: str) -> Any:
         return import_module(f"scene2hap.{name}")
     from importlib.util import find_spec
 
-    if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a room that is about to be imported
+    if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a submodule that is being imported
         raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
     from scene2hap.calls import unknown_attribute
 

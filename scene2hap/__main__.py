@@ -1,4 +1,4 @@
-"""``python -m scene2hap`` is the command line."""
+"""Run the command line with ``python -m scene2hap``."""
 
 import sys
 

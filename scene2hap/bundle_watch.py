@@ -1,4 +1,4 @@
-"""Follow a bundle on the disk while a session plays it: what a designer saves is felt within a second."""
+"""Reload a bundle from the disk while a session plays it: a designer's changes are felt within a second."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from scene2hap.file_stamp import Stamp, file_stamp
 from scene2hap.session import HapticSession
 
 POLL_S = 0.05
-"""How often the folder is looked at. A bundle that was saved is read at once, files that are edited by hand once they
-have stayed the same for as long."""
+"""Interval between checks of the folder [s]. A saved bundle is read at once. Files edited by hand are read after they
+have stayed unchanged for one interval."""
 
 
 @clear_calls
 class BundleWatch:
-    """Hands a bundle to a session whenever its folder was written again.
+    """Pass a bundle to a session whenever its folder is written again.
 
-    A worker looks at the folder and reads it; `update` gives a new bundle to the session and is called in the game
-    loop. Files that are edited by hand are followed too. `problem` is the reason why the folder cannot be played as it
-    is now, "" if it can; the bundle that was read last plays on.
+    A worker checks the folder and reads it. `update`, called in the game loop, passes a new bundle to the session.
+    Files that are edited by hand are reloaded too. `problem` is the reason why the present folder cannot be played, ""
+    if it can; meanwhile the session plays the last bundle that was read.
 
     Parameters: session : plays the bundle; folder : where it was saved.
-    Raises: BundleError: no folder is there.
+    Raises: BundleError: the folder does not exist.
     """
 
     def __init__(self, session: HapticSession, folder: str | Path) -> None:
@@ -42,7 +42,7 @@ class BundleWatch:
         self._worker.start()
 
     def update(self) -> bool:
-        """Hand a bundle that was read to the session, and say whether there was one.
+        """Pass a newly read bundle to the session. Returns True if there was one.
 
         Raises: BundleError: it is of another scene.
         """
@@ -53,7 +53,7 @@ class BundleWatch:
         return True
 
     def close(self) -> None:
-        """End the worker; may be called twice."""
+        """End the worker. May be called twice."""
         self._closed.set()
         self._worker.join()
 
@@ -69,7 +69,7 @@ class BundleWatch:
         last, last_folder = known, file_stamp(self._folder)
         while not self._closed.wait(POLL_S):
             folder, now = file_stamp(self._folder), self._stamps()
-            is_saved = folder is not None and last_folder is not None and folder[0] != last_folder[0]  # another folder
+            is_saved = folder is not None and last_folder is not None and folder[0] != last_folder[0]  # replaced
             if now != known and (is_saved or now == last):
                 known = now
                 self._load()

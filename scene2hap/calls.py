@@ -1,7 +1,7 @@
 """Errors for arguments that do not fit a call, and for attributes that do not exist or cannot be set.
 
-Classes of the public surface are decorated by `clear_calls`; by `clear_construction` where a wrapper would slow down
-methods that are called in every frame; or by `clear_attributes` alone. Each message names the nearest that exists.
+Public classes have the decorator `clear_calls`. Classes whose methods run in every frame have `clear_construction`,
+since wrapped methods are slower, or only `clear_attributes`. Each message suggests the most similar existing name.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ Class = TypeVar("Class", bound=type)
 
 
 class Missing(NamedTuple):
-    """The sentence for a name that something does not have.
+    """The message for a missing attribute.
 
-    The text is made when it is read: `hasattr` and `isinstance` of a protocol look up many names that are not there.
+    The text is made only when it is read, since `hasattr` and `isinstance` of a protocol look up many missing names.
     """
 
     owner: str
@@ -37,15 +37,15 @@ class Missing(NamedTuple):
 
 
 def unknown_attribute(owner: str, wanted: str, known: Iterable[str]) -> UnknownAttribute:
-    """The error for a name that is none of those known."""
-    # Without an `obj` of its own, Python would keep the instance alive and append a suggestion of its own.
+    """Return the error for an attribute that is not among the known ones."""
+    # With obj=None, Python does not keep the instance alive and does not append its own suggestion.
     return UnknownAttribute(Missing(owner, wanted, tuple(sorted(known))), name=wanted, obj=None)
 
 
 def clear_attributes(cls: Class) -> Class:
-    """Raise errors of our own for a missing attribute, an index, and setting a field of frozen data. A decorator.
+    """Decorate a class with our errors for missing attributes, indexing, and setting a field of frozen data.
 
-    Copying, pickling and `hasattr` work as before, and so does a `__getattr__` that the class has already.
+    Copying, pickling, `hasattr` and an existing `__getattr__` of the class work as before.
     """
     earlier = getattr(cls, "__getattr__", None)
 
@@ -60,7 +60,7 @@ def clear_attributes(cls: Class) -> Class:
                     raise
                 raise unknown_attribute(type(self).__name__, name, _public(self)) from None
         if any(name in vars(base) for base in type(self).__mro__):
-            return object.__getattribute__(self, name)  # a property raised an AttributeError: report that one
+            return object.__getattribute__(self, name)  # a property raised an AttributeError: raise that one again
         if name.startswith("_"):
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
         raise unknown_attribute(type(self).__name__, name, _public(self))
@@ -81,7 +81,7 @@ def clear_attributes(cls: Class) -> Class:
 
 
 def read_only(cls: Class) -> Class:
-    """Refuse to set public attributes, which would do nothing; a class's own names begin with _. A decorator."""
+    """Decorate a class so that public attributes cannot be set, since that would have no effect. `_names` can."""
 
     def refuse(self: Any, name: str, value: object) -> None:
         if name[:1] != "_":
@@ -112,7 +112,7 @@ def _cannot_set(self: object, name: str, how: str) -> ReadOnlyAttribute | Unknow
 
 def _public(self: object) -> set[str]:
     cls = type(self)
-    settings = getattr(cls, "model_fields", None)  # of pydantic, whose classes have dozens of methods
+    settings = getattr(cls, "model_fields", None)  # pydantic classes have dozens of methods, so only fields count
     if settings is not None:
         return set(settings)
     fields: Iterable[str] = getattr(cls, "__dataclass_fields__", ())
@@ -125,9 +125,9 @@ def _set(cls: type, name: str, function: Any) -> None:
 
 
 def clear_call(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
-    """Wrap a function so that a misspelled, missing or surplus argument raises a CallError, which names the nearest.
+    """Wrap a function so that a misspelled, missing or surplus argument raises a CallError with a suggestion.
 
-    A call that fits costs one frame more; its arguments are looked at only after a TypeError.
+    A correct call costs one more frame on the stack. Its arguments are only inspected after a TypeError.
     """
 
     @functools.wraps(function)
@@ -144,8 +144,8 @@ def clear_call(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
 
 
 def clear_construction(cls: Class) -> Class:
-    """Treat the constructor and class methods by `clear_call`, and attributes by `clear_attributes`. A decorator."""
-    init = getattr(cls, "__init__")  # noqa: B009  # the function of the class itself
+    """Decorate a class: `clear_call` for constructor and class methods, `clear_attributes` for attributes."""
+    init = getattr(cls, "__init__")  # noqa: B009  # the class's function, not a bound method
     type.__setattr__(cls, "__init__", clear_call(_taking_nothing(cls) if init is object.__init__ else init))
     for name, method in _public_methods(cls, classmethod):
         setattr(cls, name, classmethod(clear_call(method.__func__)))
@@ -153,7 +153,7 @@ def clear_construction(cls: Class) -> Class:
 
 
 def clear_calls(cls: Class) -> Class:
-    """Treat the constructor and public methods by `clear_call`, and attributes by `clear_attributes`. A decorator."""
+    """Decorate a class: `clear_call` for constructor and public methods, `clear_attributes` for attributes."""
     for name, method in _public_methods(cls, FunctionType):
         setattr(cls, name, clear_call(method))
     return clear_construction(cls)
@@ -164,17 +164,17 @@ def _public_methods(cls: type, kind: type) -> list[tuple[str, Any]]:
 
 
 def _taking_nothing(cls: type) -> Callable[..., None]:
-    def __init__(self: object) -> None: ...  # the name that is shown
+    def __init__(self: object) -> None: ...  # messages show this name
 
     __init__.__qualname__ = f"{cls.__name__}.__init__"
     return __init__
 
 
 def misfit(function: Callable[..., Any], args: Sequence[object], kwargs: Mapping[str, object]) -> str:
-    """Why a function cannot be called with such arguments, and what it takes; empty where it can be."""
+    """Return why a function cannot be called with these arguments, and its signature; empty if it can be called."""
     try:
         signature = inspect.signature(function)
-    except ValueError:  # of C, which tells none
+    except ValueError:  # functions in C may have no signature
         return ""
     try:
         signature.bind(*args, **kwargs)
@@ -188,7 +188,7 @@ def misfit(function: Callable[..., Any], args: Sequence[object], kwargs: Mapping
 
 
 def _problem(taken: list[inspect.Parameter], args: Sequence[object], kwargs: Mapping[str, object]) -> str:
-    """The sentence for an argument that does not exist, or for one too many; empty if it is neither."""
+    """Return the sentence for an unknown or surplus argument; empty for other problems."""
     known = [one.name for one in taken]
     for unknown in kwargs:
         if unknown not in known:

@@ -1,6 +1,6 @@
-"""Bounds on numbers that people, files and language models hand in.
+"""Checks of values from users, files and language models.
 
-Every "value, unit, bound, what to do" message is made here, so that all read alike.
+Every message with value, unit, bound and next step is made here, so that all have the same form.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _SECRET_NAME = re.compile(r"(key|token|secret|password)s?$", re.IGNORECASE)
 
 
 def shown(value: object, name: object = "") -> str:
-    """Format a value for an error message; mask settings whose name says key, token, secret or password."""
+    """Format a value for an error message. Settings named key, token, secret or password are masked."""
     if isinstance(name, str) and _SECRET_NAME.search(name):
         return "'***'"
     if isinstance(value, Mapping):
@@ -40,40 +40,40 @@ _LONGEST_SHOWN = 200
 
 
 def represented(value: object) -> str:
-    """Format `repr(value)` for an error message: shortened, and the type alone where `repr` fails."""
+    """Format `repr(value)` for an error message: shortened, or only the type if `repr` fails."""
     try:
         text = repr(value)
-    except Exception:  # a whole number of more than 4300 digits, or whatever a `__repr__` of somebody raises
+    except Exception:  # an integer of more than 4300 digits, or any error from a foreign `__repr__`
         return f"a {type(value).__name__}"
     if "\n" in text:  # an array
         text = " ".join(text.split())
-    if text.startswith("<") and " at 0x" in text:  # the address says nothing, and differs from run to run
+    if text.startswith("<") and " at 0x" in text:  # the address is useless, and differs in each run
         return described(value)
     return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
 
 
 def described(value: object) -> str:
-    """A value of the wrong type, for the sentence "X is ..."; objects of many fields by their type alone."""
+    """Describe a value of the wrong type, for the sentence "X is ...". Objects with fields are named by their type."""
     if isinstance(value, type):
         return f"the class {value.__name__}"
     if value is None or isinstance(value, str | bytes | bool | Real | os.PathLike):
         return represented(value)
     name = type(value).__name__
-    if isinstance(value, dict) or (isinstance(value, tuple) and not hasattr(value, "_fields")):  # of our own kinds too
+    if isinstance(value, dict) or (isinstance(value, tuple) and not hasattr(value, "_fields")):  # and their subclasses
         name = "dict" if isinstance(value, dict) else "tuple"
     return f"{'an' if name[0] in 'aeiouAEIOU' else 'a'} {name}"
 
 
 _MOST_COMPARED = 10_000
 _LONGEST_COMPARED = 256
-"""Names, and characters of each, that are looked through for the nearest; assumed: a hundred times what people type."""
+"""Most names, and characters of each, that are searched for similar ones; assumed: a hundred times typical sizes."""
 
 
 def did_you_mean(wanted: object, known: Iterable[str], otherwise: str = "") -> str:
-    """The sentence that names what is nearest to `wanted` among the known names, or `otherwise`.
+    """Return a sentence with the known names that are most similar to `wanted`, or `otherwise` if there are none.
 
-    Upper and lower case, blanks, dashes and underscores count for nothing, and the beginning of a name is near to it,
-    so that "ModalPlate" finds "modal_plate", and "gain" finds "gain_db".
+    Case, blanks, dashes and underscores are ignored, and a common beginning counts as similar. So "ModalPlate" finds
+    "modal_plate", and "gain" finds "gain_db".
     """
     from difflib import get_close_matches
 
@@ -87,7 +87,7 @@ def did_you_mean(wanted: object, known: Iterable[str], otherwise: str = "") -> s
 
 
 class Problem(NamedTuple):
-    """The first thing that pydantic found wrong: where, why, the value, and pydantic's name for it."""
+    """The first problem that pydantic found: location, reason, value, and pydantic's name for the problem."""
 
     location: tuple[int | str, ...]
     reason: str
@@ -101,7 +101,7 @@ class Problem(NamedTuple):
 
 
 def first_problem(error: ValidationError) -> Problem:
-    """The first problem of a failed validation, in our own words where our code raised it."""
+    """Return the first problem of a failed validation, in our own words if our code raised it."""
     first = error.errors()[0]
     reason = first["msg"].removeprefix("Value error, ").removesuffix(".")
     return Problem(first["loc"], reason, first["input"], first["type"])
@@ -120,14 +120,14 @@ def number(
     hint: str = "",
 ) -> float:
     """Return `value` as a finite float inside its bounds, or raise `error` naming value, unit and bound."""
-    # numpy scalars register as Real; bool is an int by accident of history and never a measurement.
+    # numpy scalars are instances of Real. Bools are too, but a bool is never a measurement.
     if isinstance(value, bool) or not isinstance(value, Real):
         raise error(_sentence(f"{name} is {represented(value)}; it must be a number{_in(unit)}", hint))
     try:
         result = float(value)
-    except OverflowError:  # a whole number of more than 308 digits
+    except OverflowError:  # an integer of more than 308 digits
         result = math.inf
-    except Exception as cause:  # a type of somebody else's, whose `__float__` raises what it likes
+    except Exception as cause:  # a foreign `__float__` may raise any error
         raise error(_sentence(f"{name} is a {type(value).__name__} that gives no number{_in(unit)}", hint)) from cause
     bounds = [
         (not math.isfinite(result), "finite"),
@@ -157,16 +157,16 @@ def vector(
     error: type[Scene2HapError],
     hint: str = "",
 ) -> tuple[float, ...]:
-    """Return `value` as `size` finite floats, or raise `error` naming the component that is wrong."""
+    """Return `value` as `size` finite floats, or raise `error` with the name of the wrong component."""
     is_bounded = above is not None or at_least is not None
-    # Games make hundreds of poses in a frame, of floats; the rest looks at each number for a sentence about it.
+    # Fast path: games make hundreds of poses per frame. The slow path checks each number to name the wrong one.
     is_plain = type(value) is tuple and len(value) == size and {*map(type, value)} == _ONLY_FLOATS
     if is_plain and not is_bounded and math.isfinite(sum(cast("tuple[float, ...]", value))):
         return cast("tuple[float, ...]", value)
     items: Sequence[object]
     try:
-        items = tuple(islice(value, size + 1))  # type: ignore[call-overload]  # any iterable; if none, see below
-    except Exception:  # a type of somebody else's, whose `__iter__` raises what it likes
+        items = tuple(islice(value, size + 1))  # type: ignore[call-overload]  # the except clause handles non-iterables
+    except Exception:  # a foreign `__iter__` may raise any error
         items = ()
     if len(items) != size or isinstance(value, str):
         raise error(_sentence(f"{name} is {represented(value)}; it must be {size} numbers{_in(unit)}", hint))
@@ -177,9 +177,9 @@ def vector(
 
 
 def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) -> NDArray[np.float64]:
-    """Return `value` as an array of float64, the same where it is one; the caller looks at its shape and its numbers.
+    """Return `value` as an array of float64, without a copy if it is one. The caller checks shape and values.
 
-    Raises: `error`: it is no table of real numbers, or some of them are masked.
+    Raises: `error`: not a table of real numbers, or some of them are masked.
     """
     import numpy as np
 
@@ -193,7 +193,7 @@ def floats(name: str, value: object, unit: str, *, error: type[Scene2HapError]) 
             raise TypeError("some of them are masked")
         with np.errstate(over="ignore"):
             return np.asarray(found, dtype=np.float64)
-    except Exception as cause:  # ragged, too many digits, or a type of somebody else's that raises what it likes
+    except Exception as cause:  # ragged, too many digits, or any error from a foreign type
         reason = str(cause)[:_LONGEST_SHOWN] or type(cause).__name__
         raise error(f"{name} is not a table of numbers{_in(unit)}: {reason}.") from cause
 
@@ -209,23 +209,23 @@ def whole(
 
 
 def flag(name: str, value: object, *, error: type[Scene2HapError]) -> bool:
-    """Return `value`, or raise `error`: it is neither true nor false. A text counts as true in Python, also "no"."""
+    """Return `value` if it is True or False, else raise `error`. Python takes any text as true, even "no"."""
     if value is True or value is False:
         return value
-    if type(value).__name__ in ("bool", "bool_"):  # NumPy's, without importing it
+    if type(value).__name__ in ("bool", "bool_"):  # NumPy's bool, checked without importing NumPy
         return bool(value)
     raise error(f"{name} is {represented(value)}; it must be True or False.")
 
 
 def text(name: str, value: object, *, error: type[Scene2HapError]) -> str:
-    """Return `value`, or raise `error`: it is no text."""
+    """Return `value` if it is a text, else raise `error`."""
     if not isinstance(value, str):
         raise error(f"{name} is {represented(value)}; it must be a text.")
     return value
 
 
 def path(name: str, value: object, *, error: type[Scene2HapError]) -> Path:
-    """Return `value` as a path, or raise `error`: it is no text and no path."""
+    """Return `value` as a path, or raise `error` if it is no text and no path."""
     if not isinstance(value, str | os.PathLike):
         raise error(f"{name} is {described(value)}; it must be a path, as a text or a pathlib.Path.")
     try:
@@ -235,7 +235,7 @@ def path(name: str, value: object, *, error: type[Scene2HapError]) -> Path:
 
 
 def near_files(path: Path) -> str:
-    """The sentence that names files beside a path that does not exist and are called nearly the same, or nothing."""
+    """Return a sentence with similar file names beside a missing path, or an empty text."""
     try:
         names = [name for name in islice(os.listdir(path.parent), _MOST_COMPARED) if not name.startswith(".")]
     except (OSError, ValueError):
@@ -244,10 +244,10 @@ def near_files(path: Path) -> str:
 
 
 def items(name: str, value: object, *, at_most: int = 10_000, error: type[Scene2HapError]) -> tuple[Any, ...]:
-    """Return what a sequence holds, or raise `error`: it is none, or holds more than `at_most`."""
+    """Return the items of a sequence, or raise `error` if it is no sequence or has more than `at_most` items."""
     try:
-        found = tuple(islice(value, at_most + 1))  # type: ignore[call-overload]  # if it cannot, see below
-    except Exception as cause:  # a type of somebody else's, whose `__iter__` raises what it likes
+        found = tuple(islice(value, at_most + 1))  # type: ignore[call-overload]  # see the except clause
+    except Exception as cause:  # a foreign `__iter__` may raise any error
         raise error(f"{name} is {represented(value)}; it must be a sequence.") from cause
     if len(found) > at_most:
         raise error(f"{name} has more than {at_most} items. Give fewer.")
@@ -255,7 +255,7 @@ def items(name: str, value: object, *, at_most: int = 10_000, error: type[Scene2
 
 
 def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError) -> tuple[str, ...]:
-    """Distinct names, at least one, from a sequence of them. Raises: `error`: it is something else, as one string."""
+    """Return one or more distinct names from a sequence. Raises: `error`: any other value, including one string."""
     if isinstance(value, str):
         raise error(f"{name} is {shown(value)}; it must be a sequence of names, as [{shown(value)}].")
     if isinstance(value, set | frozenset):

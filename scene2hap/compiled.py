@@ -1,8 +1,8 @@
 """Choice between compiled kernels and their plain versions.
 
-A kernel is written twice: in plain Python, which says what it means and runs anywhere, and in Cython beside it, by the
-same name in `_<module>.pyx`, which runs wherever the package was built with a C compiler. `SCENE2HAP_COMPILED=0` in the
-environment takes the plain ones. See docs/decisions/0012-compiled-kernels.md.
+A kernel is written twice. The plain Python version is the definition and runs anywhere. The Cython version beside it,
+with the same name in `_<module>.pyx`, runs if the package was built with a C compiler. `SCENE2HAP_COMPILED=0` in the
+environment selects the plain versions. See docs/decisions/0012-compiled-kernels.md.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ from typing import Any, TypeVar
 _Kernel = TypeVar("_Kernel", bound=Callable[..., Any])
 
 KERNELS: dict[str, tuple[Callable[..., Any], Callable[..., Any] | None]] = {}
-"""Of those that were imported so far, by name: each plain kernel, and its compiled twin or None."""
+"""Imported kernels by name: each plain kernel with its compiled version, or None."""
 
 _IS_WANTED = os.environ.get("SCENE2HAP_COMPILED") != "0"
 
 
 def compiled(plain: _Kernel) -> _Kernel:
-    """The compiled twin of a plain function or class, or that itself where there is none; a decorator."""
+    """Decorate a plain function or class: return its compiled version, or itself if there is none."""
     twin = _twin(plain) if _IS_WANTED else None
     KERNELS[f"{plain.__module__}.{plain.__qualname__}"] = (plain, twin)
     return plain if twin is None else twin
 
 
 def are_in_use() -> bool:
-    """Whether compiled kernels exist and are not switched off."""
+    """Return True if compiled kernels exist and are not switched off."""
     return _IS_WANTED and find_spec("scene2hap.contact._track") is not None
 
 

@@ -1,12 +1,12 @@
-"""Finds a key in a text, however honest software may have spelled it.
+"""Find a key in a text, in every spelling that software commonly gives it.
 
-One mechanism: the text is stripped of escapes, again and again, and what is left is read by its letters and digits
-alone, without case. In it the key is looked for as it is, backwards, and in codes of letters and digits (hex, base64,
-base32, decimal and binary numbers; of UTF-8, UTF-16 and UTF-32; some twice), so that folds, separators, quotes and
-padding do not matter. Three quarters of the key in a row count as the key.
+The text is stripped of escapes repeatedly, and the result is reduced to letters and digits without case. In it the key
+is searched as it is, backwards, and in codes of letters and digits (hex, base64, base32, decimal and binary numbers; of
+UTF-8, UTF-16 and UTF-32; some applied twice). So line folds, separators, quotes and padding do not matter. Three
+quarters of the key in a row count as the key.
 
-Not found are codes of punctuation (base85, uuencode), ciphers, and what is packed or hashed: a server that means to
-tell the key of others has no end of these. Nor shorter parts, as of a key that is split over two headers.
+Codes with punctuation (base85, uuencode), ciphers, compression and hashes are not found: a malicious server has endless
+ways to reveal its clients' keys. Shorter parts, such as a key split over two headers, are not found either.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from itertools import pairwise
 from typing import NamedTuple
 
 _ROUNDS = 5
-"""Escapes within escapes that are undone; assumed."""
+"""Most levels of nested escapes that are undone; assumed."""
 _SHORTEST = 8
-"""Letters and digits; a key with fewer is looked for as it stands alone."""
+"""Least letters and digits of a key for this search. A shorter key is only searched as a plain string."""
 _FOLD = 8
-"""White space within a key that is folded over lines, at most."""
+"""Most white space within a key that is folded over lines."""
 _CERTAIN = 12
-"""Letters and digits that are no accident; assumed. Of a key with fewer all must be there."""
+"""Letters and digits that cannot match by accident; assumed. A key with fewer must match completely."""
 
-# Every repetition is bounded: a text of backslashes or zeros would take time by the square of its length.
+# Every repetition is bounded. Otherwise a text of backslashes or zeros would take quadratic time.
 _ESCAPE = re.compile(
     r"""\x1b\[[0-9;]{0,20}[A-Za-z]                       # what a terminal obeys
     | %([0-9A-Fa-f]{2})                                  # addresses
@@ -48,7 +48,7 @@ _LETTERS = re.compile(r"[A-Za-z0-9]+")
 
 
 def masked(text: str, key: str, mask: str) -> str:
-    """The text with `mask` for each place where the key stands, in whatever spelling."""
+    """Replace each occurrence of the key in a text by `mask`, in any spelling."""
     spans = [(found.start(), found.end()) for found in re.finditer(re.escape(key), text)] if key else []
     needles = _needles(key)
     levels: list[_Level] = []
@@ -66,7 +66,7 @@ def masked(text: str, key: str, mask: str) -> str:
 
 
 class _Level(NamedTuple):
-    """A text made from another, by its pieces: where each begins here and there, and ends there."""
+    """A text made from another, as pieces: where each begins in both texts, and where it ends in the other one."""
 
     text: str
     begins: list[int]
@@ -74,7 +74,7 @@ class _Level(NamedTuple):
     ends: list[int]
 
     def span(self, start: int, end: int) -> tuple[int, int]:
-        """Where the other text has what is here from `start` to before `end`, which is further on."""
+        """Return the span in the other text for the span from `start` to before `end` in this one."""
         first, last = bisect_right(self.begins, start) - 1, bisect_right(self.begins, end - 1) - 1
         return self._at(first, start), max(self._at(last, end - 1) + 1, self._whole(last))
 
@@ -82,14 +82,14 @@ class _Level(NamedTuple):
         return min(self.origins[piece] + place - self.begins[piece], self.ends[piece] - 1)
 
     def _whole(self, piece: int) -> int:
-        """The end of a piece that is an escape, which stands for one character; 0 of one that was copied."""
+        """Return the end of a piece that is an escape, which stands for one character; 0 for a copied piece."""
         after = self.begins[piece + 1] if piece + 1 < len(self.begins) else len(self.text)
         is_escape = after - self.begins[piece] < self.ends[piece] - self.origins[piece]
         return self.ends[piece] if is_escape else 0
 
 
 def _unescaped(text: str) -> _Level | None:
-    """The text with one round of escapes undone; None where there are none."""
+    """Undo one round of escapes in a text. Returns None if there are none."""
     pieces: list[tuple[int, int, str]] = []
     at = 0
     for found in _ESCAPE.finditer(text):
@@ -130,7 +130,7 @@ def _level(pieces: list[tuple[int, int, str]]) -> _Level:
 
 
 class _Needle(NamedTuple):
-    """Letters and digits to look for, how many in a row suffice, and how many beside them hold bits of the key."""
+    """Letters and digits to search, the least match in a row, and how many neighbours hold bits of the key."""
 
     letters: str
     enough: int
@@ -139,7 +139,7 @@ class _Needle(NamedTuple):
 
 
 def _found(lower: str, read: str, letters: _Level, needles: tuple[_Needle, ...], key: str) -> Iterator[tuple[int, int]]:
-    """Where the needles stand in what was `read`, of which `lower` are the letters and digits."""
+    """Yield the spans of the needles in the text `read`; `lower` has its letters and digits in lower case."""
     before, after = _punctuation(key)
     for needle in needles:
         width = (needle.enough + 1) // 2
@@ -159,7 +159,7 @@ def _found(lower: str, read: str, letters: _Level, needles: tuple[_Needle, ...],
 
 
 def _grown(lower: str, needle: str, at: int, offset: int, width: int) -> tuple[int, int]:
-    """How far the needle goes on to both sides of a part of it."""
+    """Extend a matching part of a needle to both sides as far as the text matches. Returns its span."""
     low, high, left, right = at, at + width, offset, offset + width
     while low > 0 and left > 0 and lower[low - 1] == needle[left - 1]:
         low, left = low - 1, left - 1
@@ -169,7 +169,7 @@ def _grown(lower: str, needle: str, at: int, offset: int, width: int) -> tuple[i
 
 
 def _with_neighbours(read: str, start: int, end: int, around: int) -> tuple[int, int]:
-    """With the characters beside a code, some bits of which are the key's, and its padding."""
+    """Extend a span to the characters beside a code that hold bits of the key, and to its padding."""
     while around and start > 0 and (read[start - 1].isalnum() or read[start - 1] in "+/-_"):
         start, around = start - 1, around - 1
     right = re.compile(r"[\w+/-]{0,3}={0,6}").match(read, end)
@@ -177,7 +177,7 @@ def _with_neighbours(read: str, start: int, end: int, around: int) -> tuple[int,
 
 
 def _past(read: str, place: int, step: int, punctuation: str) -> int:
-    """The place beyond what a key begins or ends with, as far as it is there, folded or not."""
+    """Return the position past the punctuation at an end of a key, as far as it is there, even if folded."""
     reached, left = place, len(punctuation)
     while left and 0 <= (at := place if step > 0 else place - 1) < len(read):
         if read[at] in punctuation:
@@ -189,7 +189,7 @@ def _past(read: str, place: int, step: int, punctuation: str) -> int:
 
 
 def _punctuation(key: str) -> tuple[str, str]:
-    """The characters before a key's first and after its last letter or digit."""
+    """Return the characters before a key's first and after its last letter or digit."""
     found = list(_LETTERS.finditer(key))
     return (key[: found[0].start()], key[found[-1].end() :]) if found else ("", "")
 
@@ -207,13 +207,13 @@ def _enough(letters: str) -> int:
 
 
 def _spelled(key: str) -> Iterator[tuple[str, int]]:
-    """The key in codes of letters and digits, each with how many characters beside it hold bits of it."""
+    """Yield the key in codes of letters and digits, each with the number of neighbours that hold bits of it."""
     for plain in (key, key[::-1]):
         raw = plain.encode("utf-8", "replace")
         yield plain, 0
         yield "".join(f"{byte}" for byte in raw), 0
         yield "".join(f"{byte:08b}" for byte in raw), 0
-        # Big endian is little endian but for one byte.
+        # Big-endian codes match too: they differ from little-endian ones only by one byte at the end.
         for data in (raw, plain.encode("utf-16-le", "replace"), plain.encode("utf-32-le", "replace")):
             yield data.hex(), 0
             yield from ((code, 2) for code in _base_n(data, 6))
@@ -226,7 +226,7 @@ def _spelled(key: str) -> Iterator[tuple[str, int]]:
 
 
 def _base_n(data: bytes, bits: int) -> Iterator[str]:
-    """Base64 (6 bits) or base32 (5) of data at each place of a group, without the characters that others share."""
+    """Yield base64 (6 bits) or base32 (5) of data at each offset in a group, without characters shared with others."""
     encode, group = (base64.b64encode, 3) if bits == 6 else (base64.b32encode, 5)
     for before in range(group):
         first, last = -(-before * 8 // bits), (before + len(data)) * 8 // bits

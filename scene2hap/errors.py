@@ -1,17 +1,17 @@
 """The whole exception tree.
 
-Every error that scene2hap raises on purpose is a `Scene2HapError`; most also inherit the builtin that fits, so
-that ``except ValueError`` keeps working for people who do not know the tree::
+Every intentional error of scene2hap is a `Scene2HapError`. Most errors also inherit the fitting builtin exception, so
+that ``except ValueError`` works for callers who do not know the tree::
 
     Scene2HapError
     ├── CallError (TypeError)               a call with arguments that do not exist, are missing, or are too many
-    ├── UnknownAttribute (AttributeError)   an attribute that does not exist; names the nearest
+        ├── UnknownAttribute (AttributeError)   an attribute that does not exist; suggests a similar one
     ├── ReadOnlyAttribute (AttributeError)  an attribute that cannot be set
     ├── ConfigError (ValueError)            a setting that cannot work
-    │   ├── UnknownPlugin (LookupError)     a `kind` that nobody registered
+    │   ├── UnknownPlugin (LookupError)     a `kind` that is not registered
     │   └── MissingExtra (ImportError)      an optional dependency is not installed; names the extra
     ├── SceneError (ValueError)             a scene that cannot be read or makes no sense
-    │   ├── SceneFormatError                the file is not what it says it is
+        │   ├── SceneFormatError                the content does not match the file's name or header
     │   └── UnknownObject (KeyError)        an object id that the scene does not have
     ├── MaterialError (ValueError)          a material constant outside its bound
     │   └── UnknownMaterial (LookupError)   no row in the table under that name
@@ -19,17 +19,17 @@ that ``except ValueError`` keeps working for people who do not know the tree::
     ├── AudioError (ValueError)             a sound that cannot be used
     │   └── ClipError                       a haptic clip, or its file, that cannot be used
     ├── BundleError (ValueError)            a bundle folder that cannot be read or written
-    │   ├── BundleIncomplete                a file is missing, cut short or was changed by halves
+        │   ├── BundleIncomplete                a file is missing, cut short or was only partly changed
     │   └── BundleVersionError              written by a newer scene2hap
     ├── ExportError (ValueError)            an export that cannot be made
-    ├── SessionError (ValueError)           play-time input that cannot be honoured
-    ├── BridgeError (ValueError)            a message of a client that cannot be honoured
+        ├── SessionError (ValueError)           invalid input at play time
+        ├── BridgeError (ValueError)            an invalid message of a client
     │   └── UnknownSession (LookupError)    a session that the bridge does not have, or no longer
     ├── BackendError                        a language-model or sound service
-    │   ├── BackendUnavailable (ConnectionError)  away, or refuses; tells whether trying again can help
+        │   ├── BackendUnavailable (ConnectionError)  unreachable, or refuses; states if a retry can help
     │   ├── BadAnswer (ValueError)          the answer fails its schema; carries the raw text
-    │   │   └── AnswerRefused               the model or a filter before it will not answer
-    │   ├── BudgetExceeded                  the next call would break a limit that was set
+        │   │   └── AnswerRefused               the model, or a filter before it, refuses to answer
+        │   ├── BudgetExceeded                  the next call would exceed a limit
     │   └── ReplayMiss (LookupError)        no recorded answer for this request; carries the key
     └── DeviceError (OSError)               an actuator
         ├── DeviceNotFound
@@ -49,7 +49,7 @@ class Scene2HapError(Exception):
 
 
 class CallError(Scene2HapError, TypeError):
-    """A call with arguments that the function does not have, or without those that it needs."""
+    """A call with arguments that the function does not have, or without required ones."""
 
 
 class UnknownAttribute(Scene2HapError, AttributeError):
@@ -65,11 +65,11 @@ class ConfigError(Scene2HapError, ValueError):
 
 
 class UnknownPlugin(ConfigError, LookupError):
-    """A `kind` that neither scene2hap nor an installed package registered."""
+    """A `kind` that is not registered, in scene2hap or in an installed package."""
 
 
 class MissingExtra(ConfigError, ImportError):
-    """An optional dependency is not installed; the message names the extra that brings it."""
+    """An optional dependency is not installed. The message names the extra that installs it."""
 
 
 class SceneError(Scene2HapError, ValueError):
@@ -77,13 +77,13 @@ class SceneError(Scene2HapError, ValueError):
 
 
 class SceneFormatError(SceneError):
-    """A scene file that is not what its name or header says."""
+    """A scene file whose content does not match its name or header."""
 
 
 class UnknownObject(SceneError, KeyError):
     """An object id that the scene does not have."""
 
-    __str__ = Exception.__str__  # KeyError's own shows the sentence in quotes
+    __str__ = Exception.__str__  # KeyError would show the message in quotes
 
 
 class MaterialError(Scene2HapError, ValueError):
@@ -91,7 +91,7 @@ class MaterialError(Scene2HapError, ValueError):
 
 
 class UnknownMaterial(MaterialError, LookupError):
-    """No row of the material table carries that name or alias."""
+    """No row of the material table has that name or alias."""
 
 
 class ModelDomainError(Scene2HapError, ValueError):
@@ -103,7 +103,7 @@ class AudioError(Scene2HapError, ValueError):
 
 
 class ClipError(AudioError):
-    """A haptic clip that cannot be used: its file is none, or breaks a rule of its format."""
+    """A haptic clip that cannot be used: the file has another format, or breaks a rule of its format."""
 
 
 class BundleError(Scene2HapError, ValueError):
@@ -111,7 +111,7 @@ class BundleError(Scene2HapError, ValueError):
 
 
 class BundleIncomplete(BundleError):
-    """A bundle folder that lacks a file or holds one that was not written to its end."""
+    """A bundle folder with a missing or incomplete file."""
 
 
 class BundleVersionError(BundleError):
@@ -123,11 +123,11 @@ class ExportError(Scene2HapError, ValueError):
 
 
 class SessionError(Scene2HapError, ValueError):
-    """Play-time input that cannot be honoured."""
+    """Invalid input at play time."""
 
 
 class BridgeError(Scene2HapError, ValueError):
-    """A message of a client that a bridge cannot honour."""
+    """An invalid message of a bridge's client."""
 
 
 class UnknownSession(BridgeError, LookupError):
@@ -139,9 +139,9 @@ class BackendError(Scene2HapError):
 
 
 class BackendUnavailable(BackendError, ConnectionError):
-    """The service could not be reached or refused to serve.
+    """The service could not be reached, or refused the request.
 
-    `retryable` tells whether the same request may succeed later, `retry_after_s` [s] when, if the service said so.
+    `retryable` is True if the same request may succeed later. `retry_after_s` is the wait that the service stated [s].
     """
 
     def __init__(self, message: str, *, retryable: bool = False, retry_after_s: float | None = None) -> None:
@@ -153,7 +153,7 @@ class BackendUnavailable(BackendError, ConnectionError):
 class BadAnswer(BackendError, ValueError):
     """An answer that does not fit its schema.
 
-    `raw_text` is what the service said.
+    `raw_text` is the answer of the service.
     """
 
     def __init__(self, message: str, raw_text: str = "") -> None:
@@ -162,18 +162,18 @@ class BadAnswer(BackendError, ValueError):
 
 
 class AnswerRefused(BadAnswer):
-    """A model that will not answer, or a filter that withholds the question or the answer.
+    """A model refuses to answer, or a filter withholds the question or the answer.
 
-    The same question is refused again: change what it shows or asks, or the model.
+    A repetition is refused again: change the pictures, the question or the model.
     """
 
 
 class BudgetExceeded(BackendError):
-    """A call was not made, since a limit on calls, tokens or cost is reached."""
+    """A call was not made, since a limit on calls, tokens or cost was reached."""
 
 
 class ReplayMiss(BackendError, LookupError):
-    """A replay has no recording of a request.
+    """A recording has no answer for a request.
 
     `key` identifies the request.
     """
@@ -188,11 +188,11 @@ class DeviceError(Scene2HapError, OSError):
 
 
 class DeviceNotFound(DeviceError):
-    """No device of that name or index."""
+    """No device has that name or index."""
 
 
 class DeviceLost(DeviceError):
-    """A device that was open has gone."""
+    """An open device was disconnected."""
 
 
 class DeviceTimeout(DeviceError, TimeoutError):

@@ -1,4 +1,4 @@
-"""Detect that a file or a bundle was written again, without reading it."""
+"""Detection of changes of a file or a bundle, without reading it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Stamp = tuple[int, int, int]
 
 
 def file_stamp(path: Path) -> Stamp | None:
-    """A stamp that changes whenever a file is written or replaced; None where no file is."""
+    """Return a stamp that changes whenever a file is written or replaced; None if there is no file."""
     try:
         found = path.stat()
     except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""Plain data shared by design time and play time: states, haptics of an object, actuators, bands."""
+"""Plain data of design time and play time: states, haptics of an object, actuators, bands."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from scene2hap.materials import Material
 from scene2hap.needs import stated, unmet
 
 LONGEST_PASSAGE_S, LONGEST_TURN_S = 30.0, 86_400.0
-"""Bounds of a state's times [s]: what spins longer is not felt any more, and nothing takes a day to cool."""
+"""Bounds of a state's times [s]: slower starts and stops cannot be felt, and no machine cools for a day."""
 
 
 @clear_construction
@@ -27,18 +27,17 @@ class SourceState:
     """One way in which an object vibrates, such as "on", "ringing" or "boiling".
 
     Parameters:
-    name : what the state is called; unique within its object.
+    name : name of the state, unique within its object.
     intensity : strength of the vibration at the object itself, 0..1 [-], on a scale where 1 is a washing machine
         at full spin, 0.5 a ringing phone on the palm, 0.1 a refrigerator's hum.
-    sentence : at most 15 words that begin with the category; drives sound generation.
-    keywords : "category verb"; drives sound retrieval.
-    needs_contact : what it must touch to vibrate (a pan on a stove), as an id or in everyday words that are matched by
-        meaning (`scene2hap.needs`); None, "", "none" and "null" mean always.
-    start_up_s, wind_down_s : how long it takes to come up when it is switched on, and to die away when it is switched
-        off, 0..30 [s].
-    spins : whether its pitch rises and falls with it, as of a motor; else its strength alone does.
-    on_s, off_s : how long it runs and rests by itself, in turns, as a thermostat has it, 0.1..86400 [s]; None, None
-        for one that runs as long as it is switched on.
+    sentence : at most 15 words that begin with the category; used to generate sounds.
+    keywords : "category verb"; used to search for sounds.
+    needs_contact : the object that it must touch to vibrate (a pan on a stove), as an id or in everyday words, which
+        are matched by meaning (`scene2hap.needs`). None, "", "none" and "null" mean no condition.
+    start_up_s, wind_down_s : times from switching on to full strength, and from switching off to silence, 0..30 [s].
+    spins : True if its pitch rises and falls at start and stop, like a motor's; otherwise only its strength changes.
+    on_s, off_s : times of alternating operation and rest, as with a thermostat, 0.1..86400 [s]. None, None : it runs as
+        long as it is switched on.
     """
 
     name: str
@@ -78,7 +77,7 @@ class SourceState:
 
 
 def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mapping[str, str]) -> tuple[str, ...]:
-    """A sentence on each state of an object that needs a contact which nothing in the scene can give.
+    """Return a sentence for each state of an object that needs a contact which no object in the scene can provide.
 
     `categories` has the category of each object of the scene by id; "" or "unknown" if unknown.
     """
@@ -93,15 +92,14 @@ def unmet_needs(object_id: str, states: Sequence[SourceState], categories: Mappi
 @clear_construction
 @dataclass(frozen=True)
 class ObjectHaptics:
-    """Answers of inference about one object.
+    """Inferred properties of one object.
 
-    `estimated_size_m` is length, width and thickness of the dominant surface, corrected where the mesh cannot be
-    right. `material` is None where nobody could tell; vibration then does not spread through the object.
-    `mass_kg` is what the whole object weighs [kg], None where nobody could tell; it decides how hard a source pushes
-    and how compact bodies move. `feet` is the material on which it stands on others, such as rubber; None where that is
-    `material` or unknown.
-    `confidence` is 0..1; `reasons` explain category, size and vibration; `provenance` names the backend, the model
-    and the prompt version that answered, by component.
+    `estimated_size_m` is length, width and thickness of the dominant surface [m], corrected if the mesh is implausible.
+    `material` is None if unknown; vibration then does not spread through the object. `mass_kg` is the mass of the whole
+    object [kg], None if unknown; it decides the force of a source and the motion of compact bodies. `feet` is the
+    material of its feet, such as rubber; None if it is `material` or unknown.
+    `confidence` is 0..1. `reasons` explain category, size and vibration. `provenance` names the backend, the model and
+    the prompt version of the answer, by component.
     """
 
     object_category: str
@@ -137,11 +135,11 @@ class ObjectHaptics:
 
 
 LEAST_MASS_KG, MOST_MASS_KG = 1e-6, 1e7
-"""A grain of sand, and a loaded train."""
+"""Bounds on a mass: a grain of sand, and a loaded train."""
 
 
 def checked_mass_kg(name: str, value: object, error: type[Scene2HapError]) -> float:
-    """The mass of an object [kg]. Raises: error: it is out of bounds."""
+    """Check the mass of an object, and return it [kg]. Raises: error: it is out of bounds."""
     return checks.number(name, value, "kg", at_least=LEAST_MASS_KG, at_most=MOST_MASS_KG, error=error)
 
 
@@ -150,7 +148,7 @@ def checked_mass_kg(name: str, value: object, error: type[Scene2HapError]) -> fl
 class VibrationDescription:
     """The request to a sound source: one state of one object.
 
-    `size_m` and `material` let a synthesizer shape the sound; `seed` makes its answer repeatable.
+    A synthesizer uses `size_m` [m] and `material` to shape the sound; `seed` makes its output repeatable.
     """
 
     object_category: str
@@ -174,10 +172,10 @@ class ActuatorProfile:
     """The abilities of an actuator: name, usable band and resonance [Hz], and response.
 
     `q` is the quality factor of the resonance [-]; None, or no resonance, means a flat response. `response_db` is a
-    measured response as points (frequency [Hz], level [dB]) of rising frequency, which then stands instead of the
-    resonance. `audio.actuators` turns either into a curve and its inverse. What it can bear: `max_amplitude`, the
-    largest sample, 0..1 [-], and `max_rms` [-] over any window of `rms_window_s`, the time over which it warms up [s].
-    Raises: ConfigError: a bound that is not above the other, or points that are not.
+    measured response as points (frequency [Hz], level [dB]) in rising order of frequency; it replaces the resonance.
+    `audio.actuators` converts either into a curve and its inverse. Its limits are `max_amplitude`, the largest sample,
+    0..1 [-], and `max_rms` [-] over any window of `rms_window_s`, the time over which it warms up [s].
+    Raises: ConfigError: a lower bound not below the upper one, or invalid points.
     """
 
     name: str = "flat"
@@ -220,11 +218,12 @@ class ActuatorProfile:
 class Bands:
     """The frequency bands of the gains.
 
-    Either true bands between neighbouring edges [Hz], or `Bands.dominant()`: one band for each source, around its own
-    dominant frequency.
+    They are either true bands between neighbouring edges [Hz], or `Bands.dominant()`: one band for each source, around
+    its own dominant frequency.
 
-    Parameters: octaves : 0..2, width of the latter [octaves]; at 0 the frequency itself, as in the paper.
-    Raises: ConfigError: edges that do not rise; a width out of bounds, or with edges.
+    Parameters: octaves : 0..2, width of the band of `Bands.dominant()` [octaves]; at 0 the frequency itself, as in the
+    paper.
+    Raises: ConfigError: edges that do not rise; a width out of bounds, or together with edges.
     """
 
     edges_hz: tuple[float, ...]
@@ -249,24 +248,24 @@ class Bands:
 
     @classmethod
     def dominant(cls, octaves: float = 0.0) -> Bands:
-        """One band: each source at its own dominant frequency, or over so many octaves around it.
+        """Make one band for each source: its own dominant frequency, or a width of `octaves` around it.
 
-        A model that resonates may meet a resonance at a single frequency, or miss it by a change of material that
-        nobody feels; the rms over a third or half of an octave is steadier. A law that is smooth in frequency, as
-        `ExponentialPlate`, answers at the frequency itself.
+        At a single frequency, a model that resonates may hit or miss a resonance, depending on changes of material that
+        nobody feels. The rms over a third or half of an octave is steadier. A law that is smooth in frequency, such as
+        `ExponentialPlate`, uses the frequency itself.
         """
         return cls((), "dominant", octaves)
 
     def around_hz(self, frequency_hz: float) -> tuple[float, float]:
-        """Lower and upper edge of the band of a source with that dominant frequency [Hz]."""
+        """Return the lower and upper edge of a source's band around its dominant frequency [Hz]."""
         half = 2.0 ** (self.octaves / 2)
         return frequency_hz / half, frequency_hz * half
 
     @classmethod
     def third_octaves(cls, low_hz: float = 10.0, high_hz: float = 1000.0) -> Bands:
-        """Base-ten third octaves whose edges run from `low_hz` to `high_hz`; 10 to 1000 Hz are 20 bands.
+        """Make base-ten third octaves with edges from `low_hz` to `high_hz`; 10 to 1000 Hz give 20 bands.
 
-        Source: IEC 61260-1 (2014), section 5: edges a ratio of 10^(1/10) apart.
+        Source: IEC 61260-1 (2014), section 5: the ratio of neighbouring edges is 10^(1/10).
         """
         low = checks.number("low_hz", low_hz, "Hz", above=0.0, at_least=1e-3, error=ConfigError)
         high = checks.number("high_hz", high_hz, "Hz", above=low, at_most=1e9, error=ConfigError)
@@ -275,10 +274,10 @@ class Bands:
 
     @property
     def n_bands(self) -> int:
-        """Number of gains of a source."""
+        """Number of gains per source."""
         return 1 if self.kind == "dominant" else len(self.edges_hz) - 1
 
     def widths_hz(self) -> NDArray[np.float64]:
-        """Lower and upper edge of each band (n_bands, 2) [Hz]; empty for `Bands.dominant()`."""
+        """Return the lower and upper edge of each band (n_bands, 2) [Hz]; empty for `Bands.dominant()`."""
         edges: Sequence[float] = self.edges_hz
         return np.array([edges[:-1], edges[1:]], dtype=np.float64).T.reshape(-1, 2)

@@ -1,7 +1,7 @@
 """Small HTML tables for notebooks.
 
-Every text is escaped. A table has no script, no colour of its own and no address, so that it is readable in light and
-dark themes and asks nothing of any server.
+Every text is escaped. A table has no script, no colour of its own and no address. So it is readable in light and dark
+themes, and requests nothing from any server.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from scene2hap.printable import printable
 
 MOST_ROWS = 50
 MOST_LETTERS = 120
-"""Of a cell: names and sentences come from files, and may be of any length."""
+"""Most letters of a cell: names and sentences come from files, and can have any length."""
 
 _TABLE = "border-collapse:collapse;margin:0.3em 0"
 _CELL = "text-align:left;padding:0.15em 0.6em;border-bottom:1px solid rgba(128,128,128,0.4)"
 
 
 def html_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]], n_rows: int, note: str = "") -> str:
-    """A table under a title, with at most `MOST_ROWS` of its `n_rows` rows, and how many more there are.
+    """Return a table with a title, at most `MOST_ROWS` of its `n_rows` rows, and the number of rows left out.
 
-    Parameters: columns : their headings, with units; rows : texts of the cells, taken only as far as they are shown;
+    Parameters: columns : headings with units; rows : texts of the cells, read only as far as they are shown;
     note : a sentence below the table.
     """
     head = "".join(f'<th style="{_CELL}">{_text(name)}</th>' for name in columns)
@@ -38,7 +38,7 @@ def html_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]
 
 
 def number(value: float | None, digits: int = 3) -> str:
-    """A number with so many digits, "-" for None."""
+    """Format a number with `digits` significant digits, "-" for None."""
     return "-" if value is None else f"{value:.{digits}g}"
 
 

@@ -1,7 +1,7 @@
-"""The object that a state must touch to vibrate, matched by meaning: a pan that needs a "stove" cooks on a "gas hob".
+"""Matching by meaning of the object that a state must touch: a pan that needs a "stove" also vibrates on a "gas hob".
 
-Language models and people write such a need in everyday words, and the object that answers it has a category of its
-own, in words of its own. Compared as text, the two seldom meet.
+Language models and people write such a need in everyday words, while the category of the object may use other words. A
+comparison of the texts alone would rarely match.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from functools import lru_cache
 _NO_NEED = frozenset(
     {"", "none", "null", "nil", "nothing", "no", "not needed", "not required", "not applicable", "n a", "na", "false"}
 )
-"""Words by which somebody says that nothing needs to be touched."""
+"""Words for no need of a contact."""
 
 _SAME = (
     "stove; stove top; stovetop; cooktop; cook top; cooker top; hob; cooker; cooking plate; cooking surface; "
@@ -33,18 +33,18 @@ _SAME = (
     "mains; socket; wall socket; power socket; outlet; power outlet; electrical outlet; wall outlet; plug socket",
     "charger; charging station; charging base; charging dock; charging pad; docking station; dock",
 )
-"""Everyday nouns that stand for each other as what must be touched, a group each. Assumed."""
+"""Groups of everyday nouns that are equivalent as a needed object. Assumed."""
 
 _TOY = frozenset({"toy", "miniature", "fake", "model", "replica", "doll"})
 _BESIDE = frozenset({"a", "an", "the", "any", "some", "its", "on", "in", "at", "with", "of", "touching", "contact"})
 _UNKNOWN = frozenset({"", "unknown", "undefined"})
-_LONGEST = 200  # letters that are read of a need or a category; assumed
+_LONGEST = 200  # most letters of a need or a category that are read; assumed
 
 Words = tuple[str, ...]
 
 
 def stated(needed: str | None) -> str | None:
-    """A need as it counts: None where its words say that there is none ("", "none", "null")."""
+    """Return a need, or None if its words mean that there is none ("", "none", "null")."""
     if needed is None or " ".join(_words(needed)) in _NO_NEED:
         return None
     return needed
@@ -52,10 +52,11 @@ def stated(needed: str | None) -> str | None:
 
 @lru_cache(maxsize=4096)
 def meets(needed: str, object_id: str, category: str) -> bool:
-    """Whether an object is what is needed: by its id, or by its category; by the words of its id if the category is
-    unknown.
+    """Return True if an object is the needed one, by its id or its category. If the category is unknown, the words of
+    its id are compared.
 
-    "stove or oven" is met by either; "gas stove", "stove" and "hob" by each other; none by a toy stove or a stove door.
+    Either object meets "stove or oven". "gas stove", "stove" and "hob" meet each other. A toy stove or a stove door
+    meets none of them.
     """
     if needed == object_id or _words(needed) == _words(object_id):
         return True
@@ -64,14 +65,14 @@ def meets(needed: str, object_id: str, category: str) -> bool:
 
 
 def unmet(needed: str, categories: Mapping[str, str], of: str) -> bool:
-    """Whether no object of a scene but `of` itself is what is needed, given the category of each by id."""
+    """Return True if no object except `of` is the needed one, given the category of each object by id."""
     return not any(meets(needed, object_id, category) for object_id, category in categories.items() if object_id != of)
 
 
 def _are_same(wanted: Words, thing: Words) -> bool:
     if not wanted or not thing or bool(_TOY & set(thing)) != bool(_TOY & set(wanted)):
         return False
-    # A "plate" is the last word of a "hot plate" and none: where a group tells, it alone decides.
+    # "plate" is the last word of "hot plate", but another object. If a group applies, only the group counts.
     if (kind := _kind(wanted)) is not None or _kind(thing) is not None:
         return kind == _kind(thing)
     shorter, longer = sorted((wanted, thing), key=len)
@@ -79,7 +80,7 @@ def _are_same(wanted: Words, thing: Words) -> bool:
 
 
 def _kind(words: Words) -> int | None:
-    """The group of synonyms that the last words of a phrase belong to."""
+    """Return the group of synonyms of the last words of a phrase, None if there is none."""
     return next((found for start in range(len(words)) if (found := _GROUPS.get(words[start:])) is not None), None)
 
 
@@ -89,7 +90,7 @@ def _alternatives(needed: str) -> list[Words]:
 
 
 def _words(text: str) -> Words:
-    """The words of a text in lower case and singular; cut at signs, digits and capitals."""
+    """Return the words of a text in lower case and singular, split at signs, digits and capitals."""
     apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text[:_LONGEST])
     return tuple(map(_singular, re.findall(r"[^\W\d_]+", apart.casefold())))
 

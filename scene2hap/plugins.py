@@ -1,7 +1,7 @@
-"""Name -> implementation, for built-ins and guests alike.
+"""Registry of implementations by name, for built-ins and plug-ins of other packages.
 
-A room that can be extended declares one `PluginGroup`. Its built-ins are written as ``"module:attribute"`` and are
-imported at first use; another package joins by an entry point of the same group and spelling::
+A package of scene2hap that can be extended declares one `PluginGroup`. Built-ins are written as ``"module:attribute"``
+and imported at first use. Another package adds an entry point in the same group, written in the same way::
 
     [project.entry-points."scene2hap.propagation"]
     my_model = "my_package.models:MyModel"
@@ -26,7 +26,7 @@ Members = Mapping[str, tuple[str, ...] | None]
 
 @dataclass(frozen=True)
 class Guest:
-    """An implementation that another package registered; `problem` says why it does not load, empty if it does."""
+    """An implementation from another package. `problem` is the error when it was loaded, empty if there was none."""
 
     group: str
     kind: str
@@ -40,7 +40,7 @@ class PluginGroup:
     """The implementations of one protocol.
 
     `name` is the entry-point group (``"scene2hap.llm"``); `builtins` maps a kind to ``"module:attribute"``; `extras`
-    maps a kind to the extra that brings its optional dependency; `members` are those that its protocol requires;
+    maps a kind to the extra that installs its optional dependency; `members` are the required members of its protocol;
     `wraps_functions` names the class that makes an implementation of a plain function, if there is one.
     """
 
@@ -51,14 +51,14 @@ class PluginGroup:
     wraps_functions: str = ""
 
     def kinds(self) -> tuple[str, ...]:
-        """Every name that `load` accepts, sorted."""
+        """Return every name that `load` accepts, sorted."""
         return tuple(sorted({*self.builtins, *(guest.name for guest in self._guests())}))
 
     def load(self, kind: str) -> object:
-        """The class or factory registered under `kind`.
+        """Return the class or factory registered under `kind`.
 
-        Raises: UnknownPlugin: nobody registered it. MissingExtra: its optional dependency is absent. ConfigError: a
-        guest's entry point does not import.
+        Raises: UnknownPlugin: no such kind. MissingExtra: its optional dependency is not installed. ConfigError:
+        another package's entry point cannot be imported.
         """
         if kind in self.builtins:
             return self._resolve(EntryPoint(kind, self.builtins[kind], self.name))
@@ -72,23 +72,24 @@ class PluginGroup:
         )
 
     def guests(self) -> tuple[Guest, ...]:
-        """The plug-ins that other packages registered. Each is loaded, to find those that fail."""
+        """Return the plug-ins of other packages. Each is loaded, to find those with errors."""
         found = []
         for entry in self._guests():
             try:
                 self._resolve(entry)
                 problem = ""
-            except Exception as cause:  # a module of somebody else's, which raises what it likes
+            except Exception as cause:  # a foreign module may raise any error
                 problem = str(cause) if isinstance(cause, ConfigError) else f"{type(cause).__name__}: {cause}"
             package = f"{entry.dist.name} {entry.dist.version}" if entry.dist else "an unknown package"
             found.append(Guest(self.name, entry.name, entry.value, package, problem))
         return tuple(found)
 
     def build(self, spec: object) -> object:
-        """An implementation from configuration: a kind, a mapping with a `kind` and its settings, or one ready made.
+        """Build an implementation from configuration: a kind, or a mapping with a `kind` and its settings.
 
-        Raises: ConfigError: no `kind`, settings that the implementation does not take, or plain data, a class or
-        something without the protocol's members where an implementation is expected; and as `load`.
+        A ready-made implementation is returned unchanged.
+        Raises: ConfigError: no `kind`, settings that the implementation does not take, or plain data, a class or an
+        object without the protocol's members in place of an implementation; and as `load`.
         """
         made = self._made(spec)
         if problem := lacking(made, self.members):
@@ -148,9 +149,9 @@ class PluginGroup:
 
 
 def lacking(made: object, members: Members) -> str:
-    """The sentence for the first member that an object of somebody else's lacks, or whose arguments differ; else empty.
+    """Return a sentence about the first member that a foreign object lacks, or whose arguments differ; else "".
 
-    Without it a guest's mistake would be an AttributeError or a TypeError from within this library.
+    Without this check, such a mistake would raise an AttributeError or a TypeError inside this library.
     """
     needed = ", ".join(name if takes is None else f"{name}({', '.join(takes)})" for name, takes in members.items())
     for name, takes in members.items():

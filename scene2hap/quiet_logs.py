@@ -1,4 +1,4 @@
-"""Keeps a key out of the debug logs of the HTTP library, which show the headers of replies as they came."""
+"""Removal of a key from the debug logs of the HTTP library, which show the headers of replies unchanged."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 
 _FAMILIES = ("httpx", "httpcore", "httpx2", "httpcore2", "httpxyz", "httpcorexyz", "hpack", "h11", "h2", "socksio")
-"""The HTTP library, what it builds on, and the names under which forks of it go on (pydantic/httpx2, httpxyz)."""
+"""The HTTP library, its dependencies, and the names of forks that continue it (pydantic/httpx2, httpxyz)."""
 _MODULES = ("connection", "http11", "http2", "proxy", "socks", "hpack", "table")
-"""Loggers below a family. Some come into being with the first request, when it is too late to look for them."""
+"""Loggers below a family. Some are created during the first request, too late to add a filter."""
 _IN_USE: ContextVar[Callable[[str], str] | None] = ContextVar("what takes the key out", default=None)
 
 
@@ -27,9 +27,9 @@ _SCRUB = _Scrub()
 
 @contextmanager
 def scrubbed(scrub: Callable[[str], str]) -> Iterator[None]:
-    """While a request is under way, `scrub` takes the key out of what the HTTP library logs for it."""
+    """Remove a key with `scrub` from the logs of the HTTP library while the block runs."""
     for name in _loggers():
-        logging.getLogger(name).addFilter(_SCRUB)  # once: the same filter is not added again
+        logging.getLogger(name).addFilter(_SCRUB)  # the same filter is never added twice
     token = _IN_USE.set(scrub)
     try:
         yield
@@ -38,6 +38,6 @@ def scrubbed(scrub: Callable[[str], str]) -> Iterator[None]:
 
 
 def _loggers() -> set[str]:
-    """Loggers that may log a header: the names known here, and all loggers below them."""
+    """Return loggers that may log a header: the known names, and all existing loggers below them."""
     known = {*_FAMILIES, *(f"{family}.{module}" for family in _FAMILIES for module in _MODULES)}
     return known | {name for name in list(logging.root.manager.loggerDict) if name.partition(".")[0] in _FAMILIES}

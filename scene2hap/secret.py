@@ -1,4 +1,4 @@
-"""Secret: a key that reaches the header of a request and nothing else."""
+"""Secret: a key that is written only into the header of a request."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from scene2hap.errors import ConfigError
 MASK = "******"
 
 _SHORTEST_SCRUBBED = 16
-"""Characters; assumed. Real keys are longer; the dummies that local servers want ("EMPTY", "lm-studio") are words
-that an answer may well contain."""
+"""Least number of characters that are scrubbed; assumed. Real keys are longer. Local servers use dummies ("EMPTY",
+"lm-studio"), words that an answer may contain."""
 
 
 class Secret:
-    """A key that never appears in text: given, or read from an environment variable at each use."""
+    """A key that never appears in text. It is given, or read from an environment variable at each use."""
 
     __slots__ = ("_value", "variable")
 
@@ -38,18 +38,18 @@ class Secret:
         raise TypeError("a service with a key is not pickled, lest the key reach a file; build it again instead.")
 
     def reveal(self) -> str:
-        """The key itself, "" where there is none.
+        """Return the key itself, "" if there is none.
 
-        Raises: ConfigError: it holds characters that no header may carry (httpx would quote them in its error).
+        Raises: ConfigError: it holds characters that a header cannot hold (httpx would show them in its error).
         """
         value = (self._value or os.environ.get(self.variable, "")).strip()
         if not (value.isascii() and value.isprintable()):
-            del value  # reporters of errors show local variables
+            del value  # error reporters show local variables
             raise ConfigError("the API key holds line breaks or characters outside ASCII; copy it again.")
         return value
 
     def scrub(self, text: str) -> str:
-        """The text without the key, should somebody have echoed it, in whatever spelling (`scene2hap.echoes`)."""
+        """Remove the key from a text, in any spelling, in case a server echoed it (`scene2hap.echoes`)."""
         value = self.reveal()
         if len(value) < _SHORTEST_SCRUBBED:
             return text

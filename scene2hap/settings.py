@@ -1,4 +1,4 @@
-"""The base of every configuration: frozen, without unknown settings, and with errors of our own."""
+"""The base class of every configuration: frozen, with our own errors, and without unknown settings."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from scene2hap.text_files import read_small_text
 
 @clear_attributes
 class Settings(BaseModel):
-    """Settings from TOML, JSON or a mapping; a configuration lives beside the part that it configures.
+    """Settings from TOML, JSON or a mapping. Each configuration is defined beside the part that it configures.
 
     `of_what` names the part in error messages, and its table in a file of settings.
-    Raises: ConfigError: a setting that does not exist, whose message names the nearest, or one out of bounds.
+    Raises: ConfigError: an unknown setting, with a suggestion in the message, or one out of bounds.
     """
 
-    # Inputs are hidden in pydantic's own text, which stands in tracebacks, since a setting may be a key.
+    # Inputs are hidden in pydantic's messages, which appear in tracebacks, since a setting may be a key.
     model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, hide_input_in_errors=True)
 
     of_what: ClassVar[str]
@@ -53,10 +53,10 @@ class Settings(BaseModel):
 
     @classmethod
     def parse(cls, settings: Self | Mapping[str, Any] | str | os.PathLike[str] | None, **changes: Any) -> Self:
-        """A configuration from settings, or the default, with `changes` on top; those that are None are left out.
+        """Return a configuration from settings or defaults, overridden by `changes`; changes of None are ignored.
 
-        A path is that of a TOML or JSON file, whose table `of_what` is taken.
-        Raises: ConfigError: a setting that does not exist or is out of bounds, or a file that cannot be read.
+        A path names a TOML or JSON file; its table `of_what` is read.
+        Raises: ConfigError: an unknown setting, one out of bounds, or a file that cannot be read.
         """
         wanted = {name: value for name, value in changes.items() if value is not None}
         if isinstance(settings, cls) and not wanted:
@@ -94,9 +94,9 @@ SECTIONS = ("bake", "session", "user")
 
 
 def read_settings(path: str | None, section: str) -> dict[str, Any]:
-    """One of `SECTIONS` of a settings file; empty without a file.
+    """Read one of `SECTIONS` from a settings file; empty without a file.
 
-    Raises: ConfigError: the file cannot be read, or holds something else.
+    Raises: ConfigError: the file cannot be read, or has other content.
     """
     if path is None:
         return {}
@@ -123,6 +123,6 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
 
 
 def cache_folder(part: str) -> Path:
-    """Default folder of a part's cache, in the user's folder of caches."""
+    """Return the default folder of a part's cache, in the user's cache folder."""
     root = os.environ.get("XDG_CACHE_HOME") or (os.environ.get("LOCALAPPDATA") if os.name == "nt" else "")
     return (Path(root) if root else Path.home() / ".cache") / "scene2hap" / part

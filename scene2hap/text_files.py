@@ -1,4 +1,4 @@
-"""Files of text: read if they are files and not too large, written whole or not at all."""
+"""Text files: reading of regular files with a size limit, and writing whole files or none."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from contextlib import suppress
 from pathlib import Path
 
 MAX_BYTES = 1 << 24
-"""Of one file; assumed: a hundred times the largest that is written by hand, and parsed in seconds."""
+"""Most bytes of one file; assumed: a hundred times the largest handwritten one, and parsed in seconds."""
 
 
 def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
-    """The content of a regular file. Pipes and devices are refused, since they may have no end.
+    """Read a regular file. Pipes and devices are rejected, since they may have no end.
 
-    Raises: OSError, ValueError: there is no such file, it is none, or it is larger than `max_bytes`.
+    Raises: OSError, ValueError: there is no such file, it is no regular file, or it is larger than `max_bytes`.
     """
-    # Without O_NONBLOCK opening a pipe blocks. The open file is checked, since its name may mean another file by now.
+    # O_NONBLOCK: opening a pipe would block. The open file is checked, since its path may have been replaced meanwhile.
     descriptor = os.open(Path(path), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(descriptor, "rb") as file:
         found = os.fstat(descriptor)
@@ -30,12 +30,12 @@ def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> byte
 
 
 def read_small_text(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> str:
-    """The same as text in UTF-8, with or without a byte-order mark. Raises: OSError, ValueError."""
+    """Read a regular file as UTF-8 text, with or without a byte-order mark. Raises: OSError, ValueError."""
     return read_small(path, max_bytes).decode("utf-8-sig")
 
 
 def write_whole(path: Path, content: str | bytes) -> None:
-    """Write a file that takes its place once it is on the disk; an earlier one stays where that fails.
+    """Write a file beside its path, then replace the path with it. If this fails, an earlier file stays unchanged.
 
     Raises: OSError.
     """

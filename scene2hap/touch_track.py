@@ -1,8 +1,7 @@
-"""Touches and moves over time, from a file, in place of a game.
+"""A file of touches and moves over time, in place of a game.
 
 docs/touches.md describes the JSON and CSV forms. Times are seconds from the start, points are world metres at that
-moment. A hand that has touched an object stays on it, and goes along when it moves, until it lifts or touches
-something else.
+moment. A hand that touches an object stays on it, and follows its moves, until it lifts or touches another object.
 """
 
 from __future__ import annotations
@@ -24,11 +23,11 @@ FORMAT: Literal["scene2hap/touches"] = "scene2hap/touches"
 VERSION: Literal[1] = 1
 
 MIN_DURATION_S = 0.001
-"""Shorter than this there may be no sample at all."""
+"""A shorter track may have no sample at all."""
 MAX_DURATION_S = 600.0
-"""Assumed: what is written for a demonstration or a trial takes minutes; as long as a sound may be."""
+"""Assumed: demonstrations and trials take minutes; this is also the longest duration of a sound."""
 MAX_STEPS = 100_000
-"""Assumed: more than two hands, both moved at each of 60 frames a second for `MAX_DURATION_S`, would ask for."""
+"""Assumed: more than two hands need that both move in each of 60 frames a second for `MAX_DURATION_S`."""
 
 _Point = tuple[float, float, float]
 _TOUCHES = "touches"
@@ -44,7 +43,7 @@ class _Step(BaseModel):
 class TouchStep(_Step):
     """A hand touches an object: at a point, or in the middle of its dominant surface.
 
-    With `glide_s` a hand that is on the object already slides there in that time.
+    If the hand is on the object already, it slides to the point within `glide_s` [s].
     """
 
     hand: str
@@ -54,14 +53,14 @@ class TouchStep(_Step):
 
 
 class LiftStep(_Step):
-    """A hand lets go."""
+    """A hand leaves its object."""
 
     hand: str
     lift: Literal[True]
 
 
 class MoveStep(_Step):
-    """An object goes to a place, or by an offset, in `glide_s` seconds; `rotation_xyzw` None keeps its rotation."""
+    """An object moves to a position, or by an offset, in `glide_s` seconds. `rotation_xyzw` None keeps its rotation."""
 
     move: str
     to_m: _Point | None = None
@@ -101,7 +100,7 @@ Step = Annotated[
 
 @clear_attributes
 class TouchTrack(BaseModel):
-    """Steps in order of time, and how long it all lasts."""
+    """Steps in order of time, and the duration of the track."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -148,11 +147,11 @@ class TouchTrack(BaseModel):
 
     @classmethod
     def parse(cls, document: Any, name: str = _TOUCHES) -> TouchTrack:
-        """A track from plain values. Raises: SessionError."""
+        """Make a track from plain values. Raises: SessionError."""
         if not isinstance(document, dict) or not all(isinstance(key, str) for key in document):
             raise SessionError(f"{name}: whole file: it must be an object with duration_s and steps.")
         steps = document.get("steps")
-        if isinstance(steps, (list, tuple)) and len(steps) > MAX_STEPS:  # before each of them is looked at
+        if isinstance(steps, (list, tuple)) and len(steps) > MAX_STEPS:  # before each step is validated
             raise SessionError(f"{name}: steps: {len(steps)} items; at most {MAX_STEPS} items. See docs/touches.md.")
         try:
             return cls(**document)
@@ -161,7 +160,7 @@ class TouchTrack(BaseModel):
 
 
 def _place(location: tuple[int | str, ...]) -> str:
-    """Where in a file an error is, in its reader's words: "step 3, point_m.1"."""
+    """Return the place of an error in a file, in the user's terms: "step 3, point_m.1"."""
     if location[:1] == ("steps",) and len(location) > 1:
         field = ".".join(str(part) for part in location[2:] if part not in _ACTIONS)
         return f"step {int(location[1]) + 1}{', ' + field if field else ''}"
@@ -169,7 +168,7 @@ def _place(location: tuple[int | str, ...]) -> str:
 
 
 def _from_csv(text: str) -> dict[str, Any]:
-    """A CSV file: a row per step, empty cells left out; a row with time_s alone ends the track."""
+    """Parse a CSV file with a row per step. Empty cells are left out. A row with only time_s ends the track."""
     steps: list[dict[str, Any]] = []
     for row in csv.DictReader(text.splitlines()):
         cells = {key.strip(): value.strip() for key, value in row.items() if key and value and value.strip()}

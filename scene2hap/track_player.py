@@ -1,4 +1,4 @@
-"""Plays a touch track on a session, as a game would: one update per frame, then the samples up to the next."""
+"""Play a touch track on a session, as a game would: one update per frame, then the samples up to the next frame."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
 
 MAX_UPDATE_RATE_HZ = 1000.0
-"""Assumed: trackers and haptic loops run at 1 kHz at most."""
+"""Assumed: trackers and haptic loops run at no more than 1 kHz."""
 
 
 class PullSink(Protocol):
-    """A sink without a clock of its own, such as WavSink and MemorySink."""
+    """A sink without a clock, such as WavSink and MemorySink."""
 
     def pull(self, n_frames: int) -> Block:
         """Take the next frames."""
@@ -33,7 +33,7 @@ class PullSink(Protocol):
 
 @dataclass(frozen=True)
 class PlayedFrame:
-    """One update of a played track: when [s], where the hands were, and what they were given."""
+    """One update of a played track: its time [s], the touches, and the gains and samples of the hands."""
 
     time_s: float
     touches: tuple[Touch, ...]
@@ -50,10 +50,10 @@ def play_track(
     update_rate_hz: float = 100.0,
     on_frame: Callable[[PlayedFrame], None] | None = None,
 ) -> None:
-    """Play a track on a started session, as a game of `update_rate_hz` frames per second would, into its sink.
+    """Play a track on a started session and into its sink, like a game with `update_rate_hz` frames per second.
 
-    Raises: SessionError, UnknownObject: a step names a hand or an object that is not there; SessionError: a rate
-    outside of 1 to `MAX_UPDATE_RATE_HZ`.
+    Raises: SessionError, UnknownObject: a step names an unknown hand or object; SessionError: a rate outside of 1 to
+    `MAX_UPDATE_RATE_HZ`.
     """
     if not isinstance(track, TouchTrack):
         raise SessionError(
@@ -122,7 +122,7 @@ class _TrackState:
             session.set_source(step.source, on=step.on, state=step.state, gain_db=step.gain_db)
 
     def moved(self, time_s: float) -> dict[str, Pose]:
-        """Poses of the moving objects. Called once per frame; then drops the motions that are over."""
+        """Return the poses of the moving objects, and drop finished motions. Call it once per frame."""
         for object_id, motion in list(self.moves.items()):
             position = motion.at(time_s)
             self.poses[object_id] = Pose(_triple(position), self.poses[object_id].rotation_xyzw)

@@ -1,8 +1,8 @@
-"""One bounded HTTP exchange: so many bytes, so many seconds. Every use of HTTP goes through here.
+"""One HTTP exchange with limits on bytes and seconds. All HTTP traffic goes through here.
 
-Bytes are counted as they come and as they unpack, since a megabyte of gzip may hold a gigabyte. The seconds count from
-the first to the last byte, name look-up included, so that a server that drips cannot hold a bake. httpx is imported
-when the first request is sent.
+Bytes are counted both packed and unpacked, since a megabyte of gzip may hold a gigabyte. The seconds count from the
+name look-up to the last byte, so that a slow server cannot block a bake. httpx is imported when the first request is
+sent.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ if TYPE_CHECKING:
     Transport: TypeAlias = httpx.AsyncBaseTransport
 
 CONNECT_TIMEOUT_S = 10.0
-"""Assumed: whoever has not accepted a connection by then is not there."""
+"""Assumed: a server that has not accepted a connection by then is unreachable."""
 MAX_REDIRECTS = 3
 
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 _ANY_ZLIB_HEADER = 47
-"""Window bits by which zlib reads gzip and zlib alike."""
+"""Window bits with which zlib reads both gzip and zlib."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class WebReply:
 
     @property
     def retry_after(self) -> str:
-        """When to ask again, as the server wrote it; "" where it says nothing."""
+        """The server's Retry-After header as written, "" if absent."""
         return self.headers.get("retry-after", "")
 
     @property
@@ -69,7 +69,7 @@ class Limits:
 
 
 def is_safe(url: str) -> bool:
-    """Whether an address is encrypted, or on this very machine, and carries no credentials."""
+    """Return True if an address is encrypted or on this machine, and has no credentials."""
     try:
         parts = urlsplit(url)
         host = parts.hostname or ""
@@ -83,7 +83,7 @@ def is_safe(url: str) -> bool:
 
 
 def checked_base(url: str) -> str:
-    """A service's base address without its last slash. Raises: ConfigError: it is not safe to send a token to."""
+    """Return a service's base address without its last slash. Raises: ConfigError: it is unsafe for a token."""
     if not isinstance(url, str) or not is_safe(url) or urlsplit(url).query:
         raise ConfigError(
             "base_url must be an https address (http on this machine alone) without credentials or query, such as "
@@ -101,10 +101,10 @@ def get(
     scrub: Callable[[str], str] = str,
     transport: Transport | None = None,
 ) -> WebReply:
-    """Get a safe address; every status is a reply.
+    """Get a safe address. Returns every status.
 
-    With an `authorization` no redirect is followed: what it says is for this host alone. Without one, up to three.
-    Raises: BackendUnavailable: no whole reply came; tells whether trying again can help.
+    With an `authorization`, redirects are not followed, since it is for this host only. Without one, up to three are.
+    Raises: BackendUnavailable: no whole reply came; states whether a retry can help.
     """
 
     def ask() -> WebReply:
@@ -122,7 +122,7 @@ def get(
             )
         )
 
-    # A thread of its own: there is a loop in it whether or not the caller runs one.
+    # In a separate thread, so that this works whether or not the caller runs an event loop.
     with ThreadPoolExecutor(max_workers=1) as pool:
         return pool.submit(ask).result()
 
@@ -141,12 +141,12 @@ async def exchange(
     scrub: Callable[[str], str] = str,
     transport: Transport | None = None,
 ) -> WebReply:
-    """Send one request and read its reply within the limits; every status is a reply.
+    """Send one request, and read its reply within the limits. Returns every status.
 
-    `authorization` gives the header of that name, "" for none; `safe_only` refuses addresses that are not `is_safe`,
-    those of redirects too; `scrub` takes a key out of what the HTTP library logs, and says of an error and its causes.
-    Raises: BackendUnavailable: no whole reply came; tells whether trying again can help. ConfigError: the proxy that
-    the environment names cannot be used.
+    `authorization` returns the header of that name, "" for none. `safe_only` rejects addresses that are not `is_safe`,
+    including redirects. `scrub` removes a key from logs of the HTTP library, from errors and from their causes.
+    Raises: BackendUnavailable: no whole reply came; states whether a retry can help. ConfigError: the proxy in the
+    environment cannot be used.
     """
     import httpx
 
@@ -158,10 +158,10 @@ async def exchange(
     async def check(request: httpx.Request) -> None:
         if safe_only and not is_safe(str(request.url)):
             raise httpx.UnsupportedProtocol(f"it leads to {request.url.scheme}://{request.url.host}, which is not safe")
-        if transport is None and not getproxies():  # a proxy looks names up itself
+        if transport is None and not getproxies():  # a proxy resolves names itself
             await _look_up(request.url.host)
 
-    # No compression is requested; a compressed reply is unpacked within the limit.
+    # No compression is requested. If a reply is compressed anyway, it is unpacked within the limit.
     headers = {"accept-encoding": "identity"}
     if body is not None:
         headers["content-type"] = content_type
@@ -200,10 +200,10 @@ async def exchange(
 
 
 async def _look_up(host: str) -> None:
-    """Wait until the resolver knows a name, or that there is none, as the connection tells then.
+    """Wait until a name is resolved or the look-up has failed; in that case the connection reports the error.
 
-    In a thread that nobody waits for: a look-up cannot be interrupted, and those of an event loop are waited for when
-    it closes, and by Python at its end, whatever time is left.
+    The look-up runs in a daemon thread, since it cannot be interrupted. An event loop that closes, and Python when it
+    exits, would wait for a thread of the loop's executor without regard to the time limit.
     """
     loop = asyncio.get_running_loop()
     known = loop.create_future()
@@ -215,7 +215,7 @@ async def _look_up(host: str) -> None:
     def ask() -> None:
         with contextlib.suppress(OSError, UnicodeError):
             socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
-        with contextlib.suppress(RuntimeError):  # the loop is closed: it did not wait
+        with contextlib.suppress(RuntimeError):  # the loop was closed in the meantime
             loop.call_soon_threadsafe(tell)
 
     threading.Thread(target=ask, name=f"look up {host[:40]}", daemon=True).start()
@@ -223,9 +223,9 @@ async def _look_up(host: str) -> None:
 
 
 async def _body(response: httpx.Response, url: str, max_bytes: int) -> bytes:
-    """The body, unpacked. Raises: BackendUnavailable: it is too large, or packed in a way that is not read."""
+    """Return the unpacked body. Raises: BackendUnavailable: too large, or in an unsupported packing."""
     if response.is_stream_consumed:
-        # A transport of one's own, without a network, may hand over what it holds already.
+        # A custom transport without a network may return a response that is already read.
         _require_at_most(len(response.content), url, max_bytes)
         return response.content
     packing = response.headers.get("content-encoding", "identity").strip().lower()
@@ -255,7 +255,7 @@ def _require_at_most(n_bytes: int, url: str, max_bytes: int) -> None:
 
 
 def _client(transport: Transport | None, timeout_s: float, check: Callable[..., object]) -> httpx.AsyncClient:
-    """One per request: a pool would outlive the event loop of asyncio.run and leak its sockets."""
+    """Make a client for one request. A shared pool would outlive the event loop of asyncio.run and leak its sockets."""
     import httpx
 
     try:
@@ -267,7 +267,7 @@ def _client(transport: Transport | None, timeout_s: float, check: Callable[..., 
             event_hooks={"request": [check]},
         )
     except (ImportError, ValueError):
-        # The address of a proxy may hold a password: neither it nor the cause is shown.
+        # The address of a proxy may hold a password, so the address and the cause are not shown.
         raise ConfigError(
             "the proxy that the environment names cannot be used. Check ALL_PROXY, HTTPS_PROXY and HTTP_PROXY (SOCKS "
             "needs the package socksio), or unset them."
@@ -276,16 +276,16 @@ def _client(transport: Transport | None, timeout_s: float, check: Callable[..., 
 
 @cache
 def _ssl_context() -> ssl.SSLContext:
-    """Made once: reading the certificates takes some 30 ms, during which no other call goes on."""
+    """Return the context, which is made only once: reading certificates blocks all other calls for some 30 ms."""
     import httpx
 
     return httpx.create_ssl_context()
 
 
 def _without_frames(error: BaseException, scrub: Callable[[str], str]) -> BaseException:
-    """The error, its causes and contexts without their tracebacks, and without the key that a server put into them.
+    """Remove the tracebacks, and a key that a server echoed, from an error with its causes and contexts.
 
-    The frames of the HTTP library have the header among their local variables, which reporters of errors show.
+    The frames of the HTTP library have the header among their local variables, which error reporters show.
     """
     waiting: list[BaseException | None] = [error]
     seen: set[int] = set()

@@ -1,4 +1,4 @@
-"""Design time: a scene in, a bundle out."""
+"""Design time: bakes a scene into a bundle."""
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.scene import abake, arebake, bake, bake_object, rebake

@@ -25,18 +25,18 @@ def _sources(specs: object) -> object:
 class BakeConfig(InferenceConfig):
     """Settings of a bake. Every part is chosen by a `kind`, or given ready made.
 
-    llm : the backend of inference, whose course the settings of `InferenceConfig` decide. One that is reached over a
-        network gets retries, repairs and a cache around it (`standard_stack`), unless it is given ready made.
-    cache_dir : where its answers are kept, None for the user's folder of caches.
-    max_cost_usd : what the answers may cost, checked before each call, None for no limit.
+    llm : the backend of inference; `InferenceConfig` has the settings of inference itself. A backend with a network
+        address gets retries, repairs and a cache (`standard_stack`), unless it is given ready made.
+    cache_dir : folder of stored answers, None for the user's cache folder.
+    max_cost_usd : limit on the cost of the answers, checked before each call; None for no limit.
     prices : of models, in US dollars per million tokens read and written (and read from the service's prompt cache),
-        beside the dated list.
-    audio : where sounds come from, tried in order until `enough_candidates` remain.
-    enough_candidates : how many sounds to choose from; 1 is the paper's rule.
-    tactile : what turns sound into touch.
-    actuator : what it is turned for, by name, CSV file or fields.
+        in addition to the dated list.
+    audio : sound sources, tried in order until `enough_candidates` remain.
+    enough_candidates : number of sounds to choose from; 1 is the paper's rule.
+    tactile : the converter of sound into vibration.
+    actuator : the actuator that plays the vibration, by name, CSV file or fields.
     spread : how far a source may be moved in frequency and level to be distinct from the others.
-    seed : of everything that is synthesized.
+    seed : for all synthesized sounds.
     """
 
     of_what = "bake"
@@ -55,7 +55,7 @@ class BakeConfig(InferenceConfig):
     @field_validator("llm", mode="before")
     @classmethod
     def _in_its_stack(cls, spec: object, info: ValidationInfo) -> object:
-        # Folder, limit and prices stand before the backend in the class, so they are known here.
+        # The class defines folder, limit and prices before the backend, so they are validated by now.
         folder = info.data.get("cache_dir") or cache_folder("llm")
         limits = {"max_cost": info.data.get("max_cost_usd"), "prices": info.data.get("prices")}
         return build_backend(spec, folder, **limits)

@@ -1,4 +1,4 @@
-"""Fingerprint of a loop: one digest for each of its inputs. A loop is made again if one differs.
+"""Fingerprint of a loop: one digest for each of its inputs. If one differs, the loop is made again.
 
 sound      the clip before it was cut
 words      the request for the sound: category, state, sentence, keywords, seed
@@ -6,9 +6,9 @@ sources    the sound sources, in their order, and how many candidates were enoug
 converter  kind and settings
 actuator   the profile
 intensity  of the state
-plan       where the source was placed among the others: frequencies and level
+plan       the source's place among the others: frequencies and level
 
-`words` and `sources` decide whether a sound is chosen again, the others whether its loops are made again.
+If `words` or `sources` differ, a sound is chosen again. If another digest differs, its loops are made again.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.haptics import VibrationDescription
 
 OWN_CLIP = "own clip"
-"""Stands for words and sources where a person gave the sound."""
+"""Replaces the digests of words and sources if a person gave the sound."""
 
 _MADE_BY = ("sound", "converter", "actuator", "intensity", "plan")
 _NO_FINGERPRINT = "no fingerprint"
 
 
 def request_digests(description: VibrationDescription, config: BakeConfig) -> dict[str, str]:
-    """The digests that decide which sound is chosen: of the words and of the sound sources."""
+    """Return the digests that decide which sound is chosen: of the words and of the sound sources."""
     words = (description.object_category, description.state, description.sentence, description.keywords)
     sources = [described(source) for source in config.audio]
     return {
@@ -45,12 +45,12 @@ def request_digests(description: VibrationDescription, config: BakeConfig) -> di
 
 
 def converter_name(converter: object) -> str:
-    """The digest of a converter and its settings; takes milliseconds, since guests are looked for among packages."""
+    """Return the digest of a converter and its settings. Takes milliseconds, since it searches installed packages."""
     return _name([converter_settings(converter), described(converter)])
 
 
 def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
-    """The digests that decide how the loops of a clip are made; `converter` is that of `converter_name`."""
+    """Return the digests that decide how the loops of a clip are made. `converter` comes from `converter_name`."""
     context = plan.context
     # A converter with a given target does not need the other sources' frequencies.
     neighbours_hz = () if context.target_hz is not None else sorted(context.neighbours_hz)
@@ -61,13 +61,13 @@ def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
         "converter": converter,
         "actuator": _name(asdict(context.actuator)),
         "intensity": f"{context.intensity:g}",
-        # To a hundredth of a hertz or decibel: other machines round otherwise, and nobody feels less.
+        # Rounded to 0.01 Hz and 0.01 dB: machines differ in the last digits, and smaller differences cannot be felt.
         "plan": _name([_rounded(places), _rounded(neighbours_hz)]),
     }
 
 
 def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str, ...]:
-    """Names of the inputs of a loop that differ; the plan only if it is the only one, since it follows from others."""
+    """Return the inputs of a loop that differ. The plan is named only if it is alone, since it follows from others."""
     if not earlier:
         return (_NO_FINGERPRINT,)
     found = tuple(part for part in _MADE_BY if earlier.get(part) != now[part])
@@ -75,7 +75,7 @@ def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str
 
 
 def converter_settings(converter: object) -> dict[str, Any]:
-    """A converter as configuration that builds it again, or its class alone where nobody has registered it."""
+    """Return the configuration that builds a converter again, or only its class if it is not registered."""
     place = f"{type(converter).__module__}:{type(converter).__qualname__}"
     guests = {entry.name: entry.value for entry in entry_points(group=CONVERTERS.name)}
     kinds = [kind for kind, value in {**guests, **CONVERTERS.builtins}.items() if value == place]
@@ -89,7 +89,7 @@ def converter_settings(converter: object) -> dict[str, Any]:
 
 
 def described(part: object) -> str:
-    """The `repr` of a part, or its class: the default `repr` holds an address, which differs in each run."""
+    """Return the `repr` of a part, or its class name: the default `repr` holds an address that differs in each run."""
     return type(part).__qualname__ if type(part).__repr__ is object.__repr__ else repr(part)
 
 

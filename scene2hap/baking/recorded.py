@@ -1,8 +1,8 @@
-"""Starts and stops that recordings show, in the place of those that were inferred.
+"""Start and stop times from recordings, which replace inferred times.
 
-A state's `start_up_s` and `wind_down_s` are inferred until its recording shows a start or a stop; the loop then keeps
-the curve, and with it the time that was inferred, which holds again once there is another recording. A time that
-somebody wrote into the bundle stays until the recording changes.
+A state's `start_up_s` and `wind_down_s` are inferred until its recording has a start or a stop. The loop then stores
+the curve together with the inferred time, which is restored if another recording replaces this one. A time that a
+person wrote into the bundle stays until the recording changes.
 """
 
 from __future__ import annotations
@@ -16,23 +16,23 @@ from scene2hap.audio.run_curve import RunCurve
 from scene2hap.haptics import ObjectHaptics, SourceState
 
 RECORDING = "recording"
-"""Provenance of a time that a recording shows."""
+"""Provenance of a time that comes from a recording."""
 
 Runs = tuple[RunCurve | None, RunCurve | None]
-"""The curves of a start and of a stop, None where the recording shows none."""
+"""The curves of a start and of a stop; None if the recording has none."""
 
 NO_RUNS: Runs = (None, None)
 
 
 def runs_of(loop: HapticLoop | None) -> Runs:
-    """The curves that a loop keeps."""
+    """Return the start and stop curves that a loop stores."""
     return NO_RUNS if loop is None else (loop.start_up, loop.wind_down)
 
 
 def shown_runs(runs: Runs, state: SourceState, before: HapticLoop | None) -> Runs:
-    """Curves of a recording that are taken for a start and a stop of a state, beside those of its loop before.
+    """Return the start and stop curves of a recording that apply to a state, given the state's earlier loop.
 
-    What spins and yet keeps its pitch while it comes up was faded in an editor.
+    The curve of a spinning source with constant pitch is ignored: it is a fade made in an editor.
     """
     start_up, wind_down = (None if curve is None or (state.spins and curve.keeps_pitch) else curve for curve in runs)
     start_up_before, wind_down_before = runs_of(before)
@@ -47,7 +47,7 @@ def with_recorded_times(
     loops: Mapping[str, Mapping[str, HapticLoop]],
     before: Mapping[str, Mapping[str, HapticLoop]],
 ) -> dict[str, ObjectHaptics]:
-    """Objects by id, with the times that their loops' recordings show where these differ from the loops before."""
+    """Return objects by id, with the times from their loops' recordings if these differ from the earlier loops'."""
     return {
         key: _object(haptics, loops.get(key, {}), before.get(key, {})) if haptics.states else haptics
         for key, haptics in objects.items()
@@ -69,7 +69,7 @@ def _object(haptics: ObjectHaptics, loops: Mapping[str, HapticLoop], before: Map
 
 
 def _timed(state: SourceState, name: str, now: RunCurve | None, before: RunCurve | None) -> SourceState:
-    """A state with the time of its start or stop [s] that a recording shows, if that is another one than before."""
+    """Return a state with the time of its start or stop [s] from a recording, if it differs from the earlier one."""
     if now is before:
         return state
     changes: dict[str, Any] = {}

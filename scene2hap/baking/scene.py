@@ -1,7 +1,7 @@
-"""Design time: a scene in, a bundle out.
+"""Design time: bakes a scene into a bundle.
 
-Inference names each object and how it vibrates; a sound is found or made for each state of each vibrating
-object, the best candidate chosen, looped and turned into a tactile signal.
+Inference names each object and its vibration. For each state of each vibrating object, a sound is found or synthesized.
+The best candidate is chosen, looped and converted into a tactile signal.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ VIBRATES = "This object vibrates by itself: tell in which states."
 """Prompt for an object that a person wants to vibrate."""
 
 _ASSUMED_INTENSITY = 0.3
-"""Of a state that a person wants and no model describes."""
+"""Intensity of a state that a person requests and no model describes."""
 
 
 @clear_call
@@ -54,14 +54,14 @@ def bake(
     on_report: OnReport | None = None,
     overrides: Mapping[str, Override] | None = None,
 ) -> HapticBundle:
-    """Bake a scene; `abake` for callers that run an event loop.
+    """Bake a scene. Where an event loop runs, use `abake`.
 
     Parameters:
     scene : a snapshot, or the path of a scene file, which `load_scene` reads.
     config : a BakeConfig, its settings, or the path of a TOML or JSON file with a table `bake`.
-    user_prompt : instruction to the model above all others.
-    on_report : is handed the account of the inference: calls, what was skipped, tokens, errors of single objects.
-    overrides : a person's corrections by id, as of an earlier bundle of the scene; they outrank what is inferred.
+    user_prompt : instruction to the model, with priority over all others.
+    on_report : receives the report of the inference: calls, skipped calls, tokens, errors of single objects.
+    overrides : a person's corrections by id, for example of an earlier bundle; they replace inferred values.
 
     Raises: ConfigError; BackendError: inference failed; AudioError: no source has a sound for a vibrating object.
     """
@@ -96,7 +96,7 @@ async def with_sounds(
     config: BakeConfig,
     progress: Progress | None = None,
 ) -> HapticBundle:
-    """The bundle of a scene whose objects are inferred; what `bake` does behind inference. Raises: AudioError."""
+    """Make the sounds of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
     objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
     sounds = await make_loops(objects, wishes, config, progress or _say_nothing)
     objects = _as_recorded(objects, sounds.loops, {}, wishes)
@@ -113,9 +113,9 @@ def bake_object(
     user_prompt: str = "",
     override: Override | None = None,
 ) -> HapticBundle:
-    """Bake one object, away from any scene: a prefab, of which `HapticSession.spawn` adds copies.
+    """Bake one object without a scene: a prefab. `HapticSession.spawn` adds copies of it.
 
-    Its id and pose are those of the original; each copy has its own.
+    The bundle has the id and pose of the original; each copy gets its own.
     Raises: as `bake`; SceneError: not an object.
     """
     if not isinstance(item, SceneObject):
@@ -136,22 +136,22 @@ def rebake(
     on_report: OnReport | None = None,
     on_remade: OnRemade | None = None,
 ) -> HapticBundle:
-    """Bake some objects of a bundle again, and every loop whose inputs have changed.
+    """Bake some objects of a bundle again, and make every loop again whose inputs have changed.
 
-    What is said now: overrides, edits of `objects.json`, and settings that are given; settings of the loops that are
-    not given (actuator, tactile, spread, seed) are those that the bundle was made with. All sources are placed together
-    as `bake` places them. A sound is chosen again only if its words changed, or `audio` or `enough_candidates` is given
-    and differs, or its object is named; else its loops are made from the sound that the bundle keeps.
+    Inputs are the overrides, edits of `objects.json`, and the given settings. Settings of the loops that are not given
+    (actuator, tactile, spread, seed) are taken from the bundle. All sources are placed together, as by `bake`. A
+    sound is chosen again only if its words changed, if `audio` or `enough_candidates` is given and differs, or if its
+    object is in `objects`. Otherwise loops are made from the sound in the bundle.
 
     Parameters:
     bundle : a HapticBundle, or the path of its folder.
     objects : ids to infer again, with `user_prompt`; a cache answers repeated requests.
-    corrections : a file of corrections that a viewer of a report saved; applied first, as by `HapticBundle.corrected`.
-    on_remade : is handed the loops that were made, by id and state, each with what differed: "sound", "converter",
-        "actuator", "intensity", "plan" (where the source lies among the others), "new", or "no fingerprint". `progress`
-        receives the same.
+    corrections : a file of corrections saved in a report's viewer; applied first, as by `HapticBundle.corrected`.
+    on_remade : receives the loops that were made, by id and state, with the inputs that differed: "sound",
+        "converter", "actuator", "intensity", "plan" (the source's place among the others), "new", or
+        "no fingerprint". `progress` receives the same.
     Raises: as `bake`; UnknownObject. ConfigError: the bundle's converter was given ready made; give it again.
-    Warns: BundleWarning: loops of an older bundle, which have no fingerprint, stay as they are.
+    Warns: BundleWarning: loops of an older bundle, which have no fingerprint, stay unchanged.
     """
     return run_waiting(
         arebake(
@@ -214,7 +214,7 @@ async def arebake(
 
 
 def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None:
-    """Warn of what is almost surely wrong; of units, whoever makes the scene has warned."""
+    """Warn about probable mistakes. Units are left out, since `load_scene` has warned about them."""
     for found in scene.check():
         if found.kind != "units":
             warnings.warn(str(found), SceneWarning, stacklevel=2)
@@ -238,7 +238,7 @@ def _made_with(config: BakeConfig) -> MadeWith:
 
 
 def _settings_of(bundle: HapticBundle, config: BakeConfig) -> BakeConfig:
-    """The settings with those of the bundle in place of what is not given. Raises: ConfigError: see `rebake`."""
+    """Return the settings. The bundle's settings replace absent ones. Raises: ConfigError: see `rebake`."""
     if bundle.made_with is None:
         return config
     kept = {name: getattr(bundle.made_with, name) for name in ("actuator", "spread", "seed", "tactile")}
@@ -254,13 +254,13 @@ def _settings_of(bundle: HapticBundle, config: BakeConfig) -> BakeConfig:
 
 
 def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
-    """Whether every loop has a fingerprint; warns of loops without one."""
+    """Return True if every loop has a fingerprint. Warns: BundleWarning: loops without one."""
     unknown = [key for key, states in loops.items() if not all(loop.fingerprint for loop in states.values())]
     if unknown:
         some = ", ".join(unknown[:3]) + (", ..." if len(unknown) > 3 else "")
         warnings.warn(
-            f"the loops of {len(unknown)} sources ({some}) do not tell what they were "
-            "made from, as in bundles of before, and stay as they are. Name actuator or tactile to make them again.",
+            f"the loops of {len(unknown)} sources ({some}) have no fingerprint, as in older bundles, and "
+            "stay as they are. Give actuator or tactile to make them again.",
             BundleWarning,
             stacklevel=3,
         )
@@ -294,7 +294,7 @@ async def _infer(
 
 
 def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
-    """An object's haptics after a person's correction; an object that is to vibrate has at least one state."""
+    """Apply a person's correction to an object. If it makes the object vibrate, the object gets at least one state."""
     if wish is None:
         return haptics
     if wish.vibrates and not haptics.states:
@@ -310,7 +310,7 @@ def _as_recorded(
     before: Mapping[str, Mapping[str, HapticLoop]],
     wishes: Mapping[str, Override],
 ) -> dict[str, ObjectHaptics]:
-    """The objects with the times that recordings show, which a person's corrections outrank."""
+    """Return the objects with the times from recordings. A person's corrections have priority."""
     return {
         key: wishes[key].applied(haptics) if key in wishes else haptics
         for key, haptics in with_recorded_times(objects, loops, before).items()

@@ -1,7 +1,7 @@
-"""A sound for each state of each vibrating object: found or made, chosen, looped, and turned into touch.
+"""Sounds for each state of each vibrating object: found or synthesized, chosen, looped, and converted into vibration.
 
-Equal things are done once: states that ask for the same sound share it, and those that then convert it alike share the
-loops. What an earlier bundle has is taken from there where its fingerprint still holds.
+Equal work is done once: states with equal requests share the sound, and states with equal conversions share the loops.
+A loop of an earlier bundle is reused if its fingerprint is unchanged.
 """
 
 from __future__ import annotations
@@ -31,26 +31,26 @@ from scene2hap.bundle import BundleWarning, Override
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 
 Progress = Callable[[str, str, int, int], None]
-"""Called with (stage, the step, how many are done, of how many)."""
+"""Called with (stage, step, number done, total number)."""
 
 Remade = Mapping[str, Mapping[str, tuple[str, ...]]]
 """Reasons why each loop was made, by id and state: parts of its fingerprint, or "new"."""
 
 _REPEATED_S = 3.0
 _MOST_THREADS = 4
-"""Assumed: each holds the spectra of a clip, some 100 MB, and Python's own part runs in one thread at a time."""
+"""Assumed: each thread holds the spectra of a clip, some 100 MB, and Python code runs in one thread at a time."""
 N_THREADS: ContextVar[int] = ContextVar("N_THREADS", default=0)
-"""Loops made at once, 0 for as many as there are processors: fewer where other processes bake beside this one."""
+"""Number of loops made at once; 0 for one per processor. Fewer are useful if other processes bake at the same time."""
 _NEW: tuple[str, ...] = ("new",)
 _UNCHANGED: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Earlier:
-    """Loops and sounds of an earlier bundle, and the exceptions that may not be reused.
+    """Loops and sounds of an earlier bundle, and limits on their reuse.
 
-    chosen_again : objects whose sounds are chosen again; any_source : keep sounds of other sound sources than the
-    present ones; any_making : leave loops without a fingerprint as they are.
+    chosen_again : objects whose sounds are chosen again; any_source : keep sounds even if they come from other sound
+    sources than the present ones; any_making : leave loops without a fingerprint unchanged.
     """
 
     loops: Mapping[str, Mapping[str, HapticLoop]] = field(default_factory=dict)
@@ -62,7 +62,7 @@ class Earlier:
 
 @dataclass(frozen=True)
 class Sounds:
-    """The loops by object and state, why each sound was chosen where there was a choice, and what was made, and why."""
+    """Loops by object and state, the reason for each choice of a sound, and the reason why each loop was made."""
 
     loops: dict[str, Mapping[str, HapticLoop]] = field(default_factory=dict)
     choices: dict[str, dict[str, str]] = field(default_factory=dict)
@@ -71,8 +71,8 @@ class Sounds:
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """One state of one source, with its sound; without one its earlier loop stays as it is. `runs` are its recorded
-    start and stop."""
+    """One state of one source, with its sound. Without a sound, its earlier loop stays unchanged. `runs` are its
+    recorded start and stop."""
 
     object_id: str
     state: SourceState
@@ -92,9 +92,9 @@ async def make_loops(
     tell: Progress,
     earlier: Earlier | None = None,
 ) -> Sounds:
-    """The loops of all objects.
+    """Make the loops of all objects.
 
-    All sounds are chosen before any is converted, since each source is moved clear of the others.
+    All sounds are chosen before any is converted, since each source is moved away from the frequencies of the others.
     """
     wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
     before = earlier or Earlier()
@@ -126,7 +126,7 @@ async def make_loops(
 async def _made(
     parts: Sequence[_Part], plans: Sequence[Plan], config: BakeConfig, tell: Progress
 ) -> list[tuple[HapticLoop, tuple[str, ...]]]:
-    """The loops of each part, and why they were made; several are under way at once, each in a thread."""
+    """Return the loops of each part, and why they were made. Several threads work at once, one per loop."""
     n_threads = N_THREADS.get() or min(_MOST_THREADS, os.cpu_count() or 1)
     maker, gate = _Maker(config), asyncio.Semaphore(n_threads)
 
@@ -158,7 +158,7 @@ def _is_same(states: Mapping[str, HapticLoop], others: Mapping[str, HapticLoop])
 
 
 class _Chooser:
-    """Finds the sound of each state: a person's own, that of an earlier bundle, or the best that the sources have."""
+    """Find the sound of each state: a person's own, the earlier bundle's, or the best one from the sources."""
 
     def __init__(self, config: BakeConfig, wishes: Mapping[str, Override], earlier: Earlier) -> None:
         self._config, self._wishes, self._earlier = config, wishes, earlier
@@ -166,7 +166,7 @@ class _Chooser:
         self._own: dict[str, tuple[AudioClip, Runs]] = {}
 
     def part(self, object_id: str, haptics: ObjectHaptics, state: SourceState) -> tuple[_Part, str]:
-        """The state with its sound, and why that was chosen, "" where there was no choice."""
+        """Return the state with its sound, and the reason for the choice ("" without a choice)."""
         wish, group = self._wishes.get(object_id), haptics.object_category
         before = self._earlier.loops.get(object_id, {}).get(state.name)
         if wish is not None and wish.locked and before is not None:
@@ -187,7 +187,7 @@ class _Chooser:
                 repeated = None if self._earlier.any_making else _prepared(_repeated(before.audible))
                 return _Part(object_id, state, group, repeated, request, before, runs=runs_of(before)), why
             if self._holds(before.fingerprint, request):
-                clip = before.source or _prepared(_repeated(before.audible))  # None: somebody removed it
+                clip = before.source or _prepared(_repeated(before.audible))  # None if the file was removed
                 request = _with_sources_of(before, request)
                 return _Part(object_id, state, group, clip, request, before, runs=runs_of(before)), why
         if description not in self._chosen:
@@ -219,7 +219,7 @@ class _Chooser:
 
 
 class _Maker:
-    """Makes the loops of each sound, those that come out alike once. Threads may share it."""
+    """Make the loops of each sound; equal ones are made once. Threads may share it."""
 
     def __init__(self, config: BakeConfig) -> None:
         self._config = config
@@ -230,7 +230,7 @@ class _Maker:
         self._converter = converter_name(config.tactile)
 
     def loop(self, part: _Part, clip: AudioClip, plan: Plan) -> tuple[HapticLoop, tuple[str, ...]]:
-        """The loops of a state, and why they were made; () where the earlier ones hold."""
+        """Return the loops of a state, and why they were made; () if the earlier ones were reused."""
         key = id(clip), plan
         with self._lock:
             turn = self._turns.setdefault(key, Lock())
@@ -249,7 +249,7 @@ class _Maker:
             return part.earlier if unchanged else _as_of(part, part.earlier, fingerprint), _UNCHANGED
         if key not in self._made:
             self._made[key] = felt_loop(clip, self._config.tactile, plan)
-        # A person's own clip is kept with the override; once that is gone another sound is to be chosen.
+        # A person's own clip is stored with the override. Without that override, another sound must be chosen.
         source = None if part.request["words"] == OWN_CLIP else clip
         return replace(_as_of(part, self._made[key], fingerprint), source=source), reasons
 
@@ -260,7 +260,7 @@ def _as_of(part: _Part, loop: HapticLoop, fingerprint: Mapping[str, str]) -> Hap
 
 
 def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], config: BakeConfig) -> float | None:
-    """The pitch that a person wants [Hz], moved into the actuator's band.
+    """Return the pitch that a person requests [Hz], moved into the actuator's band; None if none.
 
     Warns: BundleWarning: it was moved, or the converter does not move sources.
     """
@@ -289,7 +289,7 @@ def _with_sources_of(before: HapticLoop, request: Mapping[str, str]) -> dict[str
 
 
 def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:
-    """The steady part of a person's clip, as a bundle keeps it, and its recorded start and stop."""
+    """Return the steady part of a person's clip, as stored in a bundle, and its recorded start and stop."""
     if clip.is_vibration:
         return _prepared(clip), NO_RUNS
     found = recorded_runs(clip.samples, clip.sample_rate_hz)
@@ -300,11 +300,11 @@ def _own(clip: AudioClip) -> tuple[AudioClip, Runs]:
 
 
 def _prepared(clip: AudioClip) -> AudioClip:
-    """The part of a clip that loops are cut from, as a bundle keeps it: made again later, loops come out the same."""
+    """Return the part of a clip from which loops are cut, rounded as in a bundle, so that loops are reproducible."""
     return as_stored(clip if clip.is_vibration else middle_of(clip))
 
 
 def _repeated(loop: AudioClip) -> AudioClip:
-    """A loop as a clip that is long enough to be cut again: at least twice, and three seconds."""
+    """Repeat a loop into a clip that is long enough to be cut again: at least twice, and for three seconds."""
     times = max(2, int(np.ceil(_REPEATED_S / loop.duration_s)))
     return replace(loop, samples=np.tile(loop.samples, times))

@@ -1,4 +1,4 @@
-"""A server for engines in other languages: they send poses and touches, and get gains, over a WebSocket."""
+"""A server for engines in other languages, which send poses and touches over a WebSocket and receive gains."""
 
 from scene2hap.bridge.config import BridgeConfig
 from scene2hap.bridge.server import BridgeServer

@@ -27,17 +27,17 @@ from scene2hap.session import HapticSession
 Document = dict[str, Any]
 
 BAKE_SETTINGS = ("actuator", "enough_candidates", "seed", "spread", "tactile")
-"""Settings of a bake that are a client's. The others name models, keys, prices and folders, which are the server's."""
+"""Bake settings that a client may choose. The server chooses models, keys, prices and folders."""
 
 LONGEST_PREPARATION_S = 60.0
-"""For which `play` waits before it answers; a client shows its loading screen."""
+"""Longest time that `play` waits for the propagation model; a client shows its loading screen meanwhile."""
 
 
 async def answer(request: messages.Request, client: Client, host: Host) -> Document:
-    """Carry out a client's request. Raises: Scene2HapError: it cannot be done; the connection goes on."""
+    """Run a client's request. Raises: Scene2HapError: it failed; the connection stays open."""
     match request:
         case messages.Hello():
-            raise BridgeError("hello was said already; it comes once, as the first message.")
+            raise BridgeError("hello was sent already; send it only once, as the first message.")
         case messages.Bake():
             return _bake(request, client, host)
         case messages.Cancel():
@@ -163,7 +163,7 @@ def _made(
     sink_spec: object,
     tell: Callable[[Document], None],
 ) -> PlayedSession:
-    """Make the session that a client requested. This takes seconds, and runs on a thread."""
+    """Make the session that a client requested. This takes seconds, so it runs on a thread."""
     bundle = HapticBundle.load(folder)
     scene = bundle.snapshot if request.scene is None else SceneSnapshot.from_json(json.dumps(request.scene))
     sink = None if sink_spec is None else cast("ActuatorSink", SINKS.build(sink_spec))
@@ -175,7 +175,7 @@ def _made(
         sink=sink,
         user=request.user,
     )
-    # Else the first frames would have gains of nothing.
+    # Without this wait, the gains of the first frames would all be 0.
     session.wait_prepared(LONGEST_PREPARATION_S)
     return PlayedSession(session, request.moving, sink, tell)
 
@@ -221,7 +221,7 @@ def _require_free(client: Client) -> None:
 
 
 def _own(client: Client) -> HostedSession:
-    """The session that a client plays. Raises: BridgeError: it plays none."""
+    """Return the session that a client plays. Raises: BridgeError: it plays none."""
     if client.hosted is None:
         whose = "only its player may change a session" if client.watched else "there is no session; send `play` first"
         raise BridgeError(f"{whose}.")
@@ -229,7 +229,7 @@ def _own(client: Client) -> HostedSession:
 
 
 def _shared(client: Client) -> HostedSession:
-    """The session that a client plays or watches. Raises: BridgeError: neither."""
+    """Return the session that a client plays or watches. Raises: BridgeError: it has no session."""
     hosted = client.hosted or client.watched
     if hosted is None:
         raise BridgeError("there is no session; send `play` or `watch` first.")
@@ -244,7 +244,7 @@ def _bundle_folder(path: str | None, job: int | None, kind: str, host: Host) -> 
 
 
 def _one_object(row: Document, session: HapticSession) -> Any:
-    """The object of a row of scene JSON. Raises: SceneError."""
+    """Return the object in a row of scene JSON. Raises: SceneError."""
     document = {
         "format": "scene2hap/scene",
         "version": 1,
@@ -257,7 +257,7 @@ def _one_object(row: Document, session: HapticSession) -> Any:
 
 
 def _require_no_file(settings: Mapping[str, Any]) -> None:
-    """Raise a BridgeError where a setting names a file: clients read files below the root alone, and by `path`."""
+    """Raise a BridgeError if a setting names a file: clients may read only files below the root, by `path`."""
     actuator = settings.get("actuator")
     if isinstance(actuator, str) and Path(actuator).suffix:
         raise BridgeError(

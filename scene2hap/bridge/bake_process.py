@@ -1,6 +1,6 @@
-"""A bake in a process of its own, so that it can be cancelled and takes no time from sessions that play.
+"""A bake in a separate process, so that it can be cancelled and does not slow down running sessions.
 
-Reads one JSON object from standard input (`scene`, `target`, `config`, `user_prompt`, `pictures`) and writes one JSON
+Reads one JSON object from standard input (`scene`, `target`, `config`, `user_prompt`, `pictures`). Writes one JSON
 object per line: `progress` with stage, item, done and of; at the end `objects`, or `error` with kind and message.
 """
 
@@ -22,7 +22,7 @@ from scene2hap.scene.load import load_scene
 def main() -> None:
     """Bake the request on standard input."""
     answers = sys.stdout
-    sys.stdout = sys.stderr  # whatever a plug-in prints is no answer
+    sys.stdout = sys.stderr  # so that a plug-in's prints do not mix with the answers
 
     def tell(document: dict[str, Any]) -> None:
         print(json.dumps(document), file=answers, flush=True)
@@ -40,7 +40,7 @@ def main() -> None:
 
 
 def baked(wanted: dict[str, Any], progress: Any) -> HapticBundle:
-    """The bundle of a request. Raises: as `load_scene` and `bake`."""
+    """Bake the bundle of a request. Raises: as `load_scene` and `bake`."""
     scene, config = load_scene(wanted["scene"]), BakeConfig.parse(wanted["config"])
     if wanted["pictures"] is not None:
         scene = GivenPictures.load(wanted["pictures"]).attach_to(scene)
@@ -50,7 +50,7 @@ def baked(wanted: dict[str, Any], progress: Any) -> HapticBundle:
 
 
 def summary(bundle: HapticBundle) -> list[dict[str, Any]]:
-    """Inferred properties, for a client to show."""
+    """Return inferred properties of each object, for a client to show."""
     return [
         {
             "id": key,

@@ -1,4 +1,4 @@
-"""A client as sessions and answers see it: what it plays or watches, and what waits to be sent to it."""
+"""A client's session, and the queue of messages to it."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from scene2hap.bridge.hosted import HostedSession
 from scene2hap.bridge.pictures import SentPictures
 
 MAX_WAITING = 1000
-"""JSON messages that wait for a client which does not read."""
+"""Most JSON messages that wait for a client; a client that reads more slowly is disconnected."""
 MAX_GAINS_WAITING = 64
-"""Gains that wait for a client of which every frame is answered; then no more of its frames are read."""
+"""Most gains that wait for a client with frames "every". Beyond it, no more of its frames are read."""
 
 
 class Client:
-    """A client that said hello.
+    """A client after its hello.
 
-    Parameters: pictures : keeps those that it sends. `is_too_slow` is set once too many messages wait.
+    Parameters: pictures : stores the pictures that it sends. `is_too_slow` is set if too many messages wait.
     """
 
     def __init__(self, pictures: SentPictures) -> None:
@@ -37,7 +37,7 @@ class Client:
 
     @property
     def n_waiting(self) -> int:
-        """Messages that wait to be sent."""
+        """Number of messages that wait to be sent."""
         return len(self._waiting)
 
     def send(self, document: dict[str, Any]) -> None:
@@ -49,7 +49,7 @@ class Client:
         self._has_work.set()
 
     def send_gains(self, message: bytes, *, must_arrive: bool) -> None:
-        """Send gains; without `must_arrive`, newer ones replace those that still wait."""
+        """Send gains. Without `must_arrive`, newer gains replace waiting ones."""
         if must_arrive:
             self._waiting.append(message)
             self._n_gains_waiting += 1
@@ -60,26 +60,26 @@ class Client:
         self._has_work.set()
 
     def give_up(self) -> None:
-        """Play no longer, since the session goes on over another connection."""
+        """Stop playing, since the session continues over another connection."""
         self.hosted = None
 
     def repeat(self, gains: Iterable[bytes]) -> None:
-        """Send gains again behind the answer that is under way: those that a lost connection may have swallowed."""
+        """Schedule gains to be sent again after the next answer, since a lost connection may have dropped them."""
         self._repeated = tuple(gains)
 
     def answer(self, document: dict[str, Any]) -> None:
-        """Send the answer to a request, and what is to follow it."""
+        """Send the answer to a request, and then the scheduled gains."""
         self.send(document)
         for gains in self._repeated:
             self.send_gains(gains, must_arrive=True)
         self._repeated = ()
 
     async def room(self) -> None:
-        """Wait until another frame may be answered."""
+        """Wait until the queue has space for the gains of another frame."""
         await self._has_room.wait()
 
     async def next(self) -> str | bytes:
-        """Wait for the next message to send."""
+        """Wait for the next message to send, and return it."""
         while not self._waiting and self._gains is None:
             self._has_work.clear()
             await self._has_work.wait()

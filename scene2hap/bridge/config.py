@@ -18,14 +18,14 @@ PORT = 7862
 class BridgeConfig(Settings):
     """Settings of a bridge.
 
-    host : the interface to listen on; another than loopback needs a token. port : 0 for a free one.
-    token : what `hello` must carry, None for nothing.
+    host : the interface to listen on; one that is not loopback needs a token. port : 0 for a free one.
+    token : the secret that `hello` must carry, None for no token.
     root : the folder whose scenes and bundles clients may read and write, None for none.
-    origins : web pages that may connect beside those of loopback, such as "https://game.example".
-    sink : a kind of sink, or a mapping with `kind`, that plays one session; None leaves playing to the clients.
-    udp : whether frames are taken as datagrams too.
-    bake, session : settings of bakes and sessions on which those of clients come on top.
-    heartbeat_s : time between two pings. max_message_bytes : of one message. max_clients : at once.
+    origins : web pages that may connect, besides pages on loopback, such as "https://game.example".
+    sink : a kind of sink, or a mapping with `kind`, for the output of one session; with None, clients play the gains.
+    udp : True to accept frames as datagrams too.
+    bake, session : settings of bakes and sessions; clients can override them.
+    heartbeat_s : time between two pings. max_message_bytes : of one message. max_clients : at the same time.
     """
 
     of_what = "bridge"
@@ -48,7 +48,7 @@ class BridgeConfig(Settings):
     def _kept_secret(cls, token: object) -> object:
         if token is None or isinstance(token, Secret):
             return token
-        return Secret(token)  # type: ignore[arg-type]  # it refuses what is no text
+        return Secret(token)  # type: ignore[arg-type]  # Secret rejects other types
 
     @field_validator("root")
     @classmethod
@@ -70,7 +70,7 @@ class BridgeConfig(Settings):
 
 
 def is_loopback(host: str) -> bool:
-    """Whether only this machine reaches an interface, by name or address."""
+    """Return True if only this machine reaches an interface, given by name or address."""
     if host == "localhost":
         return True
     try:

@@ -1,4 +1,4 @@
-"""One connection: a client's messages in, answers and gains out."""
+"""One connection: reads a client's messages, and sends answers and gains."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ TOO_SLOW = 4008
 
 
 class Connection:
-    """The connection of a client that said hello."""
+    """The connection of a client after its hello."""
 
     def __init__(self, socket: ServerConnection, host: Host) -> None:
         self._socket, self._host = socket, host
@@ -42,7 +42,7 @@ class Connection:
             await self._leave()
 
     def abort(self) -> None:
-        """Cut the connection without a word, as a network that fails."""
+        """Cut the connection without a closing message, like a network failure."""
         self._socket.transport.abort()
 
     async def _send_all(self) -> None:

@@ -1,4 +1,4 @@
-"""Binary messages: frames of a game, and the gains that answer them; docs/bridge-protocol.md has every offset."""
+"""Binary messages: frames of a game, and gains in reply; docs/bridge-protocol.md has every offset."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ class Frame(NamedTuple):
     touches: NDArray[np.void]
 
     def after(self, skipped: Frame) -> Frame:
-        """This frame in the place of one before it, whose poses hold where this one has none."""
+        """Return this frame, with the poses of an earlier, skipped one if this one has none."""
         moved = not len(self.poses) and skipped.layout == self.layout
         return self._replace(poses=skipped.poses) if moved else self
 
 
 class Gains(NamedTuple):
-    """Gains that answer a frame.
+    """Gains in reply to a frame.
 
     Parameters: intensities : (n_hands,) float32; gains : (n_hands, n_sources, n_bands) float32.
     """
@@ -65,7 +65,7 @@ class Gains(NamedTuple):
 
 
 def kind_of(message: bytes) -> int:
-    """The kind of a binary message. Raises: BridgeError: it is none of this version."""
+    """Return the kind of a binary message. Raises: BridgeError: not a message of this version."""
     if len(message) < _PICTURE.size or message[:4] != MAGIC:
         begin = message[:8].hex(" ") or "empty"
         raise BridgeError(f"a binary message begins with {begin}; it must begin with {MAGIC.hex(' ')} (S2HB).")
@@ -75,7 +75,7 @@ def kind_of(message: bytes) -> int:
 
 
 def decode_frame(message: bytes) -> Frame:
-    """A frame of a client. Raises: BridgeError: its length does not fit its counts, or a number is not finite."""
+    """Decode a frame of a client. Raises: BridgeError: its length contradicts its counts, or a number is not finite."""
     if kind_of(message) != FRAME:
         raise BridgeError(f"a binary message is of kind {message[4]}; clients send kind {FRAME} (frame).")
     if len(message) < _BEGIN:
@@ -102,14 +102,14 @@ def encode_frame(
     poses: Floats,
     touches: Sequence[tuple[int, int, tuple[float, float, float]]],
 ) -> bytes:
-    """The message of a frame, as a client writes it."""
+    """Encode a frame, as a client does."""
     header = _HEADER.pack(MAGIC, FRAME, VERSION, layout, key, sequence, 0, time_s)
     counts = _FRAME_COUNTS.pack(len(poses), len(touches))
     return b"".join((header, counts, poses.astype("<f4").tobytes(), np.array(list(touches), dtype=_TOUCH).tobytes()))
 
 
 def encode_gains(found: Gains) -> bytes:
-    """The message of gains."""
+    """Encode gains."""
     n_hands, n_sources, n_bands = found.gains.shape
     header = _HEADER.pack(MAGIC, GAINS, VERSION, found.layout, NO_KEY, found.sequence, found.skipped, found.time_s)
     counts = _GAINS_COUNTS.pack(n_hands, n_sources, n_bands, found.flags)
@@ -117,7 +117,7 @@ def encode_gains(found: Gains) -> bytes:
 
 
 def decode_gains(message: bytes) -> Gains:
-    """Gains as a client reads them. Raises: BridgeError: the message is none of gains."""
+    """Decode gains, as a client does. Raises: BridgeError: not a message of gains."""
     if kind_of(message) != GAINS or len(message) < _BEGIN:
         raise BridgeError(f"a binary message of {len(message)} bytes and kind {message[4]} has no gains.")
     _, _, _, layout, _, sequence, skipped, time_s = _HEADER.unpack_from(message)
@@ -131,7 +131,7 @@ def decode_gains(message: bytes) -> Gains:
 
 
 def decode_picture(message: bytes) -> tuple[bytes, bytes]:
-    """The JSON text of a picture, and its file. Raises: BridgeError: the message is too short for its text."""
+    """Decode a picture into JSON text and file content. Raises: BridgeError: the message is too short for its text."""
     _, _, _, n_text = _PICTURE.unpack_from(message)
     begin = _PICTURE.size + n_text
     if begin > len(message):
@@ -140,5 +140,5 @@ def decode_picture(message: bytes) -> tuple[bytes, bytes]:
 
 
 def encode_picture(text: bytes, file: bytes) -> bytes:
-    """The message of a picture, as a client writes it."""
+    """Encode a picture, as a client does."""
     return _PICTURE.pack(MAGIC, PICTURE, VERSION, len(text)) + text + file

@@ -1,4 +1,4 @@
-"""Pauses of Python's garbage collector."""
+"""Control of Python's garbage collector."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ import gc
 
 
 def settle_garbage() -> None:
-    """Collect now, and leave what survives out of later collections, which would take some 60 ms in the middle of a
-    frame. Call it after something large was loaded or closed."""
+    """Collect garbage, and exempt the rest from later collections, which take some 60 ms within a frame.
+
+    Call this after loading or closing something large.
+    """
     gc.unfreeze()
     gc.collect()
     gc.freeze()

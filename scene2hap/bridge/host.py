@@ -13,7 +13,7 @@ from scene2hap.errors import BridgeError, UnknownSession
 
 
 class Host:
-    """The sessions and bakes of a bridge that listens; one for as long as it does."""
+    """The sessions and bakes of a listening bridge."""
 
     def __init__(self, config: BridgeConfig, *, owns_process: bool) -> None:
         self.config, self.owns_process, self.jobs = config, owns_process, Jobs()
@@ -37,13 +37,13 @@ class Host:
         return spec if spec is None or isinstance(spec, str) else type(spec).__name__
 
     def below_root(self, path: str) -> Path:
-        """A path of a client. Raises: BridgeError: there is no root, or the path leaves it."""
+        """Resolve a client's path. Raises: BridgeError: there is no root, or the path is outside it."""
         root = self.config.root
         if root is None:
             raise BridgeError("this bridge reads and writes no files; start it with --root FOLDER.")
         try:
             found = (root / path).resolve()
-        except (OSError, ValueError, RuntimeError) as cause:  # a null byte, or links that go round
+        except (OSError, ValueError, RuntimeError) as cause:  # a null byte, or a loop of links
             raise BridgeError(f"the path {checks.represented(path)} cannot be used.") from cause
         if found == root or not found.is_relative_to(root):
             raise BridgeError(
@@ -52,7 +52,7 @@ class Host:
         return found
 
     def hosted(self, session_id: str) -> HostedSession:
-        """A session. Raises: UnknownSession."""
+        """Return a session by its id. Raises: UnknownSession."""
         if session_id not in self._sessions:
             raise UnknownSession(
                 f"there is no session {checks.represented(session_id)}: it ended, or the bridge was restarted. Send "
@@ -61,20 +61,21 @@ class Host:
         return self._sessions[session_id]
 
     def host(self, hosted: HostedSession, *, plays_sink: bool) -> None:
-        """Take in a session that was opened."""
+        """Register an open session."""
         self._sessions[hosted.id] = hosted
         if plays_sink:
             self._plays_sink, self._takes_sink = hosted, False
 
     def forget(self, hosted: HostedSession) -> None:
-        """Let a closed session go."""
+        """Unregister a closed session."""
         self._sessions.pop(hosted.id, None)
         if self._plays_sink is hosted:
             self._plays_sink = None
 
     async def take_sink(self) -> object:
-        """Take the sink for a session, None if the server has none; a session that waits for its player gives it up.
+        """Reserve the sink for a session. Returns None if the server has none.
 
+        A session without a connected player is closed to free the sink.
         Raises: BridgeError: another session plays on it.
         """
         if self.config.sink is None:
@@ -89,13 +90,13 @@ class Host:
         return self.config.sink
 
     def give_sink_back(self) -> None:
-        """Let others take the sink, since a session could not be opened."""
+        """Free the reserved sink, since its session could not be opened."""
         self._takes_sink = False
 
     def plays_sink(self, hosted: HostedSession) -> bool:
-        """Whether a session plays on the server's sink."""
+        """Return True if a session plays on the server's sink."""
         return self._plays_sink is hosted
 
     def with_key(self, key: bytes) -> HostedSession | None:
-        """The session that has a key, None if none has."""
+        """Return the session with a key, None if there is none."""
         return next((one for one in self._sessions.values() if hmac.compare_digest(one.key, key)), None)

@@ -21,7 +21,7 @@ Result = TypeVar("Result")
 _log = logging.getLogger("scene2hap.bridge")
 
 N_REPEATED = 64
-"""Gains that are sent again after a lost connection, where every frame is answered."""
+"""Most gains that are sent again after a lost connection, with frames "every"."""
 
 Frames = Literal["newest", "every"]
 Reply = Callable[[bytes], None]
@@ -29,30 +29,30 @@ Tell = Callable[[dict[str, Any]], None]
 
 
 class Receiver(Protocol):
-    """A client as a hosted session sees it. Neither method waits."""
+    """The part of a client that a hosted session uses. Neither method waits."""
 
     def send(self, document: dict[str, Any]) -> None:
         """Send a JSON message."""
         ...
 
     def send_gains(self, message: bytes, *, must_arrive: bool) -> None:
-        """Send gains; without `must_arrive`, newer ones may replace them."""
+        """Send gains. Without `must_arrive`, newer gains may replace them."""
         ...
 
     def give_up(self) -> None:
-        """Play no longer, since the session goes on over another connection."""
+        """Stop playing, since the session continues over another connection."""
         ...
 
 
 class HostedSession:
-    """A session, its player, and those who watch.
+    """A session, its player, and its watchers.
 
-    All methods belong to the event loop; the session does one thing at a time, in the order of the calls. Frames are
-    taken in on the loop itself, since an update takes less time than the changes of threads around it would. All else
-    runs on a thread, and so do frames of sessions that may wait for their model.
+    Call all methods on the event loop. The session does one thing at a time, in the order of the calls. Frames are
+    processed on the loop itself, since an update takes less time than a change of threads. All other work runs on a
+    thread, and so do frames of sessions that may wait for their model.
 
-    Parameters: make : makes the played session, on a thread; frames : whether a frame may be replaced by a newer
-    one while it waits; keep_s : for how long the session outlives its connection [s]; ended : is called once the
+    Parameters: make : makes the played session, on a thread; frames : "newest" if a newer frame may replace a waiting
+    one, else "every"; keep_s : how long the session is kept after its connection is lost [s]; ended : called when the
     session is closed.
     """
 
@@ -75,7 +75,7 @@ class HostedSession:
         self._taking: asyncio.Task[None] | None = None
         self._forgetting: asyncio.TimerHandle | None = None
         self._is_closed = False
-        # All that a lost connection may have swallowed.
+        # Gains that a lost connection may have dropped.
         self.last_gains: deque[bytes] = deque(maxlen=N_REPEATED if frames == "every" else 1)
 
     async def open(self, player: Receiver) -> None:
@@ -84,7 +84,7 @@ class HostedSession:
         self.player = player
 
     async def run(self, work: Callable[P, Result], *args: P.args, **kwargs: P.kwargs) -> Result:
-        """Do something to the session, after all frames that came before."""
+        """Run work on the session, after all frames that came before."""
         await self.settle()
         return await self._on_a_thread(lambda: work(*args, **kwargs))
 
@@ -93,15 +93,15 @@ class HostedSession:
             return await asyncio.to_thread(forwarding_warnings, self._tell, work)
 
     async def settle(self) -> None:
-        """Wait until no frame is left to take in."""
+        """Wait until all received frames are processed."""
         while self._taking is not None:
             await self._taking
 
     async def take(self, message: bytes, reply: Reply | None = None) -> None:
-        """Take in a frame. With "every" this waits until it was taken; with "newest" it does not.
+        """Process a frame. With frames "every", this waits until it is processed; with "newest" it returns at once.
 
-        Parameters: reply : takes the gains, None to send them to the player. Raises: BridgeError: no frame of this
-        session.
+        Parameters: reply : receives the gains, None to send them to the player. Raises: BridgeError: not a frame of
+        this session.
         """
         frame = decode_frame(message)
         if not hmac.compare_digest(frame.key, self.key):
@@ -126,7 +126,7 @@ class HostedSession:
                     if message is not None:
                         self.last_gains.append(message)
                         self._send_gains(message, reply)
-                await asyncio.sleep(0)  # so that what has come meanwhile is read before the next is taken
+                await asyncio.sleep(0)  # let the loop read newer messages before the next frame is processed
         finally:
             self._taking = None
 
@@ -151,7 +151,7 @@ class HostedSession:
             one.send_gains(message, must_arrive=False)
 
     async def change_layout(self, work: Callable[[], object]) -> dict[str, Any]:
-        """Add or remove objects or sources, and send all clients the new layout; returns that of the player."""
+        """Add or remove objects or sources, and send all watchers the new layout. Returns the layout for the player."""
 
         def changed() -> dict[str, Any]:
             work()
@@ -164,11 +164,11 @@ class HostedSession:
         return order
 
     async def lose(self, player: Receiver) -> None:
-        """Pause, since the player's connection is lost, and keep the session for a while."""
+        """Pause after the player's connection is lost, and keep the session for `keep_s`."""
         if self.player is not player or self._is_closed:
             return
         self.player = None
-        # Before anything that waits, so that a client which resumes at once is not forgotten.
+        # Set the timer before any await, so that a client that resumes at once can cancel it.
         self._forgetting = self._loop.call_later(self._keep_s, lambda: self._loop.create_task(self.close()))
         await self.run(self.played.session.pause)
         if self.player is None:
@@ -176,13 +176,13 @@ class HostedSession:
             self._send_gains(encode_gains(self.played.silence()))
 
     async def resume(self, player: Receiver, key: str) -> dict[str, Any]:
-        """Go on with another connection. Raises: UnknownSession: wrong key; BridgeError: somebody plays it."""
+        """Continue over another connection. Raises: UnknownSession: wrong key."""
         if not hmac.compare_digest(key.lower(), self.key.hex()):
             raise UnknownSession(f"session {self.id} has another key; send the one that `playing` gave.")
         if self._forgetting is not None:
             self._forgetting.cancel()
             self._forgetting = None
-        if self.player is not None:  # over a connection whose loss was not noticed yet
+        if self.player is not None:  # its connection is lost, but this was not noticed yet
             self.player.give_up()
         self.player = player
         if not self.played.is_paused:
@@ -222,7 +222,7 @@ class HostedSession:
 
 
 def error_message(error: Exception) -> dict[str, Any]:
-    """The message to a client about an error; an unexpected error goes to the log, since it may reveal too much."""
+    """Return the message to a client about an error. An unexpected one is only logged, since it may reveal secrets."""
     if isinstance(error, Scene2HapError):
         return {"type": "error", "error": type(error).__name__, "message": str(error)}
     _log.error("a fault of the bridge", exc_info=error)

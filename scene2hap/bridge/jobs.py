@@ -1,4 +1,4 @@
-"""Bakes that clients requested, each in a process of its own."""
+"""Bakes that clients requested, each in a separate process."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ from scene2hap.bridge.hosted import error_message
 from scene2hap.errors import BridgeError
 
 MAX_RUNNING = 4
-"""Bakes at once, over all clients; assumed: more only take the processors from each other."""
+"""Most bakes at the same time, over all clients; assumed: more would only slow each other down."""
 N_KEPT = 32
-"""Bundles of ended jobs that are kept for `play`, unless they were saved."""
+"""Number of bundles of ended jobs that are kept for `play`, besides saved ones."""
 LONGEST_LINE = 1 << 24
-"""Bytes of one answer of the process; assumed: some hundred thousand objects."""
+"""Most bytes of one answer of the process; assumed: some hundred thousand objects."""
 
 Tell = Callable[[dict[str, Any]], None]
 
 
 class Jobs:
-    """All bakes of a server. Bundles that nobody saves lie in a temporary folder until the server ends."""
+    """All bakes of a server. Unsaved bundles are in a temporary folder until the server ends."""
 
     def __init__(self) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="scene2hap-bridge-", ignore_cleanup_errors=True)
-        # Not from 1: a number that a client remembers from before a restart must not be another's bake.
+        # Starts at a random number, so that a job number from before a restart does not match another client's bake.
         self._job_numbers, self._numbers = itertools.count(1 + secrets.randbelow(1 << 30)), itertools.count(1)
         self._tasks: dict[int, asyncio.Task[None]] = {}
         self._tells: dict[int, Tell] = {}
@@ -40,20 +40,20 @@ class Jobs:
 
     @property
     def folder(self) -> Path:
-        """For what jobs read and write."""
+        """The folder for files that jobs read and write."""
         return Path(self._folder.name)
 
     def write(self, text: str) -> Path:
-        """Write a scene for a job, which removes it at its end."""
+        """Write a scene file for a job, which removes it at its end."""
         path = self.folder / f"scene-{next(self._numbers)}.json"
         path.write_text(text, encoding="utf-8")
         return path
 
     def start(self, wanted: Mapping[str, Any], target: Path | None, tell: Tell) -> int:
-        """Begin a bake, and return its number; `tell` takes its messages.
+        """Begin a bake. Returns its number; `tell` receives its messages.
 
-        Parameters: wanted : as `bake_process` reads it, without the target; target : of the bundle, None to keep it
-        for this server. Raises: BridgeError: too many bakes run.
+        Parameters: wanted : as `bake_process` reads it, without the target; target : folder of the bundle, None to keep
+        it only as long as the server runs. Raises: BridgeError: too many bakes run.
         """
         if len(self._tasks) >= MAX_RUNNING:
             raise BridgeError(f"{MAX_RUNNING} bakes are running already; wait for one to end, or cancel one.")
@@ -64,7 +64,7 @@ class Jobs:
         return job
 
     def follow(self, job: int, tell: Tell) -> dict[str, Any]:
-        """Hand the further messages of a bake to another client, and return how far it is.
+        """Send the further messages of a bake to another client. Returns its present state.
 
         Raises: BridgeError: no such job, or it failed.
         """
@@ -75,7 +75,7 @@ class Jobs:
         return self._baked[job][1]
 
     def bundle(self, job: int) -> Path:
-        """The folder of a bundle. Raises: BridgeError: no such job, or it has no bundle."""
+        """Return the folder of a bundle. Raises: BridgeError: no such job, or it has no bundle."""
         if job in self._tasks:
             raise BridgeError(f"job {job} is still baking; wait for its `baked`.")
         if job not in self._baked:
@@ -92,7 +92,7 @@ class Jobs:
             await task
 
     async def close(self) -> None:
-        """End all bakes, and remove what was not saved."""
+        """End all bakes, and remove unsaved bundles."""
         for job in [*self._tasks]:
             await self.cancel(job)
         await asyncio.to_thread(self._folder.cleanup)
@@ -132,7 +132,7 @@ class Jobs:
         finally:
             if process is not None and process.returncode is None:
                 process.kill()
-                # Shielded: the process must be waited for even while the server ends.
+                # Shielded, since the process must be reaped even while the server ends.
                 await asyncio.shield(process.wait())
             self._remove_inputs(wanted)
             del self._tasks[job], self._tells[job]

@@ -1,4 +1,4 @@
-"""The meaning of the numbers in binary frames."""
+"""The objects, hands and sources behind the numbers in binary frames."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from scene2hap.errors import BridgeError, UnknownObject
 from scene2hap.scene.objects import unknown_object
 
 N_KEPT = 8
-"""Layouts that are still read; those before are outdated."""
+"""Number of layouts that are still accepted; older ones are outdated."""
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Order of objects, hands and sources; the first `n_moving` objects have a pose in each frame."""
+    """Order of objects, hands and sources. The first `n_moving` objects have a pose in each frame."""
 
     number: int
     objects: tuple[str, ...]
@@ -25,12 +25,12 @@ class Layout:
 
     @property
     def moving(self) -> tuple[str, ...]:
-        """The objects that have a pose in each frame."""
+        """The objects with a pose in each frame."""
         return self.objects[: self.n_moving]
 
 
 class Layouts:
-    """The layouts of a session: the one in use, and the last before it, in which frames may still be on their way."""
+    """The layouts of a session: the present one, and earlier ones that late frames may still use."""
 
     def __init__(self) -> None:
         self._kept: dict[int, Layout] = {}
@@ -38,15 +38,15 @@ class Layouts:
 
     @property
     def now(self) -> Layout:
-        """The layout in use."""
+        """The present layout."""
         return self._kept[self._number]
 
     def change(
         self, moving: Sequence[str], objects: Sequence[str], hands: tuple[str, ...], sources: tuple[str, ...]
     ) -> Layout:
-        """Take another order into use.
+        """Set a new layout.
 
-        Raises: UnknownObject: something is to move that is not there; BridgeError: it is to move twice.
+        Raises: UnknownObject: `moving` has an object that does not exist; BridgeError: it has an object twice.
         """
         there = dict.fromkeys(objects)
         unknown = next((one for one in moving if one not in there), None)
@@ -64,5 +64,5 @@ class Layouts:
         return self.now
 
     def of(self, number: int) -> Layout | None:
-        """A layout by its number, None if it is outdated or never was."""
+        """Return a layout by its number, None if it is outdated or unknown."""
         return self._kept.get(number)

@@ -19,7 +19,7 @@ Document = dict[str, Any]
 
 
 class Request(BaseModel):
-    """A message of a client; its answer carries `id` as `re`."""
+    """A message of a client. The answer to it carries its `id` as `re`."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, hide_input_in_errors=True)
 
@@ -37,7 +37,7 @@ class Hello(Request):
 
 
 class Bake(Request):
-    """Tell what the objects of a scene are and how they vibrate."""
+    """Infer the objects of a scene and their vibration, and make a bundle."""
 
     type: Literal["bake"]
     scene: Document | None = None
@@ -79,7 +79,7 @@ class Play(Request):
 
 
 class Resume(Request):
-    """Go on with a session whose connection was lost."""
+    """Continue a session whose connection was lost."""
 
     type: Literal["resume"]
     session: Name
@@ -94,14 +94,14 @@ class Watch(Request):
 
 
 class Moving(Request):
-    """Choose the objects whose poses frames have."""
+    """Choose the objects that have poses in frames."""
 
     type: Literal["moving"]
     moving: list[Name]
 
 
 class SetSource(Request):
-    """Switch a source, or set its level."""
+    """Switch a source, choose its state, or set its level."""
 
     type: Literal["set_source"]
     source: Name
@@ -112,7 +112,7 @@ class SetSource(Request):
 
 
 class SetUser(Request):
-    """Set the level of everything, or the profile of the person who plays."""
+    """Set the overall level, or the profile of the player."""
 
     type: Literal["set_user"]
     gain_db: Number | None = None
@@ -132,14 +132,14 @@ class StrikeObject(Request):
 
 
 class Add(Request):
-    """Put an object into the scene."""
+    """Add an object to the scene."""
 
     type: Literal["add"]
     object: Document
 
 
 class Spawn(Request):
-    """Put a copy of a prefab into the scene."""
+    """Add a copy of a prefab to the scene."""
 
     type: Literal["spawn"]
     object: Name
@@ -150,26 +150,26 @@ class Spawn(Request):
 
 
 class Remove(Request):
-    """Take an object out of the scene."""
+    """Remove an object from the scene."""
 
     type: Literal["remove"]
     object: Name
 
 
 class Pause(Request):
-    """Fade everything out."""
+    """Fade out all vibration."""
 
     type: Literal["pause"]
 
 
 class Unpause(Request):
-    """Go on after a pause."""
+    """Continue after a pause."""
 
     type: Literal["unpause"]
 
 
 class Explain(Request):
-    """Report what a hand feels, and over which path."""
+    """Report the vibration at a hand, and the paths from its sources."""
 
     type: Literal["explain"]
     hand: Name
@@ -212,7 +212,7 @@ _document: TypeAdapter[Document] = TypeAdapter(Document)
 
 
 def read_document(text: str) -> Document:
-    """The object in a text message. Raises: BridgeError: it is no JSON object."""
+    """Return the object in a text message. Raises: BridgeError: it is no JSON object."""
     try:
         return _document.validate_json(text)
     except ValidationError as cause:
@@ -221,13 +221,13 @@ def read_document(text: str) -> Document:
 
 
 def request_id(document: Document) -> int | None:
-    """The number that an answer carries as `re`, None where the message has none."""
+    """Return the number that an answer carries as `re`, None if the message has none."""
     found = document.get("id")
     return found if type(found) is int else None
 
 
 def parse_request(document: Document) -> Request:
-    """The request in a message. Raises: BridgeError: a type or field that does not exist, or a value that is wrong."""
+    """Return the request in a message. Raises: BridgeError: an unknown type or field, or a wrong value."""
     kind = document.get("type")
     model = MODELS.get(kind) if isinstance(kind, str) else None
     if model is None:

@@ -1,4 +1,4 @@
-"""Pictures that a client sends before a bake, on disk until the bake reads them."""
+"""Pictures that a client sends before a bake, stored on disk until the bake reads them."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from scene2hap.errors import BridgeError
 from scene2hap.scene.given_pictures import INDEX, GivenPictures
 
 MAX_BYTES = 1 << 29
-"""Of all pictures of a client that wait for its bake."""
+"""Most bytes of a client's pictures before a bake."""
 
 
 class SentPictures:
     """The pictures of one client.
 
-    Parameters: folder : where its own temporary folder is made.
+    Parameters: folder : parent of its temporary folder.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -30,7 +30,7 @@ class SentPictures:
         self._n_bytes = 0
 
     def take(self, message: bytes) -> None:
-        """Keep a picture; one that was sent before under the same name is replaced.
+        """Store a picture. It replaces an earlier one with the same object, kind and view.
 
         Raises: BridgeError: its text is no JSON object, or there are too many; SceneError: it cannot be used.
         """
@@ -42,7 +42,7 @@ class SentPictures:
         if not isinstance(row, dict):
             raise BridgeError(f"the text of a picture is {checks.described(row)}; it must be an object.")
         key: tuple[Any, Any, Any] = (row.get("object"), row.get("kind"), row.get("view"))
-        GivenPictures({key: file})  # refuses what is no picture, or of nothing
+        GivenPictures({key: file})  # raises an error if the file is no picture, or its key is incomplete
         self._n_bytes += len(file)
         if self._n_bytes > MAX_BYTES:
             raise BridgeError(
@@ -54,7 +54,7 @@ class SentPictures:
         (self._folder / name).write_bytes(file)
 
     def hand_over(self) -> Path:
-        """The folder of all pictures, for a bake; later ones go into another. Raises: BridgeError: there are none."""
+        """Return the folder of pictures for a bake. Later ones get a new folder. Raises: BridgeError: no pictures."""
         if self._folder is None:
             raise BridgeError('there are no pictures; send them before the bake, or leave "pictures" out.')
         folder = self._folder
@@ -67,7 +67,7 @@ class SentPictures:
         return folder
 
     def clear(self) -> None:
-        """Remove what no bake has used."""
+        """Remove pictures that no bake has used."""
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
             self._folder = None

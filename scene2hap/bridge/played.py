@@ -1,4 +1,4 @@
-"""A session as its frames drive it."""
+"""A session that frames of a client drive."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.session.impacts import Impact
 
 LONGEST_FRAME_S = 1.0
-"""For which the session's clock goes on between two frames, as when a game was stopped in a debugger."""
+"""Most time by which the session's clock advances between two frames, for example while a debugger stops the game."""
 
 Tell = Callable[[dict[str, Any]], None]
 
@@ -30,10 +30,10 @@ Tell = Callable[[dict[str, Any]], None]
 class PlayedSession:
     """A session, the layout of its frames, and its clock.
 
-    Without a sink, or with one that has no clock of its own, the session's clock follows the times of the frames, so
-    that equal frames give equal gains.
+    The session's clock follows the times of the frames if there is no sink, or the sink has no clock. Equal frames then
+    give equal gains.
 
-    Parameters: sink : what the session was given as sink, not yet started; tell : takes JSON messages for clients.
+    Parameters: sink : the session's sink, not yet started; tell : receives JSON messages for clients.
     """
 
     def __init__(
@@ -54,26 +54,26 @@ class PlayedSession:
 
     @property
     def may_wait(self) -> bool:
-        """Whether taking in a frame may wait for the preparation of a model."""
+        """True if processing a frame may wait for the preparation of a model."""
         return self.session.config.prepare == "blocking"
 
     @property
     def layout(self) -> Layout:
-        """The layout in use."""
+        """The present layout."""
         return self._layouts.now
 
     def use_layout(self, moving: Sequence[str] | None = None) -> None:
-        """Take another layout into use, since others are to move, or since objects came or went.
+        """Set a new layout, since other objects move, or since objects were added or removed.
 
         Raises: UnknownObject, BridgeError: as `Layouts.change`.
         """
         objects = [*self.session.poses]
-        if moving is None:  # those that are still there
+        if moving is None:  # keep the moving objects that still exist
             moving = [one for one in self._moving if one in self.session.object_ids]
         self._moving = self._layouts.change(moving, objects, self.session.hands, self.session.source_ids).moving
 
     def order(self) -> dict[str, Any]:
-        """The fields of messages with the layout."""
+        """Return the fields of messages with the layout."""
         layout, session = self.layout, self.session
         return {
             "layout": layout.number,
@@ -87,12 +87,12 @@ class PlayedSession:
         }
 
     def stats(self) -> dict[str, Any]:
-        """Counters of the session and of its frames."""
+        """Return counters of the session and of its frames."""
         frames = {"received": self.n_received, "skipped": self.n_skipped, "outdated": self.n_outdated}
         return {**asdict(self.session.stats), "frames": frames}
 
     def take(self, frame: Frame) -> Gains | None:
-        """Take in a frame; None if it is outdated.
+        """Process a frame. Returns its gains, None if it is outdated.
 
         Raises: BridgeError: its counts or indices do not fit its layout; and as `HapticSession.update`.
         """
@@ -114,7 +114,7 @@ class PlayedSession:
         return self._gains(found, frame.time_s, intensities)
 
     def silence(self) -> Gains:
-        """Gains of nothing, for when nobody plays."""
+        """Return gains of 0, for a session without a player."""
         shape = len(self.layout.hands), len(self.layout.sources), self.session.config.bands.n_bands
         return Gains(
             self.layout.number,
@@ -127,18 +127,18 @@ class PlayedSession:
         )
 
     def pause(self) -> None:
-        """Fade everything out."""
+        """Fade out all vibration."""
         self._is_paused = True
         self.session.pause()
 
     def unpause(self) -> None:
-        """Go on."""
+        """Continue after a pause."""
         self._is_paused = False
         self.session.resume()
 
     @property
     def is_paused(self) -> bool:
-        """Whether `pause` was the last of both."""
+        """True if the session was paused and not continued since."""
         return self._is_paused
 
     def close(self) -> None:
@@ -161,12 +161,12 @@ class PlayedSession:
                     f"a touch is of hand {hand} and object {thing}; layout {layout.number} has {len(layout.hands)} "
                     f"hands and {len(layout.objects)} objects, counted from 0."
                 )
-            if layout.objects[thing] in self.session.object_ids:  # else it was removed while the frame was on its way
+            if layout.objects[thing] in self.session.object_ids:  # it may have been removed before the frame arrived
                 touches.append(Touch(layout.hands[hand], layout.objects[thing], (x, y, z)))
         return touches
 
     def _go_on(self, time_s: float) -> NDArray[np.float32]:
-        """Let the session's clock go on; the intensity that each hand feels until the next frame."""
+        """Advance the session's clock. Returns the intensity at each hand until the next frame, (n_hands,)."""
         session, silent = self.session, np.zeros(len(self.session.hands), np.float32)
         is_first, before_s = self._time_s is None, self._time_s or 0.0
         self._time_s = time_s

@@ -2,8 +2,8 @@
 
     python -m scene2hap.bridge.schema > docs/bridge.schema.json
 
-Requests are generated from the types that the server reads. Answers are written down here; tests hold every message
-that the server sends against them.
+Requests are generated from the types that the server reads. Answers are defined here; tests check every message of the
+server against them.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Index = Annotated[int, Field(ge=0)]
 
 
 class Answer(BaseModel):
-    """A message of the server; `re` is the id of the request that it answers."""
+    """A message of the server. `re` is the id of the request that it answers."""
 
     model_config = ConfigDict(extra="allow")
 
@@ -48,7 +48,7 @@ class Baking(Answer):
 
 
 class Progress(Answer):
-    """How far a bake is."""
+    """Progress of a bake."""
 
     type: Literal["progress"]
     job: Index
@@ -84,7 +84,7 @@ class Cancelled(Answer):
 
 
 class Source(BaseModel):
-    """A vibrating object as it is now."""
+    """The present state of a vibrating object."""
 
     id: str
     state: str
@@ -157,7 +157,7 @@ class Counters(Answer):
 
 
 class Impact(Answer):
-    """Something landed or was struck, and a hand felt it."""
+    """An object landed or was struck, and a hand felt it."""
 
     type: Literal["impact"]
     object: str
@@ -176,7 +176,7 @@ class State(Answer):
 
 
 class Warned(Answer):
-    """A warning for the person who plays."""
+    """A warning for the player."""
 
     type: Literal["warning"]
     message: str
@@ -198,7 +198,7 @@ ANSWERS: tuple[type[Answer], ...] = (
 
 
 def schema() -> dict[str, Any]:
-    """The schema (JSON Schema, 2020-12) of all text messages, under `$defs`: `Request` and `Answer` are any of each."""
+    """Return the schema (JSON Schema, 2020-12) of all text messages, with all types under `$defs`."""
     models: tuple[type[BaseModel], ...] = (*MODELS.values(), *ANSWERS)
     adapters: list[tuple[str, Any, TypeAdapter[Any]]] = [
         (model.__name__, "validation", TypeAdapter(model)) for model in models
@@ -211,7 +211,7 @@ def schema() -> dict[str, Any]:
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Text messages of a scene2hap bridge, version 1",
-        "description": "docs/bridge-protocol.md says what each does.",
+        "description": "docs/bridge-protocol.md describes each message.",
         "anyOf": [{"$ref": "#/$defs/AnyRequest"}, {"$ref": "#/$defs/AnyAnswer"}],
         "$defs": names,
     }

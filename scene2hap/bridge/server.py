@@ -1,4 +1,4 @@
-"""The server: who may connect."""
+"""The server: accepts connections and checks their hello."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ NO_HELLO, OTHER_VERSION, WRONG_TOKEN, TOO_MANY = 4000, 4001, 4003, 4009
 
 
 class BridgeServer:
-    """Serves clients until it is closed; use `async with server.listening():`.
+    """Serve clients until it is closed; use `async with server.listening():`.
 
     Parameters: config : a BridgeConfig, its settings, or the path of a file with a table `bridge`; owns_process :
-    whether nothing else runs in this process, so that the bridge may spare frames the garbage collector.
+    True if the process runs only the bridge, which may then control its garbage collector.
     Raises: ConfigError; MissingExtra: `websockets` is not installed.
     """
 
@@ -54,7 +54,7 @@ class BridgeServer:
 
     @asynccontextmanager
     async def listening(self) -> AsyncIterator[BridgeServer]:
-        """Listen, and end everything afterwards. Raises: ConfigError: host or port cannot be used."""
+        """Listen, and afterwards end all sessions and bakes. Raises: ConfigError: host or port cannot be used."""
         config = self.config
         self.host = Host(config, owns_process=self._owns_process)
         datagrams: asyncio.DatagramTransport | None = None
@@ -64,7 +64,7 @@ class BridgeServer:
                 config.host,
                 config.port,
                 process_request=self._refusal,
-                compression=None,  # Numbers in frames are nearly random; it would cost more than it saves.
+                compression=None,  # numbers in frames are nearly random, so compression costs more than it saves
                 max_size=config.max_message_bytes,
                 open_timeout=HELLO_WITHIN_S,
                 ping_interval=config.heartbeat_s,
@@ -104,7 +104,7 @@ class BridgeServer:
         return transport
 
     def _refusal(self, connection: ServerConnection, request: Request) -> Response | None:
-        """The answer to a page that may not connect, None for all others."""
+        """Return the refusal of a web page that may not connect, None for all others."""
         for origin in request.headers.get_all("Origin"):
             if origin not in self.config.origins and not is_loopback(_host_of(origin)):
                 text = f"The bridge admits no page of {checks.represented(origin)}. Start it with --origin to do so.\n"
@@ -130,7 +130,7 @@ class BridgeServer:
             self._n_clients -= 1
 
     async def _greeted(self, socket: ServerConnection) -> bool:
-        """Whether a client said hello as it must; else the connection is closed."""
+        """Receive and check a client's hello. Returns False if it is wrong, after closing the connection."""
         try:
             async with asyncio.timeout(HELLO_WITHIN_S):
                 message = await socket.recv()
@@ -142,7 +142,7 @@ class BridgeServer:
             return False
         try:
             document = read_document(message)
-            # First, since another version may have other fields.
+            # Check the version first, since another version may have other fields.
             if document.get("type") == "hello" and document.get("version") != VERSION:
                 version = checks.represented(document.get("version"))
                 wrong = BridgeError(f"version is {version}; this bridge speaks version {VERSION}. Use a client for it.")

@@ -1,4 +1,4 @@
-"""Warnings of a session, sent to those who play and watch it."""
+"""Forwarding of a session's warnings to its player and watchers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _tell: ContextVar[Tell | None] = ContextVar("tell", default=None)
 
 
 def forwarding_warnings(tell: Tell, work: Callable[[], Result]) -> Result:
-    """Run `work`, and send its warnings by `tell` while `warnings_to_clients` is on."""
+    """Run `work`, and forward its warnings through `tell` while `warnings_to_clients` is active."""
     before = _tell.set(tell)
     try:
         return work()
@@ -25,8 +25,10 @@ def forwarding_warnings(tell: Tell, work: Callable[[], Result]) -> Result:
 
 @contextmanager
 def warnings_to_clients() -> Iterator[None]:
-    """Send warnings to the clients of the session that gives them. This changes the whole program, since Python has
-    one function that shows warnings."""
+    """Send warnings to the clients of the session that raised them.
+
+    This affects the whole program, since Python has only one function that shows warnings.
+    """
     with warnings.catch_warnings():
         warnings.filterwarnings("always", category=UserWarning)
         shown = warnings.showwarning

@@ -1,4 +1,4 @@
-"""Frames as datagrams, and gains to the address that they came from."""
+"""Frames as datagrams. Gains are sent back to the address of each frame."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from scene2hap.bridge.hosted import HostedSession, error_message
 from scene2hap.errors import Scene2HapError
 
 KEY = slice(8, 16)
-"""Where a frame carries the key of its session."""
+"""Position of the session's key in a frame."""
 
 Address = tuple[str, int]
 
 
 class FrameDatagrams(asyncio.DatagramProtocol):
-    """Takes frames for sessions. Datagrams without the key of one are dropped without an answer.
+    """Receive frames for sessions. Datagrams without a valid session key are dropped without an answer.
 
-    Parameters: find : the session that has a key, None if none has.
+    Parameters: find : returns the session with a key, None if there is none.
     """
 
     def __init__(self, find: Callable[[bytes], HostedSession | None]) -> None:
@@ -27,11 +27,11 @@ class FrameDatagrams(asyncio.DatagramProtocol):
         self._tasks: set[asyncio.Task[None]] = set()
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Keep what answers are sent by."""
+        """Store the transport for answers."""
         self._transport = cast("asyncio.DatagramTransport", transport)
 
     def datagram_received(self, data: bytes, address: Address) -> None:
-        """Take in one frame."""
+        """Process one frame."""
         hosted = self._find(bytes(data[KEY]))
         if hosted is not None:
             task = asyncio.get_running_loop().create_task(self._take(hosted, bytes(data), address))

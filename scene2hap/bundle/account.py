@@ -1,10 +1,11 @@
-"""The account of a bake, in a file beside the bundle: calls, tokens, cost, and skipped questions.
+"""The inference report of a bake, in a file beside the bundle: calls, tokens, cost, and skipped questions.
 
     kitchen.bundle/                the bundle
-    kitchen.bundle.account.json    its account
+        kitchen.bundle.account.json    its inference report
 
-Not within the bundle: equal inputs make bundles that are equal byte for byte, and the cost of a bake depends on the
-answers that a cache had. It is of the last `scene2hap bake` into that place; `rebake` does not change it.
+The file is not part of the bundle. Equal inputs make bundles that are equal byte for byte, but the cost of a bake
+depends on the content of the cache. The report is from the last `scene2hap bake` to this folder; `rebake` does not
+change it.
 """
 
 from __future__ import annotations
@@ -24,13 +25,13 @@ FORMAT, VERSION = "scene2hap/account", 1
 
 
 def account_path(folder: str | os.PathLike[str]) -> Path:
-    """Path of the account of the bundle in a folder."""
+    """Return the path of the inference report for the bundle in a folder."""
     place = Path(folder).absolute()
     return place.with_name(f"{place.name}.account.json")
 
 
 def write_account(folder: str | os.PathLike[str], account: Mapping[str, Any]) -> Path:
-    """Write the account of the bundle in a folder, with the present time; its path.
+    """Write the inference report for the bundle in a folder, with the present time. Returns its path.
 
     Parameters: account : as of `InferenceReport.as_json`, with `cost_usd`. Raises: BundleError: it cannot be written.
     """
@@ -45,7 +46,7 @@ def write_account(folder: str | os.PathLike[str], account: Mapping[str, Any]) ->
 
 
 def read_account(folder: str | os.PathLike[str]) -> dict[str, Any] | None:
-    """The account of the bundle in a folder; None where there is none. Raises: BundleError: it cannot be read."""
+    """Read the inference report for a bundle's folder; None if there is none. Raises: BundleError: it is unreadable."""
     path = account_path(folder)
     if not os.path.lexists(path):
         return None

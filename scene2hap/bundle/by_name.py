@@ -1,4 +1,4 @@
-"""Mappings of a bundle whose error for a missing key names the nearest one."""
+"""Mappings of a bundle whose error for a missing key names the most similar key."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ Thing = TypeVar("Thing")
 
 
 class ByName(dict[str, Thing]):
-    """A dictionary whose missing key is an UnknownObject, which is a KeyError too.
+    """A dictionary that raises UnknownObject, a kind of KeyError, for a missing key.
 
-    Parameters: what, of_what : what keys are, such as "state" and "of 'phone'".
+    Parameters: what, of_what : description of the keys, such as "state" and "of 'phone'".
     """
 
     def __init__(
@@ -31,7 +31,7 @@ class ByName(dict[str, Thing]):
 
 
 def by_name(entries: Mapping[str, Thing], what: str, of_what: str = "") -> ByName[Thing]:
-    """Wrap entries in a `ByName`; return them as they are if they are one."""
+    """Wrap entries in a `ByName`. A `ByName` is returned unchanged."""
     return entries if isinstance(entries, ByName) else ByName(entries, what, of_what)
 
 

@@ -1,4 +1,4 @@
-"""Compare a bundle's objects with its scene, since a person may have edited the file."""
+"""Checks of a bundle's objects against its scene, since a person may have edited the file."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ class BundleWarning(UserWarning):
 
 
 def require_plausible(bundle: BundleContents, folder: Path) -> None:
-    """Check sizes against the measured ones, and that the scene can meet each needed contact.
+    """Check sizes against the measured ones, and that the scene can provide each needed contact.
 
-    Raises: BundleError: a size that no plate of that object has.
-    Warns: BundleWarning: a state that waits for a contact which nothing in the scene can give.
+    Raises: BundleError: a size that this object's plate cannot have.
+    Warns: BundleWarning: a state needs a contact that no object in the scene can provide.
     """
     objects, scene = bundle.objects, bundle.snapshot
     categories = {item.id: "" for item in scene.objects} | {key: said.object_category for key, said in objects.items()}
     for object_id, haptics in objects.items():
-        # Without a material it is no plate, and earlier versions wrote such sizes as they were measured.
+        # An object without a material is no plate, and earlier versions stored its measured size unchecked.
         if haptics.material is not None:
             wrong = sizes.faults(haptics.estimated_size_m, scene.object(object_id).size_m)
             if wrong:

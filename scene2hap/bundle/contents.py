@@ -1,4 +1,4 @@
-"""The data of a baked scene, without methods to change or save it; reading and writing build on this alone."""
+"""The data of a baked scene, without methods to change or save it. Reading and writing depend only on this module."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 @dataclass(frozen=True)
 class BundleContents:
-    """A baked scene: its objects, the answers of inference for each, and the loops of each source by state.
+    """A baked scene: its objects, the inferred properties of each, and the loops of each source by state.
 
-    `overrides` are a person's corrections; `choices` say why each sound was chosen, as a table of its
-    candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
+    `overrides` are a person's corrections. `choices` give the reason for each chosen sound, as a table of its
+    candidates in text, by id and state. `made_with` are the common settings of all loops, None if unknown.
     """
 
     snapshot: SceneSnapshot
@@ -46,7 +46,7 @@ class BundleContents:
 
     @property
     def actuator(self) -> ActuatorProfile | None:
-        """The actuator that all tactile loops were converted for; None if unknown."""
+        """The actuator for which all tactile loops were converted; None if unknown."""
         return self.made_with.actuator if self.made_with is not None else None
 
     @property
@@ -55,18 +55,18 @@ class BundleContents:
         return tuple(dict.fromkeys(loop.audible.credit for states in self.loops.values() for loop in states.values()))
 
     def is_muted(self, object_id: str) -> bool:
-        """Whether a source is silent until a game unmutes it."""
+        """Return True if a source is silent until a game unmutes it."""
         wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
         return wish is not None and wish.muted
 
     def gain_db(self, object_id: str) -> float:
-        """The level of a source at the hand against the inferred one [dB]."""
+        """Return the level of a source at the hand, relative to the inferred one [dB]."""
         wish = self.overrides.get(object_id) if isinstance(object_id, str) else None
         return wish.gain_db if wish is not None and wish.gain_db is not None else 0.0
 
 
 def require_same_scene(scene: SceneSnapshot, bundle: BundleContents) -> None:
-    """Raise an UnknownObject where a bundle has loops for objects that a scene lacks, or shares no object with it."""
+    """Raise an UnknownObject if a scene lacks objects of the bundle's loops, or shares no object with the bundle."""
     ids = {item.id for item in scene.objects}
     baked = bundle.loops if bundle.loops or ids & bundle.objects.keys() else bundle.objects
     lacking = [object_id for object_id in baked if object_id not in ids]

@@ -1,8 +1,8 @@
-"""The file of corrections that a viewer of a report saves.
+"""The file of corrections that a report page saves.
 
     {"format": "scene2hap/overrides", "version": 1, "overrides": {"fridge": {"material": "oak", "gain_db": -3.0}}}
 
-Fields are those of `HapticBundle.override`, but for clips; absent fields stay as they were.
+Fields are those of `HapticBundle.override`, except clips. Absent fields stay unchanged.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ FIELDS = frozenset(
 
 
 def read_corrections(path: Path) -> dict[str, dict[str, Any]]:
-    """The fields that a person has set, by object id.
+    """Read the corrected fields by object id.
 
-    Raises: BundleError: the file cannot be read, is none of this kind, or names a field that nobody can set.
+    Raises: BundleError: the file cannot be read, has another format, or has a field that cannot be corrected.
     """
     try:
         document = read_json(read_small_text(path))
@@ -35,7 +35,7 @@ def read_corrections(path: Path) -> dict[str, dict[str, Any]]:
 
 
 def parsed_corrections(document: object, place: str) -> dict[str, dict[str, Any]]:
-    """As `read_corrections`, of plain data; `place` is named in messages."""
+    """Check plain data as `read_corrections` does, and return it. `place` is its name in error messages."""
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise BundleError(f'{place} is no file of corrections: it must be an object with "format": "{FORMAT}".')
     if document.get("version") != VERSION:

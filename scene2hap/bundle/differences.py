@@ -1,4 +1,4 @@
-"""The differences between two bundles: in words for people, and the objects that a session has to exchange."""
+"""The differences between two bundles: as text, and as the objects that a session has to replace."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from scene2hap.haptics import ObjectHaptics
 
 
 class Difference(NamedTuple):
-    """One property of an object that differs, and its value in either bundle, "-" where it has none."""
+    """One property of an object that differs, and its value in each bundle, "-" if it has none."""
 
     object_id: str
     what: str
@@ -24,7 +24,7 @@ class Difference(NamedTuple):
 
 
 def differences(one: BundleContents, other: BundleContents) -> tuple[Difference, ...]:
-    """List what differs between two bundles, object by object; loops by their samples."""
+    """List the differences between two bundles, object by object. Loops are compared by their samples."""
     ids = list(dict.fromkeys((*(item.id for item in one.snapshot.objects), *(x.id for x in other.snapshot.objects))))
     sides = [{object_id: dict(_said(bundle, object_id)) for object_id in ids} for bundle in (one, other)]
     return tuple(
@@ -69,13 +69,13 @@ def _inferred(haptics: ObjectHaptics) -> Iterator[tuple[str, str]]:
 
 
 def _digest(loop: HapticLoop) -> str:
-    """The frequency of a tactile loop, and a name for its samples."""
+    """Return the frequency of a tactile loop, and a digest of its samples."""
     content = hashlib.sha256(loop.tactile.samples.tobytes() + loop.audible.samples.tobytes()).hexdigest()[:8]
     return f"{loop.frequency_tactile_hz:.1f} Hz ({content})"
 
 
 def changed_objects(before: BundleContents, after: BundleContents) -> list[str]:
-    """Ids of objects whose haptics or tactile loops differ, in the order of `after`."""
+    """Return the ids of objects whose haptics or tactile loops differ, in the order of `after`."""
     ids = dict.fromkeys((*after.objects, *before.objects))
     return [
         key
@@ -86,7 +86,7 @@ def changed_objects(before: BundleContents, after: BundleContents) -> list[str]:
 
 
 def _are_equal(one: Mapping[str, HapticLoop], other: Mapping[str, HapticLoop]) -> bool:
-    """Whether both have the same states in the same order, and sound alike to the hand."""
+    """Return True if both have the same states in the same order, with equal tactile loops."""
     return list(one) == list(other) and all(_is_same(one[state], other[state]) for state in one)
 
 

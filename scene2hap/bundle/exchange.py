@@ -1,4 +1,4 @@
-"""Swap two folders in one step, on systems that have such a step."""
+"""Swap two folders in one step, on systems that support this."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ _UNSUPPORTED = {errno.ENOSYS, errno.EINVAL, errno.ENOTSUP, errno.EOPNOTSUPP}
 
 
 def exchange(one: Path, other: Path) -> bool:
-    """Swap two folders. Returns whether the system could; where it cannot, nothing was done.
+    """Swap two folders. Returns False, without any change, if the system cannot do this in one step.
 
-    At no moment does either path name nothing. Raises: OSError: as of a rename.
+    Both paths exist at every moment. Raises: OSError: as for a rename.
     """
     paths = os.fsencode(one), os.fsencode(other)
     call: Callable[..., int]
@@ -32,7 +32,7 @@ def exchange(one: Path, other: Path) -> bool:
             call, arguments = ctypes.CDLL(None, use_errno=True).renamex_np, (*paths, _RENAME_SWAP)
         else:
             return False
-    except (AttributeError, OSError):  # a C library without that function
+    except (AttributeError, OSError):  # the C library lacks this function
         return False
     if call(*arguments) == 0:
         return True

@@ -1,14 +1,15 @@
 """A bundle on disk: a folder of JSON, WAV and meshes that a person can read and edit.
 
-bundle.json     format, version, kind of place, settings of all loops, files (last: a folder without it is half written)
+bundle.json     format, version, kind of place, settings of all loops, files; written last: without it, the folder is
+                incomplete
 scene.json      the snapshot; geometry by reference to meshes/
 objects.json    ObjectHaptics of each object by id
-loops.json      for each source and state its sounds, frequencies, credit, and the fingerprint of their making
-overrides.json  what a person has overridden, by id
+loops.json      sounds, frequencies, credit and fingerprint of each source and state
+overrides.json  a person's overrides, by id
 credits.txt     credits of the sounds
 meshes/*.ply    one per distinct mesh [m]
-sounds/*.wav    audible and tactile loop of each source and state, equal in length and seam; equal ones are one file
-sounds/*.flac   the sounds that loops were cut from, to cut and convert them again
+sounds/*.wav    audible and tactile loop of each source and state, with equal length and seam; equal loops share a file
+sounds/*.flac   the sounds from which loops were cut, kept for later cuts and conversions
 """
 
 from __future__ import annotations
@@ -55,14 +56,14 @@ _objects: TypeAdapter[dict[str, ObjectHaptics]] = TypeAdapter(dict[str, ObjectHa
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _MOST_READINGS = 5
 _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
-"""Errors that Python itself raises on a document of the wrong shape, on huge numbers, and on files that vanish."""
+"""Errors that Python raises for documents of the wrong shape, for huge numbers, and for files that disappear."""
 
 
 def write_bundle(bundle: BundleContents, target: Path) -> Path:
-    """Write the folder whole or not at all; an older bundle there is replaced, and files of others stay.
+    """Write the folder whole or not at all. An older bundle there is replaced, and foreign files are kept.
 
-    Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder holds something else, is
-    the one that the process works in, or cannot be written.
+    Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder is not a bundle, is the
+    working folder of this process, or cannot be written.
     """
     try:
         with replaced(target) as draft:
@@ -79,7 +80,7 @@ def _write(bundle: BundleContents, folder: Path) -> None:
 
     def put(name: str, document: Any) -> None:
         text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
-        if _SURROGATE.search(text):  # a file name that is no UTF-8 made it into a name
+        if _SURROGATE.search(text):  # a name came from a file name that is not UTF-8
             text = json.dumps(document, indent=1, allow_nan=False)
         put_bytes(name, f"{text}\n".encode())
 
@@ -103,7 +104,7 @@ def _write(bundle: BundleContents, folder: Path) -> None:
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
     put("loops.json", write_loops(bundle, folder, written))
     put("overrides.json", _override_rows(bundle, folder, written))
-    owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # found by two queries, owed once
+    owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # two queries may find one sound
     lines = [f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}" for who in owed]
     text = "\n".join(["Sounds in this bundle, cut into loops and turned into vibration", *lines]) + "\n"
     put_bytes("credits.txt", text.encode("utf-8", "replace"))
@@ -120,10 +121,10 @@ def _write(bundle: BundleContents, folder: Path) -> None:
 
 
 def read_bundle(folder: Path) -> BundleContents:
-    """Read a folder that `write_bundle` wrote, edited or not. One that is replaced meanwhile is read again.
+    """Read a folder that `write_bundle` wrote, even if edited. If it is replaced during reading, read it again.
 
     Raises: BundleIncomplete, BundleVersionError, BundleError: see `HapticBundle.load`.
-    Warns: BundleWarning: the process that replaced it died, and it was put in its place.
+    Warns: BundleWarning: an interrupted save was completed first.
     """
     recover(folder)
     require_folder(folder)
@@ -170,7 +171,7 @@ def _read(folder: Path) -> BundleContents:
 
 @contextmanager
 def _reading(path: Path) -> Iterator[None]:
-    """Turn errors of the block into a BundleError or a child of it that names the file."""
+    """Convert errors of the block into a BundleError, or a child of it, that names the file."""
     try:
         yield
     except BundleError as cause:
@@ -186,9 +187,9 @@ def _reading(path: Path) -> Iterator[None]:
         raise BundleError(f"{path}: {cause}") from cause
     except KeyError as cause:
         raise BundleError(f"{path} lacks {cause}. Bake again, or mend the file.") from cause
-    except _DAMAGE as cause:  # files may be damaged in any way; the cause says more
+    except _DAMAGE as cause:  # a file may be damaged in any way
         reason = str(cause)[:200] or type(cause).__name__
-        raise BundleError(f"{path} holds what cannot be: {reason}. Bake again, or mend the file.") from cause
+        raise BundleError(f"{path} has invalid content: {reason}. Bake again, or correct the file.") from cause
 
 
 def _identity(folder: Path) -> tuple[int, int] | None:
@@ -229,9 +230,9 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
 
 
 def read_overrides(folder: Path) -> dict[str, Override]:
-    """Read the overrides of the bundle in a folder, by id; empty where no bundle is.
+    """Read the overrides of the bundle in a folder, by id; empty if there is no bundle.
 
-    Raises: BundleError and its children: the file cannot be read, so that it would be lost.
+    Raises: BundleError and its children: the file cannot be read. A bake then stops, so that overrides are not lost.
     """
     recover(folder)
     if not os.path.lexists(folder / MANIFEST) or not os.path.lexists(folder / "overrides.json"):

@@ -1,4 +1,4 @@
-"""The bundle that a caller gives: a HapticBundle, or the path of its folder."""
+"""Conversion of a caller's argument into a bundle: a HapticBundle, or the path of its folder."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from scene2hap.settings import Settings
 
 
 def given_bundle(bundle: object) -> HapticBundle:
-    """A bundle as it is, one read from the path of its folder by `HapticBundle.load`.
+    """Return a bundle unchanged, or load it from the path of its folder.
 
-    Raises: BundleError: it is something else, such as a scene that is not baked; and as `HapticBundle.load`.
+    Raises: BundleError: another type, such as a scene that is not baked; and as `HapticBundle.load`.
     """
     if isinstance(bundle, HapticBundle):
         return bundle
@@ -30,9 +30,9 @@ def given_bundle(bundle: object) -> HapticBundle:
 
 
 def given_pair(scene: object, bundle: object) -> tuple[SceneSnapshot, HapticBundle]:
-    """A scene and its bundle, each as an object or a path, in either order; a bundle alone brings its own scene.
+    """Return a scene and its bundle, each given as an object or a path, in any order. A bundle alone has its own scene.
 
-    Raises: BundleError: none of them is a bundle, or both are; and as `given_scene` and `given_bundle`.
+    Raises: BundleError: no bundle was given, or two; and as `given_scene` and `given_bundle`.
     """
     for one in (scene, bundle):
         if isinstance(one, Mapping | Settings):
@@ -56,5 +56,5 @@ def given_pair(scene: object, bundle: object) -> tuple[SceneSnapshot, HapticBund
 
 
 def _is_folder(path: object) -> bool:
-    """Whether a path is meant as that of a bundle: it is a folder, or is called as one."""
+    """Return True if a path is meant as a bundle: it is a folder, or has the suffix of a bundle."""
     return isinstance(path, str | os.PathLike) and (Path(path).is_dir() or Path(path).suffix == ".bundle")

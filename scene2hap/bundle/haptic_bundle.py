@@ -1,4 +1,4 @@
-"""A baked scene, to change, save and load."""
+"""HapticBundle: a baked scene that can be changed, saved and loaded."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ if TYPE_CHECKING:
 @clear_calls
 @dataclass(frozen=True)
 class HapticBundle(BundleContents):
-    """A baked scene: its objects, the answers of inference for each, and the loops of each source by state.
+    """A baked scene: its objects, the inferred properties of each, and the loops of each source by state.
 
-    `overrides` are a person's corrections; `choices` say why each sound was chosen, as a table of its
-    candidates in text, by id and state; `made_with` are the settings that all loops share, None where nobody knows.
+    `overrides` are a person's corrections. `choices` give the reason for each chosen sound, as a table of its
+    candidates in text, by id and state. `made_with` are the common settings of all loops, None if unknown.
     """
 
     def override(
@@ -54,17 +54,17 @@ class HapticBundle(BundleContents):
         start_up_s: float | Mapping[str, float] | None = None,
         wind_down_s: float | Mapping[str, float] | None = None,
     ) -> Self:
-        """The bundle with a correction to one object, on top of earlier ones; None leaves a field as it is.
+        """Correct one object, in addition to earlier corrections. Returns a new bundle. None leaves a field unchanged.
 
-        A clip, or the path of one, stays at its own frequency unless `keep=False` allows to move it clear of the
-        scene's other sources. Intensity, pitch and the times of start and stop are numbers for all states, or mappings
-        by state; `state` is the one that plays at first. Corrections are kept in the folder and by `rebake`. Level,
-        material, mass, feet, times, first state, mute and silence count at once. The others, and vibration where none
-        was inferred, count after `rebake(bundle)`, which makes the loops. The loops of a locked object stay as they
-        are, byte for byte; a correction that would change them is refused.
-        Raises: UnknownObject; BundleError: a field out of bounds, a state that the object has not, or one that would
-        change the loops of a locked object; UnknownMaterial. Warns: SceneWarning: a clip for an object that does not
-        vibrate, or a level that looks like a percentage.
+        A clip, or the path of one, keeps its own frequency; `keep=False` allows moving it away from the scene's other
+        sources. Intensity, pitch and the times of start and stop are numbers for all states, or mappings by state.
+        `state` is the state at the start. Corrections are kept in the folder and by `rebake`. Level, material, mass,
+        feet, times, first state, mute and silence take effect at once. The others, and vibration of an object that was
+        inferred silent, need `rebake(bundle)`, which makes the loops. The loops of a locked object stay unchanged, byte
+        for byte; a correction that would change them is rejected.
+        Raises: UnknownObject; BundleError: a field out of bounds, an unknown state of the object, or a change of the
+        loops of a locked object; UnknownMaterial. Warns: SceneWarning: a clip for an object that does not vibrate, or a
+        level that looks like a percentage.
         """
         self.snapshot.object(object_id)
         changes = {
@@ -99,10 +99,10 @@ class HapticBundle(BundleContents):
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
 
     def corrected(self, file: str | os.PathLike[str]) -> Self:
-        """The bundle with the corrections in a file that a viewer of a report saved, on top of earlier ones.
+        """Apply the corrections in a file from a report page, in addition to earlier ones. Returns a new bundle.
 
-        Those of vibration, intensity and pitch count after `rebake`. Raises: BundleError: the file is none; and as
-        `override`.
+        Corrections of vibration, intensity and pitch need `rebake`. Raises: BundleError: not a file of corrections; and
+        as `override`.
         """
         bundle = self
         for object_id, fields in read_corrections(checks.path("file", file, error=BundleError)).items():
@@ -110,7 +110,7 @@ class HapticBundle(BundleContents):
         return bundle
 
     def with_overrides(self) -> Self:
-        """The bundle with every correction applied that needs no new loops."""
+        """Return the bundle with all corrections applied that need no new loops."""
         objects = {
             object_id: self.overrides[object_id].applied(haptics) if object_id in self.overrides else haptics
             for object_id, haptics in self.objects.items()
@@ -120,7 +120,7 @@ class HapticBundle(BundleContents):
             if wish.vibrates is False:
                 loops.pop(object_id, None)
             elif wish.state is not None and wish.state in loops.get(object_id, {}):
-                # The first state is the one that plays.
+                # The first state in the mapping is the one that plays.
                 loops[object_id] = {wish.state: loops[object_id][wish.state], **loops[object_id]}
         return replace(self, objects=objects, loops=loops)
 
@@ -141,7 +141,7 @@ class HapticBundle(BundleContents):
                 raise BundleError(f"{object_id!r} has no state {checks.shown(state)}; {has}.")
 
     def _require_played(self, object_id: str, wish: Override) -> None:
-        """Raise a BundleError where the bundle's actuator does not play a pitch."""
+        """Raise a BundleError if the bundle's actuator does not play a pitch."""
         actuator = self.actuator
         if actuator is None:
             return
@@ -160,7 +160,7 @@ class HapticBundle(BundleContents):
         up_to_m: float | None = None,
         figure: Figure | SubFigure | None = None,
     ) -> Figure | SubFigure:
-        """Draw the scene from above with its sources, and for sources their sound, vibration and spectra.
+        """Draw the scene from above with its sources, and for each source its sound, vibration and spectra.
 
         Parameters: sources : ids of the sources to draw, the first eight if None; up_to_m : leave out surfaces higher
         than this above the lowest point of the scene [m], such as a ceiling; figure : an empty matplotlib figure to
@@ -168,7 +168,7 @@ class HapticBundle(BundleContents):
         Returns: the figure, made without pyplot; lengths in m, times in s, levels in dB re full scale.
         Raises: MissingExtra: matplotlib is not installed; BundleError: no such source, or `up_to_m` is no height.
         """
-        from scene2hap.bundle.plots import plot_bundle  # by need: the extra `plots`
+        from scene2hap.bundle.plots import plot_bundle  # imported here, since it needs the extra `plots`
 
         if up_to_m is not None:
             up_to_m = checks.number("up_to_m", up_to_m, "m", error=BundleError)
@@ -178,20 +178,20 @@ class HapticBundle(BundleContents):
         return bundle_table(self)
 
     def save(self, folder: str | os.PathLike[str]) -> Path:
-        """Write the folder whole or not at all; an older bundle there is replaced, and files of others stay.
+        """Write the folder whole or not at all. An older bundle there is replaced, and foreign files are kept.
 
-        Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder holds something
-        else, is the one that the process works in, or cannot be written.
+        Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder is not a bundle, is
+        the working folder of this process, or cannot be written.
         """
         return write_bundle(self, checks.path("folder", folder, error=BundleError))
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> Self:
-        """Read a folder that `save` wrote, edited or not.
+        """Read a folder that `save` wrote, even if edited.
 
         Raises: BundleIncomplete: a file is missing or cut short; BundleVersionError: written by a newer scene2hap;
-        BundleError: a file says something that cannot be.
-        Warns: BundleWarning: a state waits for a contact that nothing in the scene can give.
+        BundleError: a file has an impossible value.
+        Warns: BundleWarning: a state needs a contact that no object in the scene can provide.
         """
         path = checks.path("folder", folder, error=BundleError)
         found = read_bundle(path)

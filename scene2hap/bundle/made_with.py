@@ -1,4 +1,4 @@
-"""The settings that all loops of a bundle share."""
+"""The common settings of all loops of a bundle."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from scene2hap.haptics import ActuatorProfile
 class MadeWith:
     """The settings of a bake that decide how a loop is made from its sound.
 
-    `tactile` is the converter as configuration: its `kind` and settings; one that was given ready made and is
-    registered nowhere has a `class` instead, and cannot be built again. `seed` is that of synthesized sounds.
+    `tactile` is the configuration of the converter: its `kind` and settings. A converter that was given ready made and
+    is not registered has a `class` instead, and cannot be built again. `seed` is the seed of synthesized sounds.
     """
 
     actuator: ActuatorProfile
@@ -25,7 +25,7 @@ class MadeWith:
     seed: int = 0
 
     def to_document(self) -> dict[str, Any]:
-        """JSON values."""
+        """Return JSON values."""
         return {
             "actuator": asdict(self.actuator),
             "tactile": dict(self.tactile),
@@ -35,14 +35,14 @@ class MadeWith:
 
     @classmethod
     def from_document(cls, document: object, place: str) -> MadeWith | None:
-        """Read the result of `to_document`, None for None, as in older bundles; `place` is its name in errors.
+        """Read the result of `to_document`; None gives None, as in older bundles. `place` is its name in errors.
 
-        Raises: BundleError: it is something else.
+        Raises: BundleError: it is not such a result.
         """
         if document is None:
             return None
         try:
-            fields = dict(document)  # type: ignore[call-overload]  # if it cannot, see below
+            fields = dict(document)  # type: ignore[call-overload]  # the except clause handles other types
             tactile, seed = fields["tactile"], fields["seed"]
             if not isinstance(tactile, dict) or not isinstance(seed, int):
                 raise TypeError("tactile must be an object and seed a whole number")

@@ -1,4 +1,4 @@
-"""A bundle as a table for notebooks: states of the sources first, then the objects that only carry vibration."""
+"""Table of a bundle for notebooks: first the states of the sources, then the other objects."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _COLUMNS = (
 
 
 def bundle_table(bundle: BundleContents) -> str:
-    """HTML with a row for each state of each source, and for each other object."""
+    """Return HTML with a row for each state of each source, and for each other object."""
     carriers = [key for key in bundle.objects if not bundle.loops.get(key)]
     n_states = sum(map(len, bundle.loops.values()))
     n_sources = sum(map(bool, bundle.loops.values()))

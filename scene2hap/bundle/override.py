@@ -1,4 +1,4 @@
-"""A person's corrections of the inferred data of an object; kept when the scene is baked again."""
+"""A person's corrections of inferred data of an object. They are kept when the scene is baked again."""
 
 from __future__ import annotations
 
@@ -22,38 +22,38 @@ USER = "user"
 """Provenance of an overridden field."""
 
 ANY_STATE = "*"
-"""Stands for every state of an object that is not named itself."""
+"""Key for all states of an object that have no entry of their own."""
 
 MAKES_LOOPS = frozenset({"vibrates", "clip", "keep", "intensity", "pitch_hz"})
-"""Fields that decide how loops are made; while an object is locked they cannot change."""
+"""Fields that decide how loops are made. They cannot change while an object is locked."""
 
 PASSAGES = ("start_up_s", "wind_down_s")
 BY_STATE = ("intensity", "pitch_hz", *PASSAGES)
-"""Fields that are numbers by state."""
+"""Fields with a number for each state."""
 
 _MOST_GAIN_DB = 60.0
 _PITCH_HZ = (10.0, 1000.0)
-"""Frequencies that hands feel as a pitch, also the band of an actuator without a profile."""
+"""Frequencies that hands feel as a pitch; also the band of an actuator without a profile."""
 
 
 @clear_construction
 @dataclass(frozen=True)
 class Override:
-    """A correction; None leaves the inferred value.
+    """A correction. A field of None keeps the inferred value.
 
-    vibrates : whether the object vibrates by itself.
-    gain_db : its level at the hand against the inferred one [dB].
+    vibrates : True if the object vibrates by itself.
+    gain_db : its level at the hand, relative to the inferred one [dB].
     mass_kg : mass of the whole object [kg].
-    feet : the material on which it stands on others, or a name in the table.
+    feet : the material of its feet, or a name in the table.
     material : its material, or a name in the table.
-    clip : the sound that its vibration is made from, in every state, or the path of its file, which may also be a
-        haptic clip (.haptic, .ahap), felt as it is; keep : whether that sound stays at its own frequency and level, and
-        the scene's other sources keep clear of it.
-    locked : whether its loops stay as they are, whatever is baked again.
-    intensity : of the vibration at the object itself, 0..1 [-]; pitch_hz : the frequency at which it is felt, 10..1000
-        [Hz]; start_up_s, wind_down_s : how long it takes to come up and to die away, 0..30 [s]. Each is a number for
-        all states or a mapping by state.
-    state : the one that it plays at first; muted : whether it is silent until a game unmutes it.
+    clip : the sound from which its vibration is made, in every state, or the path of its file. A haptic clip (.haptic,
+        .ahap) is played unchanged. keep : True if that sound keeps its own frequency and level; the scene's other
+        sources are then moved away from it.
+    locked : True if its loops stay unchanged in every later bake.
+    intensity : of the vibration at the object itself, 0..1 [-]; pitch_hz : the frequency of its vibration, 10..1000
+        [Hz]; start_up_s, wind_down_s : its start and stop times, 0..30 [s]. Each is a number for all states or a
+        mapping by state.
+    state : its state at the start; muted : True if it is silent until a game unmutes it.
     Raises: BundleError: a field of another type or out of bounds. UnknownMaterial.
     """
 
@@ -107,21 +107,21 @@ class Override:
             )
 
     def changed(self, changes: Mapping[str, Any]) -> Override:
-        """Replace the fields that are not None; numbers by state are added to earlier ones."""
+        """Replace the fields that are not None. Numbers by state are added to earlier ones."""
         now = replace(self, **{name: value for name, value in changes.items() if value is not None})
         by_state: dict[str, Any] = {name: _on_top(getattr(self, name), getattr(now, name)) for name in BY_STATE}
         return replace(now, **by_state)
 
     def pitch_of(self, state: str) -> float | None:
-        """The frequency at which a state is to be felt [Hz], None if it is not overridden."""
+        """Return the corrected frequency of a state's vibration [Hz], None if it is not overridden."""
         return self.pitch_hz.get(state, self.pitch_hz.get(ANY_STATE))
 
     def applied(self, haptics: ObjectHaptics) -> ObjectHaptics:
-        """Apply these corrections to inferred haptics. An object made to vibrate gets a state when baked again."""
+        """Apply these corrections to inferred haptics. An object made to vibrate gets its state in the next bake."""
         provenance = dict(haptics.provenance)
         if self.material is not None:
             provenance |= {"material": USER, "material_category": USER}
-            # Earlier versions left a sheet of unknown material without a thickness, which propagation needs.
+            # Earlier versions stored no thickness for a sheet of unknown material, but propagation needs one.
             size_m = with_thickness(haptics.estimated_size_m)
             haptics = replace(
                 haptics, material=self.material, material_category=self.material.name, estimated_size_m=size_m
@@ -159,7 +159,7 @@ class Override:
 
 
 def _by_state(value: object, bounded: Callable[[str, object], float], name: str) -> dict[str, float]:
-    """A number for all states, or numbers by state. Raises: BundleError: something else, or out of bounds."""
+    """Return numbers by state, `ANY_STATE` for one number. Raises: BundleError: another type, or out of bounds."""
     given = value if isinstance(value, Mapping) else {ANY_STATE: value}
     return {
         checks.text(f"state of {name}", state, error=BundleError): bounded(

@@ -1,4 +1,4 @@
-"""The files in a bundle's folder that belong to it, and safe reading of files that a person may have changed."""
+"""The files that belong to a bundle, and safe reading of files that a person may have changed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ VERSION = 1
 MANIFEST = "bundle.json"
 
 MAX_FILE_BYTES = 1 << 28
-"""Larger JSON and mesh files are refused before they are read; assumed: 256 MiB are some 7 million triangles."""
+"""Larger JSON and mesh files are rejected before they are read; assumed: 256 MiB are some 7 million triangles."""
 
 _OURS = re.compile(
     r"(meshes/[^/\\]+\.ply|sounds/[^/\\]+\.(wav|flac)|(scene|objects|loops|overrides)\.json|credits\.txt)"
@@ -25,10 +25,10 @@ _OURS = re.compile(
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
-    """Read bundle.json, of a format and version that can be read.
+    """Read bundle.json, and check its format and version.
 
-    Raises: BundleIncomplete: it is missing or damaged; BundleVersionError: of a newer scene2hap; BundleError: it is
-    something else.
+    Raises: BundleIncomplete: it is missing or damaged; BundleVersionError: of a newer scene2hap; BundleError: it has
+    another format.
     """
     manifest = read_json(folder, MANIFEST)
     if manifest.get("format") != FORMAT:
@@ -47,7 +47,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 
 
 def require_folder(folder: Path) -> None:
-    """Raise a BundleIncomplete where a path cannot be that of a bundle: nothing is there, or a file."""
+    """Raise a BundleIncomplete if a path cannot be a bundle, because nothing or a file is there."""
     if not os.path.lexists(folder):
         near = checks.near_files(folder) or "`bake(scene).save(folder)` writes one."
         raise BundleIncomplete(f"there is no folder {str(folder)!r}. {near}")
@@ -57,20 +57,20 @@ def require_folder(folder: Path) -> None:
 
 
 def our_files(folder: Path) -> frozenset[str]:
-    """Names of the files that a bundle's manifest lists, with forward slashes. Raises: as `read_manifest`.
+    """Return the names of the files in a bundle's manifest, with forward slashes. Raises: as `read_manifest`.
 
-    A name that we would never write is not ours, whatever the account says.
+    Names that scene2hap never writes are left out, even if the manifest lists them.
     """
     names = read_manifest(folder).get("files", [])
     return frozenset(name for name in names if _OURS.fullmatch(name)) | {MANIFEST}
 
 
 def read_json(folder: Path, name: str) -> dict[str, Any]:
-    """The JSON object in a file of a bundle. Raises: BundleIncomplete, BundleError."""
+    """Return the JSON object in a file of a bundle. Raises: BundleIncomplete, BundleError."""
     data = read_bytes(folder, name)
     try:
         document = json.loads(data.decode("utf-8"))
-    except (ValueError, RecursionError) as cause:  # ValueError: no UTF-8, no JSON, or a number of thousands of digits
+    except (ValueError, RecursionError) as cause:  # ValueError: not UTF-8, not JSON, or a number of thousands of digits
         raise BundleIncomplete(f"{folder / name} cannot be read: {cause}. Bake again, or mend the file.") from cause
     if not isinstance(document, dict):
         raise BundleError(f"{folder / name} must hold a JSON object.")
@@ -90,9 +90,9 @@ def read_bytes(folder: Path, name: str) -> bytes:
 
 
 def own_file(folder: Path, name: object) -> Path:
-    """The path of a regular file that a bundle names: a pipe would be waited for.
+    """Return the path of a regular file that a bundle names. Other kinds are rejected, since a pipe would block.
 
-    Raises: BundleIncomplete: it is missing, or is no regular file; BundleError: it lies outside.
+    Raises: BundleIncomplete: it is missing, or is no regular file; BundleError: it is outside the bundle.
     """
     path = inside(folder, name)
     try:
@@ -110,12 +110,12 @@ def own_file(folder: Path, name: object) -> Path:
 
 
 def inside(folder: Path, name: object) -> Path:
-    """The path of a file that a bundle names. Raises: BundleError: it lies outside of the bundle, or is no name."""
+    """Return the path of a file that a bundle names. Raises: BundleError: it is outside the bundle, or is no name."""
     if not isinstance(name, str):
         raise BundleError(f"{folder} names a file {str(name)[:80]!r}; it must be a text.")
     try:
         path, home = (folder / name).resolve(), folder.resolve()
-    except (OSError, RuntimeError, ValueError) as cause:  # a zero byte, a circle of links, a name of a megabyte
+    except (OSError, RuntimeError, ValueError) as cause:  # a zero byte, a circle of links, a very long name
         raise BundleError(f"{folder} names a file {name[:80]!r}, which cannot be: {cause}.") from cause
     if not path.is_relative_to(home):
         raise BundleError(f"{folder} refers to {name[:80]!r}, outside itself; a bundle only reads its own files.")

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
 MOST_SOURCES = 8
-"""How many sources are drawn by default: more do not fit on a page."""
+"""Most sources drawn by default: more do not fit on a page."""
 _MOST_LISTED = 24
 _CELLS = 320
 
@@ -28,7 +28,7 @@ _CELLS = 320
 def plot_bundle(
     bundle: BundleContents, sources: Sequence[str] | None, up_to_m: float | None, figure: Figure | SubFigure | None
 ) -> Figure | SubFigure:
-    """The plan, and below it a row for each source. See `HapticBundle.plot`."""
+    """Draw the plan, and below it a row for each source. See `HapticBundle.plot`."""
     shown = _chosen(bundle, sources)
     n_rows = max(1, len(shown))
     figure = new_figure(10.0, 4.4 + 2.1 * n_rows) if figure is None else figure
@@ -59,7 +59,7 @@ def plot_bundle(
 
 
 def _chosen(bundle: BundleContents, sources: Sequence[str] | None) -> list[str]:
-    """The sources to draw. Raises: BundleError: one is none."""
+    """Return the sources to draw. Raises: BundleError: an id is not a source."""
     if sources is None:
         return [key for key, states in bundle.loops.items() if states][:MOST_SOURCES]
     chosen = [sources] if isinstance(sources, str) else checks.items("sources", sources, error=BundleError)
@@ -77,7 +77,7 @@ def _draw_plan(axes: Axes, beside: Axes, bundle: BundleContents, up_to_m: float 
     height = np.where(view.top == NOTHING, np.nan, view.height_m)
     height -= min(float(item.bounds_m[0, view.up]) for item in scene.objects)
     highest = 1e-3 if np.isnan(height).all() else max(float(np.nanmax(height)), 1e-3)
-    # The highest surface stays darker than a white page, the lowest lighter than a black one.
+    # Keep the highest surface darker than a white page, and the lowest one lighter than black.
     image = draw_values(axes, view, height, cmap="Greys_r", vmin=-0.3 * highest, vmax=1.15 * highest)
     bar = axes.figure.colorbar(image, ax=axes, label="height of the surface [m]", shrink=0.85)
     bar.ax.set_ylim(0.0, highest)

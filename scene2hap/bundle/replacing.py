@@ -1,14 +1,15 @@
-"""Replace a bundle's folder as a whole: build it beside its place, then move it there in one step.
+"""Replacement of a bundle's folder as a whole: the new folder is built beside the target, then moved there in one step.
 
-The draft stands beside the place as `.NAME.scene2hap-RANDOM-INODE.new`. The system exchanges the two folders in one
-step (`exchange`), and the old bundle is then removed under the draft's name. Where there is no such step, the
-old one is first moved to a name that ends in `.old`, and the draft then to its place. A process that dies between these
-two leaves nothing at the place, and both beside it: the next load or save puts the new one there (`recover`).
+The draft is beside the target as `.NAME.scene2hap-RANDOM-INODE.new`. The system swaps the two folders in one step
+(`exchange`), and the old bundle, which now has the draft's name, is removed. Some systems cannot swap folders. There
+the old folder is first moved to a name that ends in `.old`, and then the draft to the target. If the process dies
+between these two moves, the target is missing, and both folders are beside it: the next load or save moves the new one
+to the target (`recover`).
 
-The inode stays with a folder wherever it is moved. So a folder under a draft's name is a draft, which may be removed,
-if it has the inode in that name; else it is an old bundle, which may hold files of others. A process that works on a
-folder holds a lock on it, which the system releases when the process dies. A folder that is not locked was left behind;
-the next save removes it.
+A folder keeps its inode when it is moved. So a folder with a draft's name and the inode in that name is a draft, which
+may be removed. With another inode it is an old bundle, which may hold foreign files. A process that works on a folder
+locks it, and the system releases the lock when the process dies. A folder without a lock is abandoned; the next save
+removes it.
 """
 
 from __future__ import annotations
@@ -36,16 +37,16 @@ except ImportError:  # Windows, where a folder cannot be locked
     fcntl = None  # type: ignore[assignment]  # a module elsewhere
 
 ABANDONED_S = 86400.0
-"""Age at which a draft counts as left behind where folders cannot be locked [s]; assumed: a save takes seconds."""
+"""Age after which a draft counts as abandoned if folders cannot be locked [s]; assumed: a save takes seconds."""
 
 _MARK = ".scene2hap-"
 
 
 def require_replaceable(target: Path) -> None:
-    """Require a place that is free, an empty folder, or a bundle that can be read.
+    """Check that a target can be replaced: it does not exist, is an empty folder, or is a readable bundle.
 
-    Raises: BundleVersionError: a bundle of a newer scene2hap; BundleError: anything else, or a folder that this process
-    works in, which cannot be moved away below it.
+    Raises: BundleVersionError: a bundle of a newer scene2hap; BundleError: any other content, or the target is or
+    contains the working folder of this process, which would be moved away.
     """
     place = _resolved(target)
     if not os.path.lexists(place):
@@ -72,11 +73,11 @@ def require_replaceable(target: Path) -> None:
 
 @contextmanager
 def replaced(target: Path) -> Iterator[Path]:
-    """A folder to write to; it takes the place of `target` when the block ends well, and is removed when it does not.
+    """Provide a folder to write to. It replaces `target` if the block succeeds, else it is removed.
 
-    What is not ours in the folder that is replaced stays where it is.
+    Foreign files in the replaced folder are kept.
     Raises: BundleError: as `require_replaceable`; OSError: a folder cannot be made or moved.
-    Warns: BundleWarning: an earlier save was completed, or what was replaced cannot be removed.
+    Warns: BundleWarning: an earlier save was completed, or the old folder cannot be removed.
     """
     recover(target)
     require_replaceable(target)
@@ -89,28 +90,28 @@ def replaced(target: Path) -> Iterator[Path]:
             yield draft
             _put(draft, place, target, held)
         finally:
-            # Without anything at the place, it is what will be put there by the next load.
+            # Keep the draft if the target is missing: the next load moves it there.
             if _is_draft(draft) and not os.path.lexists(draft.with_suffix(".old")):
                 shutil.rmtree(draft, ignore_errors=True)
     _sync(place.parent)
 
 
 def recover(target: Path) -> None:
-    """Put a bundle at its place if the process that replaced it died when nothing was there.
+    """Complete an interrupted save: move the new bundle to the target if a process died while the target was missing.
 
-    Raises: BundleError: it cannot be moved there. Warns: BundleWarning: it was.
+    Raises: BundleError: it cannot be moved. Warns: BundleWarning: it was moved.
     """
     try:
         place = _resolved(target)
     except BundleError:
-        return  # whoever reads or writes there says why
+        return  # the caller's read or write reports the error
     if os.path.lexists(place):
         return
     for old in _left_beside(place, "old"):
         new = old.with_suffix(".new")
         with ExitStack() as held:
             if not (new / MANIFEST).is_file() or _lock(new, held) is False or os.path.lexists(place):
-                continue  # somebody is at it
+                continue  # another process works on it
             try:
                 new.rename(place)
             except OSError as cause:
@@ -126,7 +127,7 @@ def recover(target: Path) -> None:
 
 
 def _put(draft: Path, place: Path, target: Path, held: ExitStack) -> None:
-    os.chmod(draft, 0o755)  # one that is made privately; a bundle is as readable as any folder
+    os.chmod(draft, 0o755)  # the draft was made private, but a bundle is as readable as any folder
     while True:
         if not os.path.lexists(place):
             try:
@@ -134,17 +135,17 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack) -> None:
             except OSError:
                 if not os.path.lexists(place):
                     raise
-                continue  # somebody else was first
+                continue  # another process was faster
             return
         with ExitStack() as old_held:
             if _lock(place, old_held, wait=True) is False:
-                continue  # it has been replaced meanwhile
+                continue  # it has been replaced in the meantime
             require_replaceable(target)
             carry_over(place, draft)
             shutil.copymode(place, draft)
             old = draft if exchange(draft, place) else _move_in(draft, place)
             try:
-                os.chmod(old, 0o700)  # it may be one that cannot be written
+                os.chmod(old, 0o700)  # it may be write-protected
                 discard(old, place)
             except (OSError, BundleError) as cause:
                 warning = f"{target} is written, but {old}, which it replaces, cannot be removed: {cause}"
@@ -153,7 +154,7 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack) -> None:
 
 
 def _move_in(draft: Path, place: Path) -> Path:
-    """Move the draft to its place in two steps. Returns the path of the old folder."""
+    """Move the draft to the target in two steps. Returns the new path of the old folder."""
     old = draft.with_suffix(".old")
     place.rename(old)
     try:
@@ -172,7 +173,7 @@ def _new_draft(place: Path, held: ExitStack) -> Path:
         try:
             made.rename(draft)
         except FileNotFoundError:
-            continue  # an empty folder that nobody holds yet, removed by another save
+            continue  # another save removed the empty folder before it was locked
         except OSError:
             made.rmdir()
             raise
@@ -181,7 +182,7 @@ def _new_draft(place: Path, held: ExitStack) -> Path:
 
 
 def _remove_abandoned(place: Path) -> None:
-    """Remove the drafts of saves to this place that died."""
+    """Remove the drafts of saves to this target whose process died."""
     for kind in ("", "new", "old"):
         for left in _left_beside(place, kind):
             with ExitStack() as held, suppress(OSError, BundleError):
@@ -212,7 +213,7 @@ def _stem(place: Path) -> str:
 
 
 def _is_draft(path: Path) -> bool:
-    """Whether a folder under the name of a draft is still the one that was made under it."""
+    """Return True if a folder with a draft's name is still the draft itself, and not an old bundle after a swap."""
     try:
         return path.suffix == ".new" and path.name.endswith(f"-{path.stat().st_ino}.new")
     except OSError:
@@ -220,9 +221,9 @@ def _is_draft(path: Path) -> bool:
 
 
 def _lock(folder: Path, held: ExitStack, *, wait: bool = False) -> bool | None:
-    """Hold a folder until `held` is closed, or the process dies.
+    """Lock a folder until `held` is closed or the process dies.
 
-    False: somebody else holds it, or it has gone. None: nobody can tell, since this system has no locks for it.
+    Returns False if another process has the lock, or the folder is gone; None if the system has no locks for folders.
     """
     try:
         if fcntl is None:
@@ -246,7 +247,7 @@ def _is_abandoned(folder: Path, held: ExitStack) -> bool:
 
 
 def _resolved(target: Path) -> Path:
-    """The folder itself, not a link to it. Raises: BundleError: it has no name, or cannot be."""
+    """Resolve links to the folder itself. Raises: BundleError: it has no name, or cannot exist."""
     try:
         place = target.resolve()
     except (OSError, RuntimeError, ValueError) as cause:
@@ -264,7 +265,7 @@ def _working_folder() -> Path | None:
 
 
 def _sync(folder: Path) -> None:
-    """Write the renames in a folder to the disk, on systems that offer this for folders."""
+    """Write renames in a folder to the disk, on systems that support this for folders."""
     if os.name != "posix":
         return
     with suppress(OSError):

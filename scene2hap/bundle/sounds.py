@@ -1,8 +1,8 @@
-"""The sound files of a bundle: equal sounds are one file, which several sources refer to.
+"""The sound files of a bundle: equal sounds are one file, which several sources share.
 
-A file is named after the first source that uses it, and the number of others: `fan.on+94.audible.wav` serves 95. Who
-shares it stands in loops.json. To change one source alone, give it a file of its own there, or override its clip; what
-is changed in a shared file is changed for all. Saving a bundle shares and splits files by their content.
+A file has the name of its first source, and the number of other sources: `fan.on+94.audible.wav` serves 95. loops.json
+lists the sources of each file. A change of a shared file affects all of them. To change one source alone, give it a
+separate file in loops.json, or override its clip. Saving a bundle shares and splits files by their content.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _RUNS = ("start_up", "wind_down")
 
 
 def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, dict[str, Any]]:
-    """Write the sounds of all loops below `folder`; the rows of loops.json. Adds names of files to `written`."""
+    """Write the sounds of all loops below `folder`; add their names to `written`. Returns the rows of loops.json."""
     digests: dict[int, str] = {}
     users: dict[tuple[str, str], list[str]] = {}
     for stem, loop in _stems(bundle):
@@ -62,7 +62,7 @@ def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dic
 
 
 class SoundReader:
-    """Reads the loops that rows of loops.json describe, each file once."""
+    """Read the loops in rows of loops.json, each file once."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -70,7 +70,7 @@ class SoundReader:
         self._files: dict[Path, AudioClip] = {}
 
     def loop(self, row: Mapping[str, Any]) -> HapticLoop:
-        """One loop. Raises: AudioError: a sound cannot be used; BundleError: its file; KeyError, TypeError."""
+        """Read one loop. Raises: AudioError: a sound cannot be used; BundleError: its file; KeyError, TypeError."""
         credit = read_credit(row["credit"])
         audible, tactile = (self._clip(row[kind], credit) for kind in ("audible", "tactile"))
         source = self._clip(row["source"], credit) if "source" in row else None
@@ -93,13 +93,13 @@ class SoundReader:
 
 
 def file_stem(text: str) -> str:
-    """A file name for any id; a short digest distinguishes ids that are alike in plain letters."""
+    """Return a file name for any id. Ids with equal plain letters get different short digests."""
     plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
     return plain if plain == text else f"{plain or 'x'}-{_digest(text)}"
 
 
 def read_credit(fields: Mapping[str, Any]) -> Credit:
-    """Read the credit of a sound from the fields of a file. Raises: TypeError: a field is missing or no text."""
+    """Read the credit of a sound from the fields of a file. Raises: TypeError: a field is missing or is no text."""
     credit = Credit(**fields)
     if not all(isinstance(value, str) for value in asdict(credit).values()):
         raise TypeError("'credit', which must be an object of texts")
@@ -124,7 +124,7 @@ def _clips(loop: HapticLoop) -> dict[str, AudioClip]:
 
 def _write(folder: Path, stems: list[str], kind: str, clip: AudioClip) -> str:
     shared = f"{stems[0]}+{len(stems) - 1}" if len(stems) > 1 else stems[0]  # no stem holds a plus sign
-    # Loops are there to be edited; the sound that they were cut from is longer, and there to be kept.
+    # Loops are WAV, since people edit them. The longer source sounds are only kept, so they are compressed.
     if kind == "source" and fits_flac(clip.sample_rate_hz):
         name = f"sounds/{shared}.{kind}.flac"
         write_flac(folder / name, clip.samples, clip.sample_rate_hz)

@@ -1,9 +1,9 @@
-"""Files of others in a bundle's folder: a thesis, notes, a repository. They outlive every bundle there.
+"""Foreign files in a bundle's folder, such as notes or a repository. They are kept whenever the bundle is replaced.
 
-A new bundle is built beside the old one and takes its place as a whole folder. Before that, files of others are linked
-into the new folder, so that they are at their place at every moment. Afterwards the old folder is emptied file by file:
-the bundle's own files are removed, and so are files that the new folder has bit for bit. All others, such as a file
-that an editor saved meanwhile, are moved over.
+A new bundle is built beside the old one and replaces it as a whole folder. Before that, foreign files are linked into
+the new folder, so that they exist at every moment. Afterwards the old folder is emptied file by file: the bundle's own
+files are removed, and so are files with an identical copy in the new folder. All other files, such as one that an
+editor saved in the meantime, are moved to the new folder.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from scene2hap.bundle.own_files import MANIFEST, our_files
 
 
 def carry_over(old: Path, new: Path) -> None:
-    """Link the files of others in the bundle `old` into `new`; copy where links are impossible. Raises: OSError.
+    """Link foreign files of the bundle `old` into `new`; copy them if links are impossible. Raises: OSError.
 
-    Where the new bundle has a file of that name, a name is added that is free.
+    If the new bundle has a file of that name, the foreign file gets a new name.
     """
     ours = our_files(old) if any(old.iterdir()) else frozenset[str]()
     _carry(old, new, "", ours)
 
 
 def discard(old: Path, new: Path) -> None:
-    """Remove the folder `old`, which `new` has replaced, but no file of others that is not in `new`.
+    """Remove the folder `old`, which `new` has replaced. Foreign files that are not in `new` are moved there first.
 
-    Raises: OSError: something cannot be removed or moved; the rest is then still there.
+    Raises: OSError: a file cannot be removed or moved; the rest then stays.
     """
     if not any(old.iterdir()):
         old.rmdir()
@@ -44,9 +44,9 @@ def _empty(source: Path, target: Path, prefix: str, ours: frozenset[str]) -> Non
         name = prefix + entry.name
         if _is_folder(entry):
             place = _folder_for(target / entry.name)
-            place.mkdir(exist_ok=True)  # one that was made meanwhile
+            place.mkdir(exist_ok=True)  # for a folder that was made in the meantime
             _empty(entry, place, f"{name}/", ours)
-        # The list of our own files goes last, lest a second attempt took all files for those of others.
+        # Delete the manifest last. Without it, a second attempt would take all files for foreign ones.
         elif name not in ours:
             _hand_on(entry, target / entry.name)
         elif name != MANIFEST:
@@ -74,7 +74,7 @@ def _link(entry: Path, target: Path) -> None:
         return
     try:
         os.link(entry, target)
-    except OSError:  # a file system without hard links, or one that allows no more of them
+    except OSError:  # the file system has no hard links, or its limit of links is reached
         if not stat.S_ISREG(entry.stat().st_mode):
             raise
         shutil.copy2(entry, target)
@@ -101,7 +101,7 @@ def _are_equal(one: Path, other: Path) -> bool:
 
 
 def _folder_for(path: Path) -> Path:
-    """The path, or a name beside it, that is a folder or can become one."""
+    """Return the path, or a similar name, that is a folder or is free."""
     return next(name for name in _names(path) if not os.path.lexists(name) or _is_folder(name))
 
 
@@ -110,7 +110,7 @@ def _free(path: Path) -> Iterator[Path]:
 
 
 def _names(path: Path) -> Iterator[Path]:
-    """The path, and names beside it if it is taken: `notes-kept.txt`, `notes-kept-2.txt`, ..."""
+    """Yield the path, then similar names for use if it is taken: `notes-kept.txt`, `notes-kept-2.txt`, ..."""
     yield path
     yield path.with_name(f"{path.stem}-kept{path.suffix}")
     for number in count(2):

@@ -1,7 +1,7 @@
 """The command line, ``scene2hap COMMAND``: one module per command.
 
-A command returns what it did as plain JSON values; ``--json`` prints them, otherwise the command has shown tables.
-Errors that a person can act on are one line on standard error and exit status 1; wrong usage is 2.
+A command returns its result as plain JSON values. ``--json`` prints this result; otherwise the command prints tables.
+An error that the user can correct is one line on standard error and exit status 1. Wrong usage is exit status 2.
 """
 
 from __future__ import annotations
@@ -63,11 +63,11 @@ _DOCS = (
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command; the exit status is returned."""
+    """Run a command. Returns the exit status."""
     streams.prepare()
     try:
         arguments = command_parser().parse_args(argv)
-    except SystemExit:  # after help or a word on wrong usage, which may have nowhere to go
+    except SystemExit:  # argparse exits after help or a usage error, even if neither could be written
         if Console(quiet=True).close():
             return 1
         raise
@@ -86,7 +86,7 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
         console.fail(str(error))
         return 1
     except KeyboardInterrupt:
-        console.fail("interrupted; nothing was left half written.")
+        console.fail("interrupted; no file was left incomplete.")
         return 130
     except MemoryError:
         console.fail("out of memory. Use a smaller scene or shorter sounds, or a machine with more memory.")
@@ -100,21 +100,21 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
 
 
 class _Parser(argparse.ArgumentParser):
-    """Shows arguments as `Console` shows names: a file may be called anything."""
+    """Escape arguments in messages as `Console` escapes names, since a file name may hold any character."""
 
     def _print_message(self, message: str, file: Any = None) -> None:
-        # Older versions of argparse raise what newer ones swallow; `Console.close` reports what cannot be written.
+        # Some versions of argparse raise this error and others ignore it; `Console.close` reports failed output.
         with contextlib.suppress(OSError):
             super()._print_message(printable(message, lines=True), file)
 
 
 def command_parser() -> argparse.ArgumentParser:
-    """The parser of the command line."""
+    """Return the parser of the command line."""
     parser = _Parser(prog="scene2hap", description="Scene-wide vibrotactile haptics.", epilog=_DOCS)
     parser.add_argument("--version", action="version", version=f"scene2hap {__version__}")
     common = _Parser(add_help=False)
     common.add_argument("-q", "--quiet", action="store_true", help="show no progress and no tables")
-    common.add_argument("--json", action="store_true", help="print the outcome as JSON instead")
+    common.add_argument("--json", action="store_true", help="print the result as JSON instead of tables")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     for module in COMMANDS:
         command = commands.add_parser(

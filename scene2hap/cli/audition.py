@@ -1,4 +1,4 @@
-"""Feel or write one source of a bundle alone, as a hand feels it that touches the source itself.
+"""Play one source of a bundle alone, or write it to a file, as felt by a hand that touches the source itself.
 
 scene2hap audition kitchen.bundle fan
 scene2hap audition kitchen.bundle fan --state high -o fan.wav
@@ -24,18 +24,18 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import SceneObject
 from scene2hap.session import HapticSession, Touch
 
-HELP = "one source of a bundle alone"
+HELP = "play one source of a bundle alone"
 
 HAND = "right"
 MOST_S = 600.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap audition``."""
+    """Add the arguments of ``scene2hap audition``."""
     parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote")
     parser.add_argument("id", metavar="ID", help="id of a source")
-    parser.add_argument("--state", metavar="NAME", help="one of its states, instead of the first")
-    parser.add_argument("--seconds", type=float, default=5.0, help="how long (5)")
+    parser.add_argument("--state", metavar="NAME", help="one of its states; default: the first")
+    parser.add_argument("--seconds", type=float, default=5.0, help="duration in seconds (5)")
     parser.add_argument("-o", "--output", metavar="WAV", help="write a file instead of playing")
     parser.add_argument("--sink", default="soundcard", help="where to play: a kind, or JSON with one (soundcard)")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
@@ -43,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Play or write the source."""
+    """Play the source, or write it to a file."""
     seconds = checks.number("--seconds", arguments.seconds, "s", above=0.0, at_most=MOST_S, error=ConfigError)
     bundle = HapticBundle.load(arguments.bundle)
     config = session_config(arguments.settings, bundle, prepare="blocking")
@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         else:
             _play(session, touch, actuator, seconds)
     if actuator.problem or not actuator.has_played:
-        console.warn(f"nobody felt anything: {actuator.problem or 'the actuator was not reached'}")
+        console.warn(f"nothing was played: {actuator.problem or 'the actuator did not start'}")
     if arguments.output:
         console.say(f"wrote {arguments.output}")
     return {"source": arguments.id, "state": arguments.state, "wav": arguments.output, "played": actuator.has_played}
@@ -83,7 +83,7 @@ def _play(session: HapticSession, touch: Touch, actuator: Actuator, seconds: flo
 
 
 def _middle(item: SceneObject) -> tuple[float, float, float]:
-    """The triangle nearest to the middle of the dominant surface [m, world]."""
+    """Return the center of the triangle that is nearest to the middle of the dominant surface [m, world]."""
     plate, mesh = item.surface, item.geometry.mesh
     middle = plate.pose.to_world([[plate.length_m / 2, plate.width_m / 2, plate.thickness_m / 2]])
     centroids = mesh.vertices_m[mesh.faces].mean(axis=1)

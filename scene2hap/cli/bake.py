@@ -1,9 +1,9 @@
-"""Tell what each object of a scene is, how it vibrates, and write the bundle.
+"""Infer the category, material and vibration of each object of a scene, and write the bundle.
 
 Without settings it works offline: a lexicon of everyday objects reads the authored names, and a synthesizer makes the
 sounds. `--llm openai:gpt-4o` or `--llm local:qwen2.5vl` uses a model that sees pictures. A settings file (TOML or JSON)
-with a table [bake] chooses all other parts. Overrides in a bundle stay when it is baked again.
-BUNDLE.account.json has calls, tokens, cost and skips, for `scene2hap report`.
+with a table [bake] chooses all other parts. Overrides in a bundle are kept when it is baked again.
+BUNDLE.account.json has calls, tokens, cost and skipped questions, for `scene2hap report`.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ HELP = "scene file -> haptic bundle"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap bake``."""
+    """Add the arguments of ``scene2hap bake``."""
     kinds = "glTF, GLB, OBJ, STL, PLY, COLLADA, URDF, MJCF, Habitat, scene JSON"
     parser.add_argument("scene", metavar="SCENE", help=kinds)
     parser.add_argument("-o", "--output", metavar="BUNDLE", help="folder to write (not needed with --dry-run)")
@@ -44,33 +44,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments that choose the model and the sound sources."""
-    parser.add_argument("--prompt", default="", help="text for the model, which outranks everything else")
+    """Add the arguments that choose the model and the sound sources."""
+    parser.add_argument("--prompt", default="", help="instruction to the model, with priority over all others")
     parser.add_argument("--llm", metavar="KIND[:MODEL]", help="lexicon (default), openai:MODEL, local:MODEL, ...")
-    parser.add_argument("--base-url", metavar="URL", help="address of the model's server, if not the usual one")
+    parser.add_argument("--base-url", metavar="URL", help="address of the model's server, if not the default one")
     parser.add_argument("--max-cost", type=float, metavar="DOLLARS", help="stop before the answers cost more than this")
-    parser.add_argument("--cache", metavar="FOLDER", help="where answers are kept, if not in your folder of caches")
+    parser.add_argument("--cache", metavar="FOLDER", help="folder of stored answers; default: the user's cache folder")
     parser.add_argument(
         "--pictures",
         action=argparse.BooleanOptionalAction,
-        help="show the model pictures (extra `pictures`); the default for models behind an address",
+        help="show pictures to the model (extra `pictures`); default for models with a network address",
     )
     parser.add_argument("--sounds", metavar="FOLDER", help="your own sounds, tried before the synthesizer")
     parser.add_argument("--actuator", metavar="NAME", help="name of an actuator, or a CSV file of Hz and dB")
-    parser.add_argument("--tactile", metavar="KIND", help="converter from sound to touch")
+    parser.add_argument("--tactile", metavar="KIND", help="converter from sound to vibration")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [bake]")
 
 
 def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
-    """How to read a scene file that does not say everything about itself."""
+    """Add the arguments for scene files with missing or wrong information."""
     parser.add_argument(
         "--unit-m", type=float, metavar="METRES", help="metres per unit of the file, overriding its own"
     )
     parser.add_argument(
-        "--assets-root", metavar="FOLDER", help="folder that the file may read from, instead of its own"
+        "--assets-root", metavar="FOLDER", help="folder from which the file may read; default: its own folder"
     )
     parser.add_argument(
-        "--names", metavar="FILE", help="CSV or JSON with the names of templates, for Habitat scenes of hashes"
+        "--names", metavar="FILE", help="CSV or JSON with names of templates, for Habitat scenes that name them by hash"
     )
     parser.add_argument("--up-axis", choices=("y", "z"), help="y or z, overriding the axis of the file's format")
     parser.add_argument(
@@ -79,12 +79,12 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def read_scene(arguments: argparse.Namespace) -> SceneSnapshot:
-    """The scene that the arguments name."""
+    """Read the scene file in the arguments."""
     return load_scene(arguments.scene, **scene_options(arguments))
 
 
 def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
-    """The arguments of `load_scene` other than the path."""
+    """Return the arguments of `load_scene` except the path."""
     is_depth = arguments.group.isascii() and arguments.group.isdigit() and len(arguments.group) < 10
     return {
         "up_axis": arguments.up_axis,
@@ -96,7 +96,7 @@ def scene_options(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Bake, save, and show what was inferred and what it took."""
+    """Bake, save, and show the result of the inference and its cost."""
     if arguments.output is None and not arguments.dry_run:
         raise ConfigError("no output folder. Name one with -o BUNDLE, or ask for --dry-run.")
     config = BakeConfig.parse(bake_settings(arguments))
@@ -105,7 +105,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         return _dry_run(arguments, config, console, pictures=pictures)
     target = Path(arguments.output)
     overrides = read_overrides(target)
-    require_replaceable(target)  # before anything is paid for
+    require_replaceable(target)  # check before the model costs money
     accounts: list[InferenceReport] = []
     with console.progress() as tell:
         tell("reading", arguments.scene, 0, 1)
@@ -132,7 +132,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Settings of a bake: of the file, and on top those that the arguments name. Raises: ConfigError."""
+    """Return the settings of a bake: those of the file, overridden by the arguments. Raises: ConfigError."""
     settings = read_settings(arguments.settings, "bake")
     if arguments.sounds:
         given = settings.get("audio", "synth")
@@ -173,5 +173,5 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
             service_tier=getattr(innermost(config.llm), "service_tier", ""),
         )
     )
-    console.table(f"{scene.name}: what a bake would ask", ("what", ">how much"), estimate.rows())
+    console.table(f"{scene.name}: questions of a bake", ("item", ">number"), estimate.rows())
     return estimate.as_json()

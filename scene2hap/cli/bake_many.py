@@ -1,11 +1,11 @@
-"""Bake many scene files, each into a bundle of its own; a run that was stopped goes on where it was.
+"""Bake many scene files, each into its own bundle. A stopped run can be continued.
 
 scene2hap bake-many levels/*.glb -o bundles/
 scene2hap bake-many levels/*.glb -o bundles/ --executor processes
 scene2hap bake-many levels/*.glb -o bundles/ --executor dask:tcp://10.0.0.1:8786 --llm openai:gpt-4o --max-cost 20
 
-Scenes whose file and settings have not changed are kept. Those that fail do not stop the others, and the exit status is
-1. BUNDLES/report.json has the account of every scene.
+Scenes are kept if their file and settings have not changed. A failed scene does not stop the others; the exit status is
+then 1. BUNDLES/report.json has the results of every scene.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ HELP = "many scene files -> haptic bundles"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap bake-many``."""
+    """Add the arguments of ``scene2hap bake-many``."""
     add_many_arguments(parser, "+")
 
 
 def add_many_arguments(parser: argparse.ArgumentParser, n_scenes: str) -> None:
-    """Which scenes are baked where, and by which settings."""
-    parser.add_argument("scenes", metavar="SCENE", nargs=n_scenes, help="scene files, or patterns of them in quotes")
+    """Add the arguments for scenes, output folder and settings."""
+    parser.add_argument("scenes", metavar="SCENE", nargs=n_scenes, help="scene files, or quoted patterns")
     parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="folder of bundles")
     parser.add_argument(
-        "--executor", metavar="WHERE", help="processes, processes:N, or dask:ADDRESS; without it, this process"
+        "--executor", metavar="WHERE", help="processes, processes:N, or dask:ADDRESS; default: this process"
     )
     parser.add_argument("--share-scenes", action="store_true", help="ask about equal objects of several scenes once")
     add_model_arguments(parser)
@@ -44,7 +44,7 @@ def add_many_arguments(parser: argparse.ArgumentParser, n_scenes: str) -> None:
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Bake, and show what became of each scene. Raises: SceneError: some were not baked."""
+    """Bake, and show the outcome of each scene. Raises: SceneError: some were not baked."""
     config = BakeConfig.parse(many_settings(arguments))
     begun = time.monotonic()
     with console.progress() as tell:
@@ -73,13 +73,13 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def many_settings(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Settings of a bake of many scenes. Raises: ConfigError."""
+    """Return the settings of a bake of many scenes. Raises: ConfigError."""
     settings = bake_settings(arguments)
     return {**settings, "share_scenes": True} if arguments.share_scenes else settings
 
 
 def files(given: list[str]) -> list[str]:
-    """Files by name, and those that a pattern matches, each once. Raises: ConfigError: a pattern matches none."""
+    """Return the files and the matches of patterns, each once. Raises: ConfigError: a pattern matches none."""
     found: list[str] = []
     for one in given:
         matches = [one] if Path(one).exists() or not glob.has_magic(one) else sorted(glob.glob(one, recursive=True))

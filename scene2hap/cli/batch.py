@@ -1,12 +1,12 @@
-"""Ask a model about many scenes in batches, at half the price and within a day for each stage of questions.
+"""Send questions about many scenes in batches, at half the price. Each stage of questions takes up to a day.
 
 scene2hap batch submit levels/*.glb -o bundles/ --llm openai:gpt-5
 scene2hap batch status -o bundles/ --llm openai:gpt-5
 scene2hap batch collect levels/*.glb -o bundles/ --llm openai:gpt-5
 
-Give the same scenes and settings each time. Questions depend on earlier answers: send again after each collection,
-until none is left to send; then `scene2hap bake-many`, with the same arguments, makes the bundles without a question.
-Questions and answers are in BUNDLES/.bake-many/batch. No question is sent twice, also if a run ends on the way.
+Give the same scenes and settings each time. Questions depend on earlier answers: submit again after each collection,
+until no questions are left. Then `scene2hap bake-many` with the same arguments makes the bundles without questions.
+Questions and answers are in BUNDLES/.bake-many/batch. No question is sent twice, even if a run is interrupted.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ HELP = "questions about many scenes in batches: submit, status, collect, cancel"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap batch``."""
+    """Add the arguments of ``scene2hap batch``."""
     parser.add_argument(
         "verb",
         choices=("submit", "status", "collect", "cancel"),
         metavar="VERB",
-        help="submit: send the questions that are ready; status: how far it is; collect: fetch answers; cancel: end it",
+        help="submit: send ready questions; status: show progress; collect: fetch answers; cancel: end running batches",
     )
     add_many_arguments(parser, "*")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Do one step, and show how far the batches are. Raises: SceneError: some scenes cannot be read or inferred."""
+    """Run one step, and show the progress of the batches. Raises: SceneError: scenes cannot be read or inferred."""
     config = BakeConfig.parse(many_settings(arguments))
     if arguments.verb in ("status", "cancel"):
         report = batch_status(arguments.output, config=config, cancel=arguments.verb == "cancel")
@@ -79,8 +79,8 @@ def _show(console: Console, report: BatchReport) -> None:
         console.fail(f"{scene}: {error}")
     console.say(str(report))
     if report.n_scenes and report.n_ready == report.n_scenes:
-        console.say("all is answered: `scene2hap bake-many` with the same arguments makes the bundles")
+        console.say("all questions are answered: `scene2hap bake-many` with the same arguments makes the bundles")
     elif report.n_to_send:
-        console.say("`scene2hap batch submit` with the same arguments sends what is left to ask")
+        console.say("`scene2hap batch submit` with the same arguments sends the remaining questions")
     elif report.n_under_way:
         console.say("`scene2hap batch collect` with the same arguments fetches the answers once batches have ended")

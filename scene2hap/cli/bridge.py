@@ -1,10 +1,10 @@
-"""Serve engines in other languages: they send poses and touches over a WebSocket, and get gains.
+"""Serve engines in other languages, which send poses and touches over a WebSocket and receive gains.
 
 scene2hap bridge --root scenes
 scene2hap bridge --sink soundcard
 scene2hap bridge --check "./my_client"
 
-docs/bridge.md shows how to play from C, C#, Godot and the browser, docs/bridge-protocol.md how to write a client.
+docs/bridge.md shows how to play from C, C#, Godot and the browser; docs/bridge-protocol.md shows how to write a client.
 """
 
 from __future__ import annotations
@@ -28,25 +28,25 @@ TOKEN_VARIABLE = "SCENE2HAP_BRIDGE_TOKEN"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap bridge``."""
-    parser.add_argument("--host", help="interface to listen on (127.0.0.1); another than loopback needs a token")
+    """Add the arguments of ``scene2hap bridge``."""
+    parser.add_argument("--host", help="interface to listen on (127.0.0.1); needs a token if it is not loopback")
     parser.add_argument("--port", type=int, help="port to listen on (7862); 0 for a free one")
-    parser.add_argument("--token", help=f"what clients must say; better in {TOKEN_VARIABLE}, which nobody else sees")
+    parser.add_argument("--token", help=f"secret that clients must send; safer in {TOKEN_VARIABLE}, hidden from others")
     parser.add_argument("--root", metavar="FOLDER", help="folder whose scenes and bundles clients may read and write")
-    parser.add_argument("--origin", action="append", metavar="URL", help="a web page that may connect, beside loopback")
+    parser.add_argument("--origin", action="append", metavar="URL", help="web page that may connect, besides loopback")
     parser.add_argument(
         "--sink", metavar="KIND", help="sink of the bridge, such as soundcard: a kind, or JSON with one"
     )
-    parser.add_argument("--udp", action="store_true", help="take frames as datagrams too, on the same port")
+    parser.add_argument("--udp", action="store_true", help="also accept frames as datagrams, on the same port")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with tables [bridge], [bake] and [session]")
-    parser.add_argument("--check", metavar="COMMAND", help="check a client that this command starts, and end")
+    parser.add_argument("--check", metavar="COMMAND", help="run a client with this command, check it, and exit")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Serve until Ctrl-C, or check a client."""
     if arguments.check is not None:
         return _check(arguments.check, console)
-    # By need: no other command listens.
+    # Imported here, since no other command needs the server.
     from scene2hap.bridge import BridgeConfig, BridgeServer
     from scene2hap.bridge.session_warnings import warnings_to_clients
 
@@ -73,7 +73,7 @@ async def _serve(server: Any, console: Console) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         try:
             loop.add_signal_handler(number, ended.set)
-        except NotImplementedError:  # Windows: Ctrl-C ends by an exception
+        except NotImplementedError:  # on Windows, Ctrl-C raises an exception instead
             break
     async with server.listening():
         console.say(f"{server.url} (Ctrl-C ends)")

@@ -1,6 +1,6 @@
-"""The output for a person: progress on standard error, tables on standard output, one line per problem.
+"""Terminal output: progress on standard error, tables on standard output, one line per problem.
 
-A command goes on where its output cannot be written: nobody reads it, or the disk is full.
+A command continues if its output cannot be written, because the reader has gone or the disk is full.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from scene2hap.cli import streams
 from scene2hap.printable import printable, printable_json
 
 Tell = Callable[[str, str, int, int], None]
-"""Called with (stage, the item, how many are done, of how many)."""
+"""Called with (stage, item, number done, total number)."""
 
 
 def _safe(text: str, *, lines: bool = False) -> str:
-    """Text to print: neither markup nor what a terminal would obey; names come from files and servers."""
+    """Escape markup and terminal control characters in a text, since names come from files and servers."""
     return rich.markup.escape(printable(text, lines=lines))
 
 
 _LONGEST = 2000
-"""Characters of a warning or an error that are shown; a name may have a million."""
+"""Most characters shown of a warning or an error; a name may have a million."""
 _FILE_WIDTH = 160
-"""Columns for output into a file or a pipe, which have no width of their own."""
+"""Width in columns of output into a file or a pipe."""
 _LAID_OUT = 1000
-"""Rows of a table that is fitted to the terminal, at 0.6 ms a row; more are aligned alone."""
+"""Most rows of a table that is fitted to the terminal, at 0.6 ms a row. Longer tables are only aligned."""
 _WIDEST = 60
-"""Columns that a cell is padded to; a name of a million letters does not widen the others."""
+"""Most columns to which a cell is padded, so that one very long name does not widen all rows."""
 
 
 def _aligned(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """The lines of a table without a frame, each cell as wide as the widest of its column."""
+    """Yield the lines of a table without a frame. Each column is as wide as its widest cell, up to `_WIDEST`."""
     table = [tuple(column.removeprefix(">") for column in columns), *(tuple(map(printable, row)) for row in rows)]
     widths = [min(max(map(len, cells)), _WIDEST) for cells in zip(*table, strict=True)]
     to_right = [column.startswith(">") for column in columns]
@@ -54,11 +54,11 @@ def _one_line(text: str) -> str:
 
 class _Output(rich.console.Console):
     def on_broken_pipe(self) -> None:
-        raise BrokenPipeError  # else the command would end here, whatever it has still to do
+        raise BrokenPipeError  # rich would end the command here, before its work is done
 
 
 class Console:
-    """Output for a person; with `quiet`, errors and warnings alone."""
+    """Terminal output; with `quiet`, only errors and warnings."""
 
     def __init__(self, *, quiet: bool) -> None:
         self.is_quiet = quiet
@@ -69,20 +69,20 @@ class Console:
         self._unwritten: OSError | None = None
 
     def say(self, text: str) -> None:
-        """One line on standard output."""
+        """Print one line on standard output."""
         with self._lasting():
             self._out.print(_safe(text, lines=True), soft_wrap=True)
 
     def warn(self, text: str) -> None:
-        """One line of warning on standard error."""
+        """Print one line of warning on standard error."""
         self._tell(f"scene2hap: warning: {_one_line(text)}", "yellow")
 
     def fail(self, text: str) -> None:
-        """One line of error on standard error."""
+        """Print one line of error on standard error."""
         self._tell(f"scene2hap: error: {_one_line(text)}", "red")
 
     def table(self, title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-        """A table; a column whose name starts with ">" is set to the right."""
+        """Print a table. A column whose name starts with ">" is right-aligned."""
         if self._out.quiet:
             return
         rows = list(rows)
@@ -98,7 +98,7 @@ class Console:
             self._out.print(table)
 
     def outcome(self, outcome: object) -> None:
-        """JSON on standard output, quiet or not; with escapes where the encoding lacks a letter."""
+        """Print JSON on standard output, even if quiet. Letters that the encoding lacks are escaped."""
         text = json.dumps(outcome, indent=1, ensure_ascii=False)
         try:
             text.encode(sys.stdout.encoding or "utf-8")
@@ -134,7 +134,7 @@ class Console:
 
     @contextmanager
     def progress(self) -> Iterator[Tell]:
-        """A progress bar per stage, for as long as the block runs."""
+        """Show a progress bar per stage, as long as the block runs."""
         columns = (
             TextColumn("{task.description:<12}"),
             BarColumn(),

@@ -1,10 +1,10 @@
-"""Turn sound files into tactile ones, without a scene.
+"""Convert sound files into tactile ones, without a scene.
 
 scene2hap convert hum.wav -o hum_felt.wav
 scene2hap convert sounds/ more.flac -o felt/ --converter '{"kind": "svf_bandpass", "q": 2}' --actuator lra --picture
 
-Files and folders are converted in parallel and keep their names; each is written whole or not at all. Where one fails,
-the others go on, and the exit status is 1.
+Files and folders are converted in parallel and keep their names. Each file is written whole or not at all. If one
+fails, the others continue, and the exit status is 1.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from scene2hap.errors import AudioError, ConfigError
 
 HELP = "sound files -> tactile files"
 _CLOSE_DB = 3.0
-"""About the smallest difference of level that people feel; smaller misses are not shown."""
+"""About the smallest difference of level that people feel. Smaller deviations are not shown."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap convert``."""
+    """Add the arguments of ``scene2hap convert``."""
     parser.add_argument("sources", metavar="IN", nargs="+", help="WAV, FLAC, Ogg or MP3 files, or folders of them")
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="file for one file, else a folder")
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a file for one file, otherwise a folder")
     parser.add_argument(
         "--converter",
         metavar="KIND",
         default=DEFAULT_CONVERTER,
         help=f"one of {', '.join(CONVERTERS.builtins)}, or JSON with a kind and its settings; "
-        f"default {DEFAULT_CONVERTER}, as for a scene",
+        f"default {DEFAULT_CONVERTER}, as in a bake",
     )
     parser.add_argument(
         "--actuator",
@@ -45,17 +45,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--intensity", type=float, default=1.0, metavar="0..1", help="of the source, default 1")
     parser.add_argument(
-        "--format", choices=[suffix[1:] for suffix in FORMATS], default="wav", help="in a folder, default wav"
+        "--format", choices=[suffix[1:] for suffix in FORMATS], default="wav", help="of files in a folder, default wav"
     )
-    parser.add_argument("--raw", action="store_true", help="as the converter makes it: neither equalized nor levelled")
+    parser.add_argument("--raw", action="store_true", help="output of the converter, neither equalized nor levelled")
     parser.add_argument("--mono", action="store_true", help="mix the channels of each file first")
     parser.add_argument("--picture", action="store_true", help="draw spectrograms and envelopes beside each file")
     parser.add_argument("--force", action="store_true", help="overwrite files that exist")
-    parser.add_argument("--workers", type=int, metavar="N", help="processes, default one per processor")
+    parser.add_argument("--workers", type=int, metavar="N", help="number of processes, default one per processor")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Convert, and show what went in and came out. Raises: AudioError: a file could not be converted."""
+    """Convert, and show input and output of each file. Raises: AudioError: a file could not be converted."""
     if arguments.workers is not None and arguments.workers < 1:
         raise ConfigError(f"--workers is {arguments.workers}; it must be at least 1.")
     with console.progress() as tell:

@@ -1,7 +1,7 @@
-"""Bake the built-in kitchen and take a tour of it with both hands.
+"""Bake the built-in kitchen and play a recorded tour of it with both hands.
 
-Writes, below the current folder (scene2hap-demo/, or -o), the bundle, tour.wav (left, right) and tour.png, a picture
-of what each hand felt over time.
+Writes three results below the current folder (scene2hap-demo/, or -o): the bundle, tour.wav (left, right) and tour.png,
+a picture of the vibration at each hand over time.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ _STAY_S = 0.15
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap demo``."""
+    """Add the arguments of ``scene2hap demo``."""
     parser.add_argument("-o", "--output", metavar="FOLDER", default="scene2hap-demo", help="default: scene2hap-demo")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Bake, play, draw, and report."""
+    """Bake, play, draw, and show the vibration at each hand."""
     folder = Path(arguments.output)
     require_replaceable(folder / "bundle")
     with console.progress() as tell:
@@ -67,9 +67,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def what_was_felt(frames: list[PlayedFrame]) -> list[dict[str, Any]]:
-    """Each stay of a hand as a row: when, on what, and the sources felt there [dB], those above -60 dB.
+    """Return each stay of a hand as a row: time, touched object, and the sources felt there above -60 dB [dB].
 
-    While a hand glides its gains change from frame to frame; a stay is where they hold for `_STAY_S` at least.
+    A stay is a period of at least `_STAY_S` with constant gains. While a hand moves, its gains change in each frame.
     """
     rows: list[dict[str, Any]] = []
     for hand in frames[0].frame.hands:

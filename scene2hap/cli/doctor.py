@@ -1,9 +1,8 @@
-"""Show what this machine has for scene2hap: extras, plug-ins, sound cards and serial ports; and what to install for
-the rest.
+"""Show the features of this machine: extras, plug-ins, sound cards and serial ports; and how to install missing ones.
 
 `--sweep soundcard` (or any other sink) plays a quiet sweep on each hand in turn, through the safety layer. With
-`--loop-back` an input records meanwhile, by a cable from the output or as a sound server's monitor. The command reports
-the latency from request to that input, for each hand.
+`--loop-back` an input records it at the same time, through a cable from the output or as a sound server's monitor. The
+command reports the latency from request to that input, for each hand.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ from scene2hap.propagation import MODELS
 from scene2hap.render.safety import SafetyLayer
 from scene2hap.scene.capture import RENDERERS
 
-HELP = "features and extras of this machine, missing ones, and a test sweep"
+HELP = "available and missing features of this machine, and a test sweep"
 
 RATE_HZ = 48000
 SWEEP_HZ = (40.0, 400.0)
@@ -57,7 +56,7 @@ _OF_DEVELOPERS = frozenset({"all", "test", "dev"})
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap doctor``."""
+    """Add the arguments of ``scene2hap doctor``."""
     parser.add_argument(
         "--sweep", metavar="SINK", help='a kind, or JSON: \'{"kind": "serial", "port": "/dev/ttyACM0"}\''
     )
@@ -66,8 +65,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="INPUT",
         nargs="?",
         const="",
-        help="with --sweep: measure the latency at this input, its name, a part of it, or PortAudio's index; without "
-        "INPUT one that is called a loop-back, monitor or stereo mix, else the default one",
+        help="with --sweep: measure the latency at this input, given by its name, a part of it, or PortAudio's index; "
+        "default: an input named loop-back, monitor or stereo mix, or else the default input",
     )
     parser.add_argument("--hands", default="left,right", help="names of the outputs, in their order")
 
@@ -111,7 +110,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def extras() -> list[dict[str, str]]:
-    """Each optional package: the extra that brings it, its version if installed, and the command if not."""
+    """Return each optional package: its extra, its version if installed, and else the command to install it."""
     rows = []
     for requirement in metadata.requires("scene2hap") or ():
         match = _EXTRA.match(requirement)
@@ -126,13 +125,13 @@ def extras() -> list[dict[str, str]]:
 
 
 def guests() -> list[dict[str, str]]:
-    """Each plug-in that a package registered: its group, kind, package, and why it does not load if it does not."""
+    """Return each plug-in of other packages: group, kind, package, and the error if it cannot be loaded."""
     groups = (BACKENDS, SOURCES, CONVERTERS, MODELS, SINKS, RENDERERS, EXPORTS)
     return [asdict(guest) for group in groups for guest in group.guests()]
 
 
 def sound_cards() -> dict[str, Any]:
-    """The cards that could play, or why none can be looked for."""
+    """Return the sound cards, or the reason why they cannot be listed."""
     from scene2hap.devices import portaudio
 
     try:
@@ -143,7 +142,7 @@ def sound_cards() -> dict[str, Any]:
 
 
 def serial_ports() -> dict[str, Any]:
-    """The ports that an amplifier may be at, or why none can be looked for."""
+    """Return the serial ports, or the reason why they cannot be listed."""
     try:
         from serial.tools import list_ports
     except ImportError:
@@ -152,9 +151,9 @@ def serial_ports() -> dict[str, Any]:
 
 
 def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: str | None = None) -> dict[str, Any]:
-    """Play the sweep on each hand in turn; what the sink counted, and what an input heard if one is to `listen_to`.
+    """Play the sweep on each hand in turn. Returns the sink's counts, and with `listen_to` the latencies at an input.
 
-    `listen_to` is an input's name or index, "" for what looks like a loop-back. Raises: ConfigError, DeviceError.
+    `listen_to` is an input's name or index, or "" to search for a loop-back. Raises: ConfigError, DeviceError.
     """
     sink = cast("ActuatorSink", SINKS.build(spec))
     if listen_to is not None and not has_clock(sink):
@@ -183,7 +182,7 @@ def _recording(listen_to: str | None, n_hands: int) -> loop_back.Recording | nul
 def _play(
     sink: ActuatorSink, sweeps: _Sweeps, hands: tuple[str, ...], console: Console, *, tail_s: float
 ) -> float | None:
-    """Play the sweeps and, on a sink with a clock, `tail_s` more; the sink's own latency [s], which ends with it."""
+    """Play the sweeps, and on a sink with a clock `tail_s` more. Returns the latency that the sink reports [s]."""
     safety = SafetyLayer(ActuatorProfile(), RATE_HZ, len(hands), watchdog_s=0.5 if has_clock(sink) else None)
     sink.open(SinkFormat(RATE_HZ, hands))
     try:
@@ -214,7 +213,7 @@ def _keep_fed(safety: SafetyLayer, seconds: float) -> None:
 def _measured(
     take: loop_back.Take, requested_at_s: list[float | None], hands: tuple[str, ...], console: Console
 ) -> dict[str, Any]:
-    """Show each hand's latency as the input recorded it, and return it as JSON values."""
+    """Show each hand's latency in the recording, and return it as JSON values."""
     pattern = _wave(np.arange(round(SWEEP_S * take.rate_hz)) / take.rate_hz)
     by_hand: dict[str, Any] = {}
     console.say(f"heard by {take.device!r}, {MEASURED}:")
@@ -250,9 +249,9 @@ def _sentence(found: loop_back.Arrival) -> str:
 
 
 class _Sweeps:
-    """Silence, then a sweep on each channel in turn; keeps the time of request of each first sample [s, monotonic].
+    """Silence, then a sweep on each channel in turn; stores the request time of each first sample [s, monotonic].
 
-    The silence lets a sound card come to its steady latency: it requests the first samples all at once.
+    The silence lets a sound card reach its steady latency, since it requests its first samples all at once.
     """
 
     def __init__(self, n_hands: int) -> None:
@@ -260,7 +259,7 @@ class _Sweeps:
         self._position = 0
 
     def __call__(self, n_frames: int) -> Block:
-        """The next block."""
+        """Return the next block."""
         now = time.monotonic()
         n_hands = len(self.requested_at_s)
         frames = np.arange(self._position, self._position + n_frames)
@@ -275,7 +274,7 @@ class _Sweeps:
 
 
 def _wave(t_s: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A logarithmic sweep from t = 0 to SWEEP_S, with soft edges and silence around it."""
+    """Return a logarithmic sweep from t = 0 to SWEEP_S, with soft edges and silence around it."""
     low, high = SWEEP_HZ
     rate = math.log(high / low)
     t = np.clip(t_s, 0.0, SWEEP_S)

@@ -1,4 +1,4 @@
-"""Correct one object of a bundle, or make its loops again; corrections stay when it is baked again.
+"""Correct one object of a bundle, or make its loops again. Corrections are kept when the scene is baked again.
 
 scene2hap edit kitchen.bundle gain fan -6
 scene2hap edit kitchen.bundle intensity fan 0.3
@@ -41,13 +41,13 @@ from scene2hap.file_stamp import file_stamp
 HELP = "correct one object of a bundle"
 
 POLL_S = 0.05
-"""How often a watched file is looked at."""
+"""Interval between checks of a watched file [s]."""
 
 Changed = Callable[[HapticBundle, argparse.Namespace, OnRemade], HapticBundle]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap edit``."""
+    """Add the arguments of ``scene2hap edit``."""
     parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote; it is replaced as a whole")
     verbs = parser.add_subparsers(title="verbs", dest="verb", required=True, metavar="VERB")
 
@@ -59,55 +59,55 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         return added
 
     gain = verb("gain", "set the level of an object at the hand", _overridden)
-    gain.add_argument("gain_db", metavar="DB", type=float, help="against the inferred level")
-    intensity = verb("intensity", "set how strongly an object vibrates, and make its loops again", _remade)
+    gain.add_argument("gain_db", metavar="DB", type=float, help="relative to the inferred level")
+    intensity = verb("intensity", "set the strength of an object's vibration, and make its loops again", _remade)
     intensity.add_argument("intensity", metavar="VALUE", type=float, help="0..1; a ringing phone has 0.5")
-    pitch = verb("pitch", "set the frequency at which an object is felt, and make its loops again", _remade)
+    pitch = verb("pitch", "set the frequency of an object's vibration, and make its loops again", _remade)
     pitch.add_argument("pitch_hz", metavar="HZ", type=float, help="within the band of the actuator")
-    start = verb("start", "set how long a source takes to come up when it is switched on", _overridden)
-    start.add_argument("start_up_s", metavar="S", type=float, help="0..30; 0 is at once")
-    stop = verb("stop", "set how long a source takes to die away when it is switched off", _overridden)
-    stop.add_argument("wind_down_s", metavar="S", type=float, help="0..30; 0 is at once")
+    start = verb("start", "set the time that a source needs to start after it is switched on", _overridden)
+    start.add_argument("start_up_s", metavar="S", type=float, help="0..30 seconds; 0 starts at once")
+    stop = verb("stop", "set the time that a source needs to stop after it is switched off", _overridden)
+    stop.add_argument("wind_down_s", metavar="S", type=float, help="0..30 seconds; 0 stops at once")
     for added in (intensity, pitch, start, stop):
-        added.add_argument("--state", dest="only", metavar="NAME", help="of this state alone, instead of all")
+        added.add_argument("--state", dest="only", metavar="NAME", help="change only this state; default: all states")
     material = verb("material", "set the material of an object", _overridden)
     material.add_argument("material", metavar="NAME", help="a name in the table, see `scene2hap list materials`")
-    mass = verb("mass", "set what a whole object weighs", _overridden)
+    mass = verb("mass", "set the mass of a whole object", _overridden)
     mass.add_argument("mass_kg", metavar="KG", type=float)
-    feet = verb("feet", "set the material on which an object stands on others", _overridden)
+    feet = verb("feet", "set the material of an object's feet", _overridden)
     feet.add_argument("feet", metavar="NAME", help="a name in the table, such as rubber or felt")
-    sound = verb("sound", "make the vibration of an object from your sound, in every state", _with_sound)
+    sound = verb("sound", "make the vibration of an object from your own sound, in every state", _with_sound)
     sound.add_argument(
         "file",
         metavar="FILE",
-        help="a sound (WAV, FLAC, ...), or a haptic clip (.haptic, .ahap), which is felt as it is",
+        help="a sound (WAV, FLAC, ...), or a haptic clip (.haptic, .ahap), which is played unchanged",
     )
     sound.add_argument("--watch", action="store_true", help="repeat whenever the file is saved, until Ctrl-C")
-    state = verb("state", "set the state that an object plays at first", _overridden)
+    state = verb("state", "set the state that an object has at the start", _overridden)
     state.add_argument("state", metavar="NAME")
     for name, text, changes in (
         ("mute", "silence a source until a game unmutes it; its loops are kept", {"muted": True}),
         ("unmute", "play a muted source again", {"muted": False}),
-        ("silence", "say that an object does not vibrate; its loops are removed", {"vibrates": False}),
-        ("lock", "keep the loops of an object as they are, whatever is baked again", {"locked": True}),
-        ("unlock", "let the loops of an object be made again", {"locked": False}),
+        ("silence", "mark an object as not vibrating; its loops are removed", {"vibrates": False}),
+        ("lock", "keep the loops of an object unchanged in every later bake", {"locked": True}),
+        ("unlock", "allow changes of an object's loops again", {"locked": False}),
     ):
         verb(name, text, _overridden).set_defaults(**changes)
-    verb("undo", "take back the last edit; once more brings it again", _undone, of_object=False)
-    diff = verb("diff", "show how another bundle differs; nothing is changed", None, of_object=False)
+    verb("undo", "undo the last edit; a second undo restores it", _undone, of_object=False)
+    diff = verb("diff", "show the differences to another bundle; changes nothing", None, of_object=False)
     diff.add_argument("other", metavar="OTHER", help="folder of a bundle")
-    apply = verb("apply", "take over the corrections that a viewer of a report saved", _corrected, of_object=False)
-    apply.add_argument("file", metavar="FILE", help="the file that a viewer saved")
-    again = verb("rebake", "make the loops again that depend on what changed", _rebaked, of_object=False)
+    apply = verb("apply", "apply the corrections that were saved on a report page", _corrected, of_object=False)
+    apply.add_argument("file", metavar="FILE", help="the file of corrections")
+    again = verb("rebake", "make every loop again whose inputs have changed", _rebaked, of_object=False)
     again.add_argument("--actuator", metavar="NAME", help="name of an actuator, or a CSV file of Hz and dB")
-    again.add_argument("--tactile", metavar="KIND", help="converter from sound to touch")
-    for added in verbs.choices.values():  # taken after the verb as well as before it
+    again.add_argument("--tactile", metavar="KIND", help="converter from sound to vibration")
+    for added in verbs.choices.values():  # accept the options before and after the verb
         added.add_argument("-q", "--quiet", action="store_true", default=argparse.SUPPRESS)
-        added.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help="print the outcome as JSON")
+        added.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help="print the result as JSON")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Correct, make the loops that follow, and save; the bundle stays as it was if any of it fails."""
+    """Edit, make the dependent loops again, and save. If a step fails, the bundle stays unchanged."""
     if arguments.verb == "diff":
         before, other = HapticBundle.load(arguments.bundle), HapticBundle.load(arguments.other)
         rows = [tuple(row) for row in differences(before, other)]
@@ -134,9 +134,9 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def _watch(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Edit, and again whenever the sound is saved. Reports a broken file, and waits for the next save."""
+    """Repeat the edit whenever the sound is saved. Reports a broken file, and waits for the next save."""
     path = Path(arguments.file)
-    seen = file_stamp(path)  # before the first edit: what is saved during it is read again
+    seen = file_stamp(path)  # before the first edit, so that a save during it is noticed
     outcome = _edit(arguments, console)
     with interrupted() as is_interrupted:
         console.say(f"watching {path}; Ctrl-C ends")
@@ -154,9 +154,9 @@ def _watch(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 @contextlib.contextmanager
 def interrupted() -> Iterator[threading.Event]:
-    """An event that Ctrl-C sets, instead of an exception wherever the program is.
+    """Provide an event that Ctrl-C sets, in place of an exception.
 
-    One that is raised in a callback from C, as of a sound file that is being written, would be lost.
+    An exception would be lost in a callback from C, for example while a sound file is being written.
     """
     event = threading.Event()
     before = signal.signal(signal.SIGINT, lambda *_: event.set())
@@ -199,11 +199,13 @@ def _rebaked(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade
 def _undone(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
     kept = _kept(arguments.bundle)
     if not kept.exists():
-        raise BundleError(f"there is nothing to undo: {str(kept)!r}, which an edit leaves, is not there.")
+        raise BundleError(
+            f"there is nothing to undo: the folder {str(kept)!r} of the bundle before an edit does not exist."
+        )
     return HapticBundle.load(kept)
 
 
 def _kept(bundle: str) -> Path:
-    """Where the bundle as it was before the last edit is kept."""
+    """Return the folder that keeps the bundle before the last edit."""
     folder = Path(bundle).resolve()
     return folder.with_name(f"{folder.name}.before")

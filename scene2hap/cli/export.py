@@ -1,12 +1,12 @@
-"""Write a bundle in the formats of platforms and programs; or one haptic clip or sound file.
+"""Write a bundle, one haptic clip or one sound file in the formats of other platforms and programs.
 
 scene2hap export kitchen.bundle --to haptic -o quest/
 scene2hap export kitchen.bundle --to ahap --to android --touches tour.json -o phones/
 scene2hap export kitchen.bundle --to '{"kind": "openxr_pcm", "sample_rate_hz": 8000}' -o xr/
 scene2hap export kettle.haptic --to ahap -o kettle/
 
-A bundle gives every state of every source, and with --touches every hand over time. Beside the files stand
-manifest.json, by which an engine places them, and report.txt with the error of each file.
+A bundle gives every state of every source, and with --touches every hand over time. The folder also has manifest.json,
+which lists the files for an engine, and report.txt with the error of each file.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ HELP = "bundle -> haptic formats of other platforms"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap export``."""
+    """Add the arguments of ``scene2hap export``."""
     parser.add_argument("source", metavar="BUNDLE", help="folder that bake wrote, or a .haptic, .ahap or sound file")
     kinds = ", ".join(EXPORTS.builtins)
     parser.add_argument(
         "--to",
         metavar="KIND",
         action="append",
-        help=f"one of {kinds}, or JSON with a kind and its settings; again for more; default {ALL}",
+        help=f"one of {kinds}, or JSON with a kind and its settings; can be repeated; default {ALL}",
     )
     parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="folder to write to")
-    parser.add_argument("--touches", metavar="FILE", help="export each hand over time too, see docs/touches.md")
+    parser.add_argument("--touches", metavar="FILE", help="also export each hand over time, see docs/touches.md")
     parser.add_argument("--update-rate-hz", metavar="HZ", type=float, default=100.0, help="updates per second (100)")
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Export, and show what each file lost."""
+    """Export, and show the error of each file."""
     source = Path(arguments.source)
     specs: list[Any] = [given_spec("--to", one) for one in arguments.to or [ALL]]
     with console.progress() as tell:
@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
                 progress=tell,
             )
     _show(console, report)
-    console.say(f"wrote {len(report.files)} files below {arguments.output}; what each lost: report.txt")
+    console.say(f"wrote {len(report.files)} files below {arguments.output}; report.txt has the error of each")
     return report.to_data()
 
 

@@ -1,7 +1,7 @@
-"""Show what is in a scene file or a bundle.
+"""Show the content of a scene file or a bundle.
 
-With --pictures a folder is filled with what a multimodal model would see: a contact sheet per object, and a plan of the
-scene with names. This needs the extra `pictures`.
+--pictures writes the pictures that a multimodal model would see into a folder: a contact sheet per object, and a plan
+of the scene with names. This needs the extra `pictures`.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ HELP = "tables of a scene or a bundle"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap inspect``."""
+    """Add the arguments of ``scene2hap inspect``."""
     parser.add_argument("scene", metavar="SCENE|BUNDLE", help="scene file or bundle folder")
     parser.add_argument("--pictures", metavar="FOLDER", help="write contact sheets and a plan view as PNG")
     add_scene_arguments(parser)
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Show a folder as a bundle, anything else as a scene."""
+    """Show a folder as a bundle, and any other path as a scene."""
     if Path(arguments.scene).is_dir():
         bundle = HapticBundle.load(arguments.scene)
         scene = bundle.snapshot
@@ -47,7 +47,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list[str]:
-    """A contact sheet per object and the plan of the scene, as PNG files; their paths are returned.
+    """Write a contact sheet per object and a plan of the scene as PNG files. Returns their paths.
 
     Raises: MissingExtra: the renderer is not installed; SceneError: the folder cannot be written.
     """

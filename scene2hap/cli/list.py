@@ -1,4 +1,4 @@
-"""List the names that settings and edits take: materials, actuators, and the kinds of every exchangeable part.
+"""List names for settings and edits: materials, actuators, and the kinds of every exchangeable part.
 
 scene2hap list
 scene2hap list materials
@@ -35,15 +35,15 @@ GROUPS: Mapping[str, PluginGroup] = {
     "renderer": RENDERERS,
     "export": EXPORTS,
 }
-"""The exchangeable parts, by the setting that chooses them."""
+"""The exchangeable parts, by the setting that chooses each."""
 
 Rows = list[dict[str, str]]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap list``."""
+    """Add the arguments of ``scene2hap list``."""
     what = ", ".join(TABLES)
-    parser.add_argument("what", metavar="WHAT", nargs="?", choices=TABLES, help=f"{what}; all without it")
+    parser.add_argument("what", metavar="WHAT", nargs="?", choices=TABLES, help=f"{what}; default: all")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def material_rows() -> Rows:
-    """The table of materials."""
+    """Return the rows of the table of materials."""
     return [
         {
             "material": row.material.name,
@@ -73,7 +73,7 @@ def material_rows() -> Rows:
 
 
 def actuator_rows() -> Rows:
-    """The actuators known by name."""
+    """Return the built-in actuators, by name."""
     return [
         {
             "actuator": profile.name,
@@ -87,7 +87,7 @@ def actuator_rows() -> Rows:
 
 
 def kind_rows() -> Rows:
-    """Every kind of every exchangeable part, built in or registered by a package."""
+    """Return every kind of every exchangeable part, built in or registered by a package."""
     return [
         {"setting": setting, "kind": kind, "description": _description(group, kind)}
         for setting, group in GROUPS.items()
@@ -96,7 +96,7 @@ def kind_rows() -> Rows:
 
 
 def _description(group: PluginGroup, kind: str) -> str:
-    """The first sentence that an implementation says of itself, or why it cannot be loaded."""
+    """Return the first sentence of an implementation's docstring, or the error if it cannot be loaded."""
     try:
         text = inspect.getdoc(group.load(kind)) or ""
     except (MissingExtra, ConfigError) as error:

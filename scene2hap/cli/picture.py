@@ -1,4 +1,4 @@
-"""Both hands' envelopes over time as a PNG, drawn with Pillow, which glTF needs anyway."""
+"""Picture of both hands' envelopes over time as a PNG, drawn with Pillow, which glTF loading needs too."""
 
 from __future__ import annotations
 
@@ -11,34 +11,34 @@ from PIL import Image, ImageDraw, ImageFont
 
 from scene2hap.track_player import PlayedFrame
 
-WIDTH, LANE, MARGIN, TOP = 1500, 260, 70, 50
+WIDTH, ROW, MARGIN, TOP = 1500, 260, 70, 50
 _INK, _GRID, _BAND = "#22313f", "#d5dbe1", "#eef2f5"
 _COLOURS = ("#1f77b4", "#d1495b", "#2a9d8f", "#8d5a97")
 
 
 def draw_envelopes(frames: Sequence[PlayedFrame], hands: Sequence[str], sample_rate_hz: int, path: Path) -> None:
-    """Draw a lane per hand: peak level over time, and above it the object that the hand was on."""
+    """Draw a row per hand: peak level over time, and above it the name of the touched object."""
     samples = np.concatenate([frame.samples for frame in frames])
     duration_s = len(samples) / sample_rate_hz
-    image = Image.new("RGB", (WIDTH, TOP + LANE * len(hands) + 40), "white")
+    image = Image.new("RGB", (WIDTH, TOP + ROW * len(hands) + 40), "white")
     draw = ImageDraw.Draw(image)
     font = ImageFont.load_default(15)
     draw.text(
         (MARGIN, 14), "What each hand felt: peak of the vibration over time", fill=_INK, font=ImageFont.load_default(19)
     )
-    for lane, hand in enumerate(hands):
-        base = TOP + LANE * (lane + 1) - 14
-        height = LANE - 64
+    for row, hand in enumerate(hands):
+        base = TOP + ROW * (row + 1) - 14
+        height = ROW - 64
         _draw_stays(draw, frames, hand, duration_s, base, height, font)
         for level in (0.0, 0.25, 0.5):
             y = base - height * level / 0.5
             draw.line([(MARGIN, y), (WIDTH - 20, y)], fill=_GRID)
             draw.text((MARGIN - 44, y - 9), f"{level:.2f}", fill=_INK, font=font)
-        draw.text((10, base - height - 34), hand, fill=_COLOURS[lane % len(_COLOURS)], font=ImageFont.load_default(17))
-        envelope = _peaks(samples[:, lane], WIDTH - 20 - MARGIN)
+        draw.text((10, base - height - 34), hand, fill=_COLOURS[row % len(_COLOURS)], font=ImageFont.load_default(17))
+        envelope = _peaks(samples[:, row], WIDTH - 20 - MARGIN)
         tops = base - height * np.minimum(envelope, 0.55) / 0.5
         outline = [(MARGIN + x, float(y)) for x, y in enumerate(tops)]
-        draw.polygon([(MARGIN, base), *outline, (MARGIN + len(tops) - 1, base)], fill=_COLOURS[lane % len(_COLOURS)])
+        draw.polygon([(MARGIN, base), *outline, (MARGIN + len(tops) - 1, base)], fill=_COLOURS[row % len(_COLOURS)])
     for second in range(int(duration_s) + 1):
         x = _x(second, duration_s)
         draw.text((x - 4, image.height - 32), f"{second}", fill=_INK, font=font)
@@ -56,7 +56,7 @@ def _draw_stays(
     height: float,
     font: ImageFont.FreeTypeFont | ImageFont.ImageFont,
 ) -> None:
-    """A shaded stretch with the object's name for each stay of the hand."""
+    """Draw a shaded interval with the object's name for each stay of the hand."""
     stays: list[tuple[str, float, float]] = []
     for played in frames:
         on = next((touch.object_id for touch in played.touches if touch.hand == hand), None)
@@ -71,7 +71,7 @@ def _draw_stays(
         left, right = _x(begin, duration_s), _x(end, duration_s)
         draw.rectangle([left, base - height - 4, right, base], fill=_BAND)
         draw.line([(left, base - height - 4), (left, base)], fill=_GRID, width=2)
-        # The lower line unless the name before is in the way, so that short stays do not print over each other.
+        # Two lines for names, so that the names of short stays do not overlap.
         line = 0 if label_end[0] < left else 1
         draw.text((left + 2, base - height - 24 - 17 * line), on, fill=_INK, font=font)
         label_end[line] = left + 8 + draw.textlength(on, font=font)
@@ -82,7 +82,7 @@ def _x(time_s: float, duration_s: float) -> float:
 
 
 def _peaks(channel: NDArray[np.float32], n_columns: int) -> NDArray[np.float32]:
-    """The largest absolute sample under each column of the picture."""
+    """Return the largest absolute sample in each column of the picture."""
     edges = np.linspace(0, len(channel), n_columns + 1).astype(int)[:-1]
     peaks: NDArray[np.float32] = np.maximum.reduceat(np.abs(channel), edges)
     return peaks

@@ -1,4 +1,4 @@
-"""A scene from above, in letters: what a hand would touch at each place."""
+"""A scene from above as text: the object that a hand would touch at each place."""
 
 from __future__ import annotations
 
@@ -13,13 +13,16 @@ from scene2hap.scene.snapshot import SceneSnapshot
 _LETTERS = string.ascii_letters + string.digits
 _NOTHING = -1
 _LARGE = 0.8
-"""Share of the scene along both axes from which the lowest object counts as floor, shown as a dot."""
+"""Least share of the scene's extent along both axes from which the lowest object counts as floor, shown as a dot."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A grid over the scene's ground: `top` (n_rows, n_columns) the object that is touched there from above, as its
-    place in the scene, -1 for none; `low_m`, `cell_m` where the grid lies on the two level axes `level`."""
+    """A grid over the scene's ground.
+
+    `top` (n_rows, n_columns) is the index of the object that is highest in each cell, -1 for none. `height_m` is its
+    height. `low_m` and `cell_m` are the grid's origin and cell size on the two horizontal axes `level`.
+    """
 
     scene: SceneSnapshot
     top: NDArray[np.intp]
@@ -30,7 +33,7 @@ class Plan:
 
     @classmethod
     def of(cls, scene: SceneSnapshot, n_columns: int = 64, n_rows: int = 22) -> Plan:
-        """The plan of a scene; boxes decide what is on top."""
+        """Return the plan of a scene. The highest bounding box decides the object of a cell."""
         up = {"y": 1, "z": 2}[scene.up_axis]
         across, deep = (axis for axis in range(3) if axis != up)
         bounds = np.array([item.bounds_m for item in scene.objects]).reshape(-1, 2, 3)
@@ -51,7 +54,7 @@ class Plan:
         return cls(scene, top, height, low, cell, (across, deep))
 
     def touched(self, row: int, column: int) -> tuple[str, tuple[float, float, float]] | None:
-        """The object under a place of the grid and the point on it [m, world]; None where nothing is."""
+        """Return the object in a cell and the touched point on it [m, world]; None for an empty cell."""
         number = self.top[row, column]
         if number == _NOTHING:
             return None
@@ -64,7 +67,7 @@ class Plan:
         return item.id, (x, y, z)
 
     def lines(self, sources: frozenset[str], hand: tuple[int, int]) -> list[str]:
-        """The plan as text: letters for objects, "*" for sources, "." for the floor, "@" for the hand."""
+        """Return the plan as text: letters for objects, "*" for sources, "." for the floor, "@" for the hand."""
         n_rows, n_columns = self.top.shape
         shown = np.full((n_rows, n_columns), " ")
         for number in np.unique(self.top[self.top >= 0]):

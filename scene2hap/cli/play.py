@@ -1,8 +1,8 @@
-"""Feel a bundle: arrow keys move a hand over a plan of the scene, meters show what it feels.
+"""Play a bundle in the terminal: arrow keys move a hand over a plan of the scene, and meters show the gain of sources.
 
 The folder is watched: edits, here or by `scene2hap edit`, are felt within a second.
 
-Keys: arrows move, space lifts the hand and puts it down, + and - turn the level, q ends.
+Keys: arrows move the hand, space lifts and lowers it, + and - change the level, q ends.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from scene2hap.devices.protocol import ActuatorSink, SinkEvent
 from scene2hap.errors import ConfigError
 from scene2hap.session import HapticFrame, HapticSession, Touch
 
-HELP = "feel a bundle with the arrow keys"
+HELP = "play a bundle with the arrow keys"
 
 HAND = "right"
 UPDATE_S = 0.02
@@ -40,17 +40,19 @@ _MOVES = {"\x1b[A": (-1, 0), "\x1b[B": (1, 0), "\x1b[C": (0, 1), "\x1b[D": (0, -
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap play``."""
+    """Add the arguments of ``scene2hap play``."""
     parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote")
     parser.add_argument("--sink", default="soundcard", help="where to play: a kind, or JSON with one (soundcard)")
     parser.add_argument("--mute", action="append", default=[], metavar="ID", help="silence a source; may be repeated")
-    parser.add_argument("--solo", action="append", default=[], metavar="ID", help="play this source; may be repeated")
+    parser.add_argument(
+        "--solo", action="append", default=[], metavar="ID", help="play this source and no others; may be repeated"
+    )
     parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [session]")
     parser.add_argument("--profile", metavar="FILE", help="levels and limits of a person, see docs/profiles.md")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Play until q."""
+    """Play until the key q."""
     if not sys.stdin.isatty():
         raise ConfigError("scene2hap play needs a terminal for its keys. Use `scene2hap render` for a file of touches.")
     bundle = HapticBundle.load(arguments.bundle)
@@ -58,7 +60,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     sink = SINKS.build(given_spec("--sink", arguments.sink))
     actuator = Actuator(sink)
     width, height = shutil.get_terminal_size()
-    # Beside the plan stand a line for each source, one for the hand, one for the actuator, and one left free.
+    # Besides the plan, the screen has a line for each source, one for the hand, one for the actuator, and a free one.
     player = Player(bundle, n_columns=max(_LEAST, width - 1), n_rows=max(_LEAST, height - len(bundle.loops) - 3))
     with (
         HapticSession(bundle, config=config, hands=(HAND,), sink=actuator.sink, user=arguments.profile) as session,
@@ -75,14 +77,14 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             screen.update(player.view(frame, actuator.problem, watch.problem))
             time.sleep(UPDATE_S)
     if not actuator.has_played:
-        console.warn(f"nobody felt anything: {actuator.problem or 'the actuator was not reached'}")
+        console.warn(f"nothing was played: {actuator.problem or 'the actuator did not start'}")
     return {"bundle": arguments.bundle, "ended_on": player.on, "played": actuator.has_played}
 
 
 def silence(session: HapticSession, muted: Sequence[str], solo: Sequence[str]) -> None:
-    """Mute the sources in `muted`, and all but those in `solo` if there are any.
+    """Mute the sources in `muted`. If `solo` names any sources, mute all others too.
 
-    Raises: UnknownObject: one of them is no source, and nothing is muted.
+    Raises: UnknownObject: an id is not a source; then nothing is muted.
     """
     for source_id in (*muted, *solo):
         session.set_source(source_id)
@@ -91,7 +93,7 @@ def silence(session: HapticSession, muted: Sequence[str], solo: Sequence[str]) -
 
 
 class Actuator:
-    """Output of the mix: `problem` is a message about the sink for the person, "" for none."""
+    """Output of the mix. `problem` is a message about the sink for the user, "" for none."""
 
     def __init__(self, sink: object) -> None:
         if not isinstance(sink, ActuatorSink):
@@ -104,13 +106,13 @@ class Actuator:
             sink.on_event = self.note  # type: ignore[attr-defined]  # looked up by name, see ActuatorSink
 
     def note(self, event: SinkEvent) -> None:
-        """Take an event of a sink, in the sink's own thread."""
+        """Process an event of a sink, in the sink's own thread."""
         is_well = event.kind in ("connected", "resumed")
         self.has_played |= is_well
         self.problem = "" if is_well else event.message
 
     def take(self, sample_rate_hz: int) -> None:
-        """Let a sink without a clock of its own take what is due, so that a recording is as long as the play."""
+        """Pull the samples that are due from a sink without a clock, so that a recording is as long as the session."""
         n_frames = int((time.monotonic() - self._taken_s) * sample_rate_hz)
         self._taken_s += n_frames / sample_rate_hz
         if self._pull is not None:
@@ -118,7 +120,7 @@ class Actuator:
 
 
 class Player:
-    """Where the hand is, and what it looks like."""
+    """Position of the hand, and the text on the screen."""
 
     def __init__(self, bundle: HapticBundle, n_columns: int = 64, n_rows: int = 22) -> None:
         self.plan = Plan.of(bundle.snapshot, n_columns, n_rows)
@@ -141,7 +143,7 @@ class Player:
         return found[0] if found else ""
 
     def press(self, key: str) -> bool:
-        """Take in a key; false if it ends the play."""
+        """Process a key. Returns False if it ends the command."""
         if key in _MOVES:
             n_rows, n_columns = self.plan.top.shape
             down, right = _MOVES[key]
@@ -154,16 +156,16 @@ class Player:
         return key != "q"
 
     def touches(self) -> list[Touch]:
-        """The present touch of the hand."""
+        """Return the present touch of the hand, if any."""
         found = self.plan.touched(*self._hand) if self._is_down else None
         return [Touch(HAND, *found)] if found else []
 
     def view(self, frame: HapticFrame, problem: str = "", watch_problem: str = "") -> Text:
-        """Plan, touched object, a meter per source, and why the actuator does not play or an edit is not felt."""
+        """Return plan, touched object, a meter per source, and problems of the actuator or of an edit."""
         state = self.on or "nothing" if self._is_down else "lifted"
         lines = [f"hand on: {state}    level {self.gain_db:+g} dB    arrows, space, + -, q"]
-        warning = f"NOBODY FEELS THIS: {problem}" if problem else ""
-        lines.append(warning or (f"not felt yet: {watch_problem}" if watch_problem else ""))
+        warning = f"NOT PLAYED: {problem}" if problem else ""
+        lines.append(warning or (f"edit not loaded: {watch_problem}" if watch_problem else ""))
         for source_id in frame.sources:
             gain = min(frame.gain(HAND, source_id), 1.0)
             lines.append(f"{source_id:<28.28} {'#' * round(_METER * gain):<{_METER}} {gain:5.3f}")
@@ -172,7 +174,7 @@ class Player:
 
 @contextlib.contextmanager
 def keys() -> Iterator[Callable[[], str]]:
-    """Keys as they are pressed: a function that gives the next one, "" while there is none."""
+    """Read keys without waiting. Yields a function that returns the next key, "" if there is none."""
     if sys.platform == "win32":
         raise ConfigError("scene2hap play reads keys on POSIX terminals only; use `scene2hap render` here.")
     import os

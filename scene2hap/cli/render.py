@@ -1,4 +1,4 @@
-"""Play a file of touches on a bundle into a WAV file, one channel per hand.
+"""Play a file of touches on a bundle, and write a WAV file with one channel per hand.
 
 docs/touches.md describes the file. A settings file (TOML or JSON) with a table [session] chooses another propagation
 model or other bands.
@@ -23,7 +23,7 @@ HELP = "bundle + touches -> WAV"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap render``."""
+    """Add the arguments of ``scene2hap render``."""
     parser.add_argument("bundle", metavar="BUNDLE", help="folder that `bake` wrote")
     parser.add_argument("--touches", metavar="FILE", required=True, help="touches and moves over time, JSON or CSV")
     parser.add_argument("-o", "--output", metavar="WAV", required=True, help="file to write")
@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Render, and show the level of each hand."""
+    """Render, and show the peak level of each hand."""
     settings = read_settings(arguments.settings, "session")
     if arguments.propagation:
         settings["propagation"] = arguments.propagation
@@ -63,9 +63,9 @@ def render_track(
     update_rate_hz: float,
     user: UserProfile | None = None,
 ) -> list[PlayedFrame]:
-    """Play a track on a bundle into a WAV file, with a progress bar; the frames are returned.
+    """Play a track on a bundle into a WAV file, with a progress bar. Returns the frames.
 
-    The model is waited for, so that the file does not depend on how fast a worker was.
+    The session waits for the propagation model, so that the file does not depend on the speed of a worker.
     """
     config = SessionConfig.parse(config, prepare="blocking")
     frames: list[PlayedFrame] = []

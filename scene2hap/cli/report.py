@@ -1,14 +1,14 @@
-"""Show for each object of a bundle what was inferred, by which model and why, and which sounds were considered.
+"""Show the inferred values of each object of a bundle, their sources and reasons, and the candidate sounds.
 
 scene2hap report kitchen.bundle
 scene2hap report kitchen.bundle -o report.html
 scene2hap report kitchen.bundle -o report.html --scene kitchen.glb --model exponential_plate --model modal_plate
 scene2hap report kitchen.bundle --serve
 
-With -o it writes a page instead: the scene in three dimensions, what a hand would feel on every surface, all sounds,
-and fields to correct. `--serve` shows the page on this machine and writes corrections to BUNDLE.corrections.json, which
-`scene2hap edit BUNDLE apply` takes over. Calls, tokens and cost of the bake are on the page if BUNDLE.account.json is
-there, which `scene2hap bake` writes.
+-o writes a page instead: the scene in three dimensions, the felt level on every surface, all sounds, and fields for
+corrections. `--serve` shows the page on this machine and writes corrections to BUNDLE.corrections.json;
+`scene2hap edit BUNDLE apply` applies this file. The page shows calls, tokens and cost of the bake if
+BUNDLE.account.json exists, which `scene2hap bake` writes.
 """
 
 from __future__ import annotations
@@ -24,26 +24,26 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError
 from scene2hap.haptics import SourceState
 
-HELP = "bundle -> the decisions on each object with their sources and reasons, as a table or a page"
+HELP = "bundle -> inferred values of each object with sources and reasons, as a table or a page"
 
 _PICTURE_PX = 256
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap report``."""
+    """Add the arguments of ``scene2hap report``."""
     parser.add_argument("bundle", metavar="BUNDLE", help="folder that bake wrote")
-    parser.add_argument("objects", metavar="OBJECT", nargs="*", help="ids of objects; all that vibrate by default")
+    parser.add_argument("objects", metavar="OBJECT", nargs="*", help="ids of objects; default: all that vibrate")
     parser.add_argument("-o", "--output", metavar="FILE", help="write a page of the scene (.html), or its data (.json)")
     parser.add_argument("--serve", action="store_true", help="show the page on this machine until Ctrl-C")
-    parser.add_argument("--port", type=int, default=0, help="of --serve; a free one without it")
-    parser.add_argument("--scene", metavar="SCENE", help="the scene file, for pictures and colours on the page")
+    parser.add_argument("--port", type=int, default=0, help="port for --serve; default: a free one")
+    parser.add_argument("--scene", metavar="SCENE", help="scene file, for pictures and colours on the page")
     parser.add_argument(
-        "--model", action="append", metavar="KIND", help="a propagation model of the felt map; several may be given"
+        "--model", action="append", metavar="KIND", help="propagation model of the felt map; may be repeated"
     )
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    """Show the account."""
+    """Show the inferred values, or write and serve the page."""
     bundle = HapticBundle.load(arguments.bundle)
     if arguments.output or arguments.serve:
         return _page(arguments, bundle, console)
@@ -60,8 +60,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console) -> dict[str, Any]:
-    """Write the page, and serve it if wished."""
-    # By need: no other command draws.
+    """Write the page, and serve it if requested."""
+    # Imported here, since no other command draws pages.
     from scene2hap.bundle.account import read_account
     from scene2hap.report import report_document, write_report
     from scene2hap.report.felt_map import MODELS
@@ -81,7 +81,7 @@ def _page(arguments: argparse.Namespace, bundle: HapticBundle, console: Console)
         console.say(f"wrote {arguments.output}, {Path(arguments.output).stat().st_size / 1e6:.1f} MB")
     if arguments.serve:
         page = assemble(report_document(bundle, models=models, pictures=pictures, account=account))
-        folder = Path(arguments.bundle).absolute()  # "." has no name
+        folder = Path(arguments.bundle).absolute()  # the relative path "." has no name
         corrections = folder.with_name(f"{folder.name}.corrections.json")
         server = ReportServer(page, corrections, arguments.port, lambda path: console.say(f"wrote {path}"))
         console.say(f"{server.address} (Ctrl-C ends)")
@@ -108,7 +108,7 @@ def _account_of_state(state: SourceState, loop: HapticLoop | None) -> str:
 
 def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
     if object_id not in bundle.objects:
-        raise BundleError(f"{object_id!r} stands in the scene, but nothing was inferred of it. Bake again.")
+        raise BundleError(f"{object_id!r} is in the scene, but no properties were inferred for it. Bake again.")
     haptics = bundle.objects[object_id]
     by, loops = haptics.provenance, bundle.loops.get(object_id, {})
     rows = [

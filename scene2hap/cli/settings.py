@@ -1,10 +1,10 @@
-"""List every setting of a bake, of a session and of a person's profile: its name, type, default and meaning.
+"""List every setting of a bake, of a session and of a user profile: its name, type, default and meaning.
 
 scene2hap settings
 scene2hap settings session
 
-A settings file is TOML, or JSON, with tables [bake] and [session], and is given by --settings; a profile has a table
-[user], and is given by --profile.
+A settings file, given by --settings, is TOML or JSON with tables [bake] and [session]. A profile, given by --profile,
+has a table [user].
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ _ENTRY = re.compile(r"^(\w+) : (.+(?:\n    .+)*)", re.MULTILINE)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of ``scene2hap settings``."""
-    parser.add_argument("table", metavar="TABLE", nargs="?", choices=TABLES, help="bake, session, user; all without it")
+    """Add the arguments of ``scene2hap settings``."""
+    parser.add_argument("table", metavar="TABLE", nargs="?", choices=TABLES, help="bake, session, user; default: all")
 
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def setting_rows(settings: type[Settings], within: str = "") -> Iterator[dict[str, str]]:
-    """Name, type, default and meaning of each setting, with those of a setting that has settings itself."""
+    """Yield name, type, default and meaning of each setting, including nested settings."""
     meanings = _meanings(settings)
     for name, field in settings.model_fields.items():
         kind, default = field.annotation, field.get_default(call_default_factory=True, validated_data={})
@@ -61,7 +61,7 @@ def setting_rows(settings: type[Settings], within: str = "") -> Iterator[dict[st
 
 
 def _meanings(settings: type[Settings]) -> dict[str, str]:
-    """The meaning of each setting, from ``name : meaning`` in the docstrings of the class and its bases."""
+    """Return the meaning of each setting, from ``name : meaning`` in the docstrings of the class and its bases."""
     found: dict[str, str] = {}
     for base in reversed(settings.__mro__):
         if issubclass(base, Settings) and base.__doc__:

@@ -1,4 +1,4 @@
-"""Exchangeable parts and settings as they are chosen on the command line."""
+"""Exchangeable parts and settings given on the command line."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scene2hap.settings import read_settings
 
 
 def given_spec(option: str, text: str) -> object:
-    """A kind, or a mapping of a kind and its settings that is written as JSON. Raises: ConfigError: no JSON."""
+    """Return a kind, or a mapping with a kind and its settings, written as JSON. Raises: ConfigError: invalid JSON."""
     if not text.lstrip().startswith("{"):
         return text
     try:
@@ -22,6 +22,6 @@ def given_spec(option: str, text: str) -> object:
 
 
 def session_config(path: str | None, bundle: HapticBundle, **changes: Any) -> SessionConfig:
-    """The table [session] of a settings file, with `changes` on top; the actuator is the bundle's if none is named."""
+    """Return the table [session] of a file, overridden by `changes`. The default actuator is the bundle's."""
     settings = read_settings(path, "session")
     return SessionConfig.parse({"actuator": bundle.actuator or "flat", **settings}, **changes)

@@ -1,4 +1,4 @@
-"""Scenes and bundles as rows, for tables and for JSON."""
+"""Rows of scenes and bundles, for tables and for JSON."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from scene2hap.llm.wrappers.prices import Given, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
 
 MOST_WARNINGS = 5
-"""Warnings of one kind that are shown after a bake."""
+"""Most warnings of one kind that are shown after a bake."""
 
 
 def scene_outcome(scene: SceneSnapshot) -> dict[str, Any]:
-    """A scene as JSON values, without its meshes."""
+    """Return a scene as JSON values, without its meshes."""
     return {
         "scene": scene.name,
         "up_axis": scene.up_axis,
@@ -40,7 +40,7 @@ def scene_outcome(scene: SceneSnapshot) -> dict[str, Any]:
 
 
 def show_scene(console: Console, scene: SceneSnapshot) -> None:
-    """The objects of a scene as a table."""
+    """Show the objects of a scene as a table."""
     console.table(
         f"{scene.name}: {len(scene.objects)} objects, {scene.up_axis} up",
         ("object", ">length m", ">width m", ">thick m", ">height m", ">triangles", "measured"),
@@ -58,7 +58,7 @@ def show_scene(console: Console, scene: SceneSnapshot) -> None:
 
 
 def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
-    """The contents of a bundle as JSON values."""
+    """Return the contents of a bundle as JSON values."""
     return {
         "scene": bundle.snapshot.name,
         "scene_category": bundle.scene_category,
@@ -86,7 +86,7 @@ def bundle_outcome(bundle: HapticBundle) -> dict[str, Any]:
 
 
 def _times_outcome(haptics: ObjectHaptics, name: str, loop: HapticLoop) -> dict[str, Any]:
-    """How long a state takes to start and to stop [s], and what its recording shows of that."""
+    """Return the start and stop times of a state [s], inferred and recorded."""
     inferred = {state.name: state for state in haptics.states}.get(name)
     return {
         "start_up_s": None if inferred is None else inferred.start_up_s,
@@ -97,13 +97,13 @@ def _times_outcome(haptics: ObjectHaptics, name: str, loop: HapticLoop) -> dict[
 
 
 def bundle_counts(bundle: HapticBundle) -> dict[str, int]:
-    """How many objects, sources, and objects that nobody recognised."""
+    """Return the numbers of objects, sources, and unrecognised objects."""
     unknown = sum(haptics.object_category.lower() in UNKNOWN for haptics in bundle.objects.values())
     return {"objects": len(bundle.objects), "sources": len(bundle.loops), "unknown": unknown}
 
 
 def show_bundle(console: Console, bundle: HapticBundle) -> None:
-    """Show what was inferred of each object, sources first."""
+    """Show the inferred values of each object as a table, sources first."""
     counts = bundle_counts(bundle)
     console.table(
         f"{bundle.snapshot.name}: {bundle.scene_category}, "
@@ -137,7 +137,7 @@ def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
 
 
 def place_of(loop: HapticLoop) -> str:
-    """Where a loop is strongest, which component was moved there by more than a hertz, and what is roughness [Hz]."""
+    """Format the strongest frequency of a loop, its origin if moved by more than a hertz, and its roughness [Hz]."""
     felt, place = loop.felt, f"{loop.frequency_tactile_hz:.0f}"
     if felt is not None and felt.is_moved:
         place += f" from {felt.own_hz:.0f}"
@@ -145,7 +145,7 @@ def place_of(loop: HapticLoop) -> str:
 
 
 def times_of(state: SourceState, loop: HapticLoop | None) -> str:
-    """How long a state takes to start and to stop [s], and which of both its recording shows."""
+    """Format the start and stop times of a state [s], and mark those that come from its recording."""
     curves = (None, None) if loop is None else (loop.start_up, loop.wind_down)
     return " ".join(
         f"{time_s:.2g}" + ("" if curve is None else " recorded" if curve.lasts_s == time_s else " recorded, stretched")
@@ -154,7 +154,7 @@ def times_of(state: SourceState, loop: HapticLoop | None) -> str:
 
 
 def _level(felt: Sensation | None) -> str:
-    """The felt level, and the requested one where they differ by more than a person would notice."""
+    """Format the felt level. Adds the requested level if a person would notice the difference."""
     if felt is None:
         return "?"
     missed = felt.asked_level_db - felt.level_db >= NOTICED_DB
@@ -165,7 +165,7 @@ def show_report(console: Console, report: InferenceReport, prices: Mapping[str, 
     """Show an inference's calls, tokens, cost, skipped questions, and errors."""
     n_calls = sum(report.calls.values())
     tokens = sum(used.get("total_tokens", 0) for used in report.tokens.values())
-    said = [f"{n_calls} calls, {report.kept} of them answered before"]
+    said = [f"{n_calls} calls, {report.kept} of them answered from a cache or recording"]
     said += [f"{number} skipped: {reason.replace('_', ' ')}" for reason, number in report.skipped.items() if number]
     if report.tokens:
         cost = report.cost_usd(price_list(prices))

@@ -1,6 +1,6 @@
 """The built-in kitchen: a scene with the seven sources of the paper's third study, and a tour of it.
 
-`examples/build_demo_kitchen.py` builds the scene; the tour's distances are measured from the microwave's feet.
+`examples/build_demo_kitchen.py` builds the scene. Distances in the tour are measured from the microwave's feet.
 """
 
 from __future__ import annotations
@@ -10,16 +10,16 @@ from pathlib import Path
 
 
 def kitchen_path() -> Path:
-    """The demo kitchen as a GLB file."""
+    """Return the path of the demo kitchen, a GLB file."""
     return _file("kitchen.glb")
 
 
 def tour_path() -> Path:
-    """A tour of the kitchen with both hands as a file of touches."""
+    """Return the path of a tour of the kitchen with both hands, a file of touches."""
     return _file("tour.json")
 
 
 def _file(name: str) -> Path:
-    # The package is never run from inside a zip, so that the file outlives the context manager.
+    # The package never runs from a zip file, so the path stays valid after the context manager ends.
     with as_file(files(__package__).joinpath(name)) as path:
         return path

@@ -1,7 +1,8 @@
 """The schema of each component's answer. Field names carry units, and bounds are checked here.
 
-Schemas are flat with every field required, since strict structured output allows no more. A field of a later version
-has a default, for older answers. Types are strict: "2700 kg/m^3" is no number and `true` is not 1.
+Strict structured output needs flat schemas in which every field is required. Fields of later versions have defaults, so
+that older answers stay valid. Types are strict: "2700 kg/m^3" is no number and `true` is not 1.
+Class docstrings are sent to models as part of the schema, so a change of one changes the keys of cached answers.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ class Answer(BaseModel):
 class SceneAnswer(Answer):
     """Scene Analyzer: what kind of place this is, in one or two words, or "undefined"."""
 
-    # One word more than the prompt asks for passes, here and for objects: to ask again costs more than it mends.
+    # Accept one word more than the prompt allows, here and for objects: a repeated question costs more than it gains.
     scene_category: Annotated[str, _at_most(3)] = Field(min_length=1, max_length=60)
 
 

@@ -1,8 +1,8 @@
-"""Four components in a chain, from scene to haptic properties.
+"""Chain of four components that infers haptic properties from a scene.
 
 Scene Analyzer -> for each object: Object Analyzer -> Material Property Estimator, and for each state of a vibrating
 object the Vibration Describer. Copies are analysed once, a material is estimated once, and only vibrating objects are
-described. All independent calls run at the same time.
+described. Independent calls run concurrently.
 
 Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "LLM Workflow and Components".
 """
@@ -42,18 +42,18 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
 UNKNOWN = frozenset({"", "unknown", "undefined"})
-"""Words by which a backend says that it does not know."""
+"""Words with which a backend reports that something is unknown."""
 
 Progress = Callable[[str, int, int], None]
-"""Called with (the step, how many are done, of how many)."""
+"""Called with (name of the step, number done, total number)."""
 
-# Errors that end one question, but not all others.
+# Errors that end one question and leave the others running.
 _SPOILED = (BadAnswer, BackendUnavailable)
 
 
 @dataclass(frozen=True)
 class Inference:
-    """Result of the chain: kind of place, haptics of each object by id, and account of the run."""
+    """Result of the chain: kind of place, haptics of each object by id, and report of the run."""
 
     scene_category: str
     objects: dict[str, ObjectHaptics]
@@ -71,15 +71,15 @@ async def infer_scene(
     scene_category: str | None = None,
     wishes: Mapping[str, str] | None = None,
 ) -> Inference:
-    """Run the chain on every object of a scene, or on those whose ids are in `only`.
+    """Run the chain on every object of a scene, or only on the objects with ids in `only`.
 
-    If the scene has images (`capture_images`), the backend sees them. A known `scene_category` saves the question for
-    it. `wishes` are user prompts for single objects, by id.
+    If the scene has images (`capture_images`), the backend gets them. A known `scene_category` saves the call that
+    infers it. `wishes` are user prompts for single objects, by object id.
 
-    An object without an answer becomes "unknown" and silent, with its error in the report and in its provenance. An
-    error that would affect every further call is raised once running calls have ended.
-    Raises: BackendError and its children, with the object of the request: no object could be answered, the
-    backend is away or refuses, a budget is used up, a recording lacks the answer. ConfigError. UnknownObject.
+    An object without an answer becomes "unknown" and silent. Its error is in the report and in its provenance. An error
+    that would affect every further call is raised after running calls have ended.
+    Raises: BackendError and its children, with the object of the request: no object got an answer, the backend is
+    unavailable or refuses, a budget is used up, or a recording lacks the answer. ConfigError. UnknownObject.
     """
     settings = InferenceConfig.parse(config)
     checks.text("user_prompt", user_prompt, error=ConfigError)
@@ -97,7 +97,7 @@ async def infer_scene(
         wishes=wishes,
     )
     wanted = [scene.object(object_id) for object_id in only] if only is not None else list(scene.objects)
-    # Contacts are found while the first answer is on its way.
+    # Find contacts while waiting for the first answer.
     graph = asyncio.create_task(asyncio.to_thread(ContactGraph, scene))
     if scene_category is None:
         scene_category = await _scene_category(scene, questions)
@@ -114,11 +114,11 @@ def infer_haptics(
     user_prompt: str = "",
     config: InferenceConfig | Mapping[str, Any] | None = None,
 ) -> dict[str, ObjectHaptics]:
-    """Return the haptics of each object by id; with a running event loop, use `infer_scene`.
+    """Return the haptics of each object by id. Where an event loop runs, use `infer_scene`.
 
     Parameters: scene : a snapshot or the path of a scene file; backend : a backend, its kind, or a mapping with a kind.
     """
-    built = cast("LLMBackend", BACKENDS.build(backend))  # looked at by `infer_scene`
+    built = cast("LLMBackend", BACKENDS.build(backend))  # `infer_scene` checks it
     running = infer_scene(given_scene(scene), built, user_prompt=user_prompt, config=config)
     return run_waiting(running, "infer_scene").objects
 
@@ -160,7 +160,7 @@ class _Chain:
         standing_for = copies(self._scene, self._graph) if self._settings.share_copies else {}
         groups: dict[tuple[str, bool], list[SceneObject]] = {}
         for item in wanted:
-            # A user prompt for one object does not hold for its copies, nor their answer for it.
+            # A wish for one object does not apply to its copies, so such an object does not share an answer.
             is_alone = self._questions.has_wish(item.id)
             first = item.id if is_alone else standing_for.get(item.id, item.id)
             groups.setdefault((first, is_alone), []).append(item)
@@ -242,7 +242,7 @@ class _Chain:
             sentence, keywords, times = words.sentence, words.keywords, _times(words)
         except _SPOILED as problem:
             self._report.errors[f"{item.id}, state {state.name}"] = str(problem)
-            # The state itself was answered; its name is description enough to find or make a sound.
+            # The state itself has an answer. Its name is description enough to find or make a sound.
             sentence = keywords = f"{analysed.object_category} {state.name}"
             times = {}
             who = f"error: {problem}"
@@ -278,7 +278,7 @@ class _Chain:
         return estimate
 
     async def _estimates(self, analyses: Mapping[str, _Analysis | Scene2HapError]) -> dict[str, Estimate]:
-        """The estimate of each object's material, by object id; requests the missing ones."""
+        """Return the estimate of each object's material, by object id. Requests missing estimates."""
         answered = {key: found for key, found in analyses.items() if isinstance(found, _Analysis)}
         needed = set(answered)
         if self._settings.inference == "lazy":
@@ -341,7 +341,7 @@ class _Chain:
     def _mass(
         self, item: SceneObject, answer: ObjectAnswer, material: Material | None, analyst: str
     ) -> tuple[float | None, str, str]:
-        """The mass of an object [kg], None if unknown; who says so; and what is doubtful."""
+        """Return the mass of an object [kg] or None, the source of the mass, and a doubt about it ("" if none)."""
         if item.mass_kg is not None:
             return item.mass_kg, "scene", ""
         mass_kg, whole_m = answer.estimated_mass_kg, item.whole_size_m(self._scene.up_axis)
@@ -354,7 +354,7 @@ class _Chain:
         return mass_kg, analyst, ""
 
     def _with_unmet_needs(self, object_id: str, haptics: ObjectHaptics, categories: Mapping[str, str]) -> ObjectHaptics:
-        """With a word on each state whose contact nothing here can give; it is silent until something can."""
+        """Add a note to each state that needs a contact no object here offers. Such a state stays silent until then."""
         doubts = unmet_needs(object_id, haptics.states, categories)
         if not doubts:
             return haptics
@@ -363,7 +363,7 @@ class _Chain:
 
 
 async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
-    """The kind of place; "undefined" if the answer is none."""
+    """Return the kind of place; "undefined" if the answer is unusable."""
     facts = {"scene_name": clean(scene.name), "object_names": [clean(item.name) for item in scene.objects]}
     try:
         answer, _ = await questions.ask("scene_analyzer", "", facts, SceneAnswer, scene.images or ())
@@ -374,13 +374,13 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
 
 
 def _times(words: VibrationAnswer) -> dict[str, Any]:
-    """The fields of a description about how a state starts and stops."""
+    """Return the fields of a description about the start and the stop of a state."""
     named = ("start_up_s", "wind_down_s", "spins", "on_s", "off_s")
     return {name: value for name in named if (value := getattr(words, name)) is not None}
 
 
 def _feet(answer: ObjectAnswer) -> Material | None:
-    """The material of an object's feet, None where it has none that the table knows."""
+    """Return the material of an object's feet; None if it has no feet or the table has no such material."""
     row = row_of(answer.feet_material) if answer.feet_material else None
     return row.material if row is not None else None
 

@@ -1,4 +1,4 @@
-"""Chat completions, the format that OpenAI and most local servers share: request bodies and parsed replies."""
+"""Chat completions, the format of OpenAI and most local servers: request bodies and parsed replies."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class BackendWarning(UserWarning):
 
 
 class UnusableAnswer(BadAnswer):
-    """A bad answer that was billed: written by `model`, with `usage` tokens if known, in tier `service_tier`."""
+    """A bad answer that was billed: by `model`, with `usage` in tokens if known, in tier `service_tier`."""
 
     def __init__(
         self,
@@ -57,9 +57,9 @@ class Said:
 
 
 def user_message(request: LLMRequest, text: str, detail: str) -> dict[str, Any]:
-    """One message with the text and then the pictures, in their order, as data URLs.
+    """Return one message: the text, then the pictures in their order, as data URLs.
 
-    `detail` decides what OpenAI bills for a picture; most local servers ignore it, but may pass it on to a service.
+    `detail` sets the price of a picture at OpenAI. Most local servers ignore it, but some pass it on to a service.
     """
     parts: list[dict[str, Any]] = [{"type": "text", "text": text}]
     for png in request.images:
@@ -69,12 +69,12 @@ def user_message(request: LLMRequest, text: str, detail: str) -> dict[str, Any]:
 
 
 def as_base64(png: bytes) -> str:
-    """A picture as base64 text, without line breaks."""
+    """Encode a picture as base64 text without line breaks."""
     return base64.b64encode(png).decode("ascii")
 
 
 def json_schema_format(request: LLMRequest, schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the `response_format` that forces a schema, in the nested form, the only one that llama.cpp reads."""
+    """Return the `response_format` that forces a schema, in the nested form: llama.cpp reads no other."""
     return {"type": "json_schema", "json_schema": {"name": request.component, "strict": True, "schema": schema}}
 
 
@@ -84,9 +84,9 @@ def about(request: LLMRequest) -> str:
 
 
 def read_chat(reply: HttpReply, model: str) -> Said:
-    """Read a chat completion; `model` stands in where the server does not name one.
+    """Read a chat completion. `model` is used if the server does not name one.
 
-    Raises: BackendUnavailable: no success, or an error sent under status 200; BadAnswer: not a chat completion.
+    Raises: BackendUnavailable: an error status, or an error under status 200. BadAnswer: not a chat completion.
     """
     body = json_object(reply)
     choices = body.get("choices")
@@ -121,7 +121,7 @@ def require_whole(said: Said, about: str) -> None:
 
 
 def require_willing(said: Said, about: str) -> None:
-    """Reject a refusal: in its own field, as the reason to end, or as the text itself.
+    """Reject a refusal: in its own field, as finish reason, or as the text itself.
 
     Raises: RefusedAnswer.
     """
@@ -150,10 +150,11 @@ def _paid(said: Said) -> dict[str, Any]:
 
 
 def json_object(reply: HttpReply) -> dict[str, Any]:
-    """The body of a successful reply.
+    """Return the body of a successful reply.
 
-    Raises: BackendUnavailable: no success, an error sent under status 200, or no JSON object. One that breaks off may
-    come whole the next time; a page of HTML will not.
+    Raises: BackendUnavailable: an error status, an error under status 200, or no JSON object. Truncated JSON is
+    retryable, since it may arrive complete the next time; a page of HTML is not. AnswerRefused: a filter withheld the
+    question.
     """
     body = reply.json()
     if not reply.ok:
@@ -174,18 +175,18 @@ def json_object(reply: HttpReply) -> dict[str, Any]:
 
 
 def text_of(value: object) -> str:
-    """The value where it is a text, else ""."""
+    """Return the value if it is a text, else ""."""
     return value if isinstance(value, str) else ""
 
 
 def _usage(usage: object) -> dict[str, int]:
-    """The token counts of a chat completion, with those of the prompt that were in the service's prompt cache."""
+    """Return the token counts of a chat completion, including prompt tokens served from the service's prompt cache."""
     details = usage.get("prompt_tokens_details") if isinstance(usage, dict) else None
     cached = counts(details).get("cached_tokens", 0)
     return {**counts(usage), **({"cached_tokens": cached} if cached else {})}
 
 
 def counts(usage: object) -> dict[str, int]:
-    """The token counts among what a server reports."""
+    """Return the valid token counts in a server's usage report."""
     items = usage.items() if isinstance(usage, dict) else ()
     return {name: n for name, n in items if isinstance(n, int) and not isinstance(n, bool) and n >= 0}

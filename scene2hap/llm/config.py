@@ -11,19 +11,19 @@ from scene2hap.settings import Settings
 
 
 class InferenceConfig(Settings):
-    """Settings of an inference: concurrency, and calls that may be saved.
+    """Settings of an inference: concurrency, and calls that can be saved.
 
-    concurrency : calls in flight at once.
-    inference : "eager" asks for every material; "lazy" only for those of objects that some source can reach over the
-        contacts of the scene as it stands. What is then carried next to a source has the table's material, or none.
-    materials : "model" asks the backend for the constants of a material; "table" looks them up first and asks for what
-        the table does not have.
-    share_copies : objects of one mesh and look that stand on the same are analysed once.
-    share_scenes : ask about an object without its neighbours, height and surroundings, so that equal objects of
-        different scenes make one question, which a cache answers once. Equal are mesh, looks, words of the name, names
-        of materials and kind of place.
+    concurrency : most calls at the same time.
+    inference : "eager" requests every material. "lazy" requests only the materials of objects that some source can
+        reach over the present contacts. An object carried to a source later has the table's material, or none.
+    materials : "model" asks the backend for the constants of a material. "table" looks them up first and asks only for
+        materials that the table lacks.
+    share_copies : analyse objects of equal mesh, look and support once.
+    share_scenes : ask about an object without its neighbours, height and surroundings. Equal objects of different
+        scenes then make one question, which a cache answers once. Objects are equal in mesh, looks, words of the name,
+        names of materials and kind of place.
     temperature : of the backend's answers, 0..2; 0.2 as in the paper, section "LLM Workflow".
-    prompts : folder with templates of your own, by component; those it lacks are the built-in ones.
+    prompts : folder with your own templates, by component. Built-in templates replace missing ones.
     """
 
     of_what = "inference"

@@ -1,7 +1,7 @@
-"""The two languages of local servers: chat completions as OpenAI has them, and Ollama's own chat.
+"""The two request formats of local servers: OpenAI's chat completions, and Ollama's own chat.
 
-Ollama has its own dialect: its /v1 makes a message of each picture, drops the first ones if they do not fit the
-context, and has no option for the size of the context.
+Ollama's /v1 turns each picture into a message, and drops the first messages if they exceed the context. It also has no
+option for the size of the context. So Ollama's own format is used.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from scene2hap.llm.schema import local_schema
 
 Rung = Literal["json_schema", "json_object", "prompt"]
 LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
-"""Ways to prescribe the form of the answer in a request, strictest first; the prompt alone comes last."""
+"""Ways to prescribe the form of the answer in a request, strictest first. The last is the prompt alone."""
 
 
 @dataclass(frozen=True)
 class Decoding:
-    """Settings of a local server that affect its answers, besides the request. None is not sent.
+    """Settings of a local server that affect its answers, besides the request. A setting of None is not sent.
 
     `detail` is sent with each picture if the dialect allows it; "auto" is the servers' default. `extra` is sent
     unchanged: fields of the body, or of `options` for Ollama.
@@ -45,7 +45,7 @@ class Dialect(Protocol):
     path: str
 
     def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
-        """The body of a request: `text` is the prompt with the fields of the answer."""
+        """Return the body of a request. `text` is the prompt with the list of answer fields."""
         ...
 
     def read(self, reply: HttpReply, model: str) -> chat.Said:
@@ -55,13 +55,13 @@ class Dialect(Protocol):
 
 @dataclass(frozen=True)
 class ChatCompletions:
-    """vLLM, llama.cpp, LM Studio: the nested `json_schema` is the only form that all of them read."""
+    """Dialect of vLLM, llama.cpp and LM Studio: all of them read the nested `json_schema`, and no other form."""
 
     decoding: Decoding
     path = "chat/completions"
 
     def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
-        """A chat completion."""
+        """Return the body of a chat completion."""
         optional = {
             "top_p": self.decoding.top_p,
             "reasoning_effort": self.decoding.reasoning_effort,
@@ -89,13 +89,13 @@ class ChatCompletions:
 
 @dataclass(frozen=True)
 class OllamaChat:
-    """Ollama: pictures beside the text of one message, no silent truncation, thinking off unless it is wanted."""
+    """Dialect of Ollama: pictures beside the text of one message, no silent truncation, no reasoning by default."""
 
     decoding: Decoding
     path = "api/chat"
 
     def body(self, request: LLMRequest, model: str, text: str, rung: Rung) -> dict[str, Any]:
-        """A chat of Ollama's own."""
+        """Return the body of Ollama's own chat request."""
         options = {
             "num_ctx": self.decoding.num_ctx,
             "num_predict": self.decoding.max_tokens,

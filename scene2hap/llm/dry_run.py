@@ -1,7 +1,7 @@
 """Count the questions of an inference and estimate its cost, without a model.
 
-The chain runs with a counting stand-in for the model. The lexicon estimates from the authored names which objects may
-vibrate, and the number of materials. No picture is rendered. Cached answers are counted as if they were not cached.
+The chain runs with a stand-in for the model that counts requests. The lexicon estimates from the authored names which
+objects may vibrate, and the number of materials. No picture is rendered. Cached answers are counted as if not cached.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _ANSWER_TOKENS: Mapping[Component, int] = {
     "material_estimator": 50,
     "vibration_describer": 45,
 }
-"""Assumed: lengths of good answers; models that reason write several times as much."""
+"""Assumed: lengths of good answers. Reasoning models write several times as much."""
 
 _TILES = (
     ("gpt-4o-mini", 2833, 5667),
@@ -41,7 +41,7 @@ _TILES = (
     ("o1", 75, 150),
     ("o3", 75, 150),
 )
-"""Model, tokens of a picture in low detail, further ones per tile of 512 px in high detail."""
+"""Model, tokens of a picture in low detail, additional tokens per tile of 512 px in high detail."""
 
 _PATCHES = (
     ("gpt-4.1-mini", 1536, 1.62),
@@ -55,12 +55,12 @@ _PATCHES = (
     ("gpt-5.4", 2500, 1.0),
     ("gpt-5.5", 2500, 1.0),
 )
-"""Model, most patches of 32 px, tokens per patch."""
+"""Model, largest number of patches of 32 px, tokens per patch."""
 
 _PATCH_PX, _TILE_PX, _SHORT_SIDE_PX = 32, 512, 768
 
 _PICTURE_PX = 512
-"""The defaults of `scene.capture`."""
+"""Default size of pictures in `scene.capture`."""
 
 
 def image_tokens(model: str, size_px: int, detail: str) -> int | None:
@@ -84,9 +84,9 @@ def image_tokens(model: str, size_px: int, detail: str) -> int | None:
 class DryRun:
     """The questions that a run would send.
 
-    calls : by component; images : pictures sent; text_tokens, image_tokens, answer_tokens : estimated, None where not
-    known of the model; cost_usd : at the prices of `price_date`, None where any part of it is unknown.
-    report : the chain's account, with what it would skip.
+    calls : number by component; images : pictures sent; text_tokens, image_tokens, answer_tokens : estimates, None if
+    unknown for the model; cost_usd : at the prices of `price_date`, None if any part of it is unknown.
+    report : the chain's report, with the calls that it would skip.
     """
 
     model: str
@@ -100,7 +100,7 @@ class DryRun:
     report: InferenceReport
 
     def rows(self) -> list[tuple[str, str]]:
-        """The figures as (what, value) for people; what is not known says so."""
+        """Return the figures as (label, value) for display. An unknown figure reads "unknown"."""
         known = "unknown" if self.image_tokens is None else f"{self.image_tokens:,}"
         cost = "unknown" if self.cost_usd is None else f"{self.cost_usd:.2f} US dollars (prices of {self.price_date})"
         return [
@@ -116,7 +116,7 @@ class DryRun:
         ]
 
     def as_json(self) -> dict[str, Any]:
-        """The figures as JSON values."""
+        """Return the figures as JSON values."""
         values = {name: getattr(self, name) for name in self.__dataclass_fields__ if name != "report"}
         return {**values, "calls": dict(self.calls), "skipped": dict(self.report.skipped)}
 
@@ -134,8 +134,8 @@ async def dry_run(
 ) -> DryRun:
     """Count the questions that `infer_scene` would send to `model` for a scene, and estimate their cost.
 
-    `size_px` is the edge of its pictures, `detail` their detail; `prices` override the dated list; `service_tier` is
-    the billed tier, "" for the standard one.
+    `size_px` is the edge of each picture, `detail` its level of detail. `prices` override the dated list.
+    `service_tier` is the billed tier, "" for the standard one.
     Raises: ConfigError.
     """
     counter = _Counter()
@@ -163,7 +163,7 @@ async def dry_run(
 def estimated_cost_usd(
     request: LLMRequest, model: str, detail: str, prices: PriceList, service_tier: str = ""
 ) -> float | None:
-    """Estimate the cost of one answer; None where it is unknown. No picture is taken."""
+    """Estimate the cost of one answer; None if it is unknown. No picture is rendered."""
     per_image = image_tokens(model, _PICTURE_PX, detail) if request.images else 0
     if per_image is None:
         return None
@@ -178,9 +178,10 @@ def _text_tokens(request: LLMRequest) -> int:
 
 @dataclass
 class _Counter:
-    """Replaces a model: counts requests, and lets the lexicon answer them.
+    """Stand-in for a model: counts requests, and takes the answers from the lexicon.
 
-    An object that the lexicon does not know counts as one with its own material, which most real objects do not have.
+    An object without an entry in the lexicon counts as one with a material of its own. This overestimates: most real
+    objects share a material.
     """
 
     calls: Counter[Component] = field(default_factory=Counter)
@@ -195,7 +196,7 @@ class _Counter:
         self.answer_tokens += _ANSWER_TOKENS[request.component]
         try:
             reply = await LexiconBackend().complete(request)
-        except BadAnswer:  # a material that no table has
+        except BadAnswer:  # the material is in no table
             constants = {"density_kg_m3": 1.0, "youngs_modulus_gpa": 1.0, "poisson_ratio": 0.0, "damping_ratio": 0.0}
             return LLMReply(json.dumps(constants), "nobody")
         answer = json.loads(reply.text)

@@ -1,4 +1,4 @@
-"""FunctionBackend: a Python function in place of a model, for tests and simple backends of your own."""
+"""FunctionBackend: a Python function in place of a model, for tests and for simple backends."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ Returned = LLMReply | Mapping[str, Any] | str
 
 @clear_construction
 class FunctionBackend:
-    """Answers by calling `function(request)`, which may be async; what it raises passes through.
+    """Answer by calling `function(request)`, which may be async. Its exceptions pass through.
 
-    `requests` are all requests so far, in order; `model` stands in the replies and names it to a cache.
+    `requests` holds all requests so far, in order. `model` appears in the replies and in the keys of a cache.
     """
 
     def __init__(
@@ -35,11 +35,11 @@ class FunctionBackend:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """The settings on which an answer depends besides the request."""
+        """The settings, besides the request, on which an answer depends."""
         return {"model": self.model}
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The result of the function, as a reply."""
+        """Return the result of the function as a reply."""
         self.requests.append(request)
         returned = self._function(request)
         if inspect.isawaitable(returned):
@@ -49,5 +49,5 @@ class FunctionBackend:
         return LLMReply(returned if isinstance(returned, str) else json.dumps(returned), self.model)
 
     def report(self) -> dict[str, int]:
-        """The number of requests so far."""
+        """Return the number of requests so far."""
         return {"calls": len(self.requests)}

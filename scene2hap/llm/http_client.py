@@ -1,8 +1,8 @@
 """The HTTP client of the backends: send JSON or a file, return a reply or raise one of our errors.
 
-The key is protected: a single line reveals it, directly into the header. Every reply is searched for the key before
+The key is protected. A single line reveals it, directly into the header. Every reply is searched for the key before
 other code reads it, and no traceback from here has the header in a local variable. `scene2hap.web` does the exchange,
-bounded in bytes and seconds.
+with limits on bytes and seconds.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ MAX_REPLY_BYTES = 4 << 20
 """Size of one unpacked reply (assumed: a hundred times the longest answer with its thoughts, or any list of models)."""
 
 MAX_FILE_BYTES = 512 << 20
-"""Size of one file of answers (assumed: ten times that of our largest batch)."""
+"""Size of one file of answers (assumed: ten times the size of our largest batch)."""
 FILE_TIMEOUT_S = 900.0
 """Time for a file of two hundred megabytes [s] (assumed: a connection of two megabits per second)."""
 
@@ -39,7 +39,7 @@ _HEADERS_READ = ("x-should-retry", "x-request-id", *retry_after.HEADERS)
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A server, the key to it, how long one answer may take in all (`timeout_s` [s]), and the pause it requests."""
+    """A server: its address, its key, the longest time for one answer (`timeout_s` [s]), and its requested pause."""
 
     base_url: str
     secret: Secret
@@ -52,9 +52,9 @@ class Endpoint:
         checks.number("timeout_s", self.timeout_s, "s", above=0.0, error=ConfigError)
 
     async def post(self, path: str, body: Mapping[str, Any]) -> HttpReply:
-        """Post JSON to a path below the base address, once the server takes requests; every status is a reply.
+        """Post JSON to a path below the base address, after any pause that the server requested. Returns every status.
 
-        Raises: BackendUnavailable: no reply came; BackendError: the body has no JSON.
+        Raises: BackendUnavailable: no reply came; BackendError: the body has no JSON form.
         """
         content = _encoded(body)
         await self.pace.wait()
@@ -63,7 +63,7 @@ class Endpoint:
         return reply
 
     async def upload(self, path: str, name: str, content: bytes, fields: Mapping[str, str]) -> HttpReply:
-        """Post a file and fields as a form; every status is a reply. Raises: BackendUnavailable: no reply came."""
+        """Post a file and fields as a form. Returns every status. Raises: BackendUnavailable: no reply came."""
         import httpx
 
         form = httpx.Request("POST", self.base_url, data=dict(fields), files={"file": (name, content)})
@@ -74,7 +74,7 @@ class Endpoint:
         return await self._send("GET", path, None, min(timeout_s, self.timeout_s))
 
     async def download(self, path: str) -> HttpReply:
-        """The file at a path below the base address. Raises: BackendUnavailable: no reply came, or too large a one."""
+        """Return the file at a path below the base address. Raises: BackendUnavailable: no reply, or too large."""
         return await self._send("GET", path, None, FILE_TIMEOUT_S, max_bytes=MAX_FILE_BYTES)
 
     async def _send(

@@ -1,7 +1,7 @@
-"""Interpret an HTTP status other than success: whether a retry can help, and when.
+"""Interpret an HTTP error status: whether a retry can help, and when.
 
-Retries as OpenAI's own Python client: 408, 409, 429 and 500 upwards, unless `x-should-retry` says otherwise. An empty
-account answers 429 as well, but no waiting fills it.
+The rules follow OpenAI's own Python client: retry 408, 409, 429 and 500 upwards, unless `x-should-retry`
+decides otherwise. An empty account also answers 429, but waiting does not help there.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _OUT_OF_MONEY = frozenset(
     }
 )
 _NO_EYES = "image input is not supported"
-"""Message of llama.cpp, with status 500, where it was started without a vision projector."""
+"""Message of llama.cpp, with status 500, if it was started without a vision projector."""
 
 _HINTS = {
     401: "Check the API key.",
@@ -38,7 +38,7 @@ _LONGEST_SHOWN = 500
 
 @dataclass(frozen=True)
 class ServerError:
-    """The body of an error, in any of the usual forms; missing fields are ""."""
+    """The body of an error reply, in any of the usual forms. Missing fields are ""."""
 
     message: str = ""
     type: str = ""
@@ -47,10 +47,10 @@ class ServerError:
 
 
 def server_error(reply: HttpReply) -> ServerError:
-    """The error that a server describes.
+    """Return the error that a server describes.
 
-    OpenAI, llama.cpp and Ollama's /v1 send {"error": {...}}, native Ollama and LM Studio {"error": "text"}, older
-    vLLM the fields themselves.
+    OpenAI, llama.cpp and Ollama's /v1 send {"error": {...}}. Native Ollama and LM Studio send {"error": "text"}. Older
+    vLLM sends the fields themselves.
     """
     body = reply.json()
     error: Any = body.get("error", body) if isinstance(body, dict) else body
@@ -60,7 +60,7 @@ def server_error(reply: HttpReply) -> ServerError:
 
 
 def failure(reply: HttpReply, *, now_s: float | None = None) -> BackendUnavailable:
-    """Return the error to raise for a failed reply; dates in it are relative to `now_s` [s since 1970]."""
+    """Return the error to raise for a failed reply. Dates in headers are relative to `now_s` [s since 1970]."""
     error = server_error(reply)
     wait_s = stated_wait_s(reply.headers, time.time() if now_s is None else now_s)
     if wait_s is None and reply.status == 429:

@@ -23,7 +23,7 @@ class HttpReply:
         return 200 <= self.status < 300
 
     def json(self) -> Any:
-        """The body as JSON, None where it is none."""
+        """Return the body as JSON; None if it is not JSON."""
         try:
             return json.loads(self.text)
         except (ValueError, RecursionError):

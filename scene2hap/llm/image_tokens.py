@@ -10,26 +10,26 @@ from scene2hap.llm.protocol import LLMRequest
 _CHARACTERS_PER_TOKEN = 4.0
 """Assumed: usual for English."""
 _LEAST_PER_IMAGE = 256
-"""Least tokens of one picture (assumed: those of Gemma 3; most models need more)."""
+"""Fewest tokens of one picture (assumed: those of Gemma 3; most models need more)."""
 _FAR_BELOW = 0.5
 _FAR_ABOVE = 2.0
 
 MOST_PER_IMAGE = {"low": 6_200, "high": 48_200}
-"""Most tokens that any OpenAI model makes of one picture: 2,500 patches times 2.46 (nano); 2,833 + 8 * 5,667 for the
-eight tiles of 768 x 2,048 px (gpt-4o-mini). Source: OpenAI, "Images and vision", section "Calculating costs"."""
+"""Most tokens of one picture in any OpenAI model: 2,500 patches times 2.46 (nano); 2,833 + 8 * 5,667 for the eight
+tiles of 768 x 2,048 px (gpt-4o-mini). Source: OpenAI, "Images and vision", section "Calculating costs"."""
 
 
 class LostImages:
-    """Warns once if far fewer tokens were read than the prompt and its pictures have.
+    """Warn once if a model read far fewer tokens than the prompt and its pictures have.
 
-    Ollama drops messages that do not fit its context, and reports it in its debug log alone.
+    Ollama drops messages that exceed its context, and reports this only in its debug log.
     """
 
     def __init__(self) -> None:
         self._warned = False
 
     def look(self, request: LLMRequest, said: chat.Said) -> None:
-        """Compare one request with what came of it."""
+        """Compare the reported tokens of one request with the expected number. Warns: BackendWarning."""
         expected = len(request.prompt) / _CHARACTERS_PER_TOKEN + _LEAST_PER_IMAGE * len(request.images)
         read = said.usage.get("prompt_tokens")
         if self._warned or not request.images or read is None or read >= _FAR_BELOW * expected:
@@ -45,14 +45,14 @@ class LostImages:
 
 
 class ImagesAsText:
-    """Warns once if far more tokens were billed than pictures can have, as when their base64 is read as text."""
+    """Warn once if a model billed far more tokens than pictures can have, for example if it read base64 as text."""
 
     def __init__(self, detail: str) -> None:
         self._most_per_image = MOST_PER_IMAGE[detail]
         self._warned = False
 
     def look(self, request: LLMRequest, said: chat.Said) -> None:
-        """Compare one request with what came of it."""
+        """Compare the reported tokens of one request with the expected number. Warns: BackendWarning."""
         text = (len(request.prompt) + len(str(request.answer_schema))) / _CHARACTERS_PER_TOKEN
         most = _FAR_ABOVE * text + self._most_per_image * len(request.images)
         read = said.usage.get("prompt_tokens", 0)

@@ -1,4 +1,4 @@
-"""Find the JSON object in a model's text, among thoughts, code fences and prose."""
+"""Find the JSON object in a model's text, among reasoning, code fences and prose."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ _MARK = re.compile(r'[\\"{}]')
 def first_object(text: str) -> str | None:
     """Return the first JSON object in a text, exactly as written; None if none is complete.
 
-    Braces within strings do not count, and text after the object is ignored. The first candidate that is valid JSON
-    wins over an earlier one with balanced braces only. Thoughts are searched last, since they may hold a draft that
-    differs from the answer.
+    Braces within strings do not count, and text after the object is ignored. Valid JSON is preferred to an earlier
+    candidate that only has balanced braces. Reasoning is searched last, since it may hold a draft of the answer.
     """
     if _is_object(text):
         return text.strip()
@@ -29,7 +28,7 @@ def first_object(text: str) -> str | None:
 
 
 def _without_thoughts(text: str) -> str:
-    """Return the text outside thoughts, also if only their end is in it: some chat templates open them themselves."""
+    """Return the text outside reasoning. Some chat templates open it themselves, so its closing tag may stand alone."""
     said, begin, thinks = list[str](), 0, False
     for mark in _THOUGHT.finditer(text):
         is_end = bool(mark[1])
@@ -40,12 +39,12 @@ def _without_thoughts(text: str) -> str:
         elif not thinks:
             said.append(text[begin : mark.start()])
             begin, thinks = mark.start(), True
-    # A thought without an end is no thought.
+    # An unclosed opening tag does not count as reasoning.
     return "".join((*said, text[begin:]))
 
 
 def _balanced(text: str) -> Iterator[str]:
-    """Yield the parts of a text from a brace that can begin an object to the brace that closes it."""
+    """Yield each part of a text with balanced braces that can begin an object."""
     position = 0
     while opening := _OPENING.search(text, position):
         end = _closing(text, opening.start())

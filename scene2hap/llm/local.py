@@ -1,7 +1,7 @@
-"""LocalBackend: answers of a model on one's own machine or network.
+"""LocalBackend: answers of a model on your own machine or network.
 
-Local servers implement structured output incompletely. So the prompt lists the fields of the answer as well, a rejected
-form is requested less strictly, and the answer is searched for within the reply.
+Local servers implement structured output incompletely. So the prompt also lists the fields of the answer. If a server
+rejects a form, a less strict one is requested. The answer is extracted from the text of the reply.
 """
 
 from __future__ import annotations
@@ -35,13 +35,19 @@ _OURS = frozenset({"model", "messages", "images", "response_format", "format", "
 class LocalBackend:
     """Answers of a local server.
 
-    model : its name on the server, None for the only one that it serves; base_url : with "/v1" for dialect "openai"
-    (vLLM, llama.cpp, LM Studio), without for "ollama" (http://127.0.0.1:11434); num_ctx : context in tokens, for
-    Ollama, whose default of 4096 loses pictures; max_tokens : of one answer (assumed: answers stay below 600, a model
-    that runs away does not); top_p : share of the likeliest words, 0..1; reasoning_effort : "none" to "high", where the
-    server has it; chat_template_kwargs : as {"enable_thinking": False} for llama.cpp and vLLM; extra : further fields,
-    sent as they are; detail : of pictures, "auto", "low" or "high", in dialect "openai"; timeout_s : queueing included,
-    since most answer one request at a time; api_key : where the server wants one, never taken from the environment;
+    Parameters:
+    model : its name on the server; None if the server has only one.
+    base_url : with "/v1" for dialect "openai" (vLLM, llama.cpp, LM Studio), without for "ollama"
+        (http://127.0.0.1:11434).
+    num_ctx : context in tokens, for Ollama, whose default of 4096 loses pictures.
+    max_tokens : of one answer (assumed: answers stay below 600, and only endless output is longer).
+    top_p : share of the likeliest words, 0..1.
+    reasoning_effort : "none" to "high", if the server supports it.
+    chat_template_kwargs : such as {"enable_thinking": False}, for llama.cpp and vLLM.
+    extra : further fields, sent unchanged.
+    detail : of pictures, "auto", "low" or "high", in dialect "openai".
+    timeout_s : for one answer, including the server's queue, since most servers answer one request at a time.
+    api_key : if the server needs one; never taken from the environment.
     transport : for tests.
     Raises: ConfigError: a setting that cannot work.
     """
@@ -93,27 +99,27 @@ class LocalBackend:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """The settings on which an answer depends; never a key. The model is None until `ready` has found it."""
+        """The settings on which an answer depends; never a key. The model is None until `ready` has run."""
         return {"model": self.model, "base_url": self._endpoint.base_url, **asdict(self._decoding)}
 
     @property
     def rung(self) -> Rung:
-        """The way to prescribe the form of the answer that this server accepted last."""
+        """The form of the answer that this server accepted last."""
         return LADDER[self._rung]
 
     async def ready(self) -> None:
-        """Find out which model the server serves, where none was named.
+        """Find the name of the served model if none was given.
 
-        Raises: BackendUnavailable: it does not answer or names none. ConfigError: it serves several.
+        Raises: BackendUnavailable: the server does not answer or names no model. ConfigError: it serves several models.
         """
         if self.model is None:
             self.model = served.only_one(await self._models(), self._endpoint.base_url)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The model's answer: the JSON object in it, or all that it wrote where there is none.
+        """Return the JSON object in the model's answer, or its whole text if there is none.
 
-        Raises: BackendUnavailable: no answer, or pictures for a model that is blind; states whether a retry can
-        help. BadAnswer: cut short or empty.
+        Raises: BackendUnavailable: no answer, or pictures for a model without vision; states whether a retry can help.
+        BadAnswer: cut short or empty.
         """
         await self.ready()
         if request.images and not self._eyes_checked:
@@ -137,7 +143,7 @@ class LocalBackend:
             if reply.status not in _FORM_REJECTED or chat.is_withheld(reply):
                 break
         if reply.ok:
-            # Only success is stored: a request that fails in every form (too long a prompt) says nothing about forms.
+            # Store a form only on success: a request that fails in every form (too long a prompt) proves nothing.
             self._rung = max(self._rung, rung)
         return self._dialect.read(reply, self.model or "")
 
@@ -149,9 +155,9 @@ class LocalBackend:
         return await (served.ollama_models if self._is_ollama else served.openai_models)(self._endpoint)
 
     async def _check_eyes(self) -> None:
-        """Check once whether the server reports that the model reads pictures; no report counts as unknown.
+        """Check once whether the server reports that the model reads pictures. Without a report, assume that it does.
 
-        Raises: BackendUnavailable: it reports that the model does not.
+        Raises: BackendUnavailable: the model does not read pictures.
         """
         sees: bool | None = None
         try:
@@ -162,7 +168,7 @@ class LocalBackend:
                 sees = ours[0].sees if ours else None
                 self._warn_of_ollama(bool(ours) and ours[0].owner == "library")
         except BackendUnavailable:
-            return  # the request itself will fail too, and be retried
+            return  # the request itself will fail too, and will be retried
         if sees is False:
             raise BackendUnavailable(
                 f"{self.model} at {self._endpoint.base_url} takes no pictures. Choose a model that sees (llama.cpp "
@@ -173,7 +179,7 @@ class LocalBackend:
     def _warn_of_ollama(self, is_ollama: bool) -> None:
         if is_ollama and not self._eyes_checked:
             warnings.warn(
-                f"{self._endpoint.base_url} is an Ollama, whose /v1 drops pictures that do not fit without a word. "
+                f"{self._endpoint.base_url} is an Ollama, whose /v1 drops pictures that do not fit, without an error. "
                 "Use dialect='ollama' and the address without /v1.",
                 chat.BackendWarning,
                 stacklevel=2,

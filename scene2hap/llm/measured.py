@@ -1,4 +1,4 @@
-"""Sizes from a model, compared with the measured ones."""
+"""Comparison of a model's sizes with the measured ones."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from scene2hap.scene import sizes
 
 
 def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[sizes.Size, tuple[str, ...]]:
-    """Return length, width and thickness [m] of a surface, and doubts; an edge out of bounds is taken as measured.
+    """Return length, width and thickness [m] of a surface, and doubts. Replaces edges out of bounds by measured ones.
 
-    A thickness that was not measured either is assumed.
+    If the thickness was not measured either, it is assumed.
     """
     stated = (answer.estimated_length_m, answer.estimated_width_m, answer.estimated_thickness_m)
     wrong = sizes.faults(stated, measured_m)
@@ -29,5 +29,5 @@ def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[siz
 
 
 def size_without_answer(measured_m: Sequence[float]) -> sizes.Size:
-    """Return the size [m] of a surface without an answer: as measured, with an assumed thickness if it has none."""
+    """Return the size [m] of a surface without an answer: as measured, with an assumed thickness if none is known."""
     return sizes.with_thickness(measured_m)

@@ -1,6 +1,6 @@
 """OpenAIBackend: answers by OpenAI's chat completions with strict structured output.
 
-Chat completions rather than responses: the one form that local servers share.
+Local servers share chat completions, and not the newer responses format.
 Source: the OpenAPI description in openai/openai-openapi; OpenAI's guides "Structured outputs" and "Images and vision".
 """
 
@@ -35,14 +35,14 @@ _GIVES_WAY = {
     "service_tier": None,
     "max_tokens": "max_completion_tokens",
 }
-"""Parameters that some models reject, and the other name under which they accept them. Models that always reason accept
-neither temperature nor top_p; some are not offered in the flex tier."""
+"""Parameters that some models reject, and the other name that these models accept. Models that always reason reject
+temperature and top_p. Some models are not offered in the flex tier."""
 
 TIMEOUT_S, FLEX_TIMEOUT_S = 120.0, 900.0
-"""Longest wait for one answer [s]; the second value, for the flex tier, is that of OpenAI's guide "Flex processing"."""
+"""Longest wait for one answer [s]. The value for the flex tier is from OpenAI's guide "Flex processing"."""
 
 _NO_CAPACITY = "resource_unavailable"
-"""The code of status 429 if a cheaper tier has no capacity; such a call is not billed."""
+"""Error code with status 429 if a cheaper tier has no capacity. Such a call is not billed."""
 
 
 @clear_construction
@@ -51,15 +51,15 @@ class OpenAIBackend:
 
     Parameters:
     model : its name.
-    api_key : else the environment variable OPENAI_API_KEY, read at each call.
-    base_url : another service that speaks the same.
+    api_key : by default the environment variable OPENAI_API_KEY, read at each call.
+    base_url : address of another service with the same interface.
     detail : of pictures, "low" (cheap) or "high"; always sent, since the default differs between models.
     timeout_s : for one answer; None for 120 s, or 900 s in the flex tier.
-    max_tokens : of one answer, reasoning included.
+    max_tokens : of one answer, including reasoning.
     top_p : share of the likeliest words, 0..1.
-    seed : best effort, on OpenAI's side too.
-    reasoning_effort : "none" to "xhigh", as the model has it.
-    service_tier : "flex" gives slower answers at half the price; None takes the project's tier. Where the model is not
+    seed : OpenAI does not guarantee equal answers for equal seeds.
+    reasoning_effort : "none" to "xhigh", as far as the model supports it.
+    service_tier : "flex" gives slower answers at half the price; None takes the project's tier. If the model is not
         offered in this tier, or the tier has no capacity, the question is sent again without it.
     transport : for tests.
 
@@ -119,7 +119,7 @@ class OpenAIBackend:
 
     @property
     def service_tier(self) -> str:
-        """The requested tier, "" for the project's own."""
+        """The requested tier, "" for the project's default tier."""
         return self._tier or ""
 
     @property
@@ -129,11 +129,11 @@ class OpenAIBackend:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """The settings on which an answer depends besides the request; never the key."""
+        """The settings, besides the request, on which an answer depends; never the key."""
         return {"model": self.model, "base_url": self._endpoint.base_url, "detail": self._detail, **self._decoding}
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The model's answer.
+        """Return the model's answer.
 
         Raises: BackendUnavailable: no answer; states whether a retry can help. BadAnswer: cut short, filtered,
         refused or empty.
@@ -143,11 +143,11 @@ class OpenAIBackend:
         return self.judged(request, await self._ask(self._body(request)))
 
     def body(self, request: LLMRequest) -> dict[str, Any]:
-        """The body of a request, without parameters that this model has refused."""
+        """Return the body of a request, without parameters that this model has rejected."""
         return self._adapted(self._body(request))
 
     def judged(self, request: LLMRequest, said: chat.Said) -> LLMReply:
-        """The reply that a chat completion makes. Raises: BadAnswer: as `complete`."""
+        """Return the reply for a chat completion. Raises: BadAnswer: as `complete`."""
         self._images_as_text.look(request, said)
         chat.require_whole(said, chat.about(request))
         if not said.content:
@@ -155,7 +155,7 @@ class OpenAIBackend:
         return LLMReply(said.content, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
 
     def report(self) -> dict[str, int]:
-        """Count the requests repeated in the standard tier, since their own tier had no capacity."""
+        """Count the requests repeated without the requested tier because it had no capacity."""
         return {"without_capacity": self._without_capacity}
 
     def _body(self, request: LLMRequest) -> dict[str, Any]:
@@ -171,7 +171,7 @@ class OpenAIBackend:
     async def _ask(self, body: dict[str, Any]) -> chat.Said:
         """Post the request, and repeat it once without each parameter that the model rejects.
 
-        If the tier has no capacity, this request alone is repeated without it.
+        If the tier has no capacity, only this request is repeated without the tier.
         """
         while True:
             sent = self._adapted(body)
@@ -186,9 +186,9 @@ class OpenAIBackend:
         return chat.read_chat(reply, self.model)
 
     def learns(self, reply: HttpReply, sent: Mapping[str, Any] | None = None) -> bool:
-        """Return True if a reply blames a parameter that need not be sent; then it is not from now on.
+        """Return True if a reply rejects an optional parameter. From then on this parameter is not sent.
 
-        A parameter that is not in `sent`, if that is known, has been dropped before.
+        A parameter that is not in `sent` was dropped before, so the result is False.
         """
         blamed = server_error(reply).param if reply.status == 400 else ""
         if blamed not in _GIVES_WAY or (sent is not None and blamed not in sent):
@@ -202,7 +202,7 @@ class OpenAIBackend:
 
     def _give_way(self, parameter: str, reason: BackendUnavailable) -> None:
         if parameter in self._given_way:
-            return  # a call that was under way at the same time has learnt it already
+            return  # a concurrent call has already dropped it
         self._given_way.add(parameter)
         instead = _GIVES_WAY[parameter]
         if parameter == "service_tier":

@@ -1,7 +1,7 @@
-"""Pace: one pause for all calls that go to one server.
+"""Pace: one common pause for all calls to one server.
 
-A rate limit counts all concurrent calls together. When the server makes one call wait, the others would only use up
-the limit as it refills. So they wait too, before they send.
+A rate limit counts all concurrent calls together. If only one call waited as the server requests, the others would use
+up the limit as it refills. So all calls wait before they send.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from scene2hap.llm.retry_after import LONGEST_WAIT_S, reset_wait_s
 
 
 class Pace:
-    """The time at which the next request may be sent, from the server's last reply."""
+    """Earliest time of the next request, from the server's last reply."""
 
     def __init__(self) -> None:
         self._open_at_s = 0.0
@@ -26,7 +26,7 @@ class Pace:
             await asyncio.sleep(left_s)
 
     def heed(self, reply: HttpReply) -> None:
-        """Pause if a reply requests it. A pause that is too long, or that cannot help, is not taken."""
+        """Pause if a reply requests it. A pause that is too long or cannot help is ignored."""
         if reply.ok:
             wait_s = reset_wait_s(reply.headers)
         else:

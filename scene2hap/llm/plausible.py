@@ -1,7 +1,7 @@
-"""Comparison of an answer's numbers with measured sizes and with the literature on the material.
+"""Comparison of an answer's numbers with measured sizes and with published material constants.
 
-Numbers out of bounds are requested again, once, all in one repair (`validation.find_fault`). Those still out of bounds
-are replaced by the measured size (`measured`) or the table's constant (`trust`).
+One repair requests all numbers out of bounds again (`validation.find_fault`). Numbers that stay out
+of bounds are replaced by the measured size (`measured`) or by the table's constant (`trust`).
 """
 
 from __future__ import annotations
@@ -18,22 +18,22 @@ from scene2hap.scene import sizes
 EDGES = ("length", "width", "thickness")
 _WHOLE = ("length", "width", "height")
 
-# Factors beyond the published range (assumed): a wrong unit gives a factor of a thousand or a million, and materials of
-# one word ("wood", "foam") differ by less. Loss factors of assembled objects are far above those of the bare material.
+# Factors beyond the published range (assumed). A wrong unit gives a factor of a thousand or a million; materials with
+# the same name ("wood", "foam") differ by less. Assembled objects have far higher loss factors than their material.
 _DENSITY_FAR, _MODULUS_FAR, _LOSS_FAR = 3.0, 10.0, 100.0
 _POISSON_FAR = 0.2
 _ANY_SOLID_KG_M3 = (5.0, 25000.0)
-"""Least density of an unknown material; a smaller number was meant in g/cm3 (foams begin at 10). Assumed."""
+"""Bounds on the density of an unknown material; a smaller number was meant in g/cm3 (foams begin at 10). Assumed."""
 
 _UNITS = {"density_kg_m3": "kg/m3", "youngs_modulus_gpa": "GPa", "poisson_ratio": "-", "damping_ratio": "-"}
 _SLIPS = {"density_kg_m3": "g/cm3? Give kg/m3", "youngs_modulus_gpa": "pascal or megapascal? Give gigapascal"}
-_SLIP = 30.0  # factor beyond a bound from which the number was probably meant in another unit
+_SLIP = 30.0  # beyond this factor, the message suggests that the unit is wrong
 
 
 def implausible(component: Component, answer: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str]:
     """Find implausible values for the object or material. Returns a text for the model by field of the answer.
 
-    Empty if the request has no facts to compare with.
+    The result is empty if the request has no facts to compare with.
     """
     if component == "object_analyzer":
         return _sizes(answer, facts) | _mass(answer, facts)
@@ -62,7 +62,7 @@ def constants(word: str, answer: Mapping[str, Any]) -> dict[str, str]:
 
 
 def row_of(word: str) -> MaterialRow | None:
-    """The table's row of a material, or of the longest part of its words that has one ("brushed stainless steel")."""
+    """Return the table's row of a material, or of the longest part of its name with one ("brushed stainless steel")."""
     parts = word.replace("-", " ").replace("_", " ").split()[:_LONGEST]
     for length in range(len(parts), 0, -1):
         for start in range(len(parts) - length, -1, -1):
@@ -73,7 +73,7 @@ def row_of(word: str) -> MaterialRow | None:
     return None
 
 
-_LONGEST = 6  # words that are read of a material
+_LONGEST = 6  # most words of a material that are read
 
 
 def _bounds(row: MaterialRow | None) -> dict[str, tuple[float, float]]:
@@ -93,7 +93,7 @@ def _sizes(answer: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str
     if len(measured) < len(EDGES):
         return {}
     stated = [answer.get(f"estimated_{name}_m") for name in EDGES]
-    # A value that is no number is another fault; the other values are still compared with the bounds.
+    # A value that is not a number is reported elsewhere. The other values are still compared with the bounds.
     found = sizes.faults(
         [one if _is_number(one) else other for one, other in zip(stated, measured, strict=True)], measured
     )

@@ -19,10 +19,10 @@ COMPONENTS: tuple[Component, ...] = get_args(Component)
 class LLMRequest:
     """One question.
 
-    `prompt` is the filled template; `facts` are the values it was filled with (JSON values), for backends that do
-    not read prose; `answer_schema` is the JSON schema of the answer; `subject` is the object's id, "" for the scene.
-    `images` are PNG files in the order in which the prompt speaks of them; they may be rendered when they are read, so
-    that a backend which does not look at them costs nothing.
+    `prompt` is the filled template. `facts` are its values (JSON values), for backends that do not read prose.
+    `answer_schema` is the JSON schema of the answer. `subject` is the object's id, "" for the scene.
+    `images` are PNG files in the order in which the prompt names them. They may be rendered only when they are read, so
+    that a backend without vision causes no rendering.
     """
 
     component: Component
@@ -38,12 +38,12 @@ class LLMRequest:
 @clear_construction
 @dataclass(frozen=True)
 class LLMReply:
-    """One answer: `text` is a JSON document; `model` says who wrote it; `usage` counts tokens where known.
+    """One answer: `text` is a JSON document; `model` is its author; `usage` counts tokens if known.
 
-    `usage` has prompt_tokens and completion_tokens, and cached_tokens: those of the prompt that the service had in its
-    prompt cache. `service_tier` is the tier that the service billed, "" for its standard one.
-    `key` is the name under which a cache or recording keeps it, "" where none does; `is_kept` is true if it came
-    from there and cost nothing now.
+    `usage` has prompt_tokens, completion_tokens and cached_tokens, the prompt tokens from the service's prompt cache.
+    `service_tier` is the tier that the service billed, "" for its standard one.
+    `key` names the answer in a cache or recording, "" if it is in none. `is_kept` is true if the answer came from there
+    and cost nothing now.
     """
 
     text: str
@@ -57,8 +57,8 @@ class LLMReply:
 
 @runtime_checkable
 class LLMBackend(Protocol):
-    """Answers requests; may get several at the same time."""
+    """Answer requests. A backend may get several at the same time."""
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The answer. Raises: BackendUnavailable, BadAnswer, ReplayMiss."""
+        """Return the answer. Raises: BackendUnavailable, BadAnswer, ReplayMiss."""
         ...

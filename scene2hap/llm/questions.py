@@ -1,4 +1,4 @@
-"""One question to a model: filled template, limit of concurrent calls, validated answer, account."""
+"""Questions to a model: filled template, limit of concurrent calls, validated answer, report."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ AnswerType = TypeVar("AnswerType", bound=Answer)
 
 
 class Questions:
-    """Sends questions to a backend, at most `concurrency` at once, and keeps the account.
+    """Send questions to a backend, at most `concurrency` at once, and keep the report.
 
-    An error that would affect every further question (an exhausted budget, a refused key, a recording that does not
-    fit) stops all: running calls end, so that their answers are kept, and no other begins.
+    An error that would affect every further question (an exhausted budget, a rejected key, a recording that does not
+    match) stops all. Running calls end, so that their answers are kept, and no new call begins.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Questions:
         self._wishes = wishes or {}
 
     async def _completed(self, request: LLMRequest) -> LLMReply:
-        """Return the backend's reply. Raises: ConfigError: it is no `LLMReply`, as it would be for every question."""
+        """Return the backend's reply. Raises: ConfigError: it is not an `LLMReply`."""
         by, awaited = f"{type(self._backend).__name__}.complete", self._backend.complete(request)
         if not inspect.isawaitable(awaited):
             raise ConfigError(
@@ -67,10 +67,10 @@ class Questions:
         shape: type[AnswerType],
         images: Sequence[bytes] = (),
     ) -> tuple[AnswerType, str]:
-        """A validated answer, and its provenance: model, prompt version, and the name a cache keeps it under.
+        """Return a validated answer, and its provenance: model, prompt version and key in the cache.
 
         Raises: BadAnswer: the reply was cut short, is not JSON or breaks a bound; it carries the raw text.
-        AnswerRefused, and as the backend; and an earlier error that stopped all questions.
+        AnswerRefused. Any error of the backend. An earlier error that stopped all questions.
         """
         request = LLMRequest(
             component=component,
@@ -89,7 +89,7 @@ class Questions:
             try:
                 reply = await self._completed(request)
             except Scene2HapError as problem:
-                if isinstance(problem, chat.UnusableAnswer):  # it was paid for all the same
+                if isinstance(problem, chat.UnusableAnswer):  # it was billed although it is unusable
                     self.report.take(
                         LLMReply("", problem.model, usage=problem.usage, service_tier=problem.service_tier)
                     )
@@ -112,7 +112,7 @@ class Questions:
         return answer, f"{reply.model}, prompt {self._prompts.version}{kept_as}"
 
     def has_wish(self, subject: str) -> bool:
-        """Return True if the user wishes something of this object alone."""
+        """Return True if the user gave a wish for this object alone."""
         return bool(self._wishes.get(subject))
 
     def _wish(self, subject: str) -> str:

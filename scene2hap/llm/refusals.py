@@ -1,7 +1,7 @@
-"""Detection of refusals: a model that declines to answer, in any of its forms.
+"""Detection of refusals, in any form in which a model declines to answer.
 
-If a refusal were repaired as a fault of form, the same call would be paid again with all its pictures, and refused
-again.
+A refusal must not be repaired like a fault of form: the repeated call, with all its pictures, would be billed and
+refused again.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import re
 from scene2hap.llm.json_text import first_object
 
 FILTERED = frozenset({"content_filter", "safety", "prohibited_content", "blocklist", "recitation", "spii", "refusal"})
-"""Finish reasons of withheld answers: OpenAI's and, behind compatible addresses, Gemini's and Claude's."""
+"""Finish reasons of withheld answers: OpenAI's, and those of Gemini and Claude at OpenAI-compatible addresses."""
 
 FILTERED_REQUEST = frozenset({"content_filter", "content_policy_violation", "moderation_blocked"})
 """Codes of status 400 for a question that was withheld from the model: Azure's and OpenAI's."""
@@ -29,9 +29,9 @@ _REFUSAL = re.compile(
     re.IGNORECASE,
 )
 _LOOKED_AT = 300
-"""Characters at the beginning of a text that are searched (assumed: a text begins with its refusal)."""
+"""Number of characters searched at the beginning of a text (assumed: a text begins with its refusal)."""
 _EXCUSES = frozenset({"refusal", "error", "message", "reason", "response", "answer"})
-"""The fields of an object that holds no answer but a refusal."""
+"""The fields of an object that holds only a refusal."""
 
 
 def is_filtered(finish_reason: str) -> bool:
@@ -40,9 +40,9 @@ def is_filtered(finish_reason: str) -> bool:
 
 
 def refusal_in(text: str) -> str | None:
-    """Find the refusal in a model's message, None where it does not refuse.
+    """Return the refusal in a model's message; None if it does not refuse.
 
-    A text with a JSON object is an answer, also with prose around it, unless the object holds only an excuse.
+    A text with a JSON object counts as an answer, even with prose around it, unless the object holds only an excuse.
     """
     found = first_object(text)
     if found is None:

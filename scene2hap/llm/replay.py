@@ -1,7 +1,7 @@
-"""Recorded answers: a model's replies as JSON lines, so that an inference can be repeated without the model.
+"""Recorded answers: a model's replies as JSON lines, to repeat an inference without the model.
 
-Each line is one answer with the facts of its question. Only the fields of `_Entry` are written: no header, no key, no
-address, and of pictures only their digest within the key.
+Each line is one answer with the facts of its question. Only the fields of `_Entry` are written: no header, no API key,
+no address. Pictures appear only as a digest within the request key.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from scene2hap.llm.request_key import canonical, part_names, plain, request_key
 from scene2hap.text_files import read_small
 
 MAX_RECORDING_BYTES = 1 << 28
-"""Size of a file of answers (assumed: those of some 50,000 objects)."""
+"""Size of a file of answers (assumed: answers for some 50,000 objects)."""
 
 
 class _Entry(BaseModel):
     """One line of a recording.
 
-    `model` may be a dated name of the requested `asked_model`; `parts` are digests of parts that are not kept.
+    `model` may be a dated name of the requested `asked_model`; `parts` are digests of parts that are not stored.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -50,9 +50,9 @@ class _Entry(BaseModel):
 
 @clear_construction
 class ReplayBackend:
-    """Answers from a recording and nothing else. Of several answers to one request the last one counts.
+    """Answer from a recording only. If a request has several answers, the last one is used.
 
-    model : answers of this model alone count; None for all.
+    model : use only answers of this model; None for all.
     Raises: ConfigError: the file cannot be read. BadAnswer: a line is broken; names file and line.
     """
 
@@ -69,7 +69,7 @@ class ReplayBackend:
         return tuple(key for key in self._entries if key not in self._played)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The recorded answer. Raises: ReplayMiss: there is none; names the nearest and what differs."""
+        """Return the recorded answer. Raises: ReplayMiss: there is none; names the nearest one and the differences."""
         key = request_key(request)
         entry = self._entries.get(key)
         if entry is None:
@@ -96,9 +96,9 @@ class ReplayBackend:
 
 @clear_construction
 class RecordingBackend:
-    """Passes requests on to `inner` and appends each answer to a file, on disk before it is handed back.
+    """Pass requests on to `inner`, and write each answer to a file before returning it.
 
-    Raises: ConfigError: the file cannot be written. BadAnswer: it exists and has a broken line.
+    Raises: ConfigError: the file cannot be written. BadAnswer: the file exists and has a broken line.
     """
 
     def __init__(self, inner: LLMBackend, path: str | os.PathLike[str]) -> None:
@@ -120,14 +120,14 @@ class RecordingBackend:
         return identity
 
     async def ready(self) -> None:
-        """Let the inner backend find out what it needs before its `identity` is whole. Raises: as that does."""
+        """Let the inner backend complete its `identity`. Raises: as the inner backend."""
         ready = getattr(self.inner, "ready", None)
         if ready is not None:
             await ready()
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The inner backend's answer, recorded."""
-        key = request_key(request)  # before the call: what cannot be recorded should not be paid for
+        """Return the inner backend's answer, after recording it."""
+        key = request_key(request)  # before the call, so that a request that cannot be recorded is not billed
         reply = await self.inner.complete(request)
         entry = _Entry(
             key=key,
@@ -148,14 +148,14 @@ class RecordingBackend:
     def _requested_model(self) -> str:
         try:
             return str(self.identity.get("model", ""))
-        except ConfigError:  # a recording does without
+        except ConfigError:  # a recording does not need the identity
             return ""
 
     def _append(self, line: bytes) -> None:
         try:
             with self._turn, self._path.open("ab+") as file:
                 if file.seek(0, os.SEEK_END) and not _ends_in_newline(file):
-                    line = b"\n" + line  # somebody edited the file
+                    line = b"\n" + line  # an editor removed the last line break
                 file.write(line)
                 file.flush()
                 os.fsync(file.fileno())
@@ -187,7 +187,7 @@ def _entries(path: Path, content: bytes) -> Iterator[_Entry]:
 
 
 def _differing(entry: _Entry, request: LLMRequest, model: str | None) -> list[str]:
-    """Names of the parts in which a recorded request differs from `request`."""
+    """Return the names of the parts in which a recorded request differs from `request`."""
     facts, recorded = plain(request.facts), entry.facts
     fields = [f"facts.{name}" for name in sorted({*facts, *recorded}) if facts.get(name) != recorded.get(name)]
     recorded_model = entry.asked_model or entry.model

@@ -1,4 +1,4 @@
-"""Account of an inference: calls, skipped calls and their reasons, usage, and errors."""
+"""Report of an inference: calls, skipped calls and their reasons, usage, and errors."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from scene2hap.llm.wrappers.prices import PriceList
 
 @dataclass
 class InferenceReport:
-    """The account of one run of the chain.
+    """The report of one run of the chain.
 
-    calls : sent to the backend, by component; kept : how many of them a cache or recording answered.
-    skipped : calls that were saved, by reason: "copies" (objects that another stands for), "silent" (objects without a
-        state to describe), "same_material" (objects whose material word was answered already), "unknown_material",
-        "table_material" (words that were looked up instead), "unreached_material" (words that no source needs).
-    billed : tokens of answers that were paid for now, by (model, service tier) and kind of token; unmetered : such
-        answers without usage.
-    errors : what could not be answered, by object id ("" is the scene) or material word.
-    flags : what is doubtful, by material word; doubts : by object id, sizes that were not believed and contacts that
-        nothing in the scene can give.
+    calls : number sent to the backend, by component; kept : number answered by a cache or recording.
+    skipped : number of saved calls by reason: "copies" (copies of another object), "silent" (objects without a state
+        to describe), "same_material" (material words that already have an answer), "unknown_material", "table_material"
+        (words looked up in the table), "unreached_material" (words that no source needs).
+    billed : tokens of answers billed in this run, by (model, service tier) and kind of token; unmetered : number of
+        billed answers without usage.
+    errors : questions without an answer, by object id ("" is the scene) or material word.
+    flags : doubtful constants, by material word; doubts : by object id, rejected sizes and masses, and needed contacts
+        that the scene cannot give.
     """
 
     calls: Counter[Component] = field(default_factory=Counter)
@@ -36,7 +36,7 @@ class InferenceReport:
     doubts: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def take(self, reply: LLMReply) -> None:
-        """Take an answer into the account."""
+        """Add an answer to the report."""
         if reply.is_kept:
             self.kept += 1
         elif reply.usage:
@@ -46,20 +46,20 @@ class InferenceReport:
 
     @property
     def tokens(self) -> dict[str, Counter[str]]:
-        """Tokens of answers that were paid for now, by model and kind of token."""
+        """Tokens of answers billed in this run, by model and kind of token."""
         by_model: dict[str, Counter[str]] = {}
         for (model, _), used in self.billed.items():
             by_model.setdefault(model, Counter()).update(used)
         return by_model
 
     def cost_usd(self, prices: PriceList) -> float | None:
-        """Cost of the answers; None where a model or tier has no price, or an answer came without its usage."""
+        """Return the cost of the answers; None if a model or tier has no price, or an answer has no usage."""
         costs = [prices.cost_usd(model, used, tier) for (model, tier), used in self.billed.items()]
         known = [cost for cost in costs if cost is not None]
         return None if self.unmetered or len(known) < len(costs) else sum(known)
 
     def as_json(self) -> Mapping[str, Any]:
-        """The account as JSON values."""
+        """Return the report as JSON values."""
         return {
             "calls": dict(self.calls),
             "kept": self.kept,

@@ -1,4 +1,4 @@
-"""Keys of requests: digests of everything that affects the answer, and of nothing else."""
+"""Keys of requests: digests of the parts that affect the answer, and of no others."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from scene2hap.llm.protocol import LLMRequest
 def request_key(request: LLMRequest) -> str:
     """Return the digest of all parts of a request that affect its answer: "v1:" and a SHA-256.
 
-    Subject and prompt version are left out: the same question about another object has the same answer, and so has a
-    new version with the same words.
+    Subject and prompt version are left out. The same question about another object has the same answer, and so has a
+    new prompt version with the same words.
     Raises: BackendError: a fact has no JSON (an infinity, an object of Python).
     """
     content = {
@@ -42,7 +42,7 @@ def canonical(value: Any) -> str:
 
 
 def plain(value: Any) -> Any:
-    """A JSON value in which equal numbers are written alike."""
+    """Return a JSON value in which equal numbers have equal text."""
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -53,7 +53,7 @@ def plain(value: Any) -> Any:
 
 
 def part_names(request: LLMRequest) -> dict[str, str]:
-    """A digest of each long part of a request, so that a miss can name the part that changed."""
+    """Return a digest of each long part of a request. The error for a missing answer names the part that changed."""
     parts = {
         "prompt": request.prompt,
         "answer_schema": request.answer_schema,

@@ -25,7 +25,7 @@ _SECONDS = {"ms": 1e-3, "s": 1.0, "m": 60.0, "h": 3600.0}
 
 
 def stated_wait_s(headers: Mapping[str, str], now_s: float) -> float | None:
-    """Wait that Retry-After states [s], a date counted from `now_s` [s since 1970]; None if it states none."""
+    """Return the wait that Retry-After states [s]; None if absent. A date is relative to `now_s` [s since 1970]."""
     milliseconds = _number(headers.get("retry-after-ms"))
     if milliseconds is not None:
         return milliseconds / 1000.0
@@ -42,8 +42,8 @@ def stated_wait_s(headers: Mapping[str, str], now_s: float) -> float | None:
 def reset_wait_s(headers: Mapping[str, str]) -> float | None:
     """Return the time until all exhausted limits are full again [s]; None if none is exhausted.
 
-    A limit refills evenly and is full after `reset`. Waiting that long loses nothing against using each part of the
-    limit as it returns.
+    A limit refills evenly and is full after `reset`. Waiting that long gives the same throughput as using each part of
+    the limit as it returns.
     """
     waits = [
         _duration_s(headers.get(f"x-ratelimit-reset-{unit}"))
@@ -54,7 +54,7 @@ def reset_wait_s(headers: Mapping[str, str]) -> float | None:
 
 
 def _duration_s(text: str | None) -> float | None:
-    """Seconds of "1s", "6m0s", "20ms" or a bare number; None for anything else."""
+    """Return the seconds of "1s", "6m0s", "20ms" or a bare number; None for any other text."""
     parts = _PART.findall(text or "")
     if text and "".join(number + unit for number, unit in parts) == text:
         return sum(float(number) * _SECONDS[unit] for number, unit in parts)

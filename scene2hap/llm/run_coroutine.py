@@ -1,4 +1,4 @@
-"""Run a coroutine to its end, for callers without an event loop."""
+"""Run a coroutine from code without an event loop."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Result = TypeVar("Result")
 
 
 def run_waiting(awaited: Coroutine[Any, Any, Result], instead: str) -> Result:
-    """Run a coroutine and return its result; `instead` names the function to await where an event loop runs.
+    """Run a coroutine and return its result. `instead` is the function that the error recommends to await.
 
     Raises: CallError: an event loop runs in this thread, as in a notebook, and would be blocked.
     """

@@ -1,5 +1,5 @@
-"""Answer schemas in the forms that models take: OpenAI's strict subset of JSON schema, the same without references for
-local servers, and words in a prompt."""
+"""Answer schemas in three forms: OpenAI's strict subset of JSON schema, the same without references for local servers,
+and words in a prompt."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ _TYPES = {
 def strict_schema(schema: Schema) -> dict[str, Any]:
     """Return the schema for OpenAI's strict mode; equal input gives equal schemas.
 
-    Objects are closed and all their properties required; titles, defaults, lengths and patterns with look-around are
-    removed. Descriptions state bounds as well, so that the model reads those that a decoder does not enforce.
+    Objects are closed and all their properties required. Titles, defaults, lengths and patterns with look-around are
+    removed. Descriptions repeat the bounds, so that the model reads bounds that a decoder does not enforce.
     Raises: ConfigError: the root is not an object, a keyword has no strict form, or the schema is too large.
     Source: OpenAI, Structured outputs, "Supported schemas".
     """
@@ -57,9 +57,9 @@ def strict_schema(schema: Schema) -> dict[str, Any]:
 
 
 def local_schema(schema: Schema) -> dict[str, Any]:
-    """The strict schema with its references written out and without patterns that are not anchored on both sides.
+    """Return the strict schema without references, and without patterns that are not anchored on both sides.
 
-    The grammars of llama.cpp get nested references wrong and reject other patterns.
+    The grammars of llama.cpp handle nested references wrongly and reject unanchored patterns.
     Raises: ConfigError: as `strict_schema`, or the schema refers to itself.
     """
     strict = strict_schema(schema)
@@ -69,7 +69,7 @@ def local_schema(schema: Schema) -> dict[str, Any]:
 
 
 def fields_in_words(schema: Schema) -> str:
-    """The fields of an answer as a list for a prompt, for servers that never show the schema to the model."""
+    """List the fields of an answer for a prompt, for servers that never show the schema to the model."""
     lines = _field_lines(schema, schema.get("$defs", {}), "")
     return "\n".join(["Answer with one JSON object and nothing else. It has exactly these fields:", *lines])
 

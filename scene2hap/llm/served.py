@@ -1,6 +1,6 @@
-"""The models that a local server offers, and whether they read pictures.
+"""The models of a local server, and their ability to read pictures.
 
-Servers differ in what they report. A missing field counts as unknown, never as absent.
+Servers report different fields. A missing field counts as unknown, never as absent.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.http_client import Endpoint
 
 PROBE_TIMEOUT_S = 5.0
-"""Longest wait for a list of models [s] (assumed: it takes a server no work)."""
+"""Longest wait for a list of models [s] (assumed: a server has the list ready)."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Served:
 
 
 async def openai_models(endpoint: Endpoint) -> tuple[Served, ...]:
-    """The models at /v1/models: of llama.cpp with their modalities, of vLLM and LM Studio by name.
+    """Return the models at /v1/models: from llama.cpp with their modalities, from vLLM and LM Studio by name only.
 
     Raises: BackendUnavailable: the server does not answer.
     """
@@ -35,7 +35,7 @@ async def openai_models(endpoint: Endpoint) -> tuple[Served, ...]:
 
 
 async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
-    """Return the models of Ollama, with their capabilities from newer versions.
+    """Return the models of Ollama; newer versions report their capabilities.
 
     Raises: BackendUnavailable: the server does not answer.
     """
@@ -45,7 +45,7 @@ async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
 
 
 async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
-    """Return True if Ollama counts "vision" among a model's capabilities; None if it does not report it.
+    """Return True if Ollama lists "vision" among a model's capabilities; None if it lists no capabilities.
 
     Raises: BackendUnavailable: the server does not answer.
     """
@@ -58,7 +58,7 @@ async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
 
 
 def only_one(models: tuple[Served, ...], address: str) -> str:
-    """The model to use if none was named.
+    """Return the model to use if none was named.
 
     Raises: BackendUnavailable: the server names none; ConfigError: it serves several.
     """

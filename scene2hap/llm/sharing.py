@@ -1,4 +1,4 @@
-"""Calls that can be skipped: copies of answered objects, and objects that no vibration reaches."""
+"""Calls that can be skipped: copies of analysed objects, and objects that no vibration reaches."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from scene2hap.scene.objects import Contact
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _DIGITS = 4
-"""Tenths of a millimetre."""
+"""Decimals of rounded lengths: tenths of a millimetre."""
 _BELOW = 0.5
-"""Least cosine between a contact's normal and straight down at a support."""
+"""Least absolute cosine between the normal of a supporting contact and the vertical."""
 
 
 def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
     """Return, for each object, its representative: the first in scene order with equal kind and equal support.
 
-    Objects of one kind are copies (`scene.likeness`). Supports are compared by kind: six handles on six equal drawers
-    have one representative, a pan on the stove and a pan on the table have two. An unsupported object is distinguished
-    by all objects that touch it.
+    Objects of one kind are copies (`scene.likeness`). Supports are compared by kind. So six handles on six equal
+    drawers have one representative, but a pan on the stove and a pan on the table have two. An unsupported object is
+    distinguished by all objects that touch it.
     """
     kinds = {item.id: copy_key(item) for item in scene.objects}
     supports = _supports(scene, graph.contacts)
@@ -35,9 +35,9 @@ def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
 
 
 def of_any_scene(facts: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """The facts about an object without those of the scene around it, so that they are equal for equal objects.
+    """Remove the surroundings from the facts about an object, so that equal objects of any scene have equal facts.
 
-    Lengths are rounded as in a prompt, since those of a rotated mesh differ in the last digits.
+    Lengths are rounded as in a prompt, since a rotated copy of a mesh differs in the last digits.
     """
     lengths = {key: round(value, _DIGITS) for key, value in facts.items() if isinstance(value, float)}
     words = " ".join(name_words(name))
@@ -51,7 +51,7 @@ def of_any_scene(facts: Mapping[str, Any], name: str) -> dict[str, Any]:
 
 
 def reachable(sources: Iterable[str], graph: ContactGraph) -> frozenset[str]:
-    """Return the sources and all objects that are connected with one over any number of contacts."""
+    """Return the sources and all objects that are connected to one over any number of contacts."""
     reached, frontier = set[str](), list(sources)
     while frontier:
         object_id = frontier.pop()

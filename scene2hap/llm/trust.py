@@ -1,4 +1,4 @@
-"""Material constants from a model, compared with the table of measured ones."""
+"""Comparison of a model's material constants with the table of measured ones."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Estimate:
 
 
 def from_table(word: str) -> Estimate | None:
-    """The table's constants, None if it has no such row."""
+    """Return the table's constants; None if it has no such row."""
     try:
         known = lookup(word)
     except UnknownMaterial:
@@ -37,10 +37,10 @@ def from_table(word: str) -> Estimate | None:
 
 
 def from_model(word: str, answer: MaterialAnswer, provenance: str) -> Estimate:
-    """Return a model's constants; an implausible one is replaced by the table's, and flagged. None is rescaled.
+    """Return a model's constants. An implausible one is replaced by the table's and flagged; none is rescaled.
 
-    This finds wrong units (2.7 for g/cm3, megapascal for gigapascal). If the table has no row for the material, the
-    constant is flagged and stays, since nothing better is known.
+    This finds wrong units (2.7 for g/cm3, megapascal for gigapascal). If the table has no row for the material, an
+    implausible constant is flagged but kept, since no better value is known.
     """
     modulus_pa = answer.youngs_modulus_gpa * 1e9
     material = Material(word, answer.density_kg_m3, modulus_pa, answer.poisson_ratio, answer.loss_factor)
@@ -55,7 +55,7 @@ def from_model(word: str, answer: MaterialAnswer, provenance: str) -> Estimate:
 
 
 def without_answer(word: str, problem: str) -> Estimate:
-    """Substitute for a missing estimate: the table's row, or nothing; flagged either way."""
+    """Return the table's row in place of a missing estimate, or no constants; flagged either way."""
     known = from_table(word)
     if known is None:
         return Estimate(None, f"error: {problem}", (f"no constants: {problem}",))

@@ -1,4 +1,4 @@
-"""Validation of a reply as the answer of its component, with all errors named."""
+"""Validation of a reply against the schema and bounds of its component; one message names all errors."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ _STEEPEST_GPA = 1300.0
 
 @dataclass(frozen=True)
 class Fault:
-    """The reason why a reply is invalid. `needs_images` is False if only numbers are wrong, which need no pictures.
+    """The reason why a reply is invalid. `needs_images` is False if the repair needs no pictures.
 
-    A minor fault is worth another question, but not the loss of the answer.
+    A minor fault justifies one repair, but not the loss of the answer.
     """
 
     reason: str
@@ -41,10 +41,10 @@ class Fault:
 
 
 def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None = None) -> Fault | None:
-    """Find the fault of a reply, in words for the model that wrote it; None if there is none.
+    """Return the fault of a reply, in words for the model that wrote it; None if there is none.
 
-    With the `facts` of the request, a sentence must begin with the object's category, and numbers must be such
-    as that object or material may have. All that is wrong is named at once.
+    With the `facts` of the request, a sentence must begin with the object's category, and numbers must be plausible for
+    that object or material. The fault names all errors at once.
     """
     doubtful = implausible(component, _fields(text), facts or {})
     try:
@@ -64,10 +64,10 @@ def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None 
 
 
 def _fields(text: str) -> dict[str, Any]:
-    """The fields of an answer; none if it is no JSON object."""
+    """Return the fields of an answer; an empty dict if it is no JSON object."""
     try:
         fields = json.loads(text)
-    except (ValueError, RecursionError):  # ValueError: also a number of thousands of digits
+    except (ValueError, RecursionError):  # json raises ValueError also for a number with thousands of digits
         return {}
     return fields if isinstance(fields, dict) else {}
 
@@ -87,7 +87,7 @@ def _in_words(problem: ErrorDetails) -> str:
 
 
 def _unit_hint(place: str, value: object) -> str:
-    # The most frequent mistake: tables give moduli in pascal. Not rescaled, since 1400 may be a typing error as well.
+    # Most frequent mistake: tables give moduli in pascal. The value is not rescaled: 1400 may also be a typing error.
     if place == "youngs_modulus_gpa" and isinstance(value, float | int) and value > _STEEPEST_GPA:
         return " (pascal or megapascal? give gigapascal)"
     return ""

@@ -6,13 +6,13 @@ import math
 from collections.abc import Sequence
 
 LEAST_DENSITY_KG_M3, MOST_DENSITY_KG_M3 = 0.5, 25_000.0
-"""Mass over the volume of the whole box: a lampshade has some 10, a solid block of tungsten 19,000; assumed."""
+"""Bounds on mass over volume of the bounding box: a lampshade has some 10, solid tungsten 19,000. Assumed."""
 
 
 def mass_fault(mass_kg: float, whole_m: Sequence[float]) -> str:
-    """Return why an object of this size cannot have this mass, "" if it can.
+    """Return the reason why an object of this size cannot have this mass; "" if it can.
 
-    Parameters: mass_kg [kg]; whole_m : edges of the box around the object [m]; one of 0 is no box to judge by.
+    Parameters: mass_kg [kg]; whole_m : edges of the box around the object [m]. If an edge is 0, the result is "".
     """
     volume_m3 = math.prod(whole_m)
     if volume_m3 <= 0.0:
@@ -25,8 +25,8 @@ def mass_fault(mass_kg: float, whole_m: Sequence[float]) -> str:
 
 
 def bounded_mass_kg(mass_kg: float, whole_m: Sequence[float], density_kg_m3: float) -> float:
-    """Return the lesser of a usual mass and the mass of the solid box, since a shelf board is no whole shelf.
+    """Return the smaller of a usual mass and the mass of the solid box [kg]: one shelf board weighs less than a shelf.
 
-    Parameters: density_kg_m3 : of the object's material. A box without volume bounds nothing.
+    Parameters: density_kg_m3 : of the object's material. A box without volume sets no bound.
     """
     return min(mass_kg, math.prod(whole_m) * density_kg_m3 or math.inf)

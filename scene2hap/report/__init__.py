@@ -1,6 +1,6 @@
-"""A scene's haptics as one page to look at, listen to and correct, or as data for viewers of your own.
+"""A page that shows, plays and corrects a scene's haptics, or the same content as data for other viewers.
 
-The page holds everything that it shows and requests nothing from any network.
+The page contains all its data and requests nothing from any network.
 """
 
 from __future__ import annotations
@@ -38,17 +38,17 @@ def report_document(
     most_points: int = MOST_POINTS,
     account: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
-    """Everything to be seen and heard of a bundle, as JSON values; docs/report.md has the fields.
+    """Return all visible and audible content of a bundle as JSON values; docs/report.md has the fields.
 
     Parameters:
     bundle : a HapticBundle, or the path of its folder.
     models : kinds or settings of the propagation models of the felt map. Models that resonate take milliseconds for
         each point.
-    pictures : the scene that was baked, with `capture_images`, for pictures and colours: a bundle keeps neither.
-    most_points : surface points of the felt map.
-    account : calls, tokens, cost and skips of the bake, as `InferenceReport.as_json` returns them; by default those in
-        the file that `scene2hap bake` wrote beside the bundle, if the path of its folder is given.
-    Raises: ConfigError: no such model, or no account; ModelDomainError: a model does not hold in this scene.
+    pictures : the baked scene with `capture_images`, for pictures and colours, which a bundle does not store.
+    most_points : most surface points of the felt map.
+    account : calls, tokens, cost and skipped questions of the bake, as `InferenceReport.as_json` returns them. The
+        default is the file that `scene2hap bake` wrote beside the bundle, if `bundle` is the path of its folder.
+    Raises: ConfigError: no such model, or a malformed account; ModelDomainError: a model does not hold in this scene.
     BundleError: the bundle or its account cannot be read.
     """
     most_points = checks.whole("most_points", most_points, "-", at_least=1, at_most=200_000, error=ConfigError)
@@ -67,7 +67,7 @@ def write_report(
     most_points: int = MOST_POINTS,
     account: Mapping[str, Any] | None = None,
 ) -> Path:
-    """Write a bundle as a page (`.html`) or its document (`.json`), whole or not at all; its path.
+    """Write a bundle as a page (`.html`) or its document (`.json`), whole or not at all. Returns its path.
 
     Parameters and errors: `report_document`. Raises: ConfigError: another suffix, or the file cannot be written.
     """

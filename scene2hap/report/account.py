@@ -1,4 +1,4 @@
-"""The account of a bake as rows of text: calls, tokens, cost, and saved questions."""
+"""The inference report of a bake as rows of text: calls, tokens, cost, and saved questions."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ _SAVED = {
     "copies": "copies of another object",
     "silent": "silent objects, whose vibration needs no words",
     "same_material": "materials that were answered already",
-    "unknown_material": "materials that nobody could name",
+    "unknown_material": "materials that were not recognised",
     "table_material": "materials that were looked up",
     "unreached_material": "materials that no source reaches",
 }
-"""Reasons of `InferenceReport.skipped` in words."""
+"""Reasons of `InferenceReport.skipped`, as text."""
 
 
 def account_table(account: Mapping[str, Any]) -> dict[str, Any]:
-    """Rows of a label and a text, and problems by object or material word.
+    """Return rows of a label and a text, and problems by object or material word.
 
-    Parameters: account : as of `InferenceReport.as_json`; `cost_usd` and `ended` may be there.
-    Raises: ConfigError: it is something else.
+    Parameters: account : as of `InferenceReport.as_json`, optionally with `cost_usd` and `ended`.
+    Raises: ConfigError: it has another shape.
     """
     try:
         return {"rows": _rows(account), "problems": _problems(account)}
@@ -46,7 +46,9 @@ def _rows(account: Mapping[str, Any]) -> list[list[str]]:
             rows.append(["skipped", f"{int(number)}: {_SAVED.get(reason, str(reason).replace('_', ' '))}"])
     for model, used in account["tokens"].items():
         read, said, cached = (int(used.get(f"{kind}_tokens", 0)) for kind in ("prompt", "completion", "cached"))
-        rows.append([f"tokens of {model}", f"{read:,} read, of them {cached:,} at the price of a cache; {said:,} said"])
+        rows.append(
+            [f"tokens of {model}", f"{read:,} read, {cached:,} of them at the price of cached input; {said:,} written"]
+        )
     if account["tokens"]:
         cost = account.get("cost_usd")
         rows.append(["cost", "unknown" if cost is None else f"{float(cost):.3f} US dollars"])

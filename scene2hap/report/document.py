@@ -1,7 +1,7 @@
 """The contents of a report as plain data: the scene, inferred properties, sounds, contacts, and the felt map.
 
-Large arrays stand as base64 of little-endian numbers. Every text in it comes from scenes, models and people, and is
-shown as text alone.
+Large arrays are base64 of little-endian numbers. All texts come from scenes, models and users, so the page shows them
+as plain text, never as HTML.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from scene2hap.session import HapticSession, Touch
 FORMAT, VERSION = "scene2hap/report", 1
 
 _LOW_DB, _HIGH_DB = -20.0, 50.0
-"""Range of levels on the page: below the lowest nothing is felt by far, above the highest is no actuator."""
+"""Range of levels on the page. Levels below it are far from felt; no actuator reaches levels above it."""
 _MOST_PATHS = 65_535
 _CONSTANTS = (
     ("density", "kg/m³", "density_kg_m3", 1.0),
@@ -52,11 +52,11 @@ def document(
     most_points: int = MOST_POINTS,
     account: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
-    """All that is to be seen and heard of a bundle.
+    """Return all visible and audible content of a bundle.
 
-    Parameters: models : kinds or settings of the propagation models of the felt map; pictures : the scene with its
-    looks, as `capture_images` returns it, whose images and colours are shown; most_points : of the felt map; account :
-    what the bake took, as `InferenceReport.as_json` returns it. Raises: as `felt_map` and `account_table`.
+    Parameters: models : kinds or settings of the propagation models of the felt map; pictures : the scene from
+    `capture_images`, for images and colours; most_points : of the felt map; account : the inference report of the bake,
+    as `InferenceReport.as_json` returns it. Raises: as `felt_map` and `account_table`.
     """
     scene = bundle.snapshot
     meshes: dict[str, int] = {}
@@ -177,7 +177,7 @@ def _constants(material: Material) -> list[list[Any]]:
 
 
 def _said(wish: Override) -> dict[str, Any]:
-    """A person's corrections, as texts and numbers."""
+    """Return a person's corrections as texts and numbers."""
     rest = Override()
     fields = {name: getattr(wish, name) for name in wish.__dataclass_fields__}
     changed = {name: value for name, value in fields.items() if value != getattr(rest, name)}
@@ -227,7 +227,7 @@ def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Mapp
 
 
 def _contacts(bundle: HapticBundle) -> list[dict[str, Any]]:
-    """Contacts, and the gain of the source that is strongest at each [dB], by the model of a session's default."""
+    """Return the contacts, and the gain of the strongest source at each [dB], by the session's default model."""
     contacts = ContactGraph(bundle.snapshot).contacts
     if not contacts:
         return []
@@ -283,7 +283,7 @@ def _felt(felt: FeltMap) -> dict[str, Any]:
 
 
 def level_bytes(levels_db: NDArray[np.float32]) -> bytes:
-    """Levels [dB] as two bytes each: 0 where nothing arrives, else 1 to 65,535 over the page's range, in steps of
+    """Encode levels [dB] as two bytes each: 0 for -inf, else 1 to 65,535 over the page's range, in steps of about
     1 mdB."""
     share = (np.clip(levels_db, _LOW_DB, _HIGH_DB) - _LOW_DB) / (_HIGH_DB - _LOW_DB)
     arrives = np.isfinite(levels_db)
@@ -292,7 +292,7 @@ def level_bytes(levels_db: NDArray[np.float32]) -> bytes:
 
 
 def path_bytes(of_points: NDArray[np.uint32]) -> str:
-    """Encode numbers of paths as two bytes each; a number that needs more becomes 0."""
+    """Encode numbers of paths as two bytes each. A number that needs more becomes 0."""
     return _base64(np.where(of_points <= _MOST_PATHS, of_points, 0), "<u2")
 
 
@@ -314,7 +314,7 @@ def _counters(bundle: HapticBundle) -> list[list[str]]:
 
 
 def _credits(bundle: HapticBundle) -> list[list[str]]:
-    """Each used sound once, with its credit."""
+    """Return each used sound once, with its credit."""
     rows = {
         (f"{object_id}, {state}", _credit(loop))
         for object_id, loops in bundle.loops.items()
@@ -348,7 +348,7 @@ def _pictures(item: SceneObject) -> list[str]:
 
 
 def _color(item: SceneObject) -> list[float]:
-    """The mean colour of an object's materials; without looks, a pale one chosen by its name."""
+    """Return the mean colour of an object's materials; without materials, a pale colour derived from its name."""
     if item.appearance is not None and len(item.appearance.face_material):
         counts = np.bincount(item.appearance.face_material, minlength=len(item.appearance.materials))
         rgb = np.array([material.color_rgba[:3] for material in item.appearance.materials])

@@ -1,4 +1,4 @@
-"""Level of every source at surface points, for several models."""
+"""Levels of every source at surface points, for several models."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from scene2hap.report.paths import SourcePaths, paths_of
 from scene2hap.session import HapticSession, Touch
 
 MODELS: tuple[str, ...] = ("exponential_plate",)
-"""The model of a session's default. Models that resonate take milliseconds a point, so they are drawn by request."""
+"""The default model of a session. Models that resonate take milliseconds a point, so they are drawn on request."""
 BAND_EDGES_HZ = (10.0, 40.0, 125.0, 400.0, 1000.0)
-"""Parts of the band of touch that a page offers beside the whole: pressure, flutter, low and high vibration."""
+"""Parts of the tactile band that a page offers, besides the whole: pressure, flutter, low and high vibration."""
 ALL_BANDS = "all"
 ALL_SOURCES = ""
-"""No object has an empty id."""
+"""Key of the sum of all sources. It is free, since no object has an empty id."""
 
 
 @dataclass(frozen=True, eq=False)
 class FeltMap:
-    """Levels over the threshold of touch [dB] at the points of all patches in order, -inf where nothing arrives.
+    """Levels over the threshold of touch [dB] at the points of all patches in order; -inf if no vibration arrives.
 
-    `levels_db` has (n_points,) float32 by model, source and band; sources have `ALL_SOURCES` and bands `ALL_BANDS` as
-    well. `paths` has the way of each source to each point, by model and source, for models that have one.
+    `levels_db` has (n_points,) float32 by model, source and band, including `ALL_SOURCES` and `ALL_BANDS`. `paths` has
+    the path of each source to each point, by model and source, for models with paths.
     """
 
     patches: Sequence[Patch]
@@ -49,10 +49,10 @@ def felt_map(
     shells: frozenset[str] = frozenset(),
     most_points: int = MOST_POINTS,
 ) -> FeltMap:
-    """The levels that a hand would feel on each surface of a bundle's scene.
+    """Compute the levels that a hand would feel on each surface of a bundle's scene.
 
-    Parameters: models : kinds or settings of propagation models; shells : objects of which no points are taken;
-    most_points : surface points in all.
+    Parameters: models : kinds or settings of propagation models; shells : objects without points on the map;
+    most_points : most surface points in total.
     Raises: ConfigError: no such model. ModelDomainError: a model does not hold in this scene.
     """
     patches = patches_of([item for item in bundle.snapshot.objects if item.id not in shells], most_points)
@@ -91,7 +91,7 @@ def felt_map(
 
 
 def _session(bundle: HapticBundle, model: Any, edges_hz: list[float] | None) -> HapticSession:
-    """A session that plays the bundle with a model, whose field is prepared."""
+    """Return a session that plays the bundle with a model, after its field is prepared."""
     config: dict[str, Any] = {"propagation": model, "prepare": "blocking"}
     if edges_hz is not None:
         config["bands"] = edges_hz
@@ -102,13 +102,13 @@ def _session(bundle: HapticBundle, model: Any, edges_hz: list[float] | None) -> 
 
 
 def _felt_db(bundle: HapticBundle, source: str) -> float:
-    """Level of a source's first state at the source itself, over the threshold of touch [dB]."""
+    """Return the level of a source's first state at the source itself, over the threshold of touch [dB]."""
     loop = next(iter(bundle.loops[source].values()))
     return 0.0 if loop.felt is None else loop.felt.level_db
 
 
 def _shares(bundle: HapticBundle, source: str) -> NDArray[np.float64]:
-    """Part of a source's felt amplitude in each band (n_bands,) [-], by its loop and the threshold of touch."""
+    """Return the share of a source's felt amplitude in each band (n_bands,) [-], by loop and threshold of touch."""
     clip = next(iter(bundle.loops[source].values())).tactile
     power = np.abs(np.fft.rfft(clip.samples)) ** 2
     hz = np.fft.rfftfreq(len(clip.samples), 1.0 / clip.sample_rate_hz)
@@ -125,7 +125,7 @@ def _level_db(gains: NDArray[np.float64], at_source_db: float) -> NDArray[np.flo
 
 
 def _sum_db(levels: Sequence[NDArray[np.float32]], n_points: int) -> NDArray[np.float32]:
-    """Levels of independent vibrations add by power."""
+    """Sum the levels of independent vibrations, which add by power."""
     if not levels:
         return np.full(n_points, -np.inf, np.float32)
     with np.errstate(divide="ignore"):

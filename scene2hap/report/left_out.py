@@ -1,4 +1,4 @@
-"""Objects that stay silent or unfelt, and objects that a bake leaves as they are, each with the reason."""
+"""Objects without vibration, or without effect in a bake or on the map, each with the reason."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ _UNKNOWN = ("", "unknown", "undefined")
 
 
 def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> list[dict[str, Any]]:
-    """Reasons, each with the ids of the objects that it holds for; leaves out reasons without objects."""
+    """Return each reason with the ids of its objects. Reasons without objects are left out."""
     categories = {item.id: "" for item in bundle.snapshot.objects}
     categories |= {key: haptics.object_category for key, haptics in bundle.objects.items()}
     wishes = bundle.overrides
     reached = _reached(felt)
     reasons: Mapping[str, Callable[[str, ObjectHaptics], bool]] = {
         "not answered: the model's answer failed": lambda _, haptics: _is_error(haptics, "object_category"),
-        "unknown: nobody could tell what it is, so it is silent": lambda _, haptics: (
+        "unknown: it was not recognised, so it is silent": lambda _, haptics: (
             haptics.object_category in _UNKNOWN and not haptics.vibrates and not _is_error(haptics, "object_category")
         ),
-        "material unknown: nothing spreads through it": lambda _, haptics: haptics.material is None,
+        "material unknown: no vibration spreads through it": lambda _, haptics: haptics.material is None,
         "vibrates, but has no sound": lambda key, haptics: haptics.vibrates and not bundle.loops.get(key),
-        "waits for a contact that nothing here can give": lambda key, haptics: bool(
+        "needs a contact that no object here can provide": lambda key, haptics: bool(
             unmet_needs(key, haptics.states, categories)
         ),
         "muted until a game unmutes it": lambda key, _: bundle.is_muted(key),
         "locked: rebake leaves its loops as they are": lambda key, _: key in wishes and wishes[key].locked,
-        "out of reach: nothing arrives of any source": lambda key, _: key in reached and not reached[key],
+        "out of reach: no vibration of any source arrives": lambda key, _: key in reached and not reached[key],
         "hides the room: its surface is not on the felt map": lambda key, _: key in shells,
         "silent: it does not vibrate by itself": lambda key, haptics: (
             not haptics.vibrates and haptics.object_category not in _UNKNOWN
@@ -44,7 +44,7 @@ def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> li
         for why, holds in reasons.items()
     ]
     absent = [item.id for item in bundle.snapshot.objects if item.id not in bundle.objects]
-    return [row for row in [{"why": "nothing was inferred of it", "objects": absent}, *rows] if row["objects"]]
+    return [row for row in [{"why": "no properties were inferred for it", "objects": absent}, *rows] if row["objects"]]
 
 
 def _is_error(haptics: ObjectHaptics, field: str) -> bool:
@@ -52,7 +52,7 @@ def _is_error(haptics: ObjectHaptics, field: str) -> bool:
 
 
 def _reached(felt: FeltMap) -> dict[str, bool]:
-    """Whether anything arrives at an object, by the first model, of objects with points."""
+    """Return, for each object with points, True if vibration arrives at it by the first model."""
     found: dict[str, bool] = {}
     if not felt.models or len(felt.sources) < 2:
         return found

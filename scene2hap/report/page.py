@@ -1,4 +1,4 @@
-"""One HTML page of a report's document and the committed assets; it requests nothing from any network."""
+"""One HTML page from a report's document and the committed assets. It requests nothing from any network."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ _DATA = "<!--DATA-->"
 
 
 def assemble(document: Mapping[str, Any]) -> str:
-    """The page of a document. Texts in it are data: the browser reads them as JSON, and shows them as text alone.
+    """Return the page of a document. The browser reads its texts as JSON data, and shows them as plain text.
 
-    Raises: ConfigError: a number that JSON does not have.
+    Raises: ConfigError: a number without a JSON form.
     """
     try:
         text = json.dumps(document, allow_nan=False, separators=(",", ":"))
     except ValueError as cause:
         raise ConfigError(f"the report has a number that JSON has not: {cause}.") from cause
-    # Nothing in the data can end the element that holds it, or begin a comment.
+    # Escaped, so that no text can end the script element or begin a comment.
     data = text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
     before, marker, behind = _template().partition(_DATA)
     if not marker:

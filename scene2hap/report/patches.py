@@ -1,4 +1,4 @@
-"""Surface points of a scene, so many as a picture needs, joined to triangles."""
+"""Surface points of a scene, as many as a picture needs, connected by triangles."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scene2hap.scene.objects import SceneObject
 
 MOST_POINTS = 12_000
-"""Of all patches together; assumed: a point every 5 cm in a furnished kitchen."""
+"""Most points of all patches together; assumed: a point every 5 cm in a furnished kitchen."""
 FINEST_M, COARSEST_M = 0.03, 1.5
 """Bounds on the distance of points [m]; assumed: half a fingertip's step, and half a wall."""
 _GROWTH = 1.3
@@ -28,12 +28,12 @@ class Patch:
 
 
 def patches_of(objects: Sequence[SceneObject], most_points: int = MOST_POINTS) -> list[Patch]:
-    """A patch for each object, with points as close as `most_points` allows in all.
+    """Make a patch for each object, with points as dense as `most_points` in total allows.
 
-    Every point is a corner of the object's mesh, or lies within a few steps of it between corners.
+    Every point is a vertex of the object's mesh, or between its vertices, at most a few steps from the mesh.
     """
     area_m2 = sum(_area_m2(item) for item in objects)
-    # Points of equilateral triangles on that area, were all of it flat.
+    # Distance of points in equilateral triangles on that area, if all of it were flat.
     distance_m = max(FINEST_M, float(np.sqrt(area_m2 / max(1, most_points))))
     while True:
         found = [_patch(item, distance_m) for item in objects]
@@ -50,7 +50,7 @@ def _area_m2(item: SceneObject) -> float:
 
 def _patch(item: SceneObject, distance_m: float) -> Patch:
     mesh = item.geometry.mesh
-    # Joined before: a mesh of a million triangles is not to be cut any finer.
+    # Cluster first, so that a mesh of a million triangles is not subdivided further.
     points, faces = _clustered(np.asarray(mesh.vertices_m), np.asarray(mesh.faces), distance_m)
     if len(faces) and np.ptp(points, axis=0).max() > distance_m:
         finer, finer_faces = trimesh.remesh.subdivide_to_size(points, faces, 1.5 * distance_m, max_iter=12)
@@ -61,13 +61,13 @@ def _patch(item: SceneObject, distance_m: float) -> Patch:
 def _clustered(
     vertices: NDArray[np.float64], faces: NDArray[np.integer], distance_m: float
 ) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
-    """One vertex for each cell of a grid; triangles within a cell go."""
+    """Keep one vertex in each cell of a grid, and drop triangles within a cell."""
     cells = np.floor((vertices - vertices.min(axis=0)) / distance_m).astype(np.int64)
     _, first, of_cell = np.unique(cells, axis=0, return_index=True, return_inverse=True)
     joined = of_cell.reshape(-1)[faces]
     a, b, c = joined.T
     kept = np.unique(joined[(a != b) & (b != c) & (a != c)], axis=0)
     used, renumbered = np.unique(kept, return_inverse=True)
-    if not len(used):  # smaller than a cell: a single point
+    if not len(used):  # the object is smaller than a cell: keep a single point
         return vertices[first[:1]], np.zeros((0, 3), np.int64)
     return vertices[first[used]], renumbered.reshape(-1, 3)

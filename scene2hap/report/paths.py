@@ -1,7 +1,7 @@
-"""The path of each source to each surface point, object by object, as `HapticSession.explain` reports it.
+"""The path of each source to each surface point, as a list of objects, as `HapticSession.explain` reports it.
 
-A path is that of the least loss by the paper's law, from the same costs as the gains. In models that resonate a source
-arrives over all paths at once; these have no path here.
+A path has the least loss by the paper's law, from the same costs as the gains. Models that resonate have no paths,
+since a source arrives over all paths at once.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ _WITHIN = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class SourcePaths:
-    """Paths of a source, each from the source to an object, and which of them leads to each point.
+    """Paths of a source, each from the source to an object, and the path to each point.
 
-    `of_points` (n_points,) uint32 over all patches in order: 0 where no path leads, else the path's number + 1.
+    `of_points` (n_points,) uint32 over all patches in order: 0 without a path, else the path's index + 1.
     """
 
     objects: tuple[Path, ...]
@@ -41,7 +41,7 @@ class SourcePaths:
 def paths_of(
     bundle: HapticBundle, model: object, contacts: Sequence[Contact], patches: Sequence[Patch]
 ) -> dict[str, SourcePaths] | None:
-    """Paths by source; None for models in which a source arrives over all paths at once."""
+    """Return the paths by source; None for models in which a source arrives over all paths at once."""
     if not isinstance(model, ExponentialPlate | NoPropagation | FullPropagation):
         return None
     law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
@@ -62,9 +62,9 @@ def paths_of(
 
 
 class _Search:
-    """Cheapest paths over contacts, by the number of contacts crossed.
+    """Search for the cheapest paths over contacts, by the number of crossed contacts.
 
-    A contact has two sides, numbered 2 i on its object a and 2 i + 1 on b, as in `propagation.paths.prepared_paths`.
+    A contact has two sides: side 2 i is on its object a, side 2 i + 1 on b, as in `propagation.paths.prepared_paths`.
     """
 
     def __init__(self, bundle: HapticBundle, law: ExponentialPlate, contacts: Sequence[Contact]) -> None:
@@ -80,11 +80,14 @@ class _Search:
         self._by_hops = self._searched(crossing, law.max_hops)
         final = self._by_hops[-1] * (1.0 + _WITHIN)
         self._hops: NDArray[np.intp] = np.argmax([costs <= final for costs in self._by_hops], axis=0)
-        """Contacts crossed before each side (n_sources, n_sides), on the cheapest path to it."""
+        """Number of contacts crossed before each side (n_sources, n_sides), on the cheapest path to it."""
         self._chains: dict[tuple[int, int, int], Path] = {}
 
     def _searched(self, crossing: Sequence[float], max_hops: int | None) -> list[NDArray[np.float64]]:
-        """Cost (n_sources, n_sides) of arriving over each side, with at most 1, 2, ... contacts, until none falls."""
+        """Return the cost (n_sources, n_sides) of arriving over each side with at most 1, 2, ... contacts.
+
+        The list ends when no cost decreases any more.
+        """
         found: list[NDArray[np.float64]] = []
         while max_hops is None or len(found) < max_hops:
             arrivals = cheapest_arrivals(self._price, self._contacts, crossing, self._sources, len(found) + 1)
@@ -101,7 +104,7 @@ class _Search:
         return costs
 
     def entered(self, patch: Patch) -> dict[str, NDArray[np.int64]]:
-        """For each source the side over which it enters to each point (n_points,); -1 where it does not."""
+        """Return, for each source, the side over which it arrives at each point (n_points,); -1 if it does not."""
         n_points = len(patch.points_m)
         none = np.full(n_points, -1, np.int64)
         sides = np.array(self._sides.get(patch.object_id, ()), np.int64)
@@ -114,18 +117,18 @@ class _Search:
         for row, source in enumerate(self._sources):
             total = within + self._by_hops[-1][row, sides]
             least = total.min(axis=1, keepdims=True)
-            # Contacts may lie at one point: of paths of equal cost the one over the fewest.
+            # Several contacts may be at one point: among paths of equal cost, take the one with the fewest contacts.
             best = np.where(total <= least * (1.0 + _WITHIN), self._hops[row, sides], np.inf).argmin(axis=1)
             found[source] = np.where(np.isfinite(least[:, 0]), sides[best], -1)
         return found | self._own(patch)
 
     def _own(self, patch: Patch) -> dict[str, NDArray[np.int64]]:
-        """On itself a source needs no contact; the side then has no meaning."""
+        """Return side 0 for a source on itself, where it needs no contact; the value has no further meaning."""
         return {x: np.zeros(len(patch.points_m), np.int64) for x in self._sources if x == patch.object_id}
 
     def path(self, source: str, side: int, object_id: str) -> Path:
-        """Objects from a source to the one that it enters over a side; an object that is left and entered again counts
-        once, without those between."""
+        """Return the objects from a source to the object that it enters over a side. If a path returns to an object,
+        the objects in between are left out."""
         if source == object_id:
             return (source,)
         row = self._sources.index(source)
@@ -136,7 +139,7 @@ class _Search:
         return tuple(merged)
 
     def _chain(self, row: int, side: int, hops: int) -> Path:
-        """Objects up to the one that owns a side, entered with at most so many contacts before the last."""
+        """Return the objects up to the owner of a side, with at most `hops` contacts before the last one."""
         key = row, side, hops
         if key not in self._chains:
             behind, here = self._owner[side ^ 1], self._owner[side]
@@ -153,6 +156,6 @@ class _Search:
 
 
 def _crossing_cost(law: ExponentialPlate, weight: float) -> float:
-    """Cost of a contact, as of `ExponentialPlate`."""
+    """Return the cost of crossing a contact, as in `ExponentialPlate`."""
     loss = law.interface_loss_db * math.log(10) / 20
     return (loss - math.log(weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ) if weight > 0 else math.inf

@@ -1,4 +1,4 @@
-"""Serve a report page on the loopback interface, and write the corrections that it saves."""
+"""A server for a report page on the loopback interface, which writes the corrections that the page saves."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from scene2hap.errors import ConfigError, Scene2HapError
 from scene2hap.text_files import write_whole
 
 MAX_BYTES = 1 << 20
-"""Of one file of corrections; assumed: those of some thousand objects."""
+"""Most bytes of one file of corrections; assumed: corrections of some thousand objects."""
 _HOST = "127.0.0.1"
 
 
 class ReportServer:
-    """One page, and a place for its corrections.
+    """Serve one page, and write its corrections.
 
-    Parameters: page : HTML; corrections : the file to write; port : 0 for a free one; saved : is handed the file after
-    each save. Raises: ConfigError: the port is taken.
+    Parameters: page : HTML; corrections : the file to write; port : 0 for a free one; saved : called with the file
+    after each save. Raises: ConfigError: the port is taken.
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class ReportServer:
                 if not self._is_own_request() or self.path != "/overrides":
                     self._answer(404, b"Corrections are posted to /overrides, by the page itself.")
                 elif not length.isdecimal() or int(length) > MAX_BYTES:
-                    # Read a bounded part of the body: a browser that still writes does not read the answer.
+                    # Read a bounded part of the body, since a browser reads no answer while it still writes.
                     self.rfile.read(min(int(length), 8 * MAX_BYTES) if length.isdecimal() else 0)
                     self._answer(413, b"A file of corrections has at most a megabyte.")
                 else:
@@ -58,7 +58,7 @@ class ReportServer:
                 self._answer(200, json.dumps({"file": corrections.name}).encode(), "application/json")
 
             def _is_own_request(self) -> bool:
-                """Whether a request names this server, and comes from its own page: other pages reach it too."""
+                """Return True if a request names this server and comes from its own page: others can reach it too."""
                 here = {f"{name}:{own.port}" for name in (_HOST, "localhost")}
                 origin = self.headers.get("origin")
                 is_own = origin is None or origin.removeprefix("http://") in here
@@ -84,12 +84,12 @@ class ReportServer:
 
     @property
     def port(self) -> int:
-        """The port that is listened on."""
+        """The port of the server."""
         return int(self._http.server_port)
 
     @property
     def address(self) -> str:
-        """Where the page is."""
+        """The address of the page."""
         return f"http://{_HOST}:{self.port}/"
 
     def serve(self) -> None:
@@ -97,6 +97,6 @@ class ReportServer:
         self._http.serve_forever(poll_interval=0.1)
 
     def close(self) -> None:
-        """End."""
+        """Stop the server."""
         self._http.shutdown()
         self._http.server_close()

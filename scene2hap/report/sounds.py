@@ -1,4 +1,4 @@
-"""Sounds and tactile loops as a page shows and plays them: FLAC, waveform, spectrogram, spectrum."""
+"""Sounds and tactile loops for display and playback on a page: FLAC, waveform, spectrogram, spectrum."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.threshold import threshold_db
 
 SOUND_RATE_HZ, TOUCH_RATE_HZ = 24_000, 8_000
-"""Of what a page plays: the former holds the sound of a machine, the latter is the least that browsers take."""
+"""Sample rates on the page: enough for sounds of machines, and the least rate that browsers accept."""
 SOUND_TOP_HZ, TOUCH_TOP_HZ = 4_000.0, 1_000.0
-"""Of spectrograms."""
+"""Highest frequency of each spectrogram."""
 COLUMNS = 600
 _ROWS = 96
 _RANGE_DB = 70.0
 _FULL_SCALE = 32767
-# Viridis at even steps (Smith and van der Walt, matplotlib 1.5, CC0), between which colours are blended.
+# Viridis at even steps (Smith and van der Walt, matplotlib 1.5, CC0). Colours between them are interpolated.
 _VIRIDIS = np.array(
     [
         *((68, 1, 84), (72, 40, 120), (62, 74, 137), (49, 104, 142), (38, 130, 142)),
@@ -35,7 +35,7 @@ _VIRIDIS = np.array(
 
 
 def pair(loop: HapticLoop) -> dict[str, Any]:
-    """The sound and the tactile loop of a state, and the spectrum of the latter over the threshold of touch."""
+    """Return the sound and the tactile loop of a state, and the tactile spectrum with the threshold of touch."""
     return {
         "sound": _clip(loop.audible, SOUND_RATE_HZ, SOUND_TOP_HZ),
         "touch": _clip(loop.tactile, TOUCH_RATE_HZ, TOUCH_TOP_HZ),
@@ -57,7 +57,7 @@ def _clip(clip: AudioClip, rate_hz: int, top_hz: float) -> dict[str, Any]:
 
 
 def _flac(samples: NDArray[np.float64], from_hz: float, to_hz: int) -> bytes:
-    """A loop at another rate, resampled as the periodic signal that it is, so that it still closes."""
+    """Return a loop as FLAC at another rate. It is resampled as a periodic signal, so that it stays seamless."""
     n = max(2, round(len(samples) * to_hz / from_hz))
     there = samples if n == len(samples) else signal.resample(samples, n)
     file = io.BytesIO()
@@ -68,7 +68,7 @@ def _flac(samples: NDArray[np.float64], from_hz: float, to_hz: int) -> bytes:
 
 
 def _wave(samples: NDArray[np.float64]) -> bytes:
-    """Lowest and highest sample of each column as bytes, 128 for 0."""
+    """Return the lowest and the highest sample of each column as bytes, with 128 for 0."""
     edges = np.linspace(0, len(samples), COLUMNS + 1).astype(int)
     starts = np.minimum(edges[:-1], len(samples) - 1)
     lowest, highest = np.minimum.reduceat(samples, starts), np.maximum.reduceat(samples, starts)
@@ -77,7 +77,7 @@ def _wave(samples: NDArray[np.float64]) -> bytes:
 
 
 def _spectrogram(samples: NDArray[np.float64], clip: AudioClip, top_hz: float) -> bytes:
-    """A PNG, time to the right and frequency upwards, the strongest bin bright."""
+    """Return a PNG with time to the right, frequency upwards, and the strongest bin brightest."""
     size = min(len(samples), max(256, round(0.05 * clip.sample_rate_hz)))
     hz, _, found = signal.spectrogram(samples, clip.sample_rate_hz, nperseg=size, noverlap=size // 2, mode="magnitude")
     levels = 20.0 * np.log10(np.maximum(found, 1e-9))
@@ -92,7 +92,7 @@ def _spectrogram(samples: NDArray[np.float64], clip: AudioClip, top_hz: float) -
 
 
 def _spectrum(clip: AudioClip) -> dict[str, list[float]]:
-    """Drive in twelfths of octaves, and the threshold of touch there [dB re full scale]."""
+    """Return the tactile level in twelfths of octaves, and the threshold of touch there [dB re full scale]."""
     samples = np.asarray(clip.samples, dtype=np.float64)
     power = (np.abs(np.fft.rfft(samples)) / len(samples)) ** 2 * 4.0
     hz = np.fft.rfftfreq(len(samples), 1.0 / clip.sample_rate_hz)

@@ -1,4 +1,4 @@
-"""Objects that hide the inside of a room: rooms in one piece, and walls and ceilings that are objects of their own."""
+"""Objects that hide the inside of a room: rooms in one piece, and walls and ceilings that are separate objects."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from scene2hap.scene.snapshot import SceneSnapshot
 Direction = tuple[float, float, float]
 
 _SHELL_SHARE = 0.7
-"""Part of the scene's width and depth from which an object hides what is inside it."""
+"""Least share of the scene's width and depth of an object that can hide its inside."""
 _THIN_SHARE, _RIM_SHARE = 0.08, 0.05
-"""Largest thickness of a wall, and its largest distance from the scene's rim, as parts of the scene's size across the
-wall; assumed: half a metre, and a window sill, of a room of six metres."""
+"""Largest thickness of a wall, and its largest distance from the scene's rim, as shares of the scene's size across the
+wall; assumed: half a metre, and a window sill, in a room of six metres."""
 _HIGH_SHARE, _PIECE_SHARE = 0.5, 0.05
-"""Least height of a wall as a part of the scene's, and least length or area of a piece of wall or ceiling."""
+"""Least height of a wall as a share of the scene's, and least length or area of a piece of wall or ceiling."""
 _WALL_SHARE = 0.6
-"""Least part of a side that its walls cover together, so that a bookcase at the rim of a scene is no wall."""
+"""Least share of a side that its walls must cover together, so that a bookcase at the rim is not taken for a wall."""
 _ONE_SIDE = 0.98
 """Least cosine between the directions of walls of one side."""
 
 
 def shells(scene: SceneSnapshot) -> frozenset[str]:
-    """Objects that are as wide and deep as the scene: rooms in one piece, ceilings, and long walls."""
+    """Return the objects that are as wide and deep as the scene: rooms in one piece, ceilings, and long walls."""
     if len(scene.objects) < 2:
         return frozenset()
     boxes = np.array([item.bounds_m for item in scene.objects])
@@ -37,7 +37,7 @@ def shells(scene: SceneSnapshot) -> frozenset[str]:
     whole = boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)
     level = [axis for axis in range(3) if axis != up]
     is_wide = (sizes[:, level] >= _SHELL_SHARE * whole[level]).all(axis=1)
-    # A floor is as wide, and hides nothing.
+    # A floor is as wide too, but it hides nothing.
     is_high = sizes[:, up] >= 0.3 * whole[up]
     is_above = boxes[:, 0, up] > boxes[:, 0, up].min() + 0.7 * whole[up]
     return frozenset(
@@ -46,10 +46,11 @@ def shells(scene: SceneSnapshot) -> frozenset[str]:
 
 
 def walls(scene: SceneSnapshot, sources: Collection[str] = ()) -> dict[str, Direction]:
-    """Walls and ceilings that are objects of their own, with the direction out of the room.
+    """Return walls and ceilings that are separate objects, with their outward direction.
 
-    A wall is thin along one of its own axes, stands at the rim of the scene, and is half as high; together the walls of
-    a side cover most of it. Ceilings are found where there are walls or shells. Sources are never walls.
+    A wall is thin along one of its own axes, is at the rim of the scene, and has at least half of its height. Together
+    the walls of a side cover most of it. Ceilings are searched only if there are walls or shells. Sources are never
+    walls.
     """
     if len(scene.objects) < 2:
         return {}
@@ -73,14 +74,14 @@ def walls(scene: SceneSnapshot, sources: Collection[str] = ()) -> dict[str, Dire
 
 
 class _OwnBox:
-    """The box of an object along its own axes; walls of a turned house are thin along these alone."""
+    """The box of an object along its own axes, since walls of a rotated house are thin only along these."""
 
     def __init__(self, item: SceneObject) -> None:
         low, high = item.geometry.mesh.bounds_m
         self.id = item.id
         self.half_m: NDArray[np.float64] = (high - low) / 2.0
         self.axes: NDArray[np.float64] = np.asarray(item.pose.rotation).T
-        """Own axes in the world, one a row."""
+        """Own axes in world coordinates, one per row."""
         self.middle_m: NDArray[np.float64] = item.pose.to_world([(low + high) / 2.0])[0]
         self.corners_m: NDArray[np.float64] = item.pose.to_world(
             np.array([np.where(corner, high, low) for corner in product((0, 1), repeat=3)])
@@ -94,7 +95,7 @@ class _Side:
 
 
 def _at_rim(box: _OwnBox, corners_m: NDArray[np.float64]) -> _Side | None:
-    """A thin box at the rim of the scene, with the direction to the rim."""
+    """Return a thin box at the rim of the scene with its outward direction, None for other boxes."""
     thin = int(box.half_m.argmin())
     normal = box.axes[thin]
     scene, own = corners_m @ normal, box.corners_m @ normal
@@ -107,7 +108,7 @@ def _at_rim(box: _OwnBox, corners_m: NDArray[np.float64]) -> _Side | None:
 
 
 def _by_side(sides: Sequence[_Side]) -> list[list[_Side]]:
-    """Thin boxes by direction."""
+    """Group thin boxes by direction."""
     groups: list[list[_Side]] = []
     for side in sides:
         own = next((group for group in groups if group[0].outward @ side.outward > _ONE_SIDE), None)
@@ -121,7 +122,7 @@ def _by_side(sides: Sequence[_Side]) -> list[list[_Side]]:
 def _covering(
     group: Sequence[_Side], axes: Sequence[NDArray[np.float64]], corners_m: NDArray[np.float64]
 ) -> list[_Side]:
-    """The boxes of a side if they cover most of it along these axes, without the small ones and those before others."""
+    """Return the outer, large boxes of a side if together they cover most of it along these axes, else none."""
     outer = [side for side in group if not any(_is_before(side, other) for other in group)]
     shares = [float(np.prod([_share(side.box, axis, corners_m) for axis in axes])) for side in outer]
     pieces = [(side, share) for side, share in zip(outer, shares, strict=True) if share >= _PIECE_SHARE]
@@ -129,14 +130,14 @@ def _covering(
 
 
 def _is_before(side: _Side, other: _Side) -> bool:
-    """Whether a box stands on the inner side of another, as a bookcase does at a wall."""
+    """Return True if a box is on the inner side of another, like a bookcase at a wall."""
     apart_m = side.box.middle_m - other.box.middle_m
     flat = np.delete(np.abs(other.box.axes @ apart_m) <= other.box.half_m, other.box.half_m.argmin())
     return bool(apart_m @ other.outward < 0.0 and flat.all())
 
 
 def _share(box: _OwnBox, axis: NDArray[np.float64], corners_m: NDArray[np.float64]) -> float:
-    """Size of a box along an axis as a part of the scene's."""
+    """Return the size of a box along an axis as a share of the scene's."""
     size = float(np.ptp(corners_m @ axis))
     return float(np.ptp(box.corners_m @ axis)) / size if size > 0.0 else 0.0
 

@@ -1,6 +1,6 @@
-"""Contracts for parts that others write: functions that raise AssertionError where a part breaks its protocol.
+"""Contracts for parts of other packages: functions that raise AssertionError if a part breaks its protocol.
 
-They need no pytest; call them in a test of yours. Our own parts are held against the same functions.
+They need no pytest; call them in your own tests. The tests of scene2hap check its parts with the same functions.
 """
 
 from scene2hap.testing.actuator_sink import check_actuator_sink

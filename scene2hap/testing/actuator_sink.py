@@ -21,10 +21,10 @@ def check_actuator_sink(
     channels: tuple[str, ...] = ("left", "right"),
     within_s: float = 5.0,
 ) -> None:
-    """Hold a sink against its protocol: opened, started, drawn from, stopped and closed, the last two twice.
+    """Check a sink against its protocol: open, start, pull, stop and close, the last two twice.
 
-    Parameters: make : a fresh sink, called twice; within_s : time that a device may take until it requests frames [s].
-    Raises: AssertionError: the sentence says which promise is broken.
+    Parameters: make : returns a new sink, called twice; within_s : longest time until a device requests frames [s].
+    Raises: AssertionError: names the broken promise.
     """
     _hold_unused(make())
     sink, tone = make(), _Tone(sample_rate_hz, len(channels))
@@ -38,7 +38,7 @@ def check_actuator_sink(
                 time.sleep(0.01)
         else:
             for n_frames in (1, 480, 4801):
-                sink.pull(n_frames)  # type: ignore[attr-defined]  # without a clock
+                sink.pull(n_frames)  # type: ignore[attr-defined]  # a sink without a clock has this method
     finally:
         sink.stop()
     assert tone.n_frames, f"{name} has requested no frames within {within_s} s of start"
@@ -55,7 +55,7 @@ def check_actuator_sink(
 
 
 def _hold_unused(sink: ActuatorSink) -> None:
-    """A session may end before it began."""
+    """Check a sink that is closed without being opened, as in a session that ends before it begins."""
     problem = lacking(sink, SINKS.members)
     assert not problem, problem
     assert _stats(sink).frames == 0, f"{type(sink).__name__}.stats has frames before any were taken"
@@ -72,7 +72,7 @@ def _stats(sink: ActuatorSink) -> SinkStats:
 
 
 class _Tone:
-    """A quiet tone on all channels, that notices when two ask at once."""
+    """A quiet tone on all channels, which detects two concurrent requests."""
 
     def __init__(self, sample_rate_hz: int, n_channels: int) -> None:
         self.n_frames, self.has_overlapped = 0, False

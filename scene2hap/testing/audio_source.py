@@ -20,11 +20,11 @@ _NOTHING_LIKE_IT = VibrationDescription("unknown", "on", "Wrzl brmft.", "wrzl br
 
 
 def check_audio_source(source: AudioSource, description: VibrationDescription = PHONE, *, repeats: bool = True) -> None:
-    """Hold a source against its protocol: what it has, and what nobody has.
+    """Check a source against its protocol, with a sound that it has and one that no source has.
 
-    Parameters: description : a sound that the source has; repeats : whether it has the same answer twice, as what is
-    made from a seed or lies in a folder does.
-    Raises: AssertionError: the sentence says which promise is broken.
+    Parameters: description : a sound that the source has; repeats : True if it returns the same answer twice, like a
+    synthesizer with a seed, or a folder of files.
+    Raises: AssertionError: names the broken promise.
     """
     problem = lacking(source, SOURCES.members)
     assert not problem, problem
@@ -40,7 +40,7 @@ def check_audio_source(source: AudioSource, description: VibrationDescription = 
             np.array_equal(one.samples, other.samples) for one, other in zip(found, again, strict=True)
         )
         assert same, f"{name} finds something else for the same description; say so by repeats=False"
-    with suppress(AudioError, BackendUnavailable):  # as its protocol allows
+    with suppress(AudioError, BackendUnavailable):  # the protocol allows these errors
         _clips(source, _NOTHING_LIKE_IT)
 
 

@@ -1,4 +1,4 @@
-"""Contract for clients of a bridge, in whatever language."""
+"""Contract for clients of a bridge, in any language."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class ClientCheck:
-    """Counters of a client: answered frames, resumed connections, and the largest difference of a gain [-]."""
+    """Counters of a client: answered frames, resumed connections, and the largest error of a gain [-]."""
 
     n_frames: int
     n_resumed: int
@@ -49,13 +49,13 @@ def check_bridge_client(
     timeout_s: float = 120.0,
     environment: Mapping[str, str] | None = None,
 ) -> ClientCheck:
-    """Start a bridge and a client that plays the game of docs/bridge-protocol.md, and compare its gains with those of a
-    session in this process.
+    """Start a bridge and a client that plays the game of docs/bridge-protocol.md; compare its gains with a session
+    here.
 
-    Parameters: command : starts the client; rate_hz : frames per second, 0 for one after the other; cuts : whether the
-    connection is cut once in the middle; timeout_s : for the client to end [s]; environment : beside that of the
-    protocol.
-    Raises: AssertionError: the client ends with a status, lacks frames, or has other gains.
+    Parameters: command : starts the client; rate_hz : frames per second, 0 for as fast as answers come; cuts : True to
+    cut the connection once in the middle; timeout_s : for the client to end [s]; environment : variables in addition
+    to the variables of the protocol.
+    Raises: AssertionError: the client ends with an error status, lacks frames, or has other gains.
     """
     with tempfile.TemporaryDirectory() as folder, serving(token=_TOKEN) as server:
         out = Path(folder) / "gains.csv"
@@ -91,7 +91,7 @@ def check_bridge_client(
 
 
 def expected_gains(n_frames: int) -> NDArray[np.float64]:
-    """Gains (n_frames, n_hands, n_sources) of the game, played in this process."""
+    """Return the gains (n_frames, n_hands, n_sources) of the game, played in this process."""
     scene = game_scene()
     session = HapticSession(scene, bake(scene))
     session.wait_prepared(60.0)
@@ -106,7 +106,7 @@ def expected_gains(n_frames: int) -> NDArray[np.float64]:
 
 
 class _Game:
-    """The game as an engine in this process has it."""
+    """The game as an engine adapter in this process."""
 
     frame = 0
 
@@ -122,8 +122,8 @@ class _Game:
 
 @contextmanager
 def serving(**settings: object) -> Iterator[BridgeServer]:
-    """A bridge on a free port, in a thread of its own. Raises: MissingExtra: `websockets` is not installed."""
-    from scene2hap.bridge import BridgeServer  # by need: the extra `bridge`
+    """Run a bridge on a free port, in a separate thread. Raises: MissingExtra: `websockets` is not installed."""
+    from scene2hap.bridge import BridgeServer  # imported here, since it needs the extra `bridge`
 
     server = BridgeServer({"port": 0, **settings})
     is_up, ends = threading.Event(), asyncio.Event()
@@ -146,7 +146,7 @@ def serving(**settings: object) -> Iterator[BridgeServer]:
 
 
 class _Disturbance:
-    """Says what no client knows, and cuts the connection once a frame was taken; `n_cuts` counts."""
+    """Send a message of an unknown type, and cut the connection once after a given frame; `n_cuts` counts this."""
 
     def __init__(self, server: BridgeServer, cuts_at: int | None) -> None:
         self._server, self._cuts_at = server, cuts_at
@@ -154,7 +154,7 @@ class _Disturbance:
         self.n_cuts = 0
 
     def until(self, process: subprocess.Popen[bytes], timeout_s: float) -> int | None:
-        """Disturb until the client ends, and return its status, None after the timeout [s]."""
+        """Disturb until the client ends. Returns its exit status, None after the timeout [s]."""
         for _ in range(round(timeout_s / 0.01)):
             self._disturb()
             try:

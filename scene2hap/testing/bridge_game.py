@@ -1,4 +1,4 @@
-"""The game by which clients of a bridge are checked; docs/bridge-protocol.md describes it for other languages."""
+"""The game that checks clients of a bridge; docs/bridge-protocol.md describes it for other languages."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _ROWS_Z_M = (-0.35, 0.0, 0.35)
 
 
 def positions_m(frame: int) -> NDArray[np.float32]:
-    """Where the objects are (30, 3) float32 [m], in the order of `IDS`; none is rotated."""
+    """Return the positions of the objects (30, 3) float32 [m], in the order of `IDS`. None is rotated."""
     shaver_y = 0.94 if 1200 <= frame % 3600 < 1800 else 0.74
     found = [(0.0, 0.7, 0.0), (-1 + frame / 1800, 0.724, 0.2), (0.5, shaver_y, -0.2)]
     for k in range(3, len(IDS)):
@@ -34,7 +34,7 @@ def positions_m(frame: int) -> NDArray[np.float32]:
 
 
 def touches(frame: int) -> list[Touch]:
-    """The touches, with points in single precision, as frames carry them."""
+    """Return the touches, with points in single precision, as in frames."""
     found = []
     if frame % 600 < 540:
         found.append(("left", "table", (-0.5, 0.72, 0.1)))
@@ -48,12 +48,12 @@ def touches(frame: int) -> list[Touch]:
 
 
 def time_s(frame: int) -> float:
-    """The time of a frame [s]."""
+    """Return the time of a frame [s]."""
     return frame / FRAME_RATE_HZ
 
 
 def game_scene() -> SceneSnapshot:
-    """The scene, with the positions of frame 0."""
+    """Return the scene, with the positions of frame 0."""
     objects = []
     for key, position in zip(IDS, positions_m(0).tolist(), strict=True):
         name, size_m = _KINDS.get(key, _CUP)

@@ -15,17 +15,17 @@ from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import Touch
 
 _NEAR_M = 0.1
-"""How far a point may be from the box around what it touches (assumed: fingers have a thickness)."""
+"""Largest distance of a point from the bounding box of the touched object (assumed: fingers have a thickness)."""
 
 
 def check_engine_adapter(
     adapter: EngineAdapter, scene: SceneSnapshot, *, step: Callable[[], object], moves: str | None = None
 ) -> None:
-    """Hold an adapter against its protocol, before and after a step of the engine.
+    """Check an adapter against its protocol, before and after a step of the engine.
 
-    Parameters: scene : the snapshot that sessions of this engine play, as the engine stands now; step : lets the engine
-    go on; moves : the id of an object that a step moves, None if none is known.
-    Raises: AssertionError: the sentence says which promise is broken.
+    Parameters: scene : the snapshot that sessions of this engine play, in the engine's present state; step : advances
+    the engine; moves : the id of an object that a step moves, None if none is known.
+    Raises: AssertionError: names the broken promise.
     """
     for name in ("poses", "touches", "contacts"):
         assert callable(getattr(adapter, name, None)), f"{type(adapter).__name__} has no method {name!r}"
@@ -46,7 +46,7 @@ def check_engine_adapter(
 
 
 def _held(adapter: EngineAdapter, scene: SceneSnapshot) -> dict[str, Pose]:
-    """The poses of the scene's objects, once all three answers were looked at."""
+    """Check poses, touches and contacts. Returns the poses of the scene's objects."""
     ids = {item.id for item in scene.objects}
     poses, touches, contacts = adapter.poses(), adapter.touches(), adapter.contacts()
     assert isinstance(poses, Mapping), f"poses() is a {type(poses).__name__}; it must be a mapping of ids to Pose"
@@ -75,7 +75,7 @@ def _held(adapter: EngineAdapter, scene: SceneSnapshot) -> dict[str, Pose]:
 def _hold_near(
     method: str, point_m: tuple[float, float, float], object_id: str, scene: SceneSnapshot, poses: dict[str, Pose]
 ) -> None:
-    if object_id not in poses:  # of the engine alone
+    if object_id not in poses:  # the engine has this object, but the scene does not
         return
     corners = scene.object(object_id).geometry.mesh.vertices_m
     own = poses[object_id].to_own(np.array(point_m))

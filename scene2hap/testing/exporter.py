@@ -12,9 +12,9 @@ _RATE_HZ = 8000
 
 
 def check_exporter(exporter: Exporter) -> None:
-    """Hold an exporter against its protocol: a hum as a loop, two hands over time, a long track, a click and silence.
+    """Check an exporter against its protocol: a hum as a loop, two hands over time, a long track, a click and silence.
 
-    Raises: AssertionError: the sentence says which promise is broken.
+    Raises: AssertionError: names the broken promise.
     """
     problem = lacking(exporter, EXPORTS.members)
     assert not problem, problem

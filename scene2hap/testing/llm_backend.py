@@ -27,12 +27,11 @@ ROOM = SceneSnapshot.build(
 
 
 def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
-    """Check a backend against its protocol: it gets all questions about a scene, several at once, and each answer must
-    be valid.
+    """Check a backend against its protocol: it gets all questions about a scene, and each answer must be valid.
 
-    Parameters: scene : the scene of the questions, three objects by default; a paid service is paid for some ten
-    answers.
-    Raises: AssertionError: the sentence names the broken promise; and the errors of the backend.
+    The backend gets several questions at the same time.
+    Parameters: scene : the scene of the questions, three objects by default; a paid service bills some ten answers.
+    Raises: AssertionError: names the broken promise; and the errors of the backend.
     """
     problem = lacking(backend, BACKENDS.members)
     assert not problem, problem
@@ -47,7 +46,7 @@ def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
 
 
 class _Watched:
-    """Passes questions on and checks the replies."""
+    """Pass questions on, and check the replies."""
 
     def __init__(self, backend: LLMBackend) -> None:
         self.n_requests: Counter[str] = Counter()

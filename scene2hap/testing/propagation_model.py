@@ -23,7 +23,7 @@ from scene2hap.propagation.protocol import (
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 
-_TURNED = (-0.5, -0.5, -0.5, 0.5)  # a plate's normal points along y, which is up
+_TURNED = (-0.5, -0.5, -0.5, 0.5)  # turns a plate's normal to y, which is up
 _NETWORK = ContactNetwork(
     {
         "table": Plate(1.2, 0.7, 0.03, lookup("oak")),
@@ -39,10 +39,10 @@ _BANDS = (Bands.dominant(), Bands((40.0, 80.0, 160.0, 320.0)))
 
 
 def check_propagation_model(model: PropagationModel) -> None:
-    """Hold a model against its protocol: a phone on a table, a fan that touches nothing, a shelf out of reach; and no
-    source, no body, no point.
+    """Check a model against its protocol: a phone on a table, a fan without contacts, a shelf out of reach.
 
-    Raises: AssertionError: the sentence says which promise is broken.
+    Networks without sources, without bodies, and queries without points are checked too.
+    Raises: AssertionError: names the broken promise.
     """
     problem = lacking(model, MODELS.members)
     assert not problem, problem

@@ -23,9 +23,9 @@ _SIZE_PX = 64
 
 
 def check_renderer(factory: RendererFactory) -> None:
-    """Hold a renderer against its protocol: a table with two things on it, all of it, one of them, and nothing.
+    """Check a renderer against its protocol: a table with two objects on it, drawn whole, in part, and empty.
 
-    Raises: AssertionError: the sentence says which promise is broken; ConfigError: what it gives is no picture.
+    Raises: AssertionError: names the broken promise; ConfigError: the result is no picture.
     """
     stage = Stage.of(_ROOM)
     points = np.concatenate([actor.points_m for actor in stage.actors])
@@ -47,10 +47,10 @@ def check_renderer(factory: RendererFactory) -> None:
 
 
 def _hold_background(name: str, pixels: np.ndarray[tuple[int, ...], np.dtype[np.uint8]], ids: object) -> None:
-    """Objects stand out from one plain background."""
+    """Check that the background has one colour, and that objects have others."""
     is_background = np.asarray(ids) == -1
     inner = is_background.copy()
-    for axis in (0, 1):  # smooth edges mix both
+    for axis in (0, 1):  # smooth edges mix object and background, so border pixels are left out
         for way in (-1, 1):
             inner &= np.roll(is_background, way, axis)
     colours = np.unique(pixels[inner].reshape(-1, 3), axis=0)

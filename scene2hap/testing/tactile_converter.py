@@ -23,10 +23,11 @@ _SIZES = (0, 1, 2, 3, 17, 128, 1000, 4096)
 
 
 def check_tactile_converter(converter: TactileConverter) -> None:
-    """Hold a converter against its protocol: a machine's hum at all rates, in blocks of all sizes, full scale and
-    beyond, silence, nothing, a value that is not finite, and two streams at once.
+    """Check a converter against its protocol.
 
-    Raises: AssertionError: the sentence says which promise is broken.
+    The inputs are a machine's hum at all rates and in blocks of all sizes, samples at full scale and beyond, silence,
+    and no samples. A value that is not finite, and two streams at once, are checked too.
+    Raises: AssertionError: names the broken promise.
     """
     problem = lacking(converter, CONVERTERS.members)
     assert not problem, problem
@@ -59,7 +60,7 @@ def _hold_block_sizes(converter: TactileConverter, context: ConversionContext) -
 
 
 def _hold_refusal(converter: TactileConverter, context: ConversionContext) -> None:
-    """Samples that are not finite are refused and leave no trace."""
+    """Check that samples that are not finite are rejected and change no later output."""
     name, x = type(converter).__name__, _machine(8000, 0.2)
     for bad in (np.nan, np.inf, -np.inf):
         wrong, stream = x.copy(), opened_stream(converter, 8000, context)
@@ -81,7 +82,7 @@ def _hold_same(converter: TactileConverter, context: ConversionContext, x: Sampl
 
 
 def _machine(rate_hz: int, seconds: float = 1.6) -> Samples:
-    """A hum whose pitch jumps half-way, with noise; within full scale."""
+    """Return a hum whose pitch jumps half-way, with noise; within full scale."""
     t = np.arange(round(rate_hz * seconds)) / rate_hz
     hum = np.where(t < 0.8, np.sin(2 * np.pi * 187 * t), np.sin(2 * np.pi * 120 * t))
     noise = np.random.default_rng(11).uniform(-1, 1, t.size)
@@ -91,7 +92,7 @@ def _machine(rate_hz: int, seconds: float = 1.6) -> Samples:
 def _felt(
     converter: TactileConverter, context: ConversionContext, x: Samples, rate_hz: int, cuts: Sequence[int] = ()
 ) -> Samples:
-    """All samples of a stream, held against what all of them promise."""
+    """Return all samples of a stream, after checking length and range."""
     name, stream = type(converter).__name__, opened_stream(converter, rate_hz, context)
     parts = [one_channel(converter, stream.process(block)) for block in np.split(x, list(cuts))]
     felt = np.concatenate([*parts, one_channel(converter, stream.finish())])

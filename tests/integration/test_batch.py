@@ -285,7 +285,7 @@ def test_the_command_leads_from_step_to_step(
         assert main(["batch", "submit", *same, "-q"]) == 0
         server.end()
         assert main(["batch", "collect", *same]) == 0
-        if "all is answered" in capsys.readouterr().out:
+        if "all questions are answered" in capsys.readouterr().out:
             break
     assert main(["bake-many", *same, "-q"]) == 0
     assert not server.live

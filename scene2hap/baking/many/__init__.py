@@ -1,4 +1,4 @@
-"""Thousands of scenes: reading and sounds on any executor, inference in one process."""
+"""Baking of thousands of scenes: reading and sounds on any executor, inference in one process."""
 
 from scene2hap.baking.many.batch import BatchReport, batch_status, collect_batch, submit_batch
 from scene2hap.baking.many.report import ManyReport, SceneReport

@@ -1,11 +1,11 @@
-"""Ask about many scenes in batches, which cost half and answer within a day.
+"""Inference of many scenes in batches, which cost half the price and are answered within a day.
 
 The chain's questions depend on each other: the kind of place, then the objects, then materials and states. So scenes
-are inferred in stages, each one batch over all of them: `submit_batch` sends every question that is ready now,
-`collect_batch` fetches the answers, keeps them in the cache, and writes the draft of each scene that is answered
-throughout, from which `bake_many` goes on without a question.
+are inferred in stages, and each stage is one batch over all scenes. `submit_batch` sends every question that is ready
+now. `collect_batch` fetches the answers, stores them in the cache, and writes a draft of each completely answered
+scene. `bake_many` continues from the drafts without further questions.
 
-FOLDER/.bake-many/batch/           the batches (`scene2hap.llm.batch.folder`), and the lock of the run at work
+FOLDER/.bake-many/batch/           the batches (`scene2hap.llm.batch.folder`), and the lock of the active run
 """
 
 from __future__ import annotations
@@ -57,16 +57,16 @@ class BatchReport:
 
     @property
     def n_to_send(self) -> int:
-        """Questions that the next `submit_batch` sends."""
+        """Number of questions that the next `submit_batch` sends."""
         return sum(len(row.requests) for row in self.batches if row.stage == "written")
 
     @property
     def n_under_way(self) -> int:
-        """Questions in batches that have not been collected."""
+        """Number of questions in batches that have not been collected."""
         return sum(len(row.requests) for row in self.batches if row.stage in ("uploaded", "begun"))
 
     def to_data(self) -> dict[str, Any]:
-        """Plain data, for JSON."""
+        """Return plain data, for JSON."""
         rows = [
             {
                 "batch": row.batch,
@@ -103,10 +103,10 @@ def submit_batch(
 ) -> BatchReport:
     """Send all questions about scenes that are ready now and were not sent before.
 
-    Parameters are those of `bake_many`. The model is one of kind "openai", at OpenAI or at a service that has its
-    batches. If the run ends on the way, the next one goes on: no batch is begun twice.
-    Raises: ConfigError: a setting that cannot work, or another run is at work in the folder. BudgetExceeded:
-    `max_cost_usd` would be passed. BackendUnavailable: the server cannot be reached, or refuses.
+    For parameters, see `bake_many`. The model must be of kind "openai", at OpenAI or at a compatible service with
+    batches. An interrupted run can be repeated: no batch is begun twice.
+    Raises: ConfigError: a setting that cannot work, or another run uses the folder. BudgetExceeded: the cost would
+    exceed `max_cost_usd`. BackendUnavailable: the server cannot be reached, or refuses.
     """
     return run_waiting(
         _submitted(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)), "submit_batch"
@@ -125,10 +125,10 @@ def collect_batch(
     user_prompt: str = "",
     progress: Progress | None = None,
 ) -> BatchReport:
-    """Fetch the answers of batches that have ended, and collect the next questions.
+    """Fetch the answers of batches that have ended, and write the next questions.
 
-    Parameters are those of `bake_many`. Answers are on disk before they are read. Questions of a batch that expired, or
-    was cancelled, are sent again by the next `submit_batch`, those that were answered are not.
+    For parameters, see `bake_many`. Answers are stored on disk before they are read. The next `submit_batch` sends
+    the unanswered questions of an expired or cancelled batch again.
     Raises: as `submit_batch`.
     """
     return run_waiting(
@@ -138,7 +138,7 @@ def collect_batch(
 
 @clear_call
 def batch_status(folder: str | os.PathLike[str], *, config: Config, cancel: bool = False) -> BatchReport:
-    """Ask the server how far the batches of a folder are; with `cancel`, end those that are under way.
+    """Fetch the status of a folder's batches. With `cancel`, end the running ones.
 
     Raises: as `submit_batch`.
     """
@@ -159,7 +159,7 @@ class _Given:
 
 @dataclass
 class _Work:
-    """A folder of batches that is held by this run."""
+    """A folder of batches, locked by this run."""
 
     config: BakeConfig
     model: OpenAIBackend
@@ -168,7 +168,7 @@ class _Work:
     service: BatchService
 
     async def recover(self) -> None:
-        """Find out whether batches were begun whose answer was lost."""
+        """Find batches that were begun although the server's reply was lost."""
         self.batches.discard_unfinished()
         for row in self.batches.rows():
             if row.stage == "uploaded":
@@ -177,7 +177,7 @@ class _Work:
                     self.batches.save(replace(row, stage="begun", batch=known.id, status=known.status))
 
     async def send(self) -> None:
-        """Upload and begin every batch that is written. Raises: as `submit_batch`."""
+        """Upload and begin every written batch. Raises: as `submit_batch`."""
         for row in self.batches.rows():
             if row.stage == "written":
                 name = self.batches.input_path(row).name
@@ -190,7 +190,7 @@ class _Work:
                 self.batches.save(replace(row, stage="begun", batch=begun.id, status=begun.status))
 
     async def fetch(self) -> None:
-        """Note how far each batch is, and store what those that have ended brought."""
+        """Record the progress of each batch, and store the results of ended ones."""
         for row in self.batches.rows():
             if row.stage == "begun":
                 now = await self.service.status(row.batch)
@@ -200,7 +200,7 @@ class _Work:
                     self.batches.keep(row, *files)
 
     async def note_status(self, cancel: bool) -> None:
-        """Note how far each batch is, or end it."""
+        """Record the progress of each batch; with `cancel`, end it."""
         for row in self.batches.rows():
             if row.stage == "begun":
                 now = await (self.service.cancel if cancel else self.service.status)(row.batch)
@@ -212,7 +212,7 @@ class _Work:
         )
 
     async def survey(self, given: _Given) -> BatchReport:
-        """Infer every scene as far as answers reach, and write the next questions."""
+        """Infer every scene as far as answers exist, and write the next questions."""
         paths = scene_paths(given.scenes)
         backend = BatchBackend(self.model, self.batches, price_list(self.config.prices))
         stack = CacheBackend(RepairBackend(backend), self.config.cache_dir or cache_folder("llm"))
@@ -243,13 +243,13 @@ class _Work:
             try:
                 n_ready = (await run.each(paths, one)).count("ready")
             finally:
-                # What is noted is on disk, whatever ends this run.
+                # Complete the file of new questions, however this run ends.
                 backend.close()
         rows = tuple(self.batches.rows())
         return BatchReport(rows, len(paths), n_ready, backend.n_answers, backend.cost_usd, errors)
 
     def require_affordable(self, report: BatchReport) -> None:
-        """Raises: BudgetExceeded: what is to be sent would cost more than is left, by estimate, or nobody knows."""
+        """Check the budget. Raises: BudgetExceeded: the estimated cost is above the limit, or a price is unknown."""
         limit = self.config.max_cost_usd
         written = [row for row in report.batches if row.stage == "written"]
         if limit is None or not written:
@@ -273,14 +273,14 @@ class _Work:
 
 
 class _Watched(Wrapper):
-    """Counts the questions of one scene that are still to be answered."""
+    """Count the questions of one scene that have no answer yet."""
 
     def __init__(self, inner: CacheBackend) -> None:
         super().__init__(inner)
         self.n_pending = 0
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The inner backend's answer."""
+        """Return the inner backend's answer."""
         try:
             return await self.inner.complete(request)
         except AnswerPending:
@@ -314,7 +314,7 @@ async def _status(given: _Given, cancel: bool) -> BatchReport:
 
 @asynccontextmanager
 async def _at_work(given: _Given) -> AsyncIterator[_Work]:
-    """The folder's batches, which one run at a time may touch."""
+    """Lock the folder's batches for one run. Raises: ConfigError: wrong kind of model, or another run has the lock."""
     config = BakeConfig.parse(given.config)
     model = innermost(config.llm)
     if not isinstance(model, OpenAIBackend):

@@ -1,4 +1,4 @@
-"""Where tasks run: in this process, in processes of ours, or on an executor of somebody else's."""
+"""Execution of tasks: in this process, in our own worker processes, or on an executor given by the user."""
 
 from __future__ import annotations
 
@@ -17,27 +17,28 @@ from scene2hap.errors import ConfigError, MissingExtra
 Result = TypeVar("Result")
 
 _TRIES = 4
-"""How often a task is begun alone in a worker before a scene that kills its worker is given up."""
+"""Number of attempts alone in a worker before a scene that kills its worker counts as failed."""
 
 
 class Submits(Protocol):
-    """An executor as in `concurrent.futures`, such as those of Dask, MPI and Slurm."""
+    """An executor with the interface of `concurrent.futures`; Dask, MPI and Slurm have such executors."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any) -> Future[Any]:
-        """Run a function elsewhere."""
+        """Schedule a function. Returns its future."""
         ...
 
 
 class Pool:
-    """Runs tasks for coroutines.
+    """Run tasks for coroutines.
 
-    Parameters: executor : None for this process, one task at a time; "processes" or "processes:N" for worker processes
-    of ours, of which a new one replaces one that dies; "dask:ADDRESS" for a Dask scheduler; or an object with `submit`.
+    Parameters: executor : None for this process, one task at a time; "processes" or "processes:N" for our own worker
+    processes, where a new worker replaces one that dies; "dask:ADDRESS" for a Dask scheduler; or an object with
+    `submit`.
     """
 
     def __init__(self, executor: str | Submits | None) -> None:
         self._own: ProcessPoolExecutor | None = None
-        # One worker for tasks that ran when a worker died: the death of one breaks the whole pool.
+        # One worker for tasks that ran when a worker died, since one death breaks the whole pool.
         self._alone: ProcessPoolExecutor | None = None
         self._alone_turn = asyncio.Lock()
         self._close: list[Callable[[], Any]] = []
@@ -49,7 +50,7 @@ class Pool:
             if kind == "processes":
                 self.n_workers = _n_workers(rest)
                 self._own = self._begun(self.n_workers)
-                # Tasks wait here: one that waits in a pool fails with it when another task kills its worker.
+                # Tasks wait here, not in the pool: tasks in a broken pool fail together.
                 self._turn = asyncio.Semaphore(self.n_workers)
             elif kind == "dask" and rest:
                 self._given = self._of_dask(rest)
@@ -79,11 +80,12 @@ class Pool:
             close()
 
     async def run(self, task: Callable[..., Result], *args: Any) -> Result:
-        """Run a task and return its result. The task gets the number of its threads before its arguments.
+        """Run a task and return its result. The task gets the number of its threads as first argument.
 
-        One whose worker died is begun again, in our own processes: then alone, so that it is not blamed for another.
+        If a worker of our own pool dies, all its tasks are repeated one at a time. This finds the task that kills
+        workers.
 
-        Raises: what the task raises; ConfigError: a worker dies each time.
+        Raises: errors of the task; ConfigError: a worker dies each time.
         """
         if self._given is not None:
             return await _awaited(self._given.submit(task, 1, *args))
@@ -96,7 +98,7 @@ class Pool:
             try:
                 return await _awaited(pool.submit(task, n_threads, *args))
             except BrokenExecutor:
-                if self._own is pool:  # the first of all whose worker is gone
+                if self._own is pool:  # only the first of the failed tasks replaces the pool
                     pool.shutdown(wait=False, cancel_futures=True)
                     self._own = self._begun(self.n_workers)
         async with self._alone_turn:
@@ -117,7 +119,7 @@ class Pool:
         )
 
     def _begun(self, n_workers: int) -> ProcessPoolExecutor:
-        # Threads and locks of this process do not go along, as they would by fork.
+        # Spawn, since fork would copy the threads and locks of this process.
         return ProcessPoolExecutor(n_workers, mp_context=multiprocessing.get_context("spawn"))
 
     def _of_dask(self, address: str) -> Submits:

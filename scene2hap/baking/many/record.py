@@ -1,4 +1,4 @@
-"""Records of finished work: digests of the scene file and of the settings, beside each bundle's draft."""
+"""Records of finished scenes: digests of the scene file and of the settings, in the work folder."""
 
 from __future__ import annotations
 
@@ -23,17 +23,18 @@ from scene2hap.text_files import write_whole
 
 _SELF_CONTAINED = frozenset({".glb", ".stl", ".ply", ".json"})
 _MOST_BESIDE = 10_000
-"""Files beside a scene that are looked at; assumed: more than any scene's textures and buffers."""
+"""Most files beside a scene that are checked; assumed: more than any scene's textures and buffers."""
 _LITTLE_BYTES = 1 << 20
 
 Record = Mapping[str, Any]
 
 
 def scene_digest(path: Path, options: Mapping[str, Any] | None = None) -> str:
-    """A name for all that a scene file says: its bytes, and for kinds that refer to other files, those beside it.
+    """Return a digest of a scene file and of the files that it may refer to.
 
-    Of a Habitat scene, which says what it refers to, these files count, with the options of `load_scene`. Of other
-    files larger than a megabyte, size and time of the last change stand for the bytes.
+    A Habitat scene lists its files, which depend on the options of `load_scene`. For other formats with external files,
+    all files in the folder count. A file of more than a megabyte, besides the scene itself, is represented by its size
+    and modification time.
     Raises: SceneError: the scene file is missing, a folder, or cannot be read.
     """
     found = hashlib.sha256(read_bytes(path))
@@ -54,7 +55,7 @@ def scene_digest(path: Path, options: Mapping[str, Any] | None = None) -> str:
 
 
 def _of_habitat(path: Path, options: Mapping[str, Any]) -> list[Path]:
-    """The files of a Habitat scene and its table of names; none if it cannot be read, which its bake then says."""
+    """Return the files of a Habitat scene and its table of names; none if unreadable, which the bake reports later."""
     root, names = options.get("assets_root"), options.get("names")
     try:
         files = referenced_files(path, None if root is None else Path(root))
@@ -64,7 +65,7 @@ def _of_habitat(path: Path, options: Mapping[str, Any]) -> list[Path]:
 
 
 def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, Any]) -> str:
-    """A name for all settings that decide what a bundle holds."""
+    """Return a digest of all settings that affect the content of a bundle."""
     backend = dict(identity(config.llm)) or type(getattr(config.llm, "inner", config.llm)).__qualname__
     document = {
         "version": __version__,
@@ -83,7 +84,7 @@ def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, 
 
 
 def read_record(path: Path) -> Record:
-    """Read a record; empty if it is missing or damaged, so that its scene is done again."""
+    """Read a record; empty if it is missing or damaged, so that its scene is baked again."""
     with suppress(OSError, ValueError):
         found = json.loads(path.read_text(encoding="utf-8"))
         if isinstance(found, dict):

@@ -1,4 +1,4 @@
-"""The account of a run over many scenes."""
+"""The report of a run over many scenes."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ Outcome = Literal["baked", "kept", "failed"]
 class SceneReport:
     """One scene.
 
-    Parameters: outcome : "baked"; "kept", since neither file nor settings have changed since an earlier run; or
-    "failed"; seconds : by stage: "baking" in a worker, and with a model also "reading" and "inference"; calls :
-    questions; kept : how many of them a cache answered; cost_usd : None if unknown.
+    Parameters: outcome : "baked"; "kept" if file and settings are unchanged since an earlier run; or "failed";
+    seconds : by stage: "baking" in a worker, and with a model also "reading" and "inference"; calls : number of
+    questions; kept : number answered from the cache; cost_usd : None if unknown.
     """
 
     scene: str
@@ -41,14 +41,14 @@ class SceneReport:
 @clear_attributes
 @dataclass(frozen=True)
 class ManyReport:
-    """All scenes, in the order in which they were given; the time of the run [s]; the reports of the model's stack."""
+    """All scenes, in the order given; the duration of the run [s]; the reports of the model's stack of wrappers."""
 
     scenes: Sequence[SceneReport]
     seconds: float = 0.0
     stack: dict[str, Any] = field(default_factory=dict)
 
     def count(self, outcome: Outcome) -> int:
-        """How many scenes ended in an outcome."""
+        """Return the number of scenes with an outcome."""
         return sum(one.outcome == outcome for one in self.scenes)
 
     @property
@@ -58,22 +58,22 @@ class ManyReport:
 
     @property
     def calls(self) -> int:
-        """Questions to the model in all scenes."""
+        """Number of questions to the model in all scenes."""
         return sum(one.calls for one in self.scenes)
 
     @property
     def kept(self) -> int:
-        """How many of them were answered from the cache, as those of another scene were."""
+        """Number of questions answered from the cache, such as repeated ones of another scene."""
         return sum(one.kept for one in self.scenes)
 
     @property
     def cost_usd(self) -> float | None:
-        """Of all answers; None if unknown."""
+        """Cost of all answers [US dollars]; None if unknown."""
         costs = [one.cost_usd for one in self.scenes]
         return None if None in costs else sum(cost for cost in costs if cost is not None)
 
     def to_data(self) -> dict[str, Any]:
-        """Plain data, for JSON."""
+        """Return plain data, for JSON."""
         return {
             "seconds": self.seconds,
             "baked": self.count("baked"),

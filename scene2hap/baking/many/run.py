@@ -1,13 +1,13 @@
-"""Bake many scenes, each by itself, as workers and lanes come free.
+"""Bake many scenes independently, with limits on running workers and on concurrent questions.
 
 FOLDER/NAME.bundle                 the bundle of each scene
-FOLDER/.bake-many/NAME.json        what it was made of: digests of scene and settings
-FOLDER/.bake-many/NAME.pictures/   what a model is shown, until it has answered
-FOLDER/.bake-many/NAME.draft/      what a model said, until the bundle is written
-FOLDER/report.json                 the account of the last run
+FOLDER/.bake-many/NAME.json        the record of its inputs: digests of scene and settings
+FOLDER/.bake-many/NAME.pictures/   pictures for a model, until it has answered
+FOLDER/.bake-many/NAME.draft/      a model's answers, until the bundle is written
+FOLDER/report.json                 the report of the last run
 
-Pictures and sounds are made on an executor, and without a model over a network everything. Questions to a model go out
-from here, so that all scenes share one cache, one budget and one pace.
+An executor makes pictures and sounds, and the whole bundle if no model is behind a network. This process sends all
+questions to a model, so that all scenes share one cache, one budget and one rate limit.
 """
 
 from __future__ import annotations
@@ -50,13 +50,13 @@ from scene2hap.scene.snapshot import SceneSnapshot
 Report = TypeVar("Report")
 
 Progress = Callable[[str, str, int, int], None]
-"""Called with (stage, the scene, how many scenes are done, of how many)."""
+"""Called with (stage, scene, number of scenes done, total number)."""
 
 _COUNTS = ("n_objects", "n_sources", "n_unknown")
 WORK = ".bake-many"
-"""The folder beside the bundles that has records and drafts."""
+"""The folder beside the bundles for records and drafts."""
 _AHEAD = 4
-"""Scenes under way beyond those that workers have; assumed: as many as wait for a model while others are computed."""
+"""Scenes in progress beyond the number of workers; assumed: as many as wait for a model at the same time."""
 
 
 @clear_call
@@ -71,21 +71,21 @@ def bake_many(
     user_prompt: str = "",
     progress: Progress | None = None,
 ) -> ManyReport:
-    """Bake scene files into bundles below a folder; `abake_many` for callers that run an event loop.
+    """Bake scene files into bundles below a folder. Where an event loop runs, use `abake_many`.
 
-    A scene whose file and settings are those of its last bake is kept. One that fails does not stop the others; it is
-    in the report with its error. A run that was stopped goes on where it was: at most the scenes under way are begun
-    again, and answers that were paid for are in the cache.
+    A scene is kept if its file and settings are unchanged since its last bake. If a scene fails, the others go on, and
+    the report has its error. A stopped run can be repeated: it continues with the unfinished scenes, and the cache has
+    the answers that were billed.
 
     Parameters:
     scenes : paths of scene files.
-    folder : where bundles go; each is named after its scene file, with a digest where two are alike.
+    folder : folder of the bundles. Each has the name of its scene file, with a digest if two names are equal.
     config : as of `bake`.
     executor : None for this process; "processes", "processes:N" or "dask:ADDRESS"; or an object with
         `submit(function, *arguments)` that returns a concurrent.futures.Future: process pools, Dask's
         `Client.get_executor()`, and executors for MPI or Slurm. Workers must see the same paths.
     options : of `load_scene`, for all scenes: up_axis, unit_m, group, assets_root, names.
-    pictures : show the model pictures, which workers take.
+    pictures : let workers render pictures, and show them to the model.
     Raises: ConfigError: settings or an executor that cannot work, no scenes.
     """
     running = abake_many(
@@ -118,8 +118,9 @@ async def abake_many(
     with Pool(executor) as pool:
         run = Run(
             checks.path("folder", folder, error=ConfigError),
-            parsed.model_copy(update={"llm": _Lanes(parsed.llm, parsed.concurrency)}),
-            # A worker sends no question to a model, and a connection cannot be sent to it.
+            parsed.model_copy(update={"llm": _Limited(parsed.llm, parsed.concurrency)}),
+            # Workers get the lexicon in place of a network model: they send no questions, and a connection cannot be
+            # pickled.
             parsed.model_copy(update={"llm": LexiconBackend()}) if "base_url" in identity(parsed.llm) else parsed,
             dict(options or {}),
             user_prompt,
@@ -131,7 +132,7 @@ async def abake_many(
 
 
 def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
-    """The scene files that somebody gives. Raises: ConfigError: none, or no list."""
+    """Return the scene files as paths. Raises: ConfigError: the list is empty, or is a single path."""
     if isinstance(scenes, str | os.PathLike):
         raise ConfigError(f"scenes is the path {str(scenes)!r}; give a list of paths, as sorted(Path(...).glob(...)).")
     paths = [checks.path(f"scenes[{i}]", scene, error=ConfigError) for i, scene in enumerate(scenes)]
@@ -140,22 +141,22 @@ def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
     return paths
 
 
-class _Lanes(Wrapper):
-    """Lets so many questions at once through, of all scenes together."""
+class _Limited(Wrapper):
+    """Limit the number of concurrent questions over all scenes."""
 
-    def __init__(self, inner: Any, n_lanes: int) -> None:
+    def __init__(self, inner: Any, n_at_once: int) -> None:
         super().__init__(inner)
-        self._lanes = asyncio.Semaphore(n_lanes)
+        self._slots = asyncio.Semaphore(n_at_once)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The inner backend's answer, once a lane is free."""
-        async with self._lanes:
+        """Return the inner backend's answer, waiting if too many questions are in progress."""
+        async with self._slots:
             return await self.inner.complete(request)
 
 
 @dataclass(frozen=True)
 class _Inferred:
-    """A model's answers about a scene, and the time that they took [s] by stage."""
+    """A model's answers about a scene, and their duration [s] by stage."""
 
     scene: SceneSnapshot
     found: Inference
@@ -164,7 +165,7 @@ class _Inferred:
 
 @dataclass
 class Run:
-    """One run over scenes: settings, where things stand on disk, and how far it is."""
+    """One run over scenes: settings, paths on disk, and progress."""
 
     folder: Path
     config: BakeConfig
@@ -180,13 +181,13 @@ class Run:
     names: dict[Path, str] = field(default_factory=dict)
 
     def name(self, paths: list[Path]) -> None:
-        """Name the scenes, and the settings by which they are made."""
+        """Set the name of each scene, and the digest of the settings."""
         self.total, self.names = len(paths), _names(paths)
         options = {**self.options, "pictures": self.pictures}
         self.settings = settings_digest(self.config, self.user_prompt, options)
 
     async def all(self, paths: list[Path]) -> ManyReport:
-        """Bake them, and write the report."""
+        """Bake the scenes, and write the report."""
         begun = time.perf_counter()
         self.name(paths)
         found = await self.each(paths, self._scene)
@@ -198,7 +199,7 @@ class Run:
         return report
 
     async def each(self, paths: list[Path], work: Callable[[Path], Awaitable[Report]]) -> list[Report]:
-        """The report of each scene. Enough scenes are under way to keep the workers busy."""
+        """Return the report of each scene. Keeps enough scenes in progress to use all workers."""
         gate = asyncio.Semaphore(self.pool.n_workers + _AHEAD)
 
         async def one(path: Path) -> Report:
@@ -212,7 +213,7 @@ class Run:
         return await asyncio.gather(*(one(path) for path in paths))
 
     async def _scene(self, path: Path) -> SceneReport:
-        """One scene, whatever becomes of it."""
+        """Bake one scene, or return a report with its error."""
         report, target = self._unmade(path), self._target(path)
         try:
             made_of, before = await self._state(path)
@@ -233,11 +234,13 @@ class Run:
             counts = {key: getattr(report, key) for key in _COUNTS}
             write_record(self._record(path), {**made_of, "stage": "baked", **counts})
             return report
-        except Exception as error:  # executors of somebody else's raise what they like
+        except Exception as error:  # a foreign executor may raise any exception
             return replace(report, error=f"{type(error).__name__}: {error}")
 
     async def infer_ahead(self, path: Path, backend: LLMBackend, is_whole: Callable[[], bool]) -> bool:
-        """Infer a scene by a backend, and write its draft if `is_whole` then says so; whether it has one.
+        """Infer a scene with a backend, and write its draft if `is_whole` then returns True.
+
+        Returns True if the scene now has a draft or a bundle.
 
         Raises: as `load_scene` and `infer_scene`.
         """
@@ -251,13 +254,13 @@ class Run:
         return is_whole()
 
     async def _state(self, path: Path) -> tuple[dict[str, str], Record]:
-        """Digests of what a scene is to be made of, and the record of it as it was last made, if of the same."""
+        """Return the digests of a scene's inputs, and the record of its last bake; empty if the inputs have changed."""
         made_of = {"scene": await asyncio.to_thread(scene_digest, path, self.options), "settings": self.settings}
         before = read_record(self._record(path))
         return made_of, before if made_of.items() <= before.items() else {}
 
     async def _inferred(self, path: Path, backend: LLMBackend) -> _Inferred:
-        """Read a scene and ask the model."""
+        """Read a scene and infer it with the model."""
         begun = time.perf_counter()
         scene = await asyncio.to_thread(_read, path, self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
@@ -267,7 +270,7 @@ class Run:
         return _Inferred(scene, found, {"reading": read_s, "inference": time.perf_counter() - begun})
 
     async def _drafted(self, path: Path, made_of: Mapping[str, str], inferred: _Inferred) -> SceneReport:
-        """Write what was inferred, for a worker or a later run to go on from."""
+        """Write the inferred scene as a draft, from which a worker or a later run continues."""
         found, draft = inferred.found, self._draft(path)
         draft.parent.mkdir(parents=True, exist_ok=True)
         await asyncio.to_thread(HapticBundle(inferred.scene, found.scene_category, found.objects, {}).save, draft)
@@ -283,13 +286,13 @@ class Run:
         )
 
     async def _captured(self, path: Path, scene: SceneSnapshot) -> SceneSnapshot:
-        """The scene with pictures that a worker has taken."""
+        """Return the scene with pictures, which a worker renders."""
         folder, alone = str(self._pictures(path)), self.config.share_scenes
         await self.pool.run(take_pictures, str(path), self.options, folder, alone)
         return capture_images(scene, config={"cache_dir": folder}, alone=alone)
 
     def _pictures(self, path: Path) -> Path:
-        """Where pictures of a scene are kept until it is inferred; those of objects alone serve all scenes."""
+        """Return the folder of pictures for inference. Pictures of single objects are shared by all scenes."""
         return self._work("all" if self.config.share_scenes else self.names[path], ".pictures")
 
     @property
@@ -313,7 +316,7 @@ class Run:
 
 
 def _read(path: Path, options: Mapping[str, Any]) -> SceneSnapshot:
-    """Read a scene without its warnings, since workers give them again when they check it."""
+    """Read a scene without its warnings, since workers repeat them when they check it."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return load_scene(path, **options)
@@ -333,9 +336,9 @@ def _with(report: SceneReport, made: Counters) -> SceneReport:
 
 
 def _names(paths: list[Path]) -> dict[Path, str]:
-    """A name for each scene: that of its file, with a digest of its path where several files are called alike.
+    """Return a name for each scene: the name of its file, with a digest of its path if several files have one name.
 
-    Raises: ConfigError: a scene is there twice.
+    Raises: ConfigError: a scene is given twice.
     """
     twice = [path for path, n in Counter(paths).items() if n > 1]
     if twice:

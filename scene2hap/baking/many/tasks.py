@@ -1,8 +1,8 @@
 """The parts of a bake that run in workers: each gets paths and settings, and returns counters.
 
-Without a model over a network, a worker does a scene from its file to its bundle. Otherwise inference runs in the
-main process. A worker takes the pictures before it, into a folder. A worker gets a draft after it: a bundle without
-loops, on disk, so that nothing large goes through an executor and a later run goes on from there.
+Without a network model, a worker bakes a scene from its file to its bundle. Otherwise inference runs in the main
+process: before it, a worker renders the pictures into a folder; after it, a worker gets a draft on disk, which is a
+bundle without loops. So an executor transfers no large data, and a later run can continue from the draft.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def bake_scene(
 
 
 def take_pictures(n_threads: int, scene: str, options: Mapping[str, Any], folder: str, alone: bool) -> None:
-    """Take all pictures of a scene file into a folder. Raises: as `load_scene` and `capture_images`."""
+    """Render all pictures of a scene file into a folder. Raises: as `load_scene` and `capture_images`."""
     with _watched(n_threads):
         render_all(capture_images(load_scene(scene, **options), config={"cache_dir": folder}, alone=alone))
 
@@ -70,7 +70,7 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
 
 
 def wishes_at(target: Path, scene: SceneSnapshot) -> dict[str, Override]:
-    """The overrides of an earlier bundle at this place, for objects that still exist."""
+    """Return the overrides of an earlier bundle at this path, for objects that still exist."""
     known = {item.id for item in scene.objects}
     return {key: wish for key, wish in read_overrides(target).items() if key in known}
 
@@ -88,7 +88,7 @@ class _Watch:
 
 @contextmanager
 def _watched(n_threads: int) -> Iterator[_Watch]:
-    """The time that a block takes with so many threads, and the warnings that it gives."""
+    """Measure the duration of a block with a number of threads, and collect its warnings."""
     before = N_THREADS.set(n_threads)
     watch, begun = _Watch(), time.perf_counter()
     with warnings.catch_warnings(record=True) as caught:

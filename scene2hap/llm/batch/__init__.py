@@ -1,7 +1,7 @@
 """Batches: many questions in one file, answered within a day at half the price.
 
-`backend` answers from finished batches and collects new questions for the next one; `folder` keeps both on disk;
-`service` speaks to the server. `scene2hap.baking.many.batch` sends whole chains of questions this way.
+`backend` answers from finished batches and collects new questions for the next one. `folder` stores both on disk.
+`service` is the client of the server. `scene2hap.baking.many.batch` sends whole chains of questions this way.
 
 Source: OpenAI, guide "Batch API" and the reference of `/v1/files` and `/v1/batches`.
 """

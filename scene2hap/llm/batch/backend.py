@@ -20,9 +20,9 @@ from scene2hap.llm.request_key import canonical
 from scene2hap.llm.wrappers.prices import PriceList
 
 TIER = "batch"
-"""The tier of prices."""
+"""The price tier of batches."""
 _TRIES = 3
-"""Most attempts for a request that fails on the server; one that the server had no time for is always repeated."""
+"""Most attempts for a request that fails on the server. A request that expired or was cancelled is always repeated."""
 _NO_FAULT = frozenset({"batch_expired", "batch_cancelled"})
 
 
@@ -36,8 +36,8 @@ class AnswerPending(BackendUnavailable):
 class BatchBackend:
     """Answers of `model` from a folder of batches.
 
-    A question without an answer is written for the next batch, once, unless an open batch has it. Parameters that the
-    model has rejected are left out from then on.
+    A question without an answer is written once for the next batch, unless an open batch has it. Parameters that the
+    model has rejected are not sent again.
     """
 
     def __init__(self, model: OpenAIBackend, folder: BatchFolder, prices: PriceList) -> None:
@@ -55,7 +55,7 @@ class BatchBackend:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """The identity of the model, since an answer in a batch equals one to a single call."""
+        """The identity of the model, since an answer in a batch equals the answer to a single call."""
         return self._model.identity
 
     @property
@@ -98,11 +98,11 @@ class BatchBackend:
         return str(self.identity.get("detail", "low"))
 
     def _body(self, request: LLMRequest) -> dict[str, Any]:
-        # A batch is a tier of its own.
+        # A batch has its own tier, so no other tier is sent.
         return {name: value for name, value in self._model.body(request).items() if name != "service_tier"}
 
     def _take(self, key: str, outcome: Outcome) -> None:
-        """Store the result of a request: an answer, a rejected parameter, a failure, or nothing."""
+        """Store the result of a request: an answer, a rejected parameter, or a failure. Ignores expired requests."""
         if outcome.code:
             if outcome.code not in _NO_FAULT:
                 self._failures[key] += 1
@@ -114,10 +114,10 @@ class BatchBackend:
             chat.read_chat(reply, self._model.model)
         except BackendUnavailable as problem:
             with warnings.catch_warnings():
-                # Every later run reads this line again.
+                # Every later run reads this line again and would repeat the warning.
                 warnings.simplefilter("ignore", chat.BackendWarning)
                 is_lesson = self._model.learns(reply)
-            # Without a rejected parameter, the question has another key.
+            # The question without the rejected parameter has another key, so this key is not retried.
             self._failures[key] += 1 if problem.retryable or is_lesson else _TRIES
             self._why[key] = str(problem)
         except Scene2HapError as problem:

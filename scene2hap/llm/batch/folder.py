@@ -1,12 +1,12 @@
 """Batches on disk: the questions of each batch, its state, and its answers.
 
-FOLDER/0001.json           one batch: its requests, its ids, how far it is
-FOLDER/0001.input.jsonl    what is sent, until the server has it
-FOLDER/0001.output.jsonl   what came back, as it came
-FOLDER/0001.error.jsonl    requests that came to nothing, as it came
+FOLDER/0001.json           one batch: its requests, its ids, its stage
+FOLDER/0001.input.jsonl    requests to send; deleted once the server has them
+FOLDER/0001.output.jsonl   results, as received
+FOLDER/0001.error.jsonl    failed requests, as received
 
-Every file is written whole or not at all. The state of each request follows from these files alone, so that reading
-them again changes nothing.
+Every file is written whole or not at all. The state of each request follows from these files alone, so reading them
+again changes nothing.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from scene2hap.text_files import write_whole
 Stage = Literal["written", "uploaded", "begun", "collected"]
 
 _PART_BYTES, _PART_REQUESTS = MOST_BYTES * 9 // 10, MOST_REQUESTS // 5
-"""Our limits of one batch: a batch that fails as a whole then costs less, and its answers fit the reader's limit."""
+"""Our limits of one batch. A batch that fails as a whole then costs less, and its answers fit the reader's limit."""
 
 
 @dataclass(frozen=True)
 class BatchRow:
     """One batch.
 
-    Parameters: number : its place in the folder; requests : keys of questions; stage : "written" here, "uploaded" as
-    a file, "begun" on the server, "collected" again; estimate_usd : of its cost, None if unknown; status : what the
-    server last said; faults : of the batch as a whole.
+    Parameters: number : its place in the folder; requests : keys of questions; stage : "written" on disk, "uploaded" as
+    a file, "begun" on the server, "collected" with results on disk; estimate_usd : estimated cost, None if unknown;
+    status : last status from the server; faults : errors of the batch as a whole.
     """
 
     number: int
@@ -51,7 +51,7 @@ class BatchRow:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Result of a request: status and body of the server's answer, or instead the code of an error."""
+    """Result of a request: status and body of the server's answer, or the code of an error."""
 
     status: int
     body: Any
@@ -72,7 +72,7 @@ class BatchFolder:
     # -- rows ---------------------------------------------------------------------------------------------------------
 
     def rows(self) -> list[BatchRow]:
-        """All batches, in the order in which they were written."""
+        """Return all batches, in the order in which they were written."""
         found = []
         for path in sorted(self.path.glob("[0-9]*.json")):
             try:
@@ -87,14 +87,14 @@ class BatchFolder:
         return found
 
     def save(self, row: BatchRow) -> BatchRow:
-        """Write a row, and delete the text of its requests once the server has it."""
+        """Write a row, and delete the file of its requests once the server has it."""
         self._write(f"{row.number:04d}.json", json.dumps(asdict(row), indent=1).encode())
         if row.stage in ("begun", "collected"):
             self.input_path(row).unlink(missing_ok=True)
         return row
 
     def input_path(self, row: BatchRow) -> Path:
-        """The file that is sent."""
+        """Return the path of the file of requests."""
         return self.path / f"{row.number:04d}.input.jsonl"
 
     def keep(self, row: BatchRow, output: str, error: str) -> BatchRow:
@@ -107,7 +107,7 @@ class BatchFolder:
     # -- outcomes -----------------------------------------------------------------------------------------------------
 
     def outcomes(self) -> Iterator[tuple[str, Outcome]]:
-        """Yield all results, by the key of the request, in the order of the batches; damaged lines are left out."""
+        """Yield the key and result of each request, in the order of the batches. Damaged lines are skipped."""
         for path in sorted(self.path.glob("[0-9]*.jsonl")):
             if not path.name.endswith(".input.jsonl"):
                 with path.open("rb") as lines:
@@ -120,7 +120,7 @@ class BatchFolder:
         return RequestWriter(self)
 
     def discard_unfinished(self) -> None:
-        """Remove files of requests without a row: their run ended before they were complete."""
+        """Remove files of requests without a row: their run ended before the files were complete."""
         known = {self.input_path(row) for row in self.rows()}
         for path in (*self.path.glob("*.input.jsonl"), *self.path.glob(".*.part")):
             if path not in known:
@@ -137,7 +137,7 @@ class BatchFolder:
 
 
 class RequestWriter:
-    """Writes requests into files of limited size, and a row for each complete file."""
+    """Write requests into files of limited size, and a row for each complete file."""
 
     def __init__(self, folder: BatchFolder) -> None:
         self._folder = folder
@@ -194,5 +194,5 @@ def _outcome(line: bytes) -> tuple[str, Outcome] | None:
 
 
 def keys_in(rows: Iterable[BatchRow], *stages: Stage) -> frozenset[str]:
-    """The keys of the questions in batches at some stages."""
+    """Return the keys of the questions in batches at the given stages."""
     return frozenset(key for row in rows if row.stage in stages for key in row.requests)

@@ -45,20 +45,20 @@ class BatchStatus:
 class BatchService:
     """Client of a server's batches. Retries after transient errors, if a second request does no harm.
 
-    Every method raises BackendUnavailable: no answer, or a refusal; BadAnswer: not what such a server answers.
+    Every method raises BackendUnavailable: no answer, or a refusal; BadAnswer: an unexpected reply.
     """
 
     def __init__(self, endpoint: Endpoint, *, sleep: Callable[[float], Awaitable[object]] = asyncio.sleep) -> None:
         self._endpoint, self._sleep = endpoint, sleep
 
     async def upload(self, name: str, content: bytes) -> str:
-        """Store a file of requests; its id."""
+        """Upload a file of requests. Returns its id."""
         fields = {"purpose": "batch"}
         reply = await self._patiently(lambda: self._endpoint.upload("files", name, content, fields))
         return _id(reply, "file")
 
     async def create(self, input_file: str) -> BatchStatus:
-        """Begin a batch. Since it costs money, this is never retried automatically."""
+        """Begin a batch. It is never retried automatically, since a second batch would cost money."""
         body = {"input_file_id": input_file, "endpoint": COMPLETIONS, "completion_window": "24h"}
         return _status(chat.json_object(await self._endpoint.post("batches", body)))
 
@@ -67,7 +67,7 @@ class BatchService:
         return _status(chat.json_object(await self._get(f"batches/{batch}")))
 
     async def begun_with(self, input_file: str) -> BatchStatus | None:
-        """Return the batch that was begun with a file, in case the server's reply was lost; None if there is none."""
+        """Return the batch that uses a file of requests, in case the server's reply was lost; None if there is none."""
         after = ""
         while True:
             page = chat.json_object(await self._get(f"batches?limit={_PAGE}{after}"))
@@ -80,11 +80,11 @@ class BatchService:
             after = f"&after={chat.text_of(rows[-1].get('id'))}"
 
     async def cancel(self, batch: str) -> BatchStatus:
-        """End a batch early; answers until then are kept and billed."""
+        """End a batch early. Answers received until then are kept and billed."""
         return _status(chat.json_object(await self._endpoint.post(f"batches/{batch}/cancel", {})))
 
     async def content(self, file: str) -> str:
-        """The text of a file."""
+        """Return the text of a file."""
         reply = await self._patiently(lambda: self._endpoint.download(f"files/{file}/content"))
         return reply.text
 
@@ -104,7 +104,7 @@ class BatchService:
 
 def _successful(reply: HttpReply) -> HttpReply:
     if not reply.ok:
-        chat.json_object(reply)  # raises what the status means
+        chat.json_object(reply)  # raises the error for the status
     return reply
 
 

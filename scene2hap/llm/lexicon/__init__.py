@@ -1,6 +1,6 @@
-"""The offline stand-in for a language model: authored names read against a table of everyday objects.
+"""Offline replacement for a language model: looks up authored names in a table of everyday objects.
 
-It is free, instant and deterministic. It uses neither pictures nor user prompts. If a name is not enough, it answers
+It is free, instant and deterministic. It ignores pictures and user prompts. If a name is not enough, it answers
 "unknown".
 """
 

@@ -1,4 +1,4 @@
-"""LexiconBackend: the four components of the chain answered from the table, without network or chance."""
+"""LexiconBackend: answers for the four components of the chain from a table, without network or randomness."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ _Facts = Mapping[str, Any]
 
 @clear_construction
 class LexiconBackend:
-    """Answers from `request.facts` alone; prompt, pictures and temperature do not matter.
+    """Answer from `request.facts` alone; ignore prompt, pictures and temperature.
 
     An object that is not in the table gets the category "unknown", a confidence of at most 0.2, and is silent.
-    Raises (from `complete`): BadAnswer: a fact is missing or of the wrong kind, or no row of the material table has
-    the requested material.
+    Raises (from `complete`): BadAnswer: a fact is missing or of the wrong kind, or the requested material is not in the
+    material table.
     """
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The answer to one request, always the same for the same facts."""
+        """Return the answer to one request. Equal facts give equal answers."""
         answer = _ANSWERS[request.component](request.facts)
         return LLMReply(text=json.dumps(answer.model_dump()), model=f"lexicon/{table.version()}")
 
@@ -90,7 +90,7 @@ def _text(facts: _Facts, name: str, default: str | None = None) -> str:
     value = facts.get(name, default)
     if not isinstance(value, str):
         raise BadAnswer(f"fact {name!r} is {value!r}; the lexicon needs a text there.")
-    # A lone surrogate (a file name that is not UTF-8) has no JSON.
+    # Replace lone surrogates (from a file name that is not UTF-8), since they have no JSON.
     return value.encode("utf-8", "replace").decode()
 
 

@@ -1,4 +1,4 @@
-"""Description of one state of a vibrating object: a sentence for making its sound, keywords for finding it."""
+"""Description of one state of a vibrating object: a sentence to generate its sound, keywords to search for it."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from scene2hap.llm.lexicon.starting import starting_of
 from scene2hap.llm.lexicon.table import StateRow
 
 MAX_WORDS = 15
-"""Longest sentence; paper, section "Vibration Describer"."""
+"""Most words of a sentence; paper, section "Vibration Describer"."""
 
 _MAX_KEYWORDS = 60  # letters, as in VibrationAnswer
 _CATEGORY_WORDS, _STATE_WORDS, _PLACE_WORDS = 4, 2, 2
-_MAX_LETTERS = 24  # of one word; a longer one is no word and would break the answer's bound
+_MAX_LETTERS = 24  # of one word; a longer string is not a word and would exceed the answer's bound
 _ANYTHING = StateRow("", 0.0, "humming")
 
-# Upper bounds of intensity and the adverb for it. Assumed, on the scale of haptics.SourceState.
+# Upper bounds of intensity and the adverb up to each. Assumed, on the scale of haptics.SourceState.
 _STRENGTHS = ((0.15, "softly"), (0.35, "gently"), (0.65, "firmly"), (1.0, "strongly"))
 _RHYTHMS = {"ticking": "regularly", "ringing": "in bursts", "alerting": "in bursts", "sounding": "in bursts"}
 
 
 def describe(category: str, state_name: str, scene_category: str = "") -> VibrationAnswer:
-    """Describe what an object does: "refrigerator humming softly and steadily while switched on in the kitchen".
+    """Describe a state: "refrigerator humming softly and steadily while switched on in the kitchen".
 
-    A category that the table does not know, as a language model may have found it, is described by its state alone.
+    A category that is not in the table, for example from a language model, is described by its state alone.
     """
     thing = _words(category, _CATEGORY_WORDS) or "object"
     name = _words(state_name, _STATE_WORDS)
@@ -51,6 +51,6 @@ def _state(category: str, state_name: str) -> StateRow:
 
 
 def _words(text: str, most: int) -> str:
-    """Return the first words of a text, without forms of "vibrate", which say that an object moves, but not how."""
+    """Return the first words of a text, without forms of "vibrate": they describe no particular movement."""
     kept = [word[:_MAX_LETTERS] for word in text.split() if "vibrat" not in word.casefold()]
     return " ".join(kept[:most])

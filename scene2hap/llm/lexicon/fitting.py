@@ -1,7 +1,7 @@
 """Check whether an object's name fits its measured height, size and neighbours.
 
-A name is read as it stands, and a "bench" may be the hob on a kitchen bench. Each misfit lowers the confidence by its
-factor, and is reported. Only an inner part of the very machine that it touches is kept silent.
+A name alone can mislead: a "bench" may be the hob on a kitchen bench. Each misfit lowers the confidence by a factor and
+is reported. An object is silenced only if it is an inner part of the machine that it touches.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _STANDS = _set(
     "picnic table,desk,computer desk,workbench,wardrobe,sideboard,dresser,night stand,bookcase,refrigerator,dishwasher,"
     "washing machine,tumble dryer,bathtub,floor lamp,piano,grand piano,treadmill,pool table,ironing board"
 )
-"""Objects that stand on the floor, or on a cover or a platform on it."""
+"""Objects that stand on the floor, or on a floor covering or platform."""
 
 _GROUND = _set(
     "floor,parquet,tile,carpet,mat,pallet,road,sidewalk,terrace,deck,path,grass,ground,foundation,podium,stage,sand,"
@@ -35,15 +35,15 @@ _GROUND = _set(
 )
 
 _INNER = _set("motor,pump,fan,sprinkler,turbine,engine,compressor,burner,heater,transformer,propeller,blade,arm")
-"""Parts inside machines that are also objects of their own."""
+"""Parts inside machines that also exist as separate objects."""
 
 _COMPONENTS = _set(
     "arm,arms,rack,racks,tray,basket,drum,hose,filter,handle,knob,door,drawer,lid,leg,foot,blade,hinge,panel,cover,"
     "carcass,casing,housing,frame,rail"
 )
-"""Words beside the name of a machine which say that this is only a part of it."""
+"""Words beside the name of a machine that mark the object as a part of it."""
 
-# All assumed; they only order answers by how much speaks against them.
+# All assumed. They only rank answers by the strength of the evidence against them.
 _HIGH_M = 0.5
 _SHORT_SHELL_M = 1.0
 _THIN_SHARE = 0.5
@@ -54,7 +54,7 @@ _TOO_HIGH, _TOO_SHORT, _TOO_THIN, _TOO_SLENDER, _PART, _BESIDE_SAME = 0.4, 0.5, 
 
 @dataclass(frozen=True)
 class Fit:
-    """The agreement of a reading with measurements: confidence factor, reasons, and the machine it is a part of."""
+    """The agreement of a reading with measurements: confidence factor, reasons, and the machine it belongs to."""
 
     trust: float = 1.0
     doubts: tuple[str, ...] = ()
@@ -113,7 +113,7 @@ def _by_name(reading: NameReading, row: ObjectRow) -> list[tuple[float, str]]:
 
 
 def _machine_around(reading: NameReading, row: ObjectRow, beside: Sequence[ObjectRow]) -> str:
-    """The machine that an inner part names before itself and touches (a "dishwasher_pump" its dishwasher), or ""."""
+    """Return the machine that an inner part names first and touches ("dishwasher_pump": dishwasher), or ""."""
     if row.noun not in _INNER or reading.head not in (name := " ".join(reading.words)):
         return ""
     before = read_name(name[: name.rindex(reading.head)].strip()).row

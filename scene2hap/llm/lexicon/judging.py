@@ -15,31 +15,31 @@ from scene2hap.scene import sizes
 
 UNKNOWN = "unknown"
 
-# An object below half of the smallest real size is a miniature; beyond three times the largest, the scene's unit is
-# doubtful. Both are assumed, wide enough for asset kits at half or double scale.
+# An object below half of the smallest real size is a miniature. Beyond three times the largest size, the scene's unit
+# is doubtful. Both factors are assumed, wide enough for asset kits at half or double scale.
 _MINIATURE = 0.5
 _GIANT = 3.0
 _MINIATURE_TRUST = 0.8
 _GIANT_TRUST = 0.5
 
 _LONGEST_REASON = 600  # letters, as in ObjectAnswer
-_MOST_SHOWN = 100  # letters of a name
+_MOST_SHOWN = 100  # letters of a name in a reason
 _LARGEST_M = 1e5  # the bound of ObjectAnswer; only a scene in a wrong unit has larger objects
-_THINNEST_M = 1e-3  # a plate measured below this is taken as modelled without thickness
+_THINNEST_M = 1e-3  # a thinner plate is assumed to be modelled without thickness
 _MINIATURE_MATERIAL = "plastic"  # assumed for all of them
 _MINIATURE_THICKNESS_M = 2e-3  # assumed
 
-# Of the table's nouns those that are spoken with a vowel first: not "ufo", "ukulele", "uniform", "urinal", "usb stick"
-# and "utensil rack", but "hourglass" and what is spelt out.
+# Nouns of the table that begin with a vowel when spoken: not "ufo", "ukulele", "uniform", "urinal", "usb stick" and
+# "utensil rack", but "hourglass" and abbreviations that are spelt out.
 _VOWEL_FIRST = re.compile(r"[aeio]|u(?!fo|k|ni|ri|sb|t)|hour|led\b|mri\b|x-ray")
 
 
 @dataclass(frozen=True)
 class Measured:
-    """The data of an object in the scene: authored name, size of its dominant surface, and doubts about it.
+    """The data of an object in the scene: authored name, size of its dominant surface, and doubts about the size.
 
-    `scene_category` and `material_names`, the authored names of what it is painted with, are empty where unknown;
-    `height_m` is that of its lowest point above the scene's [m], None where unknown.
+    `scene_category` is empty if unknown. `material_names` are the authored names of its surface materials, empty if
+    unknown. `height_m` is the height of its lowest point above the scene's lowest point [m], None if unknown.
     """
 
     name: str
@@ -51,7 +51,7 @@ class Measured:
 
 
 def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
-    """Return the Object Analyzer's answer; "unknown", silent and of low confidence if the name says nothing."""
+    """Return the Object Analyzer's answer. An unreadable name gives "unknown": silent and of low confidence."""
     length, width, thickness = (min(edge, _LARGEST_M) for edge in item.size_m)
     item = replace(item, size_m=(length, width, thickness))
     reading = read_name(item.name)
@@ -157,7 +157,7 @@ def _shown(name: str) -> str:
 
 
 def _cut(reason: str) -> str:
-    """Cut a reason to the length that an answer allows, since names may be of any length."""
+    """Cut a reason to the length that an answer allows, since names can have any length."""
     return reason if len(reason) <= _LONGEST_REASON else f"{reason[: _LONGEST_REASON - 3]}..."
 
 
@@ -171,10 +171,10 @@ def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float
 
 
 def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateAnswer], str]:
-    """Return the states of an object, and the reasons; those of a pan only if it touches a heater.
+    """Return the states of an object, and the reason. A pan has states only if it touches a heater.
 
-    A pan that touches nothing (held in the air, or analysed alone) may be put on a heater later: its states name the
-    heater that they need. On a table it is silent, as in the paper, section "Study 1".
+    A pan that touches nothing (held in the air, or analysed alone) may be put on a heater later. Its states then name
+    the heater that they need. On a table it is silent, as in the paper, section "Study 1".
     """
     own = [state for state in row.states if not state.needs_contact]
     if own:
@@ -203,5 +203,5 @@ def _state(state: StateRow, needs_contact: str | None) -> StateAnswer:
 
 
 def _a(noun: str) -> str:
-    """The noun with its article."""
+    """Return the noun with its article."""
     return f"{'an' if _VOWEL_FIRST.match(noun) else 'a'} {noun}"

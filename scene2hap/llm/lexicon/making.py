@@ -1,4 +1,4 @@
-"""Material of an object and thickness of its plate: from its name, its paint, its place, and the table."""
+"""Material of an object and thickness of its plate, from its name, its surface materials, its place, and the table."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _TILE, _TILE_THICKNESS_M = "ceramic", 0.008  # floor tiles of 8 mm; assumed
 
 
 def painted_with(material_names: Sequence[str]) -> str | None:
-    """The material that the names of an object's surface materials agree on ("M_Wood_Oak": oak); None otherwise.
+    """Return the material that all names of surface materials agree on ("M_Wood_Oak": oak); None if they differ.
 
-    A chair painted with "wood" and "fabric" is left to the table, which knows what one sits on, and so is a cabinet
-    that is mostly "sage_lacquer" with handles of "steel". Names stand in the order of the faces that they cover.
+    The table decides for a chair painted with "wood" and "fabric", since it has the material of the seat. It also
+    decides for a cabinet that is mostly "sage_lacquer" with handles of "steel". Names are in the order of their faces.
     """
     found = [_painted_with(name) for name in material_names]
     return found[0] if found and set(found) <= {found[0], None} else None
@@ -28,9 +28,10 @@ def _painted_with(material_name: str) -> str | None:
 
 
 def make(reading: NameReading, row: ObjectRow, scene_category: str, material_names: Sequence[str]) -> tuple[str, float]:
-    """Material and plate thickness [m]: the table's, the whole's for a part, or what name, paint or place tell.
+    """Return material and plate thickness [m], from the table, and for a part from the table's row of its owner.
 
-    A machine keeps the table's material: its adjective names what it works on (wood chipper, metal saw).
+    Name, surface materials or place can replace them. A machine keeps the table's material: an adjective names the
+    material that it works on (wood chipper, metal saw).
     """
     whole = reading.whole
     material, thickness_m = row.material, row.thickness_m

@@ -1,14 +1,14 @@
 """Reading authored object names: "kitchenFridge", "SM_Prop_Table_02", "washer(Clone)", "Cupboard_Big_door_upper".
 
-1. A name falls into words at separators, digits and changes of case; run-together words are cut where all pieces are
+1. A name is split into words at separators, digits and changes of case. Run-together words are split if all pieces are
    known ("kitchentable").
-2. Everything from a preposition on is left out ("bottle_of_wine").
-3. The last noun is the object, as in English compounds, and the longest match wins: a sink counter is a counter, a
-   coffee machine is no coffee. Words of tools, sides, colours and rooms never are the object.
-4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee), a
-   container goes before its content (crate_tomatoes), a material after its noun (tableGlass), a wall before the
-   opening in it (wall_doorway).
-5. What no rule reads stays unknown. Guessing stops at plurals and at one slip of the keyboard in a long word.
+2. A preposition and all words after it are ignored ("bottle_of_wine").
+3. The last noun is the object, as in English compounds, and the longest match is used: a sink counter is a counter, a
+   coffee machine is no coffee. Words for tools, sides, colours and rooms are never the object.
+4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee). A
+   container precedes its content (crate_tomatoes), a noun its material (tableGlass), and a wall the opening in it
+   (wall_doorway).
+5. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from functools import lru_cache
 from scene2hap.llm.lexicon import spelling, words
 from scene2hap.llm.lexicon.table import ObjectRow
 
-# How sure a reading is. Assumed; they only order readings by how much of the name was understood.
+# Confidence of a reading. Assumed; the values only rank readings by the part of the name that was understood.
 _ALL_READ = 0.95
 _UNREAD_BEFORE = 0.9  # "zorgon_lamp" is some lamp
 _UNREAD_AFTER = 0.5  # "fridge_zorgon" may be a fridge, or a zorgon
@@ -31,7 +31,7 @@ _UNKNOWN = 0.1
 _LONGEST_NOUN = 4  # words
 
 _HOLDS = {"container": ("vessel", "content"), "vessel": ("content",)}
-# 3ds Max calls its primitives so; "Box_01" is a box.
+# 3ds Max gives its primitives such names; "Box_01" is a box.
 _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
 
 
@@ -39,10 +39,10 @@ _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
 class NameReading:
     """The parts of an authored name.
 
-    `name` is what was read; `words` are its words in lower case; `row` is the table's row or None; `confidence` is 0..1
-    and at most 0.2 where `row` is None. `head` is the recognised part, `unread` the words that nothing knows,
-    `material` a material that an adjective names, `toy` whether the name itself denies that it is the real thing,
-    `whole` the thing that a part belongs to (the oven of an oven door).
+    `name` is the name as given; `words` are its words in lower case; `row` is the table's row or None; `confidence` is
+    0..1, and at most 0.2 if `row` is None. `head` is the recognised part; `unread` are the unknown words; `material` is
+    a material that an adjective names; `toy` is true if the name marks the object as not real; `whole` is the owner of
+    a part (the oven of an oven door).
     """
 
     name: str
@@ -68,7 +68,7 @@ class _Noun:
 
 @lru_cache(maxsize=4096)
 def read_name(name: str) -> NameReading:
-    """Read one authored name; never fails."""
+    """Read one authored name. Never fails."""
     tokens, trust = spelling.read_words(name)
     trust *= _ALL_READ
     unread = tuple(word for word in tokens if not spelling.is_known(word))
@@ -104,13 +104,13 @@ def read_name(name: str) -> NameReading:
 
 
 def places_named(name: str) -> tuple[str, ...]:
-    """The kinds of place that a name's words name, each once."""
+    """Return the kinds of place in a name's words, each once."""
     found = (words.PLACE_WORDS.get(word) for word in spelling.read_words(name)[0])
     return tuple(dict.fromkeys(place for place in found if place is not None))
 
 
 def _nouns(tokens: Sequence[str]) -> list[_Noun]:
-    """The table's nouns in a name, from the right, longest first, without overlap; in reading order."""
+    """Return the table's nouns in a name, longest first from the right, without overlap; in reading order."""
     found = []
     end = len(tokens)
     while end > 0:
@@ -130,14 +130,14 @@ def _noun_at(tokens: Sequence[str], start: int, end: int) -> _Noun | None:
     for form in words.forms(last):
         spelled = (*tokens[start : end - 1], form)
         entry = spelling.nouns().get("".join(spelled))
-        # "Table_T" is no tablet: a single letter belongs to a noun only where the table writes it so ("x box").
+        # "Table_T" is no tablet: a single letter belongs to a noun only if the table writes it so ("x box").
         if entry is not None and (spelled == entry[1] or min(map(len, spelled)) > 1):
             return _Noun(entry[0], start, end, plural=form != last)
     return None
 
 
 def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:
-    """The index of the first preposition that follows a noun and is not inside one ("chest of drawers")."""
+    """Return the index of the first preposition after a noun and outside nouns ("chest of drawers" is one noun)."""
     for i, word in enumerate(tokens):
         inside = any(noun.start <= i < noun.end for noun in nouns)
         if word in words.PREPOSITIONS and not inside and any(noun.end <= i for noun in nouns):
@@ -146,14 +146,14 @@ def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:
 
 
 def _head(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun:
-    """The noun that is the object: the last, but for leftovers, materials, content and openings in a wall."""
+    """Return the noun that names the object: the last one, skipping leftovers, materials, content and wall openings."""
     left = list(nouns)
     while len(left) > 1:
         last, previous = left[-1], left[-2]
         word = " ".join(tokens[last.start : last.end])
         is_material = word in words.MATERIAL_NOUNS and not previous.row.vibrates
         held = last.row.role in _HOLDS.get(previous.row.role, ())
-        # A vessel in a container shows by its plural: "crate_bottles", but "box_plate".
+        # A vessel counts as content of a container only in the plural: "crate_bottles", but "box_plate".
         is_content = held and (last.plural or last.row.role == "content")
         is_opening = previous.row.noun in words.SHELLS and last.row.noun in words.OPENINGS
         if word not in words.LEFTOVER_NOUNS and not (is_material or is_content or is_opening):
@@ -163,7 +163,7 @@ def _head(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun:
 
 
 def _object_first(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun | None:
-    """A two-word noun written object first ("table coffee"), nothing but side words between and behind."""
+    """Return a two-word noun written object first ("table coffee"), with only side words between and after, or None."""
     telling = [
         i
         for i, word in enumerate(tokens)
@@ -180,7 +180,7 @@ def _object_first(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun | None
 
 
 def _whole(tokens: Sequence[str], head: _Noun, nouns: Sequence[_Noun]) -> ObjectRow | None:
-    """The owner of a part: the noun before it, unless that is its material (glass door)."""
+    """Return the owner of a part: the noun before it, unless that is its material (glass door)."""
     before = [noun for noun in nouns if noun.end <= head.start]
     if head.row.role != "part" or not before or tokens[before[-1].end - 1] in words.MATERIAL_WORDS:
         return None
@@ -188,7 +188,7 @@ def _whole(tokens: Sequence[str], head: _Noun, nouns: Sequence[_Noun]) -> Object
 
 
 def _is_beside(word: str) -> bool:
-    """Return True if a word behind the noun leaves it the object: a side, a room, a material, a serial."""
+    """Return True if a word after the noun does not change the object: a side, a room, a material, a serial."""
     return len(word) < 3 or any(
         form in spelling.side_words() or form in words.MATERIAL_WORDS for form in words.forms(word)
     )

@@ -10,18 +10,18 @@ from scene2hap.llm.lexicon.table import PLACES
 
 UNDEFINED = "undefined"
 
-# Weights of the vote; assumed. Fractions, so that ties are ties whatever the order of the objects.
+# Weights of the vote; assumed. Fractions keep ties exact in any order of the objects.
 _OBJECT_NAMES_PLACE = Fraction(1, 2)  # "kitchenFridge"
 _SCENE_NAMES_PLACE = Fraction(1, 2)  # authored scene names are often left over from another project
 _ENOUGH = Fraction(1)
-_ENOUGH_VOICES = 2  # one word may always be a misreading
+_ENOUGH_VOICES = 2  # a single word may be a misreading
 
 
 def kind_of_place(scene_name: str, object_names: Sequence[str]) -> str:
     """Return the place to which most objects belong, such as "living room"; "undefined" on a tie or too few votes.
 
-    Each noun votes once, also if it occurs often, since a place does not change with its number of chairs. It shares
-    its vote among the places where it may stand. Objects that may stand anywhere do not vote.
+    Each noun votes once, even if it occurs often, since the number of chairs does not change a place. It shares its
+    vote among the places where it may stand. Objects that may stand anywhere do not vote.
     """
     ballots: list[tuple[str, Fraction]] = []
     readings = [(read_name(name), name) for name in object_names]

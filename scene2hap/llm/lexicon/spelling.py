@@ -1,4 +1,4 @@
-"""Words of authored names: cut at capitals and between run-together words, plurals and slips seen through."""
+"""Words of authored names: split at capitals and inside run-together words, with plurals and typing errors resolved."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from functools import cache, lru_cache
 from scene2hap.llm.lexicon import translations, words
 from scene2hap.llm.lexicon.table import ObjectRow, table
 
-# How far a word can be trusted that had to be translated, cut or mended. Assumed.
+# Confidence in a word that was translated, split or corrected. Assumed.
 _TRANSLATED = 0.9
 _RUN_TOGETHER = 0.9
 _SLIP = 0.6
 
-_SHORTEST_PIECE = 3  # letters; shorter pieces cut up any word
+_SHORTEST_PIECE = 3  # letters; shorter pieces occur inside almost any word
 _SHORT_PIECES = frozenset({"tv", "pc"})
-_LONGEST_RUN = 40  # letters; nobody writes longer words
-_SHORTEST_SLIP = 8  # letters; in shorter words one letter is another word too often (certain, curtain)
+_LONGEST_RUN = 40  # letters; longer words do not occur
+_SHORTEST_SLIP = 8  # letters; in shorter words one changed letter often gives another word (certain, curtain)
 
 
 def read_words(name: str) -> tuple[list[str], float]:
-    """The words of a name, foreign ones translated, run-together ones cut, slips mended; and the trust in it [0..1]."""
+    """Return the words of a name, translated, split and corrected, and the confidence in them [0..1]."""
     trust = 1.0
     tokens: list[str] = []
     for word in _without_shades(split_words(name)):
@@ -33,13 +33,13 @@ def read_words(name: str) -> tuple[list[str], float]:
 
 
 def split_words(name: str) -> list[str]:
-    """The words of a name in lower case, without digits, accents and signs."""
+    """Split a name into words in lower case, without digits, accents and signs."""
     plain = "".join(letter for letter in unicodedata.normalize("NFKD", name) if not unicodedata.combining(letter))
     return [part.casefold() for run in re.findall(r"[^\W\d_]+", plain) for part in _at_capitals(run)]
 
 
 def _without_shades(tokens: Sequence[str]) -> list[str]:
-    """The words without "light" or "dark" before a colour, which would read as a lamp."""
+    """Remove "light" and "dark" before a colour, since "light" alone would read as a lamp."""
     return [
         word
         for word, after in zip(tokens, (*tokens[1:], ""), strict=False)
@@ -48,7 +48,7 @@ def _without_shades(tokens: Sequence[str]) -> list[str]:
 
 
 def _at_capitals(run: str) -> Iterator[str]:
-    """ "RoomWindow" -> Room, Window; "TVCabinet" -> TV, Cabinet; the plural "TVs" stays whole."""
+    """Split at capitals: "RoomWindow" -> Room, Window; "TVCabinet" -> TV, Cabinet; the plural "TVs" stays whole."""
     start = 0
     for i in range(1, len(run)):
         begins_word = run[i].isupper() and run[i - 1].islower()
@@ -60,7 +60,7 @@ def _at_capitals(run: str) -> Iterator[str]:
 
 
 def is_known(word: str) -> bool:
-    """Return True if the lexicon knows the word, as part of a noun or beside one."""
+    """Return True if the lexicon has the word, as part of a noun or beside one."""
     if len(word) < 3:
         return True  # a serial, a side (L, R) or an exporter's mark
     return any(form in _vocabulary() or form in side_words() for form in words.forms(word))
@@ -68,7 +68,7 @@ def is_known(word: str) -> bool:
 
 @lru_cache(maxsize=4096)
 def _known_pieces(word: str) -> tuple[tuple[str, ...], float]:
-    """A word as the known words it is made of, and how far that can be trusted; itself where that fails."""
+    """Return the known words inside a word, and the confidence in them; the word itself if there are none."""
     if is_known(word) or len(word) > _LONGEST_RUN:
         return (word,), 1.0
     meaning = translations.english().get(word)
@@ -82,7 +82,7 @@ def _known_pieces(word: str) -> tuple[tuple[str, ...], float]:
 
 
 def _cut(word: str) -> tuple[str, ...]:
-    """The fewest known pieces that make up a run-together word, the last one as long as can be; () where none do."""
+    """Split a run-together word into the fewest known pieces, with the last one longest; () if it cannot be split."""
     best: list[tuple[str, ...] | None] = [()] + [None] * len(word)
     for end in range(1, len(word) + 1):
         for start in range(end):
@@ -97,7 +97,7 @@ def _cut(word: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=4096)
 def _is_piece(text: str) -> bool:
-    """Return True if a word can stand in a run-together one: a noun of its own or a word beside nouns, no fragment."""
+    """Return True if a word can be part of a run-together word: a noun or a word beside nouns, not a fragment."""
     if text in _SHORT_PIECES:
         return True
     if len(text) < _SHORTEST_PIECE or text in words.PREPOSITIONS:
@@ -106,12 +106,12 @@ def _is_piece(text: str) -> bool:
 
 
 def _is_long_enough(form: str) -> bool:
-    # Three letters of an exporter ("con", "env", "ver") are found in any word.
+    # Three-letter words of exporters ("con", "env", "ver") occur inside almost any word.
     return len(form) > _SHORTEST_PIECE or (len(form) == _SHORTEST_PIECE and form not in words.TOOL_WORDS)
 
 
 def _meant(word: str) -> str | None:
-    """The one long word of the table that `word` is a slip away from."""
+    """Return the only long word of the table that differs from `word` by one typing error; None if not unique."""
     near = {known for known in _slip_targets() if _is_slip(word, known)}
     return near.pop() if len(near) == 1 else None
 
@@ -119,7 +119,7 @@ def _meant(word: str) -> str | None:
 def _is_slip(written: str, known: str) -> bool:
     """Return True if one letter is missing, surplus, swapped with its neighbour, or another vowel.
 
-    A consonant for another one is left out: that is more often a different word (painter, printer).
+    A replaced consonant does not count, since it usually makes a different word (painter, printer).
     """
     if abs(len(written) - len(known)) > 1 or written[0] != known[0]:
         return False
@@ -135,14 +135,14 @@ def _is_slip(written: str, known: str) -> bool:
 
 @cache
 def nouns() -> dict[str, tuple[ObjectRow, tuple[str, ...]]]:
-    """Every noun and synonym, written together -> its row and its words."""
+    """Return every noun and synonym, written together -> its row and its words."""
     spelled = ((name.replace("-", " ").split(), row) for row in table() for name in (row.noun, *row.synonyms))
     return {"".join(parts): (row, tuple(parts)) for parts, row in spelled}
 
 
 @cache
 def _vocabulary() -> frozenset[str]:
-    """Every word that can be part of a noun or names its place or material."""
+    """Return every word that can be part of a noun or can name its place or material."""
     parts = {part for _, spelled in nouns().values() for part in spelled}
     return frozenset({*nouns(), *parts, *words.PLACE_WORDS, *words.MATERIAL_WORDS})
 
@@ -159,7 +159,7 @@ def _slip_targets() -> tuple[str, ...]:
 
 @cache
 def side_words() -> frozenset[str]:
-    """Words that stand beside a noun and are no object themselves."""
+    """Return the words that stand beside a noun and are not objects themselves."""
     return (
         words.TOOL_WORDS
         | words.MODIFIERS

@@ -1,7 +1,7 @@
-"""Materials of everyday objects that the material table lacks, and whose constants stand in for theirs.
+"""Materials of everyday objects that the material table lacks, each with a similar material of the table.
 
-The lexicon names them as what they are ("firm food"), since a carrot is no rubber, and answers the estimator with the
-constants of the nearest thing that the table has. All stand-ins are assumed; what decides is stiffness, then density.
+The lexicon answers with the real name ("firm food"), since a carrot is no rubber. For constants it uses those of the
+most similar material in the table. All choices are assumed; stiffness counts first, then density.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ STAND_INS = {
     "baked food": "foam",  # bread crumb: below 100 kPa, mostly air
     "plant": "rubber",  # leaves and fresh stems: 1 to 100 MPa, about as heavy as water
     "wax": "ldpe",  # paraffin: 0.1 to 0.3 GPa, 900 kg/m3
-    "water": "soft tissue",  # as heavy, and next to nothing in shear
+    "water": "soft tissue",  # equally dense, and almost without shear stiffness
 }
 
 
 def constants(word: str) -> Material:
-    """The constants of a material of the table, or of its stand-in. Raises: UnknownMaterial."""
+    """Return the constants of a material of the table, or of its stand-in. Raises: UnknownMaterial."""
     return lookup(STAND_INS.get(" ".join(word.lower().split()), word))

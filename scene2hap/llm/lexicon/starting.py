@@ -1,4 +1,4 @@
-"""Times in which everyday objects start and stop, and which of them switch themselves: a table by noun and verb."""
+"""Start and stop times of everyday objects, and the on and off times of automatic ones: a table by noun and verb."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scene2hap.llm.lexicon.table import ObjectRow, starting_text
 def starting_of(row: ObjectRow | None, verb: str) -> Mapping[str, Any]:
     """Return `start_up_s`, `wind_down_s` [s], `spins`, `on_s` and `off_s` [s] of an object; empty if unknown.
 
-    The noun is looked up first, then the verb; an object that is not in the lexicon is described by its verb.
+    The noun is looked up first, then the verb. For an object outside the lexicon, only the verb is looked up.
     """
     table = _table()
     return table.get(row.noun if row is not None else "") or table.get(verb, {})

@@ -1,10 +1,10 @@
 """The lexicon's table of everyday objects, one row per head noun.
 
-`table.csv` gives for each noun its other names, the places where it stands, the material and thickness of its dominant
-surface, the span of its longest edge, its use, and the states in which it vibrates by itself. Each row names what it
-rests on. Intensities are ranked by published hand-arm vibration where there is any and assumed throughout, on the
-scale of `haptics.SourceState`; thicknesses and sizes are assumed unless the row's source says otherwise. Masses are
-those of usual products (shop listings and data sheets, from memory), for the size in which they are usual.
+`table.csv` gives for each noun its other names, the places where it stands, and the material and thickness of its
+dominant surface. It also gives the span of its longest edge, its use, and the states in which it vibrates by itself.
+Each row names its source. Intensities are assumed, on the scale of `haptics.SourceState`; their ranking follows
+published hand-arm vibration if there is any. Thicknesses and sizes are assumed unless the row's source says otherwise.
+Masses are those of usual products of usual size (shop listings and data sheets, from memory).
 
 `role` resolves names that hold two nouns: a "container" or "vessel" may be followed by its "content"
 (crate_tomatoes); a "part" belongs to the noun before it (oven_door). A "vehicle" that is far too small is a toy.
@@ -36,14 +36,14 @@ PLACES = (
     "street",
     "warehouse",
 )
-"""Kinds of place that the table knows; a row may also stand in "any"."""
+"""Kinds of place in the table; a row may also stand in "any"."""
 
 
 @dataclass(frozen=True)
 class StateRow:
-    """One way to vibrate: state name, intensity 0..1 [-], a verb for its sound, and what must be touched for it.
+    """One way to vibrate: state name, intensity 0..1 [-], a verb for its sound, and the contact that it needs.
 
-    `needs_contact` holds the nouns of which one must touch the object (a pan sizzles on a stove); empty means always.
+    `needs_contact` holds nouns. One of them must touch the object (a pan sizzles on a stove); empty means no condition.
     """
 
     name: str
@@ -54,8 +54,10 @@ class StateRow:
 
 @dataclass(frozen=True)
 class ObjectRow:
-    """One everyday object; `min_size_m` and `max_size_m` bound its longest edge, where that matters, and `mass_kg` is
-    what a usual one weighs [kg], None where they differ too much; `feet` is the material of its feet, if it has any."""
+    """One everyday object. `min_size_m` and `max_size_m` bound its longest edge [m], or are None.
+
+    `mass_kg` is its usual mass [kg], None if masses differ too much. `feet` is the material of its feet, or None.
+    """
 
     noun: str
     synonyms: tuple[str, ...]
@@ -75,20 +77,20 @@ class ObjectRow:
 
 @cache
 def table() -> tuple[ObjectRow, ...]:
-    """Every row, in the order of the file."""
+    """Return every row, in the order of the file."""
     return tuple(_row(fields) for fields in csv.DictReader(_text().splitlines()))
 
 
 @cache
 def version() -> str:
-    """A short digest of the tables, so that an answer's provenance changes exactly when a row does."""
+    """Return a short digest of the tables, so that an answer's provenance changes exactly when a row does."""
     rows = [line for text in (_text(), starting_text()) for line in text.splitlines()]
     return hashlib.sha256("\n".join(rows).encode()).hexdigest()[:8]
 
 
 @cache
 def starting_text() -> str:
-    """The content of the file of start and stop times; see `lexicon.starting`."""
+    """Return the content of the file of start and stop times; see `lexicon.starting`."""
     return files(__package__).joinpath("starting.csv").read_text(encoding="utf-8")
 
 

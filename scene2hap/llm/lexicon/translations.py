@@ -1,7 +1,7 @@
-"""Everyday words of other languages, as the English words that the table of objects is written in.
+"""Everyday words of other languages, translated into the English words of the table of objects.
 
-Written as `spelling.split_words` leaves them: lower case, without accents. A word that the
-lexicon knows in English is never looked up here.
+Words have the form that `spelling.split_words` returns: lower case, without accents. A word with an English meaning in
+the lexicon is never looked up here.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ import unicodedata
 from functools import cache
 from importlib.resources import files
 
-# Read in English, where they are a number, a state, a tool's cube, or another thing.
+# Foreign words that are also English words: a number, a state, a tool's cube, or another object.
 _ENGLISH = frozenset({"four", "lit", "cubo", "piso", "bank", "trap", "kop", "wand"})
 
 
 @cache
 def english() -> dict[str, tuple[str, ...]]:
-    """Foreign word -> English words; the first language of the file that has a word decides."""
+    """Return foreign word -> English words. If two languages share a word, the first one in the file is used."""
     text = files(__package__).joinpath("translations.csv").read_text(encoding="utf-8")
     found: dict[str, tuple[str, ...]] = {}
     for row in csv.DictReader(text.splitlines()):

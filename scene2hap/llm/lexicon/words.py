@@ -1,4 +1,4 @@
-"""Words of authored names that are no objects: what tools, artists and level designers write around the noun."""
+"""Words of authored names that are not objects: words that tools, artists and level designers add to the noun."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TOOL_WORDS = _set("""
     cube cylinder sphere icosphere uvsphere circle plane cone torus capsule quad curve line polygon surface shape bezier
     nurbs text point
 """)
-"""Written by exporters, engines and modelling tools; says nothing about the object."""
+"""Words of exporters, engines and modelling tools, without information about the object."""
 
 MODIFIERS = _set("""
     left right upper lower top bottom front back rear side middle center centre corner inner outer outside end
@@ -40,12 +40,12 @@ MODIFIERS = _set("""
     kids child children baby adult men women his her my
     order multi patch pile stack heap bunch row pair seater
 """)
-"""Say where, how large, which colour, which state or whose; the object is the noun beside them."""
+"""Words for position, size, colour, state or owner. The object is the noun beside them."""
 
 COLOURS = _set("""
     red green blue yellow orange white black gray grey brown pink purple beige cream golden gold silver turquoise
 """)
-"""Behind "light" they make it a shade ("light_blue"), not a lamp."""
+"""Colours. After "light" they name a shade ("light_blue"), not a lamp."""
 
 PLACE_WORDS = {
     "kitchen": "kitchen",
@@ -76,10 +76,10 @@ PLACE_WORDS = {
     "gym": "gym",
     "fitness": "gym",
 }
-"""Words that name a place, in objects' and scenes' names."""
+"""Words that name a place, in names of objects and scenes."""
 
 TOY_WORDS = frozenset({"toy", "miniature", "replica", "fake"})
-"""Before a noun they say that it is not the real thing; "mini" does not, since a mini fridge is a fridge."""
+"""Words before a noun that mark an unreal object. "mini" is not among them: a mini fridge is a fridge."""
 
 _MATERIALS = _set("""
     steel iron aluminum aluminium copper brass bronze glass plastic ceramic porcelain marble granite concrete brick
@@ -126,18 +126,18 @@ PAINT_WORDS = {
     "plexiglass": "plexiglass",
     "nylon": "nylon",
 }
-"""Words in the names of surface materials; in the names of objects some of these words would be objects."""
+"""Words in the names of surface materials. In the names of objects, some of these words are objects."""
 
 MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
-"""Nouns that after another noun name its material (tableGlass), not another object."""
+"""Nouns that name a material after another noun (tableGlass), not another object."""
 
 LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house", "backsplash", "splashback"})
-"""Nouns that after another noun are none: exporters write "Burner_mat_0", designers "ham_trash", "sofa_orange" and
-"counter_backsplash", which is a counter that has one."""
+"""Nouns that are no objects after another noun. Exporters write "Burner_mat_0", designers "ham_trash" and
+"sofa_orange". A "counter_backsplash" is a counter with a backsplash."""
 
 SHELLS = frozenset({"wall", "brick wall", "concrete wall", "dungeon wall", "tile"})
 OPENINGS = frozenset({"window", "door", "doorway", "arch", "gate", "window frame"})
-"""Building kits name a piece of wall by the opening in it: "wall_window_closed" is a wall."""
+"""Openings that building kits use to name a piece of wall: "wall_window_closed" is a wall."""
 
 PREPOSITIONS = _set("of with on in for at by from under near without beside behind inside over against")
 """The noun before one of these is the object: a bottle of wine, a table with a vase."""
@@ -161,7 +161,7 @@ _IRREGULAR = {
 
 
 def forms(word: str) -> Iterator[str]:
-    """The word, then what it may be the plural of, most likely first."""
+    """Yield the word, then its possible singular forms, most likely first."""
     yield word
     if word in _IRREGULAR:
         yield _IRREGULAR[word]

@@ -1,11 +1,11 @@
 """The prompt templates, one text file per component, under one version.
 
-A template names facts as {placeholders}, which are filled in as JSON (`llm.quoting`); doubled braces stand for braces.
-A user may replace any of the files by one of the same name in a folder of their own. Raise `VERSION` whenever a
-built-in file changes: it is part of what a recorded answer answers to.
+A template names facts as {placeholders}, which are filled in as JSON (`llm.quoting`); doubled braces give braces.
+Users can replace any of the files by one of the same name in their own folder. Raise `VERSION` whenever a built-in file
+changes, since the version is part of the provenance of answers.
 
-Instructions come first, then what is said of the place, then of the object: services bill a prefix that they have read
-before at a lower price.
+Instructions come first, then facts about the place, then facts about the object. Services bill a repeated beginning of
+a prompt at a lower price.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ VERSION = "5"
 
 @dataclass(frozen=True)
 class Prompts:
-    """The templates of all components, and the version that answers are kept under."""
+    """The templates of all components, and their version, which is part of the provenance of answers."""
 
     templates: Mapping[Component, str]
     version: str
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str] | None = None) -> Prompts:
-        """The built-in templates, with those that `folder` has (`object_analyzer.txt`, ...) in their place.
+        """Return the built-in templates. Files in `folder` (`object_analyzer.txt`, ...) replace them.
 
-        Raises: ConfigError: the folder is not there, holds no template, or one that names an unknown placeholder.
+        Raises: ConfigError: the folder does not exist, has no template, or has one with an unknown placeholder.
         """
         if folder is None:
             return _built_in()
@@ -53,7 +53,7 @@ class Prompts:
         return cls({**_built_in().templates, **replaced}, f"{VERSION}+{mark}")
 
     def fill(self, component: Component, facts: Mapping[str, Any], user_prompt: str = "") -> str:
-        """The template with its facts, quoted as data; what the user says outranks the rest."""
+        """Fill a template with facts, quoted as data, and add the user's prompt, which has priority."""
         wish = f"\nAbove all, follow what the scene's author asks: {user_prompt}" if user_prompt else ""
         data = {name: as_data(fact) for name, fact in facts.items()}
         return f"{IS_DATA}\n\n{self.templates[component].format(**data, user_prompt=wish).strip()}"
@@ -83,5 +83,5 @@ def _read(path: Path, component: Component) -> str:
 
 
 def placeholders(template: str) -> frozenset[str]:
-    """The facts that a template names. Raises: ValueError: its braces do not match."""
+    """Return the facts that a template names. Raises: ValueError: its braces do not match."""
     return frozenset(name for _, name, _, _ in string.Formatter().parse(template) if name is not None)

@@ -1,8 +1,8 @@
 """Wrappers: backends that add one behaviour to an `inner` backend.
 
-Outermost first, a good order is cache, repair, budget, retry, model: a cache then keeps repaired answers only, every
-repair is paid for within the budget, and a call that never came about is not. `standard_stack` builds just that. In a
-configuration `inner` is again a kind or a mapping with one, so that the whole stack is data.
+A good order, outermost first, is cache, repair, budget, retry, model. The cache then stores repaired answers only, the
+budget counts every repair, and calls without an answer are not counted. `standard_stack` builds this order. In a
+configuration, `inner` is again a kind or a mapping with one, so that the whole stack is data.
 """
 
 from scene2hap.llm.wrappers.budget import BudgetBackend

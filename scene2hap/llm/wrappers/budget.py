@@ -1,4 +1,4 @@
-"""BudgetBackend: counts calls, tokens and cost, and stops before a limit is passed by a further call."""
+"""BudgetBackend: counts calls, tokens and cost, and stops at a limit."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 @clear_construction
 class BudgetBackend(Wrapper):
-    """Passes calls on as long as the limits hold; None is no limit.
+    """Pass calls on while the limits hold. A limit of None means no limit.
 
     prices : model name -> `Price`, or (input, output) or (input, output, cached input) [US dollars per million
-    tokens], beside or instead of those of the dated list (`price_list()`); a model in neither has an unknown price,
-    never none.
+    tokens]. They add to the dated list (`price_list()`) and override it. A model in neither has an unknown price,
+    never a price of 0.
     Limits are checked before each call, with the usage known by then. Concurrent calls can exceed a limit on tokens or
-    cost by their own usage, a limit on calls never.
-    Raises: ConfigError: a limit that is negative or a price that is none.
+    cost by their own usage, but never a limit on calls.
+    Raises: ConfigError: a negative limit or an invalid price.
     """
 
     def __init__(
@@ -46,16 +46,16 @@ class BudgetBackend(Wrapper):
 
     @property
     def cost(self) -> float | None:
-        """Cost of the answers so far; None as soon as one came without its usage or from a model without a price."""
+        """Cost of the answers so far; None once an answer had no usage or its model no price."""
         return None if self._unpriced or self._blind else self._cost
 
     @property
     def tokens(self) -> int | None:
-        """Tokens read and written so far; None as soon as an answer came without its usage."""
+        """Tokens read and written so far; None once an answer came without its usage."""
         return None if self._blind else self._input + self._output
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The inner backend's answer. Raises: BudgetExceeded: the call was not made; and as the inner backend."""
+        """Return the inner backend's answer. Raises: BudgetExceeded: no call was made; errors of the inner backend."""
         self._check()
         self._calls += 1
         try:
@@ -74,8 +74,8 @@ class BudgetBackend(Wrapper):
     def report(self) -> dict[str, Any]:
         """Return calls, tokens and cost [US dollars] (None: unknown), the date of the prices, and missing items.
 
-        Answers that were cut short, refused or empty are failed calls that are billed. Calls without any answer are in
-        no sum, though a service may bill some; neither are answers without their usage. Input in the service's prompt
+        Answers that were cut short, refused or empty count as failed calls, and they are billed. No sum includes calls
+        without any answer, though a service may bill some, or answers without usage. Input in the service's prompt
         cache, and cheaper service tiers, have their own prices.
         """
         return {
@@ -99,7 +99,7 @@ class BudgetBackend(Wrapper):
             if used is None:
                 lacks = "the usage of an answer" if self._blind else f"a price for {', '.join(sorted(self._unpriced))}"
                 raise BudgetExceeded(
-                    f"max_{name} = {limit:g} cannot be kept: what was used is unknown, for want of {lacks}. "
+                    f"max_{name} = {limit:g} cannot be kept: the use so far is unknown without {lacks}. "
                     "Add it to prices, or limit calls instead."
                 )
             if used >= limit:

@@ -1,6 +1,6 @@
-"""CacheBackend: answers on disk by the key of their request, so that no question is paid for twice.
+"""CacheBackend: answers on disk by the key of their request, so that no question is billed twice.
 
-One file per answer, written whole or not at all. Parallel runs on one folder wait for each other question by question.
+Each answer is one file, written whole or not at all. Parallel runs on one folder lock each question separately.
 """
 
 from __future__ import annotations
@@ -45,19 +45,19 @@ class _Entry(BaseModel):
 
 @clear_construction
 class CacheBackend(Wrapper):
-    """Answer from `folder` if possible; else call `inner` and keep the answer if it is valid.
+    """Answer from `folder` if possible. Otherwise call `inner`, and store the answer if it is valid.
 
-    The key is that of a recording plus the inner backend's `identity`: model, base address, and other settings that
+    The key is the key of a recording plus the inner backend's `identity`: model, base address, and other settings that
     affect the answer. A hit reports no usage, since it costs nothing. Equal questions at the same time cause one call,
     in this process and between processes. A file that cannot be read, or whose answer is no longer valid, counts as
-    absent and is written again. The system releases the locks of a process that died; their empty files stay in
+    missing and is written again. The system releases the locks of a process that died; their empty files stay in
     `locks/`.
     Raises: ConfigError: the folder cannot be written, or `inner` has no identity.
     """
 
     def __init__(self, inner: Spec, folder: str | os.PathLike[str]) -> None:
         super().__init__(inner)
-        _ = self.identity  # a missing identity is better reported now than after a scene was rendered
+        _ = self.identity  # report a missing identity now, not after the scene has been rendered
         self._folder = Path(folder)
         self._turns: dict[tuple[int, str], tuple[asyncio.Lock, int]] = {}
         self._calls = self._hits = self._stored = self._rejected = 0
@@ -68,7 +68,7 @@ class CacheBackend(Wrapper):
             raise _cannot_write(self._folder, cause) from cause
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The kept answer, or the inner backend's. Raises: ConfigError: cannot write; and as the inner backend."""
+        """Return the stored answer, or the inner backend's. Raises: ConfigError: cannot write; inner errors."""
         self._calls += 1
         await self.ready()
         key = _key(request, self.identity)
@@ -81,7 +81,7 @@ class CacheBackend(Wrapper):
                 return self._load(path, key) or await self._ask(request)
 
     def report(self) -> dict[str, int]:
-        """Calls, hits, answers kept, answers not kept since they are invalid, files that could not be used."""
+        """Return counts: calls, hits, stored answers, invalid answers (not stored), unusable files."""
         return {
             "calls": self._calls,
             "hits": self._hits,
@@ -92,7 +92,7 @@ class CacheBackend(Wrapper):
 
     @asynccontextmanager
     async def _turn(self, key: str) -> AsyncIterator[None]:
-        """One at a time per key and event loop; between loops and processes the file lock decides."""
+        """Allow one call at a time per key and event loop. The file lock covers other loops and processes."""
         name = (id(asyncio.get_running_loop()), key)
         lock, users = self._turns.get(name, (asyncio.Lock(), 0))
         self._turns[name] = (lock, users + 1)
@@ -106,12 +106,12 @@ class CacheBackend(Wrapper):
 
     @asynccontextmanager
     async def _lock(self, key: str) -> AsyncIterator[None]:
-        """One at a time per key among the processes that share the folder."""
+        """Allow one call at a time per key among the processes that share the folder."""
         lock = AsyncFileLock(self._folder / "locks" / f"{key}.lock")
         try:
             (self._folder / "locks").mkdir(parents=True, exist_ok=True)
             await lock.acquire()
-        except (OSError, NotImplementedError) as cause:  # the latter: a file system without locks
+        except (OSError, NotImplementedError) as cause:  # NotImplementedError: a file system without locks
             raise ConfigError(
                 f"cannot lock an answer in {self._folder}: {cause}. Give a folder that can be written."
             ) from cause
@@ -128,7 +128,7 @@ class CacheBackend(Wrapper):
         if reply.finish_reason != "stop" or find_fault(request.component, reply.text) is not None:
             self._rejected += 1
             return reply
-        # Read again, since behind a wrapper without `ready` a backend learns its model only while it answers.
+        # Read the identity again: inside a wrapper without `ready`, a backend finds its model only while it answers.
         identity = self.identity
         key = _key(request, identity)
         entry = _Entry(

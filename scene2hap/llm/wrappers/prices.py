@@ -14,11 +14,11 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 
 _SNAPSHOT = re.compile(r"-\d{4}-\d{2}-\d{2}$")
-"""The date in the name of a model's version: gpt-4o-2024-08-06."""
+"""The date in the name of a model version: gpt-4o-2024-08-06."""
 
 
 Given = tuple[float, float] | tuple[float, float, float]
-"""A price in settings: input, output, and if the service has a price for it cached input."""
+"""A price in settings: input, output, and optionally cached input."""
 
 _STANDARD_TIERS = frozenset({"", "auto", "default"})
 
@@ -26,9 +26,9 @@ _STANDARD_TIERS = frozenset({"", "auto", "default"})
 @clear_construction
 @dataclass(frozen=True)
 class Price:
-    """Cost of a model per million tokens; the list is in US dollars, your own prices should be too.
+    """Cost of a model per million tokens. The list is in US dollars; use dollars for your own prices too.
 
-    cached_input_per_million : of input that the service had in its prompt cache; None: as all input.
+    cached_input_per_million : for input in the service's prompt cache; None means the price of other input.
     """
 
     input_per_million: float
@@ -41,7 +41,7 @@ class Price:
                 checks.number(name, getattr(self, name), "-", at_least=0.0, error=ConfigError)
 
     def cost(self, usage: Mapping[str, int]) -> float:
-        """The cost of prompt_tokens, of which cached_tokens were in the prompt cache, and completion_tokens."""
+        """Return the cost of prompt_tokens (cached_tokens of them from the prompt cache) and completion_tokens."""
         cached = min(usage.get("cached_tokens", 0), usage["prompt_tokens"])
         of_cached = self.input_per_million if self.cached_input_per_million is None else self.cached_input_per_million
         fresh = (usage["prompt_tokens"] - cached) * self.input_per_million
@@ -50,7 +50,7 @@ class Price:
 
 @dataclass(frozen=True)
 class PriceList:
-    """Prices by model, as of `date` (ISO 8601) and according to `source`; `tiers` are factors on all of them."""
+    """Prices by model, as of `date` (ISO 8601) and from `source`. `tiers` are price factors by service tier."""
 
     date: str
     source: str
@@ -58,21 +58,21 @@ class PriceList:
     tiers: Mapping[str, float]
 
     def of(self, model: str) -> Price | None:
-        """The price of a model, or of the one that it is a dated snapshot of; None where it is not known."""
+        """Return the price of a model; for a dated version also the price of its base name. None if unknown."""
         return self.prices.get(model) or self.prices.get(_SNAPSHOT.sub("", model))
 
     def cost_usd(self, model: str, usage: Mapping[str, int], service_tier: str = "") -> float | None:
-        """The cost of an answer; None where the price of its model or its tier is not known."""
+        """Return the cost of an answer [US dollars]; None if the price of its model or tier is unknown."""
         price = self.of(model)
         factor = 1.0 if service_tier in _STANDARD_TIERS else self.tiers.get(service_tier)
         return None if price is None or factor is None else factor * price.cost(usage)
 
 
 def price_list(overrides: Mapping[str, Price | Given] | None = None) -> PriceList:
-    """The built-in list, with prices of one's own over it: model -> `Price`, or (input, output) or (input, output,
+    """Return the built-in list, overridden by your own prices: model -> `Price`, or (input, output) or (input, output,
     cached input) per million tokens.
 
-    Raises: ConfigError: a price that is none.
+    Raises: ConfigError: an invalid price.
     """
     built_in = _built_in()
     own = {model: _price(model, price) for model, price in (overrides or {}).items()}

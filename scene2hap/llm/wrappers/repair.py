@@ -1,4 +1,4 @@
-"""RepairBackend: returns an invalid answer to the model with its errors."""
+"""RepairBackend: sends an invalid answer back to the model, with its errors."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from scene2hap.llm.validation import Fault, find_fault
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 _LONGEST_QUOTED = 4000
-"""Characters of a bad answer that are sent back (assumed: three times the longest good one)."""
+"""Most characters of a bad answer that are sent back (assumed: three times the longest good one)."""
 
 
 @clear_construction
 class RepairBackend(Wrapper):
     """Validate each reply as its component's answer; repeat the request up to `repairs` times if it is invalid.
 
-    A repair is the original question with the last failure alone, so that its cost does not grow; pictures are left
-    out where only numbers were wrong. Replies cut short, empty, filtered or refused are not repaired. The usage of the
-    reply, or of the error in its place, is that of all attempts.
+    A repair holds the original question and only the last invalid answer, so that its cost does not grow. Pictures are
+    left out if only numbers were wrong. Replies that were cut short, empty, filtered or refused are not repaired. The
+    usage of the reply, or of the error, is the sum over all attempts.
     """
 
     def __init__(self, inner: Spec, repairs: int = 2) -> None:
@@ -35,11 +35,11 @@ class RepairBackend(Wrapper):
         self._calls = self._n_repairs = self._given_up = 0
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """Return a valid answer. Raises: BadAnswer: none came, with the last raw text; and as the inner backend."""
+        """Return a valid answer. Raises: BadAnswer: none came, with the last raw text; errors of the inner backend."""
         self._calls += 1
         about = describe(request)
         question, usage, left = request, Counter[str](), self._repairs
-        usable: LLMReply | None = None  # with a minor fault, which one further question may mend
+        usable: LLMReply | None = None  # an answer with a minor fault, kept in case its repair fails
         while True:
             try:
                 reply = await self.inner.complete(question)
@@ -72,7 +72,7 @@ class RepairBackend(Wrapper):
             question = _repair(request, text, fault)
 
     def report(self) -> dict[str, int]:
-        """Calls, repairs, and calls given up after all repairs."""
+        """Return counts: calls, repairs, and calls that failed after all repairs."""
         return {"calls": self._calls, "repairs": self._n_repairs, "given_up": self._given_up}
 
 

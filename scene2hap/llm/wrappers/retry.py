@@ -15,17 +15,18 @@ from scene2hap.llm.wrappers.stack import Spec, Wrapper
 FIRST_WAIT_S = 0.5
 LONGEST_WAIT_S = 8.0
 LEAST_SHARE = 0.75
-"""Waits of min(0.5 * 2^n, 8) s times a share of 0.75 to 1, as OpenAI's own Python client does."""
+"""Waits are min(0.5 * 2^n, 8) s times a random share of 0.75 to 1, as in OpenAI's own Python client."""
 
 
 @clear_construction
 class RetryBackend(Wrapper):
-    """Repeats a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
+    """Repeat a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
 
-    Wait as long as the server states, else longer each time, less a random share so that many clients spread.
-    told_retries : most repetitions after waits that the server stated, beside `retries`; None counts them all
-    together. Where many calls share a narrow limit, each is refused many times before its turn.
-    Bad answers are not repeated: they are `RepairBackend`'s. `rng` and `sleep` are for tests.
+    Waits as long as the server states. Otherwise each wait is longer than the last, times a random share that spreads
+    the calls of many clients.
+    told_retries : most repetitions after waits that the server stated, in addition to `retries`; None counts both
+    together. If many calls share a low rate limit, the server rejects each of them many times.
+    Bad answers are not repeated here; `RepairBackend` does that. `rng` and `sleep` are for tests.
     """
 
     def __init__(
@@ -49,7 +50,7 @@ class RetryBackend(Wrapper):
         self._waited_s = 0.0
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """The inner backend's answer. Raises: as the inner backend, its last error."""
+        """Return the inner backend's answer. Raises: the last error of the inner backend."""
         self._calls += 1
         n_unstated = n_stated = 0
         while True:
@@ -71,7 +72,7 @@ class RetryBackend(Wrapper):
             await self._sleep(wait_s)
 
     def report(self) -> dict[str, float]:
-        """Calls, retries, calls given up after all retries, and seconds waited."""
+        """Return counts: calls, retries, calls that failed after all retries, and seconds waited."""
         return {
             "calls": self._calls,
             "retries": self._retried,

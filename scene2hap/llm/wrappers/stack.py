@@ -10,25 +10,25 @@ from scene2hap.llm import BACKENDS
 from scene2hap.llm.protocol import LLMBackend
 
 Spec = LLMBackend | Mapping[str, Any] | str
-"""A backend, or what `BACKENDS` builds one from."""
+"""A backend, or a specification from which `BACKENDS` builds one."""
 
 
 def identity(backend: object) -> Mapping[str, Any]:
-    """The properties on which a backend's answers depend: model, address, ...; empty if it does not name them."""
+    """Return the properties on which a backend's answers depend: model, address, ...; empty if it names none."""
     try:
         named = getattr(backend, "identity", None)
-    except ConfigError:  # a wrapper around a backend that does not name them
+    except ConfigError:  # a wrapper whose inner backend has no identity
         named = None
     return named if isinstance(named, Mapping) else {}
 
 
 def is_remote(backend: object) -> bool:
-    """Return True if a backend has an address, so that rendering pictures for it is worth the time."""
+    """Return True if a backend has a network address, so that pictures are worth rendering for it."""
     return "base_url" in identity(backend)
 
 
 def reports(backend: object) -> dict[str, Mapping[str, Any]]:
-    """The report of each layer of a stack, by its class, outermost first."""
+    """Return the report of each layer of a stack, by its class, outermost first."""
     found: dict[str, Mapping[str, Any]] = {}
     while backend is not None:
         report = getattr(backend, "report", None)
@@ -39,7 +39,7 @@ def reports(backend: object) -> dict[str, Mapping[str, Any]]:
 
 
 def innermost(backend: object) -> object:
-    """The model behind a stack of wrappers."""
+    """Return the innermost backend of a stack of wrappers."""
     while (inner := getattr(backend, "inner", None)) is not None:
         backend = inner
     return backend
@@ -58,14 +58,14 @@ class Wrapper:
         return f"{type(self).__name__}({self.inner!r})"
 
     async def ready(self) -> None:
-        """Let the innermost backend find out what it needs before its `identity` is whole. Raises: as that does."""
+        """Let the innermost backend complete its `identity`. Raises: errors of the innermost backend."""
         ready = getattr(self.inner, "ready", None)
         if ready is not None:
             await ready()
 
     @property
     def identity(self) -> dict[str, Any]:
-        """Everything besides the request that affects the answer, as stated by the innermost backend.
+        """The settings, besides the request, that affect the answer, as stated by the innermost backend.
 
         Raises: ConfigError: it states none.
         """

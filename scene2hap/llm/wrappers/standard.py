@@ -1,4 +1,4 @@
-"""The stack that a model behind a network deserves, in one call or one piece of configuration."""
+"""The standard stack of wrappers for a model behind a network, in one call or one piece of configuration."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from scene2hap.llm.wrappers.retry import RetryBackend
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
 
 RETRIES = 6
-"""Assumed: waits of 0.5, 1, 2, 4, 8 and 8 s outlast a model that still loads."""
+"""Assumed: waits of 0.5, 1, 2, 4, 8 and 8 s are enough for a server to load its model."""
 TOLD_RETRIES = 30
-"""Assumed: ten minutes at the 20 s that a limit of three requests a minute requires."""
+"""Assumed: ten minutes in waits of 20 s, as a limit of three requests a minute requires."""
 
 
 def standard_stack(
@@ -34,13 +34,13 @@ def standard_stack(
     prices: Mapping[str, Price | Given] | None = None,
     sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
 ) -> LLMBackend:
-    """Cache, repair, budget, retry, and then the model: `inner`, a backend or what builds one.
+    """Wrap a model in cache, repair, budget and retry. `inner` is a backend or a specification of one.
 
-    cache_folder : where answers are kept, None for nowhere; repairs, retries, told_retries (after waits that the
+    cache_folder : folder of stored answers, None for no cache; repairs, retries, told_retries (after waits that the
     server stated) : most of each, per call; max_calls, max_tokens, max_cost [US dollars] : limits, None for none;
-    prices : beside the dated list; sleep : for tests.
-    A cache keeps repaired answers only, each repair is paid for within the budget, and a call that never came about
-    is not. What happened is in `reports`.
+    prices : additions to the dated list; sleep : for tests.
+    The cache stores repaired answers only, the budget counts every repair, and calls without an answer are not
+    counted. `reports` returns the counts of each layer.
     Raises: ConfigError: a setting that cannot work.
     """
     retried = RetryBackend(inner, retries, told_retries=told_retries, sleep=sleep)
@@ -56,10 +56,10 @@ def build_backend(
     max_cost: float | None = None,
     prices: Mapping[str, Price | Given] | None = None,
 ) -> object:
-    """Make the backend of a configuration, with the standard stack around it where it needs one.
+    """Build the backend of a configuration, and add the standard stack if it needs one.
 
-    That is where it is given as a kind or mapping and builds a backend that reaches a service by its address. What was
-    given ready made, wrappers, the lexicon, recordings and functions are taken as they are.
+    The stack is added if `spec` is a kind or mapping, and the backend has a network address. Ready-made backends,
+    wrappers, the lexicon, recordings and functions stay unchanged.
     "openai:gpt-4o" is a kind with its model, as on the command line.
     Raises: ConfigError: as `BACKENDS.build`.
     """

@@ -153,7 +153,7 @@ def test_a_source_of_which_nothing_was_inferred(folder: Path, capsys: pytest.Cap
         HapticBundle.load(folder)
     path.write_text(json.dumps({key: row for key, row in whole.items() if key != "table"}))
     assert main(["report", str(folder), "table"]) == 1
-    assert "nothing was inferred of it" in capsys.readouterr().err
+    assert "no properties were inferred for it" in capsys.readouterr().err
 
 
 def test_a_file_that_is_too_large_is_not_read(folder: Path) -> None:

@@ -46,7 +46,7 @@ def test_calls_tokens_cost_and_skips_are_told(bundle: HapticBundle) -> None:
         "calls": ["4: 1 scene analyzer, 3 object analyzer"],
         "answered from a cache": ["2"],
         "skipped": ["5: copies of another object", "2: silent objects, whose vibration needs no words"],
-        "tokens of gpt-4o": ["12,345 read, of them 4,000 at the price of a cache; 678 said"],
+        "tokens of gpt-4o": ["12,345 read, 4,000 of them at the price of cached input; 678 written"],
         "cost": ["0.032 US dollars"],
     }
     assert problems == [["<b>cup</b>", "timed out"], ["table", "too thick; too long"]]
