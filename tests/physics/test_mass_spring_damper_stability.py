@@ -34,13 +34,13 @@ def test_every_model_answers_or_refuses(campaign: ModuleType) -> None:
     assert all(tally.answered for tally in tallies.values())
 
 
-def test_no_stepper_makes_energy(campaign: ModuleType) -> None:
+def test_no_stepper_gains_energy(campaign: ModuleType) -> None:
     for name, dt, gain, drift in [*campaign.steppers(300), *campaign.lattice_steppers(100)]:
         assert gain <= 1e-12, (name, dt)
         assert drift <= 1e-12, (name, dt)
 
 
-def test_the_campaign_sees_what_is_bad(campaign: ModuleType) -> None:
+def test_campaign_detects_each_kind_of_fault(campaign: ModuleType) -> None:
     def spin() -> object:
         while True:
             pass
