@@ -49,12 +49,12 @@ def test_campaign_detects_each_kind_of_fault(campaign: ModuleType) -> None:
         raise ModelDomainError("no")
 
     tally = campaign.Tally()
-    tally.ask("infinite", 5.0, lambda: campaign.np.array([float("inf")]))
-    tally.ask("foreign", 5.0, lambda: 1 / 0)
-    tally.ask("unclear", 5.0, refuse)
-    tally.ask("endless", 0.05, spin)
-    tally.ask("clear", 5.0, lambda: Plate(1.0, -1.0, 0.1, Material("m", 1.0, 1.0, 0.0)))
-    tally.ask("fine", 5.0, lambda: campaign.np.zeros(3))
+    tally.run("infinite", 5.0, lambda: campaign.np.array([float("inf")]))
+    tally.run("foreign", 5.0, lambda: 1 / 0)
+    tally.run("unclear", 5.0, refuse)
+    tally.run("endless", 0.05, spin)
+    tally.run("clear", 5.0, lambda: Plate(1.0, -1.0, 0.1, Material("m", 1.0, 1.0, 0.0)))
+    tally.run("fine", 5.0, lambda: campaign.np.zeros(3))
     kinds = [line.split(":")[0] for line in tally.bad]
     assert kinds == ["infinite", "foreign", "unclear", "endless"]
     assert (tally.answered, tally.refused.total()) == (1, 1)

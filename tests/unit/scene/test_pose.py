@@ -58,7 +58,7 @@ def test_from_matrix_restores_the_pose(pose: Pose) -> None:
     matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position_m
     again = Pose.from_matrix(matrix)
     assert again.position_m == pose.position_m
-    # q and -q are one rotation. A pose keeps a quaternion whose length is off by less than 1e-9, so divide by its length.
+    # q and -q are one rotation. A pose keeps a quaternion whose length is within 1e-9 of 1, so divide by its length.
     cosine = abs(np.dot(again.rotation_xyzw, pose.rotation_xyzw)) / math.hypot(*pose.rotation_xyzw)
     assert cosine == pytest.approx(1.0, abs=1e-12)
 
