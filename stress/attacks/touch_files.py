@@ -1,4 +1,4 @@
-"""Files of touches whose durations, rates and numbers of steps ask for more than there is; what is written is judged."""
+"""Touch files with excessive durations, rates and numbers of steps; the written output is checked."""
 
 # ruff: noqa: E501  # tables of cases
 
@@ -60,7 +60,7 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
 
 
 def judged(argv: tuple[str, ...]) -> int:
-    """Run a command of this package; what it writes is held against the bounds of an actuator."""
+    """Run a command of this package, and check its output against the limits of an actuator."""
     from scene2hap.cli import main
 
     try:
