@@ -128,8 +128,8 @@ def main() -> None:
     print(
         f"{arguments.scenes} scenes, seed {arguments.seed}: the parent was killed {runs - 1} times and {n_workers} "
         f"workers were killed alone. Bundles {'equal byte for byte' if same else 'DIFFER'}. "
-        f"{sum(paid[0].values()):,} requests in the undisturbed run, {sum(paid[1].values()):,} in the other; "
-        f"{twice} paid requests were sent again."
+        f"{sum(paid[0].values()):,} questions in the undisturbed run, {sum(paid[1].values()):,} in the other; "
+        f"{twice} paid questions were sent again."
     )
     if not same or twice:
         raise SystemExit(1)

@@ -13,7 +13,7 @@ MODELS = (".glb", ".gltf")
 
 
 def read(item: LabelledScene, folder: Path) -> SceneSnapshot:
-    """The snapshot of a labelled scene, as the file has it: lying units are part of the task.
+    """The snapshot of a labelled scene, as in the file: wrong units are part of the task.
 
     Raises: ValueError: its objects are not those that were labelled.
     """
