@@ -177,7 +177,7 @@ def test_every_material_and_texture_is_read_once(name: str, count: tuple[int, in
 
 
 @pytest.mark.parametrize("name", [*OWN_GLTF, *others(LIVING, BEDROOM)])
-def test_bounds_are_those_of_an_independent_reading(name: str) -> None:
+def test_bounds_equal_those_of_an_independent_reader(name: str) -> None:
     theirs = np.concatenate(list(drawn_triangles(file_of(name)))).reshape(-1, 3)
     ours = np.array([item.bounds_m for item in scene(name).objects])
     np.testing.assert_allclose(ours[:, 0].min(axis=0), theirs.min(axis=0), atol=1e-5)
@@ -299,7 +299,7 @@ OWN_SIZES = {(name, thing): size for name, room in ROOMS.items() for thing, size
     [(*place, size) for place, size in OWN_SIZES.items()]
     + [(*place, SIZES[place]) for place in there(SIZES, lambda place: SCENES / place[0])],
 )
-def test_sizes_are_those_of_the_construction_or_read_by_hand(
+def test_sizes_equal_constructed_or_hand_measured_sizes(
     name: str, object_id: str, expected: tuple[float, float, float]
 ) -> None:
     # Rounded edges shorten the median span a little; 2 % and a millimetre allow for them. The rooms have none.

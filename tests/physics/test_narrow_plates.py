@@ -49,7 +49,7 @@ def test_narrow_plate_held_on_the_other_two_edges_is_a_strip(held: str) -> None:
     assert deflection * plate.bending_stiffness_nm / 0.05**2 == pytest.approx(STRIPS[held], rel=0.03)
 
 
-def test_a_narrow_shelf_answers_alike_at_every_length() -> None:
+def test_response_of_a_narrow_shelf_does_not_depend_on_its_length() -> None:
     """What is held along one long edge carries nothing far along it."""
     answers = [compliance(Plate(length, 0.05, 0.002, "steel", "FFCF"), 0.5, 0.5) for length in (0.5, 1.0, 2.0)]
     np.testing.assert_allclose(answers, answers[1], rtol=0.02)

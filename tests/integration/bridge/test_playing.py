@@ -58,7 +58,7 @@ def test_gains_over_the_bridge_equal_a_local_session(bridge: Bridge, desk: Hapti
         assert found.gains[1, 0, 0] == 0.0
 
 
-def test_intensity_is_what_the_hand_would_feel(bridge: Bridge, desk: HapticBundle) -> None:
+def test_intensity_is_the_rendered_level_of_the_hand(bridge: Bridge, desk: HapticBundle) -> None:
     session = HapticSession(desk)
     session.wait_prepared(30)
     blocks = []

@@ -107,7 +107,7 @@ def test_tone_that_cannot_be_felt_is_moved_to_the_best_frequency_of_the_actuator
 @pytest.mark.parametrize("slope", [0.0, 1.0])
 @pytest.mark.parametrize("seed", range(4))
 def test_noise_is_anchored_in_a_band_that_reaches_the_requested_level(slope: float, seed: int) -> None:
-    """Its highest peak is an accident: a pink noise was felt 10 dB weaker than asked, and rough by 25 Hz."""
+    """The highest peak of a noise is random: a pink noise was felt 10 dB weaker than requested, and rough at 25 Hz."""
     clip = AudioClip(0.1 * coloured_noise(np.random.default_rng(seed), 5 * RATE, slope), RATE)
     (plan,) = plan_scene([SourceClip(clip, 0.3)], CONVERTERS.build("auto"), actuator_profile("flat"))
     assert plan.context.rough_hz is None
@@ -118,7 +118,7 @@ def test_noise_is_anchored_in_a_band_that_reaches_the_requested_level(slope: flo
 
 @pytest.mark.parametrize("seed", range(3))
 def test_anchor_of_a_hiss_is_not_the_rumble_of_its_recording(seed: int) -> None:
-    """A peak at 20 Hz that was 38 dB weaker let a band at 160 Hz stand for it, which nobody feels."""
+    """In an earlier version a peak at 20 Hz, 38 dB weaker, made a band at 160 Hz the anchor, which is not felt."""
     rng, rate = np.random.default_rng(seed), 32_000
     rumble = 0.01 * coloured_noise(rng, 4 * rate, 2.0)
     found = anchor_of(band_noise(rng, 4 * rate, rate, 2000.0, 8000.0) + rumble, rate, 22.0, actuator_profile("flat"))
@@ -154,7 +154,7 @@ def test_moved_tone_reaches_the_requested_level_and_reports_its_origin(
 def test_beep_that_cannot_be_felt_is_moved_to_the_most_sensitive_frequency(
     hz: float, intensity: float, is_moved: bool
 ) -> None:
-    """330 Hz is felt nearly as well as 250, and 500 Hz as strongly as a tenth of the intensity asks for."""
+    """330 Hz is felt nearly as well as 250 Hz; 500 Hz reaches the level of an intensity of 0.1 only."""
     flat = actuator_profile("flat")
     found = anchor_of(tones(**{f"f{hz}": 0.5}), RATE, sensation_level_db(intensity), flat)
     assert found is not None
@@ -163,7 +163,7 @@ def test_beep_that_cannot_be_felt_is_moved_to_the_most_sensitive_frequency(
 
 
 def test_a_melody_of_beeps_keeps_every_note_and_every_pause() -> None:
-    """A band that is moved down would keep what is within an octave of the strongest, and mirror some of the rest."""
+    """Moving one band down would keep only notes within an octave of the strongest, and mirror some others."""
     t, pause = np.arange(RATE // 2) / RATE, np.zeros(RATE // 2)
     notes = [0.5 * np.sin(2 * np.pi * hz * t) for hz in (2600.0, 3500.0, 1800.0, 3000.0, 2200.0)]
     clip = AudioClip(np.concatenate([part for note in notes for part in (note, pause)]).astype(np.float32), RATE)

@@ -67,7 +67,7 @@ def test_bands_above_half_the_rate_are_silent() -> None:
 
 
 def test_band_split_has_no_delay_and_keeps_the_loop_seamless() -> None:
-    """A shift of the loop shifts every band alike: the split knows neither beginning nor end."""
+    """A shift of the loop shifts every band equally: the split has no beginning and no end."""
     x = np.random.default_rng(6).uniform(-1, 1, 5000)
     bands = Bands.third_octaves()
     shifted = split_bands(np.roll(x, 1234), RATE, bands)

@@ -83,14 +83,14 @@ def test_seam_search_compares_levels_as_well_as_waveforms() -> None:
 
 
 def jump_db(loop: np.ndarray, rate: int = RATE) -> float:
-    """By how much the 200 ms after the wrap are louder than those before it [dB]."""
+    """Level of the 200 ms after the wrap, relative to the 200 ms before it [dB]."""
     n = round(0.2 * rate)
     return float(10 * np.log10(np.mean(loop[:n].astype(float) ** 2) / np.mean(loop[-n:].astype(float) ** 2)))
 
 
 @pytest.mark.parametrize("falls_db", [-14.0, -6.0, 6.0, 14.0])
 def test_rising_or_falling_sound_is_levelled_at_the_wrap(falls_db: float) -> None:
-    """It stepped by 3 to 10 dB at every return."""
+    """In an earlier version the level stepped by 3 to 10 dB at every wrap."""
     rng, t = np.random.default_rng(8), np.arange(4 * RATE) / RATE
     engine = sum(np.sin(2 * np.pi * k * (80 + 3 * np.sin(t)) * t) / k for k in range(1, 8))
     x = 10 ** (-falls_db * t / 4.0 / 20) * (engine + 0.5 * rng.standard_normal(len(t)))
@@ -112,7 +112,7 @@ def test_tones_ticks_and_steady_noise_are_not_tilted(frequency_hz: float) -> Non
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("seconds", [3.5, 6.0])
 def test_a_loop_is_as_long_as_its_clip_allows(seconds: float, seed: int) -> None:
-    """Noises and hums gave 1.5 s of 3.5 s: of many seams that are alike the best was taken, however short."""
+    """In an earlier version noises and hums gave loops of 1.5 s of 3.5 s, the best of many similar seams."""
     x = noise(seconds, seed) + 0.05 * tone(61.3, seconds)
     assert find_seam(x, RATE).length / RATE > 0.6 * seconds
 
@@ -129,7 +129,7 @@ def test_loop_of_a_rhythm_has_a_whole_number_of_beats() -> None:
 def test_loop_of_a_ringing_phone_keeps_the_length_of_rings_and_pauses(
     on_s: float, off_s: float, frequency_hz: float
 ) -> None:
-    """A seam amid a ring fits wherever the tone does; that ring lasted longer or shorter than the others."""
+    """A seam within a ring fits at any cycle of the tone; that ring was then longer or shorter than the others."""
     t = np.arange(5 * RATE) / RATE
     since_s = t % (on_s + off_s)
     speed = (since_s < on_s) * (1 - np.exp(-since_s / 0.05))

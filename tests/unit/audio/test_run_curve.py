@@ -1,4 +1,4 @@
-"""Curves of starts and stops: what they say between their points, and what they cannot be."""
+"""Curves of starts and stops: interpolation between points, and invalid curves."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ def test_spread_keeps_placed_voices_and_moves_others_away() -> None:
 
 
 def test_voices_with_different_rhythms_share_a_frequency_when_space_is_short() -> None:
-    """Twelve voices at one frequency have no room; of three the rhythms tell them apart."""
+    """There is no space for twelve voices at one frequency; three of them are distinct by rhythm."""
     steady = [Voice(200.0, 20.0, str(i)) for i in range(9)]
     lively = [Voice(200.0, 20.0, f"r{i}", rhythm_hz=hz) for i, hz in enumerate((3.0, 10.0, 30.0))]
     places = spread([*steady, *lively])[9:]

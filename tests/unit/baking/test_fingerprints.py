@@ -1,4 +1,4 @@
-"""Baking again makes anew what was made from something else than is said now, and tells it."""
+"""`rebake` rebuilds the loops whose inputs have changed, and reports them."""
 
 import json
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""Baking again: what a person said stays, what was not asked for stays as it was."""
+"""`rebake`: user corrections are kept, and objects that are not named stay unchanged."""
 
 import json
 from pathlib import Path

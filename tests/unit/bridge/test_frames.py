@@ -1,4 +1,4 @@
-"""Binary messages: the page's examples to the byte, and whatever else may arrive."""
+"""Binary messages: the page's examples byte by byte, and arbitrary bytes."""
 
 import contextlib
 import re

@@ -1,4 +1,4 @@
-"""What numbers in frames stand for, while objects come and go."""
+"""Meaning of numbers in frames while objects are added and removed."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Text messages: what is taken, and what is said of what is not."""
+"""Text messages: valid ones are accepted, and others get an error reply."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The bundle folder: what it holds, and what is wrong with one that cannot be read."""
+"""The bundle folder: its content, and errors of unreadable bundles."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""What a person may not write into objects.json, and what is told."""
+"""Invalid edits of objects.json, and their messages."""
 
 import json
 import warnings

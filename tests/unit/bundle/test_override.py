@@ -1,4 +1,4 @@
-"""What a person says against inference."""
+"""User overrides of inferred values."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a bundle may replace, what stays in its folder, and what earlier saves left beside it."""
+"""Folders that a bundle may replace, files that stay in them, and leftovers of earlier saves."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Sounds that are equal are one file; what a person does to one source leaves the others alone."""
+"""Equal sounds are one file; edits of one source leave the others unchanged."""
 
 import json
 from dataclasses import replace

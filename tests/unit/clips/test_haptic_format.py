@@ -1,4 +1,4 @@
-"""`.haptic` files: which are accepted, what the others are told, and that reading and writing lose nothing."""
+"""`.haptic` files: accepted files, error messages of others, and exact round trips."""
 
 from __future__ import annotations
 

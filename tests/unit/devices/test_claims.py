@@ -1,4 +1,4 @@
-"""Nobody takes a sink, a file or a port from somebody else in the same program."""
+"""One session at a time uses a sink, a file or a port in a program."""
 
 import gc
 from pathlib import Path

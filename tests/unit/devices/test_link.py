@@ -54,7 +54,7 @@ class ScriptedLine:
 
 
 class Bench:
-    """A sink on a scripted line, with a mix of ones and a list of what it told."""
+    """A sink on a scripted line, with a mix of ones and a list of its events."""
 
     def __init__(self) -> None:
         self.line = ScriptedLine()

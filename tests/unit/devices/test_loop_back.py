@@ -142,7 +142,7 @@ def test_sweeps_outside_the_search_window_are_ignored() -> None:
         assert abs(found.correlation) < FOUND_FROM
 
 
-def test_sweeps_of_several_hands_are_told_apart_on_one_wire() -> None:
+def test_sweeps_of_several_hands_are_distinguished_on_one_wire() -> None:
     both = placed(2000 + 400, 1.0, 40000) + placed(12000 + 480, 1.0, 40000)
     heard = take(both)
     left, right = (arrival(heard, at_s, SWEEP).latency_s for at_s in (ASKED_AT_S, ASKED_AT_S + 2.5))

@@ -1,4 +1,4 @@
-"""What a device must do, on a clock turned by hand: docs/serial-protocol.md, "The device"."""
+"""Requirements of a device, with a manual clock: docs/serial-protocol.md, "The device"."""
 
 import numpy as np
 from numpy.typing import NDArray

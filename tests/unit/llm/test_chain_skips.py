@@ -1,4 +1,4 @@
-"""What the chain does not ask, and does not render."""
+"""Requests that the chain does not send, and pictures that it does not render."""
 
 import asyncio
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Rooms of equal cubes, as games are prototyped: what is a copy, and what only looks like one."""
+"""Rooms of equal cubes, as in prototypes of games: real copies, and objects that only look equal."""
 
 import asyncio
 from collections import Counter

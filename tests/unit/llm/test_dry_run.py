@@ -1,4 +1,4 @@
-"""What a run would ask and cost, told beforehand."""
+"""Estimated requests and cost of a run."""
 
 import asyncio
 from collections import Counter

@@ -1,4 +1,4 @@
-"""FunctionBackend: whatever a function may return."""
+"""FunctionBackend: every result that a function may return."""
 
 import asyncio
 import json

@@ -101,7 +101,7 @@ def test_backends_use_the_given_transport() -> None:
 
 
 def test_no_traceback_holds_the_header_in_a_local_variable() -> None:
-    """Reporters of errors show the variables of each frame; those of the HTTP library hold the key."""
+    """Error reporters show the local variables of each frame, and some frames of the HTTP library hold the key."""
 
     def fail(sent: httpx.Request) -> httpx.Response:
         header = sent.headers["authorization"]

@@ -1,4 +1,4 @@
-"""What servers mean by a status, headers and a body."""
+"""Errors from status, headers and body of a reply."""
 
 import pytest
 

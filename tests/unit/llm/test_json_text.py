@@ -1,4 +1,4 @@
-"""JSON found within what a model writes around it."""
+"""JSON within other text of a model."""
 
 import json
 from typing import Any

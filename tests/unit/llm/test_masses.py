@@ -1,4 +1,4 @@
-"""What objects weigh: from the lexicon, a model, the scene and a person, and what it does to a source."""
+"""Masses of objects from the lexicon, a model, the scene and a user, and their effect on a source."""
 
 from __future__ import annotations
 

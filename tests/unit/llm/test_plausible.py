@@ -1,4 +1,4 @@
-"""Numbers that no such object or material has: asked for again by all their names, then replaced and told."""
+"""Implausible numbers: requested again with all their names, then replaced and reported."""
 
 import asyncio
 import json
@@ -139,7 +139,7 @@ def test_report_lists_contact_needs_that_no_object_meets() -> None:
 
 
 def test_categories_are_collected_once_per_scene(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not for each object anew: a scene of thousands would take seconds."""
+    """The list is made once, not for each object: a scene of thousands would take seconds."""
     given: list[object] = []
     monkeypatch.setattr(chain, "unmet_needs", lambda key, states, categories: given.append(categories) or ())
     asyncio.run(infer_scene(SCENE, Scripted()))

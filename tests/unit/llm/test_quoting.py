@@ -1,4 +1,4 @@
-"""What comes from a scene is data in every prompt: quoted, cut, rounded."""
+"""Values from a scene are data in every prompt: quoted, shortened, rounded."""
 
 import asyncio
 import json

@@ -1,4 +1,4 @@
-"""Refusals are told as such and cost one call, whoever answers."""
+"""Refusals of every backend are reported as refusals and cost one call."""
 
 import asyncio
 import json

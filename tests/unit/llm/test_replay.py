@@ -28,7 +28,7 @@ REQUEST = LLMRequest(
 
 
 class Echo:
-    """Answers with what it was asked about, and counts."""
+    """Echo the subject of each request, and count requests."""
 
     def __init__(self) -> None:
         self.calls = 0

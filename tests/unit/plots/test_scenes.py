@@ -77,7 +77,7 @@ def test_a_hand_has_its_own_level_and_playing_goes_on_unchanged() -> None:
 
 
 @pytest.mark.parametrize("model", ["exponential_plate", "infinite_plate"])
-def test_would_feel_is_what_updates_report(model: str) -> None:
+def test_would_feel_equals_the_gains_of_update(model: str) -> None:
     s = session(model)
     touches = [Touch("left", "table", (0.3, 0.72, 0.1)), Touch("right", "phone", (0.1, 0.73, 0.4))]
     touches += [Touch("right", "cup", (5.0, 0.1, 5.0))]

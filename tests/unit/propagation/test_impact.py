@@ -41,7 +41,7 @@ def test_the_lowest_mode_moves_by_the_momentum_over_its_mass() -> None:
 
 
 @pytest.mark.parametrize("factor", [0.1, 3.0])
-def test_an_impact_grows_with_speed_and_with_momentum_alike(factor: float) -> None:
+def test_impact_grows_equally_with_speed_and_momentum(factor: float) -> None:
     once, more = (burst_of(TABLE, (0.3, 0.3), CUP, speed_m_s=v) for v in (0.3, 0.3 * factor))
     np.testing.assert_allclose(more.accelerations_m_s2, factor * once.accelerations_m_s2)
     once, more = (burst_of(TABLE, (0.3, 0.3), CUP, impulse_n_s=j) for j in (0.1, 0.1 * factor))

@@ -92,7 +92,7 @@ def test_wrapper_has_the_optional_methods_of_its_model() -> None:
     assert FeltNear(ModalPlate()).usual_bands == AROUND
 
 
-def test_sessions_of_different_models_begin_alike() -> None:
+def test_sessions_of_different_models_have_equal_gains_near_the_source() -> None:
     def gain_db(kind: str, reference: str) -> float:
         config = {"sample_rate_hz": RATE, "propagation": kind, "reference": reference, "prepare": "blocking"}
         session = HapticSession(*table_with_two_phones(), {**config, "gain_limit_db": None})

@@ -70,7 +70,7 @@ def test_invalid_account_is_refused(wrong: dict[str, object], bundle: HapticBund
         document(bundle, most_points=50, account=wrong)
 
 
-def test_the_file_stands_beside_the_bundle_and_not_in_it(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_account_file_is_written_beside_the_bundle(bundle: HapticBundle, tmp_path: Path) -> None:
     folder = bundle.save(tmp_path / "room.bundle")
     before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     assert read_account(folder) is None

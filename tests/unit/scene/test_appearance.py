@@ -1,4 +1,4 @@
-"""Looks: what they are named by, and how those of parts become those of a whole."""
+"""Appearances: their names, and how appearances of parts are joined."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scenes made in Python: objects measure themselves, and `check` says what is almost surely wrong."""
+"""Scenes made in Python: objects measure themselves, and `check` reports almost certain mistakes."""
 
 import math
 import tracemalloc

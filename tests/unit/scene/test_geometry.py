@@ -233,7 +233,7 @@ def test_a_lintel_over_windows_is_level_with_its_wall_and_belongs_to_it() -> Non
 
 
 def hob(*on_it: tuple[Size, Size]) -> TriMesh:
-    """A sheet 0.5 m wide with a rim 40 mm down, open below, and what stands on it."""
+    """A sheet 0.5 m wide with a rim 40 mm down, open below, and objects on it."""
     tray = Box((0.5, 0.45, 0.04)).mesh
     closed = tray.vertices_m[tray.faces].mean(axis=1)[:, 2] > -0.019
     tray = TriMesh(tray.vertices_m, tray.faces[closed])

@@ -1,4 +1,4 @@
-"""glTF and GLB: what a file says is what the snapshot holds, bit for bit and node for node."""
+"""glTF and GLB: a snapshot equals its file bit for bit and node for node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""glTF looks: what each corner of a face shows, held against pixels written by hand."""
+"""glTF appearances: the colour at each corner of a face, compared with pixels written by hand."""
 
 from __future__ import annotations
 

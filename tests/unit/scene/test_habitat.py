@@ -1,4 +1,4 @@
-"""Habitat scenes: templates, placing by origin or centre of mass, names, masses, and faults that are told."""
+"""Habitat scenes: templates, placement by origin or centre of mass, names, masses, and errors."""
 
 from __future__ import annotations
 
@@ -670,7 +670,7 @@ def test_repeated_pattern_matches_are_bounded(dataset: Dataset, monkeypatch: pyt
 
 
 def test_broken_datasets_raise_only_scene_errors(tmp_path: Path) -> None:
-    """A sample of what `stress/fuzz_scenes.py` reads."""
+    """A sample of the files of `stress/fuzz_scenes.py`."""
     outcomes = set()
     for number in range(60):
         path = mutated_dataset(tmp_path / str(number), random.Random(number))

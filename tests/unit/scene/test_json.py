@@ -1,4 +1,4 @@
-"""Scenes as JSON: exact both ways, each geometry told once, and an error that names the field."""
+"""Scenes as JSON: exact in both directions, each geometry stored once, and errors that name the field."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scenes in JSON that leave out what can be measured."""
+"""Scenes in JSON without values that can be measured."""
 
 from __future__ import annotations
 

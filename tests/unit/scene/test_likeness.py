@@ -1,4 +1,4 @@
-"""What makes two objects copies of one thing."""
+"""Rules for two objects to be copies."""
 
 from dataclasses import replace
 

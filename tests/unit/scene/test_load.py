@@ -1,4 +1,4 @@
-"""The door for all scene files: which reader, what it refuses, and that every load is the same."""
+"""`load_scene`: choice of the reader, refused files, and repeatable loads."""
 
 from __future__ import annotations
 

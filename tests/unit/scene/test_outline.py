@@ -1,4 +1,4 @@
-"""Outlines: what they cover, their notches, and how they are measured on meshes."""
+"""Outlines: coverage, notches, and measurement on meshes."""
 
 import math
 
@@ -33,7 +33,7 @@ def test_outline_excludes_its_hole() -> None:
 @settings(derandomize=True, deadline=None, max_examples=50)
 @given(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=12), st.integers(1, 40), st.integers(1, 40), st.booleans())
 def test_pixel_coverage_sums_to_the_area(radii: list[float], nx: int, ny: int, backwards: bool) -> None:
-    """Of any star, by the shoelace formula, however it is cut into pixels and whichever way round it is told."""
+    """For any star, by the shoelace formula, for any grid of pixels and either direction of the outline."""
     turn = np.arange(len(radii)) * 2 * math.pi / len(radii)
     star = np.array(radii)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
     outline = Outline(((star[::-1] if backwards else star).tolist(),))

@@ -1,4 +1,4 @@
-"""Poses from what engines and people have: quaternions w first, angles, matrices, targets."""
+"""Poses from the forms that engines and users have: quaternions with w first, angles, matrices, targets."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Typed scenes: what they hold, what they refuse, and what they say."""
+"""Typed scenes: content, invalid input, and messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What many small rows ask for together is bounded, what they share is done once, and honest files are read."""
+"""Totals of many small rows are bounded, shared work is done once, and valid files are read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Warnings about units: silent where sizes are plausible, and a factor that mends what is not."""
+"""Warnings about units: none for plausible sizes, else with a factor that corrects them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""URDF: every link is an object where yourdfpy and MuJoCo put it; files outside stay closed; broken files are told."""
+"""URDF: every link is an object at the place of yourdfpy and MuJoCo; files outside and broken files are refused."""
 
 from __future__ import annotations
 

@@ -220,7 +220,7 @@ def test_device_is_reopened_for_a_new_set_of_hands() -> None:
     assert device.opened == [("left", "right"), ("left", "right", "foot"), ("right", "foot")]
 
 
-def test_a_pause_fades_out_stands_still_and_goes_on_where_it_was() -> None:
+def test_pause_fades_out_and_resumes_at_the_same_position() -> None:
     s, never = session(), session()
     on_phone = [Touch("left", "phone", (0.1, 0.73, 0.4))]
     for x in (s, never):
@@ -245,7 +245,7 @@ def test_a_pause_fades_out_stands_still_and_goes_on_where_it_was() -> None:
     np.testing.assert_allclose(s.render(500), never.render(500), atol=1e-6)
 
 
-def test_block_size_does_not_matter_to_a_pause() -> None:
+def test_pause_does_not_depend_on_block_size() -> None:
     def play(block: int) -> np.ndarray:
         s = session()
         s.update(touches=[ON_TABLE])

@@ -272,7 +272,7 @@ def test_file_with_hours_of_silence_is_refused_before_conversion(tmp_path: Path)
 def felt_of(
     tmp_path: Path, samples: np.ndarray, name: str = "felt.wav", **settings: object
 ) -> tuple[np.ndarray, float]:
-    """What a file becomes, and how far over the threshold a loop of it is felt on its actuator [dB]."""
+    """Convert a file. Returns its samples, and the level of its loop over the threshold on the actuator [dB]."""
     source = write(tmp_path / "a.wav", samples, subtype="FLOAT")
     made = audio.convert(source, tmp_path / name, overwrite=True, **settings)  # type: ignore[arg-type]
     felt, rate = soundfile.read(made.output)

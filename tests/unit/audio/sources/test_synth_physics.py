@@ -1,4 +1,4 @@
-"""What the voices promise about machines, read back from their samples by spectrum and envelope.
+"""Physics of the synthesized voices, measured from their samples by spectrum and envelope.
 
 Expectations come from the mechanics (orders of shaft speed, blade passing, mains, time constants); nothing here looks
 at how a voice is made.
@@ -175,7 +175,7 @@ def test_bubbles_ring_where_their_radii_say() -> None:
 
 
 def test_kettle_has_the_same_pitch_for_any_seed() -> None:
-    """With bubbles of all sizes alike the strongest third octave was anywhere within two octaves."""
+    """With equal numbers of bubbles of all sizes, the strongest third octave varied by two octaves."""
     strongest = []
     for seed in range(12):
         f, magnitude = spectrum(bubbles(take(seed=seed), largest_hz=90.0, smallest_hz=380.0))

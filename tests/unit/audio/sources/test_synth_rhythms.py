@@ -1,4 +1,4 @@
-"""Rhythms that tell machines apart where their pitches do not, and an engine whose throttle moves."""
+"""Rhythms that distinguish machines of similar pitch, and an engine with a moving throttle."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def made(kind: str, verb: str, seed: int, intensity: float = 0.5) -> AudioClip:
     ],
 )
 def test_tactile_loop_keeps_the_rhythm_of_its_machine(kind: str, verb: str, rate_hz: float, seed: int) -> None:
-    """These had none, or one that their band did not keep."""
+    """In an earlier version their loops had no rhythm, or the band did not keep it."""
     clip, converter = made(kind, verb, seed, 0.2), CONVERTERS.build("auto")
     (plan,) = plan_scene([SourceClip(clip, 0.2)], converter, ActuatorProfile())
     loop = felt_loop(clip, converter, plan).tactile

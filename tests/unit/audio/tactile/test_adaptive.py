@@ -102,7 +102,7 @@ def steps_db(y: np.ndarray, window_s: float = 0.25) -> np.ndarray:
 
 
 def test_level_does_not_jump_when_the_tracked_band_takes_over() -> None:
-    """A hum with harmonics: the first half second was 5-12 dB louder than what followed."""
+    """A hum with harmonics: in an earlier version the first half second was 5-12 dB louder than the rest."""
     y = Adaptive().stream(RATE, ConversionContext(intensity=0.3)).process(tones(8, f100=0.1, f150=0.08, f300=0.1))
     levels = steps_db(y[RATE // 4 :])
     assert np.ptp(levels) < 1.5

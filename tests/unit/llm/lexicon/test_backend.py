@@ -1,4 +1,4 @@
-"""What LexiconBackend answers to each component."""
+"""Answers of LexiconBackend to each component."""
 
 import asyncio
 import json

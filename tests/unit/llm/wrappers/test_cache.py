@@ -1,4 +1,4 @@
-"""CacheBackend: what counts as the same question, and what happens to the files."""
+"""CacheBackend: equality of requests, and its files."""
 
 import asyncio
 import dataclasses
@@ -42,7 +42,7 @@ def ask(backend: CacheBackend, asked: LLMRequest | None = None) -> LLMReply:
 
 
 def files(folder: Path) -> list[Path]:
-    """What is kept; the files of locks stay behind, empty."""
+    """Stored entries; empty lock files remain."""
     return sorted(path for path in folder.rglob("*") if path.is_file() and path.parent.name != "locks")
 
 

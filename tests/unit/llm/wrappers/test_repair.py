@@ -1,4 +1,4 @@
-"""RepairBackend: what is handed back to the model, how often, and at what cost."""
+"""RepairBackend: content, number and cost of repair requests."""
 
 import asyncio
 import json

@@ -87,7 +87,7 @@ ORDERS = [
 
 @pytest.mark.parametrize("order", ORDERS, ids="-".join)
 def test_wrappers_compose_in_every_sensible_order(order: tuple[str, ...], tmp_path: Path) -> None:
-    """Retries next to the model, all else anywhere: a valid answer comes out, is kept and recorded, and asked once."""
+    """With retries next to the model, others in any order: a valid answer is kept, recorded and requested once."""
     answers = iter([json.dumps(GOOD["scene_analyzer"])])
     inner = FunctionBackend(lambda _: next(answers))
     wrap = {

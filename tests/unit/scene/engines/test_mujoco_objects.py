@@ -1,4 +1,4 @@
-"""What is an object in a MuJoCo model, and what it is called."""
+"""Objects of a MuJoCo model, and their names."""
 
 from __future__ import annotations
 
