@@ -19,7 +19,7 @@ from scene2hap.scene.grouping import Grouping
 
 LISTS = Path(__file__).parent / "contacts"
 SCENES = Path(__file__).parents[2] / "shared" / "scenes"
-# File below the folder of scenes, its unit [m] where the file lies, and what the scene is for: "tuned" on, "reported",
+# File below the folder of scenes, its unit [m] where the file lies, and the use of the scene: "tuned" on, "reported",
 # or "kept" for regressions alone.
 TABLE = {
     "aws_house_living": ("aws_house_living.glb", None, "tuned"),

@@ -150,7 +150,7 @@ def main() -> None:
     parser.add_argument("--only", help="one mover's id, or 'five'")
     parser.add_argument("--profile", action="store_true")
     args = parser.parse_args()
-    warnings.simplefilter("ignore", SceneWarning)  # of hands in the middle of what they touch
+    warnings.simplefilter("ignore", SceneWarning)  # of hands in the middle of touched objects
     print("| scene | movers | path | p50 [ms] | p99 [ms] | worst [ms] | frames over 1 ms | slowest movers |")
     print("|---|---|---|---|---|---|---|---|")
     for file in args.scenes:

@@ -204,12 +204,12 @@ def pairs(before: list[int] | None, after: list[int] | None) -> list[str]:
 def print_way(before: Path, after: Path) -> None:
     ways = [way(before), way(after)]
     print("| part of the way | files before | files after |\n|---|---|---|")
-    for phase, what in (
+    for phase, part in (
         ("made", "`HapticSession(scene, bundle)`"),
         ("first", "first `update`, one touch"),
         ("moved", "`update` with a moved object, the next five frames"),
     ):
-        print(f"| {what} | {len(ways[0][phase])} | {len(ways[1][phase])} |")
+        print(f"| {part} | {len(ways[0][phase])} | {len(ways[1][phase])} |")
     everything = [set().union(*each.values()) for each in ways]
     print(f"| all together | {len(everything[0])} | {len(everything[1])} |\n")
     rooms = [Counter(name.partition("/")[0].removesuffix(".py") for name in each) for each in everything]

@@ -15,7 +15,7 @@ from attacks import bundles
 from attacks.attack import Attack
 
 _NUMBERS = ("nan", "inf", "-inf", "-1", "0", "1e400", "1e-400", "9" * 5000, "", "x", "²", "1_000", "0x10", "٣")
-# Nothing here names a place outside of the case's folder that could be written to, whoever runs the campaign.
+# No path here is outside of the case's folder and writable, for any user who runs the campaign.
 _WORDS = (
     "", " ", "-", "--", "\n", "\x1b[2J", "é" * 300, "a" * 5000, "/dev/null", "/dev/full",
     "{", '{"kind": 1}', "{" * 2000, "[]", "null", "no:such", "http://", "kind:\ud800", ".", "~",
@@ -94,6 +94,6 @@ def _streams(number: int, rng: random.Random, work: Path, room: Path) -> Attack:
     # A pipeline returns the status of its last command by default; the status of the reader does not count here.
     shell = f"export PYTHONIOENCODING={encoding} PYTHONUNBUFFERED={unbuffered}; set -o pipefail; {run} {where}"
     # Where standard error is closed or full, no error message can be printed.
-    message = "; status=$?; case $status in 1 | 2) echo 'scene2hap: error: as told' >&2;; esac; exit $status"
+    message = "; status=$?; case $status in 1 | 2) echo 'scene2hap: error: as stated' >&2;; esac; exit $status"
     name = f"{number} {words[:1]} {where} {encoding}"
     return Attack("command_line", name, ("bash", "-c", shell + message), untouched=(room,))

@@ -71,7 +71,7 @@ class _Server(socketserver.ThreadingTCPServer):
     seed = 0
 
     def handle_error(self, request: object, client_address: object) -> None:
-        pass  # a client that has had enough is what is wanted
+        pass  # the client is expected to close the connection
 
 
 class _Handler(socketserver.StreamRequestHandler):

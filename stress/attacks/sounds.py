@@ -26,7 +26,7 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
         made = kind(folder, rng)
         use = rng.choice(["convert", "convert", "folder", "convert folder", "clip", "more", "table"])
         name = f"{number} {kind.__name__.strip('_')} as {use}"
-        # Reading what is within the bounds, two minutes of sound, takes some seconds by itself.
+        # Reading two minutes of sound, which is within the bounds, takes some seconds by itself.
         yield Attack("sounds", name, (), call=partial(_used, made, use, work, room), seconds=8.0, untouched=(room,))
 
 
@@ -69,7 +69,7 @@ def _used(path: Path, use: str, work: Path, room: Path) -> int:
         status = ended.code if isinstance(ended.code, int) else 1
     written = [Path("out.wav"), *out.rglob("*.wav"), *out.rglob("*.flac")]
     if not all(map(wav_is_harmless, written)):
-        raise AssertionError("what was written is no number, or outside of [-1, 1]")
+        raise AssertionError("written samples are not finite, or outside of [-1, 1]")
     return status
 
 

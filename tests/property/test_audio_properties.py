@@ -1,4 +1,4 @@
-"""What must hold of every sound, drawn at random."""
+"""Invariants of conversion, loops and selection for random sounds."""
 
 from __future__ import annotations
 

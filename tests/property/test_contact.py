@@ -1,4 +1,4 @@
-"""What must hold for contacts wherever things go: no memory, no favourite direction, no favourite order."""
+"""Invariants of contacts for any motion: no dependence on history, direction or order of objects."""
 
 from dataclasses import replace
 

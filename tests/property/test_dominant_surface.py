@@ -1,4 +1,4 @@
-"""What must hold for the dominant surface of any shape of a kind, wherever it stands and however it is turned."""
+"""Invariants of the dominant surface for any shape of a kind, at any place and rotation."""
 
 from __future__ import annotations
 

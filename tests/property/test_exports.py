@@ -1,4 +1,4 @@
-"""What must hold of every export, drawn at random; `stress/exports.py` draws thousands."""
+"""Invariants of every export, drawn at random; `stress/exports.py` draws thousands."""
 
 from __future__ import annotations
 

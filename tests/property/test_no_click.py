@@ -1,4 +1,4 @@
-"""No gain change makes a click: what lies above 1 kHz around a jump, against the tone's own energy."""
+"""No gain change makes a click: energy above 1 kHz around a jump, relative to the energy of the tone."""
 
 import math
 

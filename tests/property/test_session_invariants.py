@@ -1,4 +1,4 @@
-"""What must hold for any scene, any touch and any block size."""
+"""Invariants of sessions for any scene, any touch and any block size."""
 
 import math
 from dataclasses import replace
