@@ -169,7 +169,7 @@ def main() -> None:
 
     scene = load_scene(given.scene or kitchen_path())
     bundle = bake(scene)
-    print(f"\n| model, in {scene.name} | felt | next block | strike p50 [ms] | p99 [ms] | error p90 [dB] | max [dB] |")
+    print(f"\n| model, in {scene.name} | felt | next block | strike p50 [ms] | p99 [ms] | off by p90 [dB] | most |")
     print("|---|---|---|---|---|---|---|")
     for kind in ("modal_plate", "auto", "infinite_plate", "mass_spring_damper"):
         print(prepared_ahead(kind, scene, bundle, given.seed))

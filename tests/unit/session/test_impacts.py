@@ -161,7 +161,7 @@ def test_last_prepared_impact_is_used_until_a_new_one_is_ready() -> None:
     assert second.felt != first.felt
 
 
-def test_hand_on_an_unprepared_object_waits_for_the_worker_and_counts_once() -> None:
+def test_a_hand_on_another_object_waits_for_the_worker_and_counts_once() -> None:
     made = session(propagation="modal_plate")
     both = [Touch("left", "table", NEAR), Touch("right", "phone", made._state.poses["phone"].position_m)]
     made.update(touches=both)
@@ -174,7 +174,7 @@ def test_hand_on_an_unprepared_object_waits_for_the_worker_and_counts_once() -> 
     assert made.impacts == (impact,)
 
 
-def test_burst_starts_with_the_next_block_and_ends() -> None:
+def test_it_sounds_with_the_next_block_and_ends() -> None:
     made = session()
     made.update(touches=touches())
     made.render(256)
