@@ -59,7 +59,7 @@ PLATES: dict[str, tuple[float, float, float, str, str, tuple[int, int]]] = {
     "concrete slab": (5.0, 4.0, 0.18, "concrete", "clamped", (18, 15)),
 }
 
-# Any, since they can do different things: all have plate_transfer, and those of a body more.
+# Any, since their methods differ: all have plate_transfer, and those of a body more.
 MODELS: dict[str, Any] = {
     "Exponential": ExponentialPlate(),
     "Infinite": InfinitePlate(outside_domain="ignore"),
@@ -107,8 +107,8 @@ def ms(work: Callable[[], object]) -> float:
     return 1e3 * (time.process_time() - begin)
 
 
-def forget() -> None:
-    """Make every plate one that was never seen."""
+def clear_caches() -> None:
+    """Clear the caches of plates."""
     for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, infinite_plate._table):
         cached.cache_clear()
     for cached in (lattice_body.lattice_body, *LATTICE_CACHES):
@@ -150,10 +150,10 @@ def result(
         return answer
     every = np.vstack([drive, points])
     answer.receptance = apart(model.plate_receptance(plate, drive, every, FREQUENCIES_HZ), truth)
-    # As a scene does it: a body once, then its answer to a force at a contact, one touch at a time.
+    # As in a scene: the body once, then its response to a force at a contact, one touch at a time.
     prepares, touches = [], []
     for _ in range(3):
-        forget()
+        clear_caches()
         begin = time.process_time()
         body = model.elastic_body(plate, 1000.0)
         body.receptance(drive[None], drive[None], FREQUENCIES_HZ)
@@ -243,7 +243,7 @@ def page(rows: list[Row]) -> str:
         lines.append(f"| {one.name} | " + " | ".join(pair(one.results[kind].ratio) for kind in kinds) + " |")
     lines += [
         "",
-        "## Time, ms of the processor: a plate never seen up to 1 kHz, and a touch on it",
+        "## Processor time [ms]: a new plate up to 1 kHz, and a touch on it",
         "",
         "| plate | " + " | ".join(physical) + " | Modal, second query | FE |",
         "|---" * (len(physical) + 3) + "|",

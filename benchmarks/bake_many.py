@@ -1,12 +1,12 @@
-"""How fast many scenes are baked in one process and in worker processes, as a table in Markdown.
+"""Time to bake many scenes in one process and in worker processes, as a table in Markdown.
 
 python benchmarks/bake_many.py [--scenes 24] [--seed 0]
 
-Scenes are variations of the demo kitchen and, where they are beside the project, of kitchens and rooms by others: a
-random half of the objects of each, somewhat displaced. Every run starts from nothing, and the ways are tried in an
-order that is drawn anew in each round. Bundles of all runs must be equal. Two programs at once, each with half of the
-scenes and no word between them, show what the machine allows. Processor time is that of all processes of a run, with
-their start; other programs that use the machine change it less than they change the time.
+Scenes are variations of the demo kitchen and, if they are beside the project, of other authors' kitchens and rooms: a
+random half of the objects of each, somewhat displaced. Every run starts without files, and the runs of each round are
+in a new random order. Bundles of all runs must be equal. Two independent programs at once, each with half of the
+scenes, show the upper bound of the machine. Processor time is that of all processes of a run, with their start; other
+programs on the machine change it less than they change the time.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ RUNS = (
     "Dask, two workers",
     "two programs",
 )
-"""The pools, and Dask, are executors of somebody else's, whose workers use one thread each."""
+"""The pools and Dask are external executors, whose workers use one thread each."""
 
 KEEP_MEMORY = {"MALLOC_TRIM_THRESHOLD_": str(1 << 27), "MALLOC_MMAP_THRESHOLD_": str(1 << 25)}
 """Environment of Dask's workers, as docs/many-scenes.md recommends: freed memory is used again.
@@ -75,7 +75,7 @@ def _moved(pose: Pose, rng: np.random.Generator) -> Pose:
 
 
 def digest(folder: Path) -> str:
-    """Of all bundles."""
+    """Digest of all bundles."""
     found = hashlib.sha256()
     for path in sorted(folder.glob("*.bundle/**/*")):
         if path.is_file():
@@ -84,7 +84,7 @@ def digest(folder: Path) -> str:
 
 
 def baked(scenes: list[Path], folder: Path, run: str) -> ManyReport:
-    """Bake in one of the ways."""
+    """Bake with one of the executors."""
     if run.startswith("a pool"):
         with ProcessPoolExecutor(1 if run.endswith("one") else 2, mp_context=get_context("spawn")) as pool:
             return bake_many(scenes, folder, executor=pool)

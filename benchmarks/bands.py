@@ -1,11 +1,11 @@
-"""How far levels depend on moduli that nobody knows, by the width of the band, as a table in Markdown.
+"""How far levels depend on uncertain moduli, by the width of the band, as a table in Markdown.
 
 python benchmarks/bands.py [--draws 30] [--seed 5]
 
-Each scene is a plate of 1.2 x 0.7 m on four legs with a tray on it and a source on either, of a material, thickness,
-place and frequency of its own. Young's modulus of each part is drawn within 30 % of the table's. The table gives the
-spread of the level at points on the plate, rms about each point's mean and 99th percentile, in a band around the
-source's dominant frequency. Models that resonate take half an octave by default.
+Each scene is a plate of 1.2 x 0.7 m on four legs with a tray on it and a source on one of them, with random material,
+thickness, place and frequency. Young's modulus of each part is drawn within 30 % of the material table. The table gives
+the spread of the level at points on the plate, rms about each point's mean and 99th percentile, in a band around the
+source's dominant frequency. Resonant models use half an octave by default.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def scene(rng: np.random.Generator) -> tuple[ContactNetwork, Excitation, NDArray
 
 
 def with_moduli(network: ContactNetwork, rng: np.random.Generator) -> ContactNetwork:
-    """The same with each modulus within `MODULUS` of what it was."""
+    """The same network with each modulus changed by up to `MODULUS`."""
     bodies = {}
     for key, body in network.bodies.items():
         assert isinstance(body, Plate)

@@ -1,11 +1,11 @@
-"""What a bridge costs, as a table in Markdown: latency of the wire, and processor time of the bridge.
+"""Cost of a bridge: latency of the connection, and processor time of the bridge, as a table in Markdown.
 
     python benchmarks/bridge.py [--seconds 20] [--seed 0]
 
-A bridge in a process of its own gets frames at a steady rate. The latency is the time from before a client sends a
-frame until it has its gains, less the time that the same frame takes in a game's own process: `update`, `render` for
-the clock, and before both the search for poses that changed, as in an `EngineLink`. The processor time is that of the
-whole bridge less that time. A client in Python takes some of the latency for itself.
+A bridge in its own process gets frames at a steady rate. The latency is the time from before a client sends a frame
+until it has its gains, less the time of the same frame in a game's own process: the search for changed poses, as in an
+`EngineLink`, `update`, and `render` for the clock. The processor time is that of the whole bridge less that time. Part
+of the latency is the time of the client, which is written in Python.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def scene_of(n: int) -> SceneSnapshot:
 
 
 async def serve(port_file: Path, costs_file: Path, root: str) -> None:
-    """A bridge that notes how long each call of its sessions takes [s]."""
+    """Run a bridge that records the time of each call of its sessions [s]."""
     costs: dict[str, float] = {"begun": 0.0}
     of_frames: list[float] = []
 
@@ -81,7 +81,7 @@ async def serve(port_file: Path, costs_file: Path, root: str) -> None:
 
 
 def begin(costs: dict[str, float], of_frames: list[float]) -> None:
-    """Forget what the warm-up took."""
+    """Clear the times of the warm-up."""
     of_frames.clear()
     costs["begun"] = time.process_time()
 
@@ -101,7 +101,7 @@ def bridge(root: str) -> Iterator[tuple[str, subprocess.Popen[bytes], Path]]:
 
 
 def measured(n_objects: int, rate_hz: float, seconds: float, seed: int) -> dict[str, float]:
-    """One case: all objects move in each frame, and both hands touch."""
+    """Measure one case: all objects move in each frame, and both hands touch."""
     rng = np.random.default_rng(seed)
     scene = scene_of(n_objects)
     rest = np.array([[*item.pose.position_m, 0, 0, 0, 1] for item in scene.objects], np.float32)

@@ -3,7 +3,7 @@
 - `busy_room`: tables. One object in seven is a table; each bears a tray with an object on it and four more objects, all
   turned about the vertical.
 - `shelf_room`: stacked shelves. Units of five boards in one mesh, seven objects on each board, 3 to 6 cm apart.
-- `furnished_room`: groups of 30 meshes that crowd each other: a dining table with four chairs below it, plates, glasses
+- `furnished_room`: dense groups of 30 meshes: a dining table with four chairs below it, plates, glasses
   on mats and bowls; a sofa with cushions; a sideboard with vases.
 - `floor_room`: boxes and round objects on one floor, in a jittered grid.
 
@@ -44,7 +44,7 @@ _RATE = 8000
 
 @dataclass(frozen=True)
 class BusyRoom:
-    """A scene, what was baked for it, who moves and which two objects hands touch."""
+    """A scene with its bundle, its movers and the two objects that hands touch."""
 
     scene: SceneSnapshot
     bundle: HapticBundle
@@ -52,7 +52,7 @@ class BusyRoom:
     touched: tuple[str, str]
 
     def frame(self, i: int) -> dict[str, Pose]:
-        """Where the movers are in frame i; neighbouring frames are some 5 mm apart."""
+        """Poses of the movers in frame i; they move some 5 mm a frame."""
         moved = {}
         for k, name in enumerate(self.movers):
             home = self.scene.object(name).pose
@@ -65,7 +65,7 @@ class BusyRoom:
         return moved
 
     def touches(self, i: int) -> list[Touch]:
-        """A hand on either touched object, elsewhere in every frame."""
+        """One hand on each touched object, at another point in every frame."""
         hands = zip(("left", "right"), self.touched, strict=True)
         return [Touch(hand, name, self._point(name, i)) for hand, name in hands]
 

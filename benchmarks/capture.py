@@ -1,10 +1,10 @@
-"""Pictures per second of a whole scene, and what shares and culling leave: all images at once, on worker processes.
+"""Pictures per second of a whole scene, with sharing and culling: all images at once, on worker processes.
 
     python benchmarks/capture.py SCENE [--unit-m 0.01] [--renderer embree] [--workers 2] [--size 512] [--antialias]
 
 Prints machine, versions, pictures, unique objects u and context classes c (pictures = 4 + 8 u + 8 c), pictures per
-second with the start of the workers, the largest memory of this process and of its largest worker, and with --visible
-how much of each target's silhouette its context images show.
+second with the start of the workers, and the largest memory of this process and of its largest worker. With --visible
+it also prints the visible share of each target's silhouette in its context images.
 """
 
 from __future__ import annotations
@@ -70,11 +70,11 @@ def measure(scene: SceneSnapshot, options: argparse.Namespace) -> None:
     render_all(capture_images(scene, size_px=options.size, renderer=options.renderer, config=settings), 0)
     print(f"again, from memory: {time.perf_counter() - begin:.2f} s")
     if options.visible:
-        tell_visibility(studio, sorted(classes))
+        show_visibility(studio, sorted(classes))
 
 
-def tell_visibility(studio: Studio, subjects: list[str]) -> None:
-    """How much of the silhouette in isolated images the same eye sees among other things."""
+def show_visibility(studio: Studio, subjects: list[str]) -> None:
+    """Print the share of each silhouette in isolated images that is visible in context images."""
     config = studio.config.model_copy(update={"size_px": 192})
     photographer = Photographer(studio.stage, studio.factory(studio.stage, False), config)
     good_views = []

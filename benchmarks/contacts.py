@@ -1,8 +1,8 @@
-"""Found contacts beside those listed by hand, as a table in Markdown.
+"""Found contacts compared with contacts listed by hand, as a table in Markdown.
 
 python benchmarks/contacts.py [folder of scenes]
 
-`benchmarks/contacts/` holds the lists and the rule for a true pair. Thresholds were tuned on the scenes marked so.
+`benchmarks/contacts/` holds the lists and the rule for a true pair. Thresholds were tuned on the scenes marked "tuned".
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from scene2hap.scene.grouping import Grouping
 
 LISTS = Path(__file__).parent / "contacts"
 SCENES = Path(__file__).parents[2] / "shared" / "scenes"
-# File below the folder of scenes, its unit [m] where the file lies, and what the scene is for: "tuned" on, "reported",
+# File below the folder of scenes, its unit [m] where the file lies, and the use of the scene: "tuned" on, "reported",
 # or "kept" for regressions alone.
 TABLE = {
     "aws_house_living": ("aws_house_living.glb", None, "tuned"),
@@ -39,7 +39,7 @@ Pairs = set[tuple[str, str]]
 
 
 def judged(name: str, scenes: Path) -> tuple[Pairs, Pairs, Pairs]:
-    """The true pairs, those found, and those found that count for nothing."""
+    """True pairs, found pairs that count, and found pairs that the list marks "either"."""
     file, unit_m, _ = TABLE[name]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -52,7 +52,7 @@ def judged(name: str, scenes: Path) -> tuple[Pairs, Pairs, Pairs]:
 
 
 def parts(scenes: Path) -> None:
-    """Print the same of the parts of single pieces of furniture, all files together."""
+    """Print the same for the parts of single pieces of furniture, all files together."""
     listed: dict[str, dict[str, Pairs]] = defaultdict(lambda: {"true": set(), "either": set()})
     with (LISTS / PARTS).open(encoding="utf-8", newline="") as lines:
         for row in csv.DictReader(lines):
@@ -82,7 +82,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("scenes", nargs="?", type=Path, default=SCENES, help="folder of scenes")
     scenes = parser.parse_args().scenes
-    print("| scene | use | true pairs | found | of these either | precision | recall | wrong | missing |")
+    print("| scene | use | true pairs | found | marked either | precision | recall | wrong | missing |")
     print("|---|---|---|---|---|---|---|---|---|")
     n_true = n_found = n_right = 0
     for name, (_, _, use) in TABLE.items():

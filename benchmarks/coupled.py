@@ -1,12 +1,12 @@
-"""Coupled objects beside finite elements of all of them in one system, as a table in Markdown.
+"""Coupled objects compared with finite elements of all objects in one system, as a table in Markdown.
 
 python benchmarks/figures.py coupled      (needs scikit-fem)
 
 Two plates through 3 or 4 points, a tray on its feet, a table on legs that are masses between springs, a board that
 stands upright on its edge, and all of it together; a source of 0.1-2 kg on one of them. Truth: bending by Argyris
 triangles (tests/plate_fe.py), the upright board by plane stress in quadratic triangles, rigid bodies by their mass, all
-joints as springs with loss between them, solved directly at every frequency. What a contact's spring is, is input;
-tests of `contact_stiffness` hold it against Hertz. Errors are those of levels at 12 points, in dB.
+joints as springs with loss between them, solved directly at every frequency. The stiffness of contacts is input; tests
+of `contact_stiffness` compare it with Hertz. Errors are those of levels at 12 points, in dB.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ Triple = tuple[float, float, float]
 
 @dataclass
 class Case:
-    """Objects, where they touch (pairs and world points), a source, and on which object it is felt."""
+    """Objects, their contacts (pairs and world points), a source, and the object on which it is felt."""
 
     bodies: dict[str, Plate | RigidBody]
     touching: list[tuple[str, str, Triple]]
@@ -165,7 +165,7 @@ class Part:
             self.dynamic = lambda omega: csc_matrix([[-(omega**2) * own_kg + 0j]])
 
     def rows(self, points_m: NDArray[np.float64], axis: int = 2) -> csr_matrix:
-        """What reads the motion along a world axis at world points (n, 3)."""
+        """Rows that give the motion along a world axis at world points (n, 3)."""
         if self._basis is None:
             return csr_matrix(np.ones((len(points_m), 1)))
         own = self._pose.to_own(points_m)[:, :2].clip(0.0, self._size_m).T
@@ -277,8 +277,8 @@ def main() -> None:
         end = time.process_time()
         errors = np.abs(20 * np.log10(own / real))
         every.append(errors)
-        told = f"{np.median(errors):.3f} | {np.percentile(errors, 95):.2f} | {errors.max():.2f}"
-        print(f"| {name} | {told} | {between - begin:.1f} | {end - between:.1f} |", flush=True)
+        cells = f"{np.median(errors):.3f} | {np.percentile(errors, 95):.2f} | {errors.max():.2f}"
+        print(f"| {name} | {cells} | {between - begin:.1f} | {end - between:.1f} |", flush=True)
     errors = np.concatenate([one.ravel() for one in every])
     print(f"| all | {np.median(errors):.3f} | {np.percentile(errors, 95):.2f} | {errors.max():.2f} | | |")
 

@@ -1,10 +1,10 @@
-"""Time of a contact update in a crowd in which everything moves, with and without certificates, as a table in Markdown.
+"""Time of a contact update when all of many objects move, with and without certificates, as a table in Markdown.
 
 OMP_NUM_THREADS=1 python benchmarks/crowds.py [--frames 150] [--passes 5]
 
-Cubes of 0.1 m on a floor, in a grid with so much between them; each goes around in a circle of 20 mm, 2 mm a frame,
-every other one turning. Processor time of `ContactGraph.update`; of each frame the least of several passes. Both must
-find the same contacts, to the last bit.
+Cubes of 0.1 m on a floor, in a grid with a given distance between them; each moves in a circle of 20 mm, 2 mm a frame,
+and every other one turns. Processor time of `ContactGraph.update`; of each frame the least of several passes. Contacts
+must be bit-identical with and without certificates.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from scene2hap.scene.objects import with_relative_heights
 Frames = Sequence[dict[str, Pose]]
 
 
-def crowd(n_boxes: int, apart_m: float) -> SceneSnapshot:
-    """So many cubes with so much between them, on a floor."""
+def cubes_on_floor(n_boxes: int, apart_m: float) -> SceneSnapshot:
+    """Cubes on a floor, in a grid with `apart_m` between them."""
     floor, item = floor_room(2, 1).scene.objects
     side, cube = math.ceil(math.sqrt(n_boxes)), replace(item, geometry=Box((0.1, 0.1, 0.1)))
     # The floor begins at 0.
@@ -38,7 +38,7 @@ def crowd(n_boxes: int, apart_m: float) -> SceneSnapshot:
 
 
 def frames_of(scene: SceneSnapshot, n_frames: int) -> Frames:
-    """Where all cubes are in each frame."""
+    """Poses of all cubes in each frame."""
     rng = np.random.default_rng(1)
     cubes = [item for item in scene.objects if item.id != "floor"]
     phases = rng.uniform(0, 2 * math.pi, len(cubes))
@@ -57,7 +57,7 @@ def frames_of(scene: SceneSnapshot, n_frames: int) -> Frames:
 def times_us(
     scene: SceneSnapshot, frames: Frames, n_passes: int, *, with_certificates: bool
 ) -> tuple[np.ndarray, list]:
-    """The least time of each frame [us], and the contacts at the end."""
+    """Least time of each frame [us], and the contacts at the end."""
     off = mock.patch("scene2hap.contact.certificates.Certificates.may_be_issued", return_value=False)
     found, contacts = [], list[Contact]()
     with nullcontext() if with_certificates else off:
@@ -81,7 +81,7 @@ def main() -> None:
     print("|---|---|---|---|---|")
     for n_boxes in (30, 100):
         for apart_m in (0.01, 0.03, 0.1):
-            scene = crowd(n_boxes, apart_m)
+            scene = cubes_on_floor(n_boxes, apart_m)
             frames = frames_of(scene, wanted.frames)
             (one, found), (other, plain) = (
                 times_us(scene, frames, wanted.passes, with_certificates=is_on) for is_on in (True, False)

@@ -2,7 +2,7 @@
 
 python benchmarks/distinctness.py [--seed 0] [--actuator flat] [--scene FILE] [--silence ID ...]
 
-Bakes the scene three times: with the paper's fixed filter, with the adaptive band left where each source has it, and
+Bakes the scene three times: with the paper's fixed filter, with the adaptive band at each source's own frequency, and
 with the default, which moves sources apart. Everything is measured on the tactile loops of the bundle.
 """
 
@@ -31,7 +31,7 @@ WAYS: dict[str, dict[str, Any]] = {
 
 
 def feels(bundle: HapticBundle, actuator: ActuatorProfile) -> dict[str, Feel]:
-    """What each source feels like in its first state."""
+    """Felt frequency, rhythm and level of each source in its first state."""
     first = {source: next(iter(states.values())).tactile for source, states in bundle.loops.items()}
     return {source: feel_of(clip.samples, clip.sample_rate_hz, actuator) for source, clip in first.items()}
 
@@ -42,7 +42,7 @@ def intensities(bundle: HapticBundle) -> dict[str, float]:
 
 
 def keeps_order(felt: Mapping[str, Feel], intensity: Mapping[str, float]) -> bool:
-    """Whether what is inferred stronger is felt stronger, for every pair."""
+    """Whether felt levels have the order of inferred intensities, for every pair."""
     return all(
         felt[one].level_db > felt[other].level_db for one in felt for other in felt if intensity[one] > intensity[other]
     )

@@ -1,4 +1,4 @@
-"""What a link to an engine adds to a session's update, with 50 bodies on a floor.
+"""Time that a link to an engine adds to a session's update, with 50 bodies on a floor.
 
     python benchmarks/engine_links.py
 
@@ -66,7 +66,7 @@ def graph() -> Any:
 
 
 def moving_ms(data: Any, session: HapticSession, link: MuJoCoLink, n_moving: int) -> float:
-    """What a frame takes more by the link than by poses that stand ready."""
+    """Additional time of a frame by the link, compared with poses that are already available [ms]."""
     start = np.array(PLACES_M[:n_moving])
     ready = []
     for way_m in (0.0, 0.0002):
@@ -103,11 +103,11 @@ def main() -> None:
     with_hand = MuJoCoLink(made, data, session, hands={"right": NAMES[3]})
     with_hand.update(touches)
     print(f"| MuJoCo, at rest, a body as a hand | {cpu_ms(lambda: with_hand.update(touches)) - alone:.3f} |")
-    told = MuJoCoLink(made, data, session, contacts="engine")
-    contacts = told._adapter.contacts()
-    told.update(touches)
+    with_contacts = MuJoCoLink(made, data, session, contacts="engine")
+    contacts = with_contacts._adapter.contacts()
+    with_contacts.update(touches)
     given = cpu_ms(lambda: session.update({}, touches, contacts=contacts), 20)
-    added = cpu_ms(lambda: told.update(touches), 20) - given
+    added = cpu_ms(lambda: with_contacts.update(touches), 20) - given
     print(f"| MuJoCo, its {data.ncon} contact points | {added:.3f} |")
     for n_moving in (10, 50):
         print(f"| MuJoCo, {n_moving} move | {moving_ms(data, session, link, n_moving):.3f} |")

@@ -1,11 +1,11 @@
-"""What `.haptic` exports keep of the loops that they were made from, and how long exports take, as tables in Markdown.
+"""Errors of `.haptic` exports against their loops, and the time of exports, as tables in Markdown.
 
 python benchmarks/export.py [SCENE ...]
 
 Each exported file is played by the format's published rule and compared with its loop, by the level in windows of
-50 ms, 25 ms apart, which shares nothing with the exporter's own measure. Windows more than 40 dB below the loop's
-loudest do not count. A source is steady where its own level moves by less than 6 dB (5th to 95th percentile).
-Scenes are the demo kitchen and, where it is beside the project, a kitchen by others.
+50 ms, 25 ms apart. This measure is independent of the exporter's own. Windows more than 40 dB below the loudest one are
+left out. A source is steady if its own level moves by less than 6 dB (5th to 95th percentile).
+Scenes are the demo kitchen and, if it is beside the project, a kitchen by another author.
 """
 
 from __future__ import annotations
@@ -54,12 +54,12 @@ def row(name: str, bundle: HapticBundle, source: str, state: str, folder: Path) 
     missed = np.abs(np.maximum(played, own.max() + FLOOR_DB) - own)[is_felt]
     is_steady = np.subtract(*np.percentile(own, (95, 5))) < STEADY_DB
     n_frequency = len(clip.frequency) if clip.frequency is not None else 0
-    asked = bundle.loops[source][state].frequency_tactile_hz
+    loop_hz = bundle.loops[source][state].frequency_tactile_hz
     given = float(np.median(clip.frequency_hz(np.linspace(0, clip.duration_s, 200))))
     return (
         f"| {source} | {state} | {'steady' if is_steady else 'varies'} | {np.median(missed):.2f} | "
         f"{np.percentile(missed, 95):.2f} | {len(clip.amplitude) / clip.duration_s:.1f} | "
-        f"{n_frequency / clip.duration_s:.1f} | {len(clip.transients)} | {asked:.0f} | {given:.0f} |"
+        f"{n_frequency / clip.duration_s:.1f} | {len(clip.transients)} | {loop_hz:.0f} | {given:.0f} |"
     )
 
 
@@ -68,7 +68,7 @@ def tour(bundle: HapticBundle, folder: Path) -> None:
     begun = time.perf_counter()
     report = export_bundle(bundle, folder, touches=tour_path())
     print(f"with a tour of both hands, playing it included: {time.perf_counter() - begun:.2f} s\n")
-    print("| format | hand | off [dB], median | 95 % | off [JND], median |\n|---|---|---|---|---|")
+    print("| format | hand | level error [dB], median | 95 % | error [JND], median |\n|---|---|---|---|---|")
     for one in report.rows:
         found = one.fidelity
         if one.track == "tour" and found is not None:
@@ -88,8 +88,8 @@ def main() -> None:
             export_bundle(bundle, folder, "haptic")
             print(f"{path.stem}: `.haptic`, played by the published rule, against the loop\n")
             print(
-                "| source | state | kind | off [dB], median | 95 % | amplitude points/s | frequency points/s | "
-                "transients | felt at [Hz] | played at [Hz] |"
+                "| source | state | kind | level error [dB], median | 95 % | amplitude points/s | frequency points/s | "
+                "transients | loop [Hz] | file [Hz] |"
             )
             print("|---|---|---|---|---|---|---|---|---|---|")
             manifest = json.loads((folder / "manifest.json").read_text())

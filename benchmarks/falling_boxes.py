@@ -1,14 +1,14 @@
-"""Our contacts beside MuJoCo's own on 100 boxes that fall on each other into a heap, and what either costs per step.
+"""Contacts of scene2hap and of MuJoCo for 100 boxes that fall into a heap, and the time per step of either.
 
 OMP_NUM_THREADS=1 python benchmarks/falling_boxes.py [n_steps]
 
-The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases of equal length are listed. The tolerance
-is matched: MuJoCo (4.0) lists pairs that are nearer than the sum of both geoms' gaps, half of it each; ours is stated.
-A pair whose distance is within 0.1 mm of the tolerance counts as equal either way.
+The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases of equal length are listed. Both use the
+same tolerance: MuJoCo (4.0) lists pairs that are nearer than the sum of both geoms' gaps, half of it each; scene2hap
+gets it as a setting. A pair whose distance is within 0.1 mm of the tolerance counts as equal.
 
 MuJoCo lists contacts twice: by its routine for two boxes, which drives the simulation and is the reference for time,
 and by its general routine, in a second model of the same boxes as convex meshes. The two differ in some steps. If only
-one of us and the routine for boxes reports a pair, `mj_geomDistance` decides. Times are medians of processor time.
+scene2hap or only the routine for boxes reports a pair, `mj_geomDistance` decides. Times are medians of processor time.
 """
 
 from __future__ import annotations
@@ -73,13 +73,13 @@ def scene_of(sizes: np.ndarray) -> SceneSnapshot:
     return SceneSnapshot("heap", "z", tuple(objects))
 
 
-def told_by(data: mujoco.MjData, names: list[str]) -> dict[tuple[str, str], float]:
+def listed_by(data: mujoco.MjData, names: list[str]) -> dict[tuple[str, str], float]:
     """The least distance of each pair in MuJoCo's list."""
-    told: dict[tuple[str, str], float] = {}
+    listed: dict[tuple[str, str], float] = {}
     for a, b, distance in zip(*data.contact.geom.T.tolist(), data.contact.dist.tolist(), strict=True):
         pair = (names[a], names[b]) if names[a] < names[b] else (names[b], names[a])
-        told[pair] = min(distance, told.get(pair, np.inf))
-    return told
+        listed[pair] = min(distance, listed.get(pair, np.inf))
+    return listed
 
 
 def found_by(graph: ContactGraph) -> dict[tuple[str, str], float]:
@@ -89,12 +89,12 @@ def found_by(graph: ContactGraph) -> dict[tuple[str, str], float]:
     return {(ids[a], ids[b]): share for a, b, share in rows}
 
 
-def apart(told: dict[tuple[str, str], float], found: dict[tuple[str, str], float]) -> set[tuple[str, str]]:
-    """Pairs that only one reports, by more than 0.1 mm."""
+def different(listed: dict[tuple[str, str], float], found: dict[tuple[str, str], float]) -> set[tuple[str, str]]:
+    """Pairs that only one side reports, with a distance more than 0.1 mm from the tolerance."""
     # MuJoCo never reports pairs of which neither can move.
     found = {pair: share for pair, share in found.items() if not {*pair} <= TRAY.keys()}
-    differ = {pair for pair, distance in told.items() if distance < TOLERANCE_M - EDGE_M} - found.keys()
-    return differ | {pair for pair in found.keys() - told.keys() if found[pair] > 0.01}
+    differ = {pair for pair, distance in listed.items() if distance < TOLERANCE_M - EDGE_M} - found.keys()
+    return differ | {pair for pair in found.keys() - listed.keys() if found[pair] > 0.01}
 
 
 def distance_m(model: mujoco.MjModel, data: mujoco.MjData, names: list[str], pair: tuple[str, str]) -> float:
@@ -129,9 +129,9 @@ def main() -> None:
         graph.update(PoseTable(moving, data.xpos[1:], data.xquat[1:, [1, 2, 3, 0]]))
         end = time.thread_time()
         theirs[step], ours[step] = between - start, end - between
-        told, found = told_by(data, names), found_by(graph)
-        n_pairs[step] = len(told)
-        differ = apart(told, found)
+        listed, found = listed_by(data, names), found_by(graph)
+        n_pairs[step] = len(listed)
+        differ = different(listed, found)
         same_boxes[step] = not differ
         for pair in differ:
             judged[(distance_m(model, data, names, pair) <= TOLERANCE_M) == (pair in found)] += 1
@@ -139,17 +139,17 @@ def main() -> None:
         mujoco.mj_kinematics(general, beside)
         mujoco.mj_comPos(general, beside)
         mujoco.mj_collision(general, beside)
-        same_meshes[step] = not apart(told_by(beside, names), found)
+        same_meshes[step] = not different(listed_by(beside, names), found)
     print("| phase | steps | pairs | same pairs as its general routine, as that for boxes [% of steps] ", end="")
-    print("| mj_collision [ms] | ours, with poses [ms] | times |\n|---|---|---|---|---|---|---|")
+    print("| mj_collision [ms] | scene2hap, with poses [ms] | ratio |\n|---|---|---|---|---|---|---|")
     for name, part in zip((*PHASES, "all"), (*np.array_split(np.arange(n_steps), 3), np.arange(n_steps)), strict=True):
         slow, fast = np.median(ours[part]), np.median(theirs[part])
         print(
             f"| {name} | {len(part)} | {n_pairs[part].mean():.0f} | {100 * same_meshes[part].mean():.1f}, "
             f"{100 * same_boxes[part].mean():.1f} | {1e3 * fast:.3f} | {1e3 * slow:.3f} | {slow / fast:.1f} |"
         )
-    print(f"\nPairs reported by only one of us and the routine for boxes: {sum(judged)}; ", end="")
-    print(f"mj_geomDistance agrees with us on {judged[1]} of them.")
+    print(f"\nPairs reported only by scene2hap or only by the routine for boxes: {sum(judged)}; ", end="")
+    print(f"mj_geomDistance agrees with scene2hap on {judged[1]} of them.")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Run benchmarks and campaigns, and write what they print into the pages of docs/figures.
+"""Run benchmarks and campaigns, and write their output into the pages of docs/figures.
 
 python benchmarks/figures.py --list
 python benchmarks/figures.py [NAME ...] [--busy]
@@ -41,9 +41,9 @@ class Figure:
 
     page: str
     command: str
-    """As it is run in the repository's folder, without `python`."""
+    """Command line in the repository's folder, without `python`."""
     minutes: float
-    """About how long it takes on two cores."""
+    """Approximate time on two cores."""
     has_times: bool = False
     is_text: bool = False
     """The output is plain text, not Markdown."""
@@ -181,7 +181,7 @@ def git(*words: str) -> str:
 
 
 def output(figure: Figure) -> str:
-    """What the command prints. One BLAS thread, so that times are of one core.
+    """Output of the command. One BLAS thread, so that times are of one core.
 
     Raises: subprocess.CalledProcessError: it failed; its messages are on stderr.
     """

@@ -1,4 +1,4 @@
-"""What a hand changes on what it touches, and what that costs, as tables in Markdown.
+"""Change of levels under the load of a hand, and its cost, as tables in Markdown.
 
 python benchmarks/figures.py hand
 
@@ -61,11 +61,11 @@ def changes() -> None:
         inside = np.random.default_rng(SEED).uniform(0.02, 0.98, (N_POINTS, 2)) * (length, width)
         points = np.column_stack([inside, np.zeros(N_POINTS)])
         free = levels_db(None, network, points)
-        told = []
+        cells = []
         for hand in HANDS:
             change = levels_db(hand, network, points) - free
-            told.append(f"{np.sqrt(np.mean(change**2)):.2f} / {np.abs(change).max():.1f}")
-        print(f"| {name} | {1 / point_mobility_s_kg(plate):.0f} | {' | '.join(told)} |", flush=True)
+            cells.append(f"{np.sqrt(np.mean(change**2)):.2f} / {np.abs(change).max():.1f}")
+        print(f"| {name} | {1 / point_mobility_s_kg(plate):.0f} | {' | '.join(cells)} |", flush=True)
 
 
 def costs() -> None:
@@ -83,8 +83,8 @@ def costs() -> None:
             field.attenuation(object_id, point[None])
             (further if object_id in seen else first).append(1e3 * (time.process_time() - begin))
             seen.add(object_id)
-        told = f"{prepare_s:.2f} | {np.median(first):.2f} / {max(first):.1f} | {np.median(further):.2f}"
-        print(f"| {hand or 'no hand'} | {told} |")
+        cells = f"{prepare_s:.2f} | {np.median(first):.2f} / {max(first):.1f} | {np.median(further):.2f}"
+        print(f"| {hand or 'no hand'} | {cells} |")
 
 
 def main() -> None:

@@ -147,7 +147,7 @@ def main() -> None:
     print(
         f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores; {given.seconds:g} s each\n"
     )
-    print("| impacts | told | found | felt | update p50 [ms] | p99 [ms] | worst [ms] | above 1 kHz [dB] |")
+    print("| impacts | reported | detected | felt | update p50 [ms] | p99 [ms] | worst [ms] | above 1 kHz [dB] |")
     print("|---|---|---|---|---|---|---|---|")
     for name in ("struck", "landing"):
         session, touches, spots = on_floor(given.scene, given.seed) if given.scene else on_table(200)

@@ -1,4 +1,4 @@
-"""What ``import scene2hap`` costs beyond a bare interpreter: median of fresh processes.
+"""Time of ``import scene2hap`` beyond a bare interpreter: median of new processes.
 
 python benchmarks/import_time.py [--runs 10]
 """

@@ -42,7 +42,7 @@ COLUMNS = (
 
 
 class Counting:
-    """Counts calls and tokens on their way to another backend."""
+    """A backend that counts the calls and tokens of another backend."""
 
     def __init__(self, backend: LLMBackend) -> None:
         self._backend = backend
@@ -71,7 +71,7 @@ class SceneResult:
 
     @property
     def counts(self) -> Counts:
-        """All objects added up; a scene that failed counts as silent and unknown throughout."""
+        """Sum over all objects; every object of a failed scene counts as silent and unknown."""
         return sum((item.counts for item in self.judgements), Counts())
 
 
@@ -85,7 +85,7 @@ def backend_of(spec: str) -> LLMBackend:
 
 
 async def score(backend: LLMBackend, item: LabelledScene, folder: Path, *, pictures: bool = False) -> SceneResult:
-    """Infer one scene and hold every object against its label."""
+    """Infer one scene and compare every object with its label."""
     scene = read(item, folder)
     if pictures:
         scene = capture_images(scene)

@@ -1,12 +1,12 @@
-"""How long inference waits: calls in flight at once against the paper's order of one call after another.
+"""Waiting time of inference: concurrent calls compared with the paper's order of one call after another.
 
     python benchmarks/inference_speed.py [--latency 0.25]
 
 A loopback server answers every call after the same time with a valid answer, as `OpenAIBackend` would get it. The scene
-has 44 objects, 7 of them vibrating, of 8 materials, with the usual repeats: 4 chairs and 6 handles. The paper's order
-asks for each object alone: analysis, material, and description where it vibrates.
+has 44 objects, 7 of them vibrating, of 8 materials, with the usual repeats: 4 chairs and 6 handles. In the paper's
+order each object has its own calls: analysis, material, and description if it vibrates.
 
-lower bound : the larger of the critical path (3 calls) and (1 + ceil((calls - 1) / lanes)) calls' time.
+lower bound : the larger of the critical path (3 calls) and the time of (1 + ceil((calls - 1) / concurrency)) calls.
 """
 
 from __future__ import annotations
@@ -36,40 +36,42 @@ def main() -> None:
     latency_s = parser.parse_args().latency
     scene = kitchen()
     started = time.perf_counter()
-    questions(scene)
+    all_requests(scene)
     own_s = time.perf_counter() - started
     with answering(latency_s) as server:
         paper_s, paper_calls = one_after_another(scene, server.url)
         print(f"{len(scene.objects)} objects, {latency_s:g} s per call, {1e3 * own_s:.0f} ms of own work")
         print(f"{'order':<12} {'calls':>5} {'wall s':>8} {'bound s':>8} {'/ bound':>8} {'faster':>7} {'calls':>7}")
         print(f"{'paper':<12} {paper_calls:>5} {paper_s:>8.2f}")
-        for lanes in (8, 16):
-            wall_s, calls = in_parallel(scene, server.url, lanes)
-            bound_s = latency_s * max(3, 1 + math.ceil((calls - 1) / lanes))
+        for concurrency in (8, 16):
+            wall_s, calls = in_parallel(scene, server.url, concurrency)
+            bound_s = latency_s * max(3, 1 + math.ceil((calls - 1) / concurrency))
             print(
-                f"{f'{lanes} lanes':<12} {calls:>5} {wall_s:>8.2f} {bound_s:>8.2f} {wall_s / bound_s:>8.2f} "
+                f"{f'{concurrency} at once':<12} {calls:>5} {wall_s:>8.2f} {bound_s:>8.2f} {wall_s / bound_s:>8.2f} "
                 f"{paper_s / wall_s:>6.1f}x {100 * calls / paper_calls:>6.0f}%"
             )
 
 
-def in_parallel(scene: SceneSnapshot, url: str, lanes: int) -> tuple[float, int]:
+def in_parallel(scene: SceneSnapshot, url: str, concurrency: int) -> tuple[float, int]:
     """Wall time [s] and number of calls of the chain."""
     started = time.perf_counter()
-    found = asyncio.run(infer_scene(scene, OpenAIBackend(base_url=url, api_key="none"), config={"concurrency": lanes}))
+    found = asyncio.run(
+        infer_scene(scene, OpenAIBackend(base_url=url, api_key="none"), config={"concurrency": concurrency})
+    )
     wall_s = time.perf_counter() - started
     assert not found.report.errors, found.report.errors
     return wall_s, sum(found.report.calls.values())
 
 
 def one_after_another(scene: SceneSnapshot, url: str) -> tuple[float, int]:
-    """Wall time [s] and number of calls of the same questions in the paper's order, nothing shared."""
-    asked = questions(scene)
-    of_scene = [request for request in asked if request.component == "scene_analyzer"]
-    material = next(request for request in asked if request.component == "material_estimator")
+    """Wall time [s] and number of calls in the paper's order, nothing shared."""
+    requests = all_requests(scene)
+    of_scene = [request for request in requests if request.component == "scene_analyzer"]
+    material = next(request for request in requests if request.component == "material_estimator")
     of_objects = [
         request
         for item in scene.objects
-        for request in (*(one for one in asked if one.subject == item.id), replace(material, subject=item.id))
+        for request in (*(one for one in requests if one.subject == item.id), replace(material, subject=item.id))
     ]
 
     async def run() -> None:
@@ -82,16 +84,16 @@ def one_after_another(scene: SceneSnapshot, url: str) -> tuple[float, int]:
     return time.perf_counter() - started, len(of_scene) + len(of_objects)
 
 
-def questions(scene: SceneSnapshot) -> list[LLMRequest]:
+def all_requests(scene: SceneSnapshot) -> list[LLMRequest]:
     """All calls of the chain without sharing."""
-    asked = []
+    requests = []
 
     def at_once(request: LLMRequest) -> str:
-        asked.append(request)
+        requests.append(request)
         return json.dumps(answer(request.component, request.prompt))
 
     asyncio.run(infer_scene(scene, FunctionBackend(at_once), config={"share_copies": False}))
-    return asked
+    return requests
 
 
 if __name__ == "__main__":

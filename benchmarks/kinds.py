@@ -1,16 +1,16 @@
-"""How many pairs of twenty kinds of machine feel distinct in one scene, by two measures, as a table in Markdown.
+"""Distinct pairs among twenty kinds of machine in one scene, by two measures, as a table in Markdown.
 
 python benchmarks/kinds.py [--set home|flat|workshop|compressors] [--seeds 3] [--first 0] [--takes 4] [--tactile auto]
 
 1. The project's own (`scene2hap.audio.distinctness`): just noticeable differences in frequency, rhythm and level.
 2. An independent one, the spectral part of ST-SIM (Hassen and Steinbach 2019) as `vibromaf` computes it, which
-   `pip install vibromaf` brings; without it this part is left out. Two loops are compared in blocks of 64 ms by which
-   components are felt in both, at the lag at which they are most alike, since no two machines start together.
-   - *takes*: a pair is distinct if its loops are less alike than 95 % of takes of either kind, which differ in their
-     seed and are moved by as much. Are two kinds more different than two takes of one kind?
+   `pip install vibromaf` installs; without it this part is left out. Two loops are compared in blocks of 64 ms by the
+   components felt in both, at the lag of largest similarity, since machines do not start together.
+   - *takes*: a pair is distinct if its loops are less similar than 95 % of takes of either kind, which differ in their
+     seed and have the same shift of frequency. So two kinds must differ more than two takes of one kind.
    - *all*: the same, with the takes of all kinds as one threshold.
-   - *halves*: the rule before, at 2.8 kHz and without scale or lag: less alike than 95 % of all loops of all seeds are
-     to themselves, first half against second.
+   - *halves*: the earlier rule, at 2.8 kHz and without scale or lag: less similar than the first and second halves of
+     95 % of all loops of all seeds.
 
 Controls: with `--tactile svf_bandpass` there is one fixed filter for all kinds, and nothing is moved apart. The ten
 compressors have one voice, so that only their speeds and intensities differ.
@@ -66,7 +66,7 @@ class Kinds:
 
     @cached_property
     def n_distinct(self) -> tuple[int, int]:
-        """How many pairs there are, and how many are distinct by the project's own measure."""
+        """Number of pairs, and of pairs that are distinct by the project's own measure."""
         feels = {name: feel_of(clip.samples, clip.sample_rate_hz) for name, clip in self.loops.items()}
         pairs = distinctness(feels)
         return len(pairs), sum(pair.is_distinct for pair in pairs)
@@ -88,7 +88,7 @@ def baked(names: tuple[str, ...], seed: int, n_takes: int, tactile: str) -> Kind
 
 
 def take(bundle: HapticBundle, name: str, config: BakeConfig, seed: int) -> AudioClip:
-    """The tactile loop of another take of the first state of an object, at its level and moved by as much."""
+    """Tactile loop of another take of an object's first state, with the same level and shift of frequency."""
     haptics, loop = bundle.objects[name], next(iter(bundle.loops[name].values()))
     felt, state = loop.felt, haptics.states[0]
     assert felt is not None
@@ -124,7 +124,7 @@ class Likeness:
     """Likeness of loops by the spectral part of ST-SIM, 0 to 1.
 
     Loops are scaled so that a sine at 250 Hz at the project's threshold of touch is at that of `vibromaf`, which takes
-    full scale to lie 77 dB above it, in an orthonormal transform. Otherwise what nobody feels counts as felt.
+    full scale to lie 77 dB above it, in an orthonormal transform. Otherwise components below threshold count as felt.
     """
 
     def __init__(self) -> None:
@@ -137,7 +137,7 @@ class Likeness:
         self._scale = 10 ** ((theirs_db - ours_db) / 20)
 
     def support(self, clip: AudioClip) -> Signal:
-        """How surely each component of each block is felt (n_blocks, n_components) [-]."""
+        """Probability that each component of each block is felt (n_blocks, n_components) [-]."""
         return self._support(self._scale * repeated(clip, RATE_HZ, N_SAMPLES))
 
     def _support(self, samples: Signal) -> Signal:
@@ -149,15 +149,15 @@ class Likeness:
 
     @staticmethod
     def of(one: Signal, other: Signal) -> float:
-        """The mean over blocks, each the less alike of both directions, at the best lag of the blocks."""
+        """Mean over blocks of the smaller similarity of both directions, at the best lag of the blocks."""
         n = len(one)
         powers = np.maximum((one**2).sum(axis=1)[:, None], (other**2).sum(axis=1))
-        blocks = (one @ other.T + 1e-9) / (powers + 1e-9)  # silent blocks are alike
+        blocks = (one @ other.T + 1e-9) / (powers + 1e-9)  # silent blocks are equal
         at = np.arange(n)
         return float(max(blocks[at, (at + lag) % n].mean() for lag in range(n)))
 
     def before(self, scenes: list[Kinds]) -> list[int]:
-        """For each scene, the pairs that are distinct by the rule before."""
+        """For each scene, the number of pairs that are distinct by the earlier rule."""
         from vibromaf.metrics.stsim import STSIM
 
         def likeness(one: Signal, other: Signal) -> float:
@@ -171,29 +171,29 @@ class Likeness:
 
 
 def repeated(clip: AudioClip, rate_hz: int, n_samples: int) -> Signal:
-    """A loop at another rate, as often as n samples take (n,)."""
+    """A loop at another rate, repeated to n samples (n,)."""
     n = round(len(clip.samples) * rate_hz / clip.sample_rate_hz)
     return np.tile(resample(clip.samples.astype(np.float64), n), n_samples // n + 1)[:n_samples]
 
 
 def by_vibromaf(scenes: list[Kinds]) -> list[tuple[int, int, int]]:
-    """For each scene, the pairs that are distinct by each of the three rules."""
+    """For each scene, the number of pairs that are distinct by each of the three rules."""
     measure = Likeness()
     pairs: list[dict[tuple[str, str], float]] = []
-    alike: list[dict[str, list[float]]] = []
+    similar: list[dict[str, list[float]]] = []
     for scene in scenes:
         loops = {name: measure.support(clip) for name, clip in scene.loops.items()}
         takes = {name: [loops[name], *map(measure.support, clips)] for name, clips in scene.takes.items()}
         pairs.append({(a, b): measure.of(loops[a], loops[b]) for a, b in combinations(loops, 2)})
-        alike.append({name: [measure.of(x, y) for x, y in combinations(clips, 2)] for name, clips in takes.items()})
-    least = np.percentile([x for kinds in alike for values in kinds.values() for x in values], 5)
+        similar.append({name: [measure.of(x, y) for x, y in combinations(clips, 2)] for name, clips in takes.items()})
+    least = np.percentile([x for kinds in similar for values in kinds.values() for x in values], 5)
     return [
         (
             sum(x < np.percentile(kinds[a] + kinds[b], 5) for (a, b), x in found.items()),
             sum(x < least for x in found.values()),
             before,
         )
-        for found, kinds, before in zip(pairs, alike, measure.before(scenes), strict=True)
+        for found, kinds, before in zip(pairs, similar, measure.before(scenes), strict=True)
     ]
 
 

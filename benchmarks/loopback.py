@@ -1,4 +1,4 @@
-"""A server on this machine that plays a model, and a scene to ask it about."""
+"""A model server on the loopback interface, and a scene for its requests."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ SMALL = (
 
 @dataclass(frozen=True)
 class Answered:
-    """A question as it came, and when its answer was sent [s, monotonic]."""
+    """A request as received, and the time at which its answer was sent [s, monotonic]."""
 
     question: bytes
     sent: float
@@ -46,14 +46,14 @@ class Answered:
 
 @dataclass
 class Server:
-    """Where it listens, and what it has answered so far."""
+    """Address of the server, and its answered requests so far."""
 
     url: str = ""
     answered: list[Answered] = field(default_factory=list)
 
 
 def kitchen() -> SceneSnapshot:
-    """44 things on one floor, in one row."""
+    """44 objects on one floor, in one row."""
     names = [*SINGLES, *VIBRATING, *SMALL, *(f"chair_{i}" for i in range(4)), *(f"handle_{i}" for i in range(6))]
     objects = []
     for place, name in enumerate(names):
@@ -67,7 +67,7 @@ def kitchen() -> SceneSnapshot:
 
 
 def answer(component: str, prompt: str) -> dict[str, Any]:
-    """A valid answer, from what stands in the prompt."""
+    """A valid answer to a prompt."""
     if component == "scene_analyzer":
         return {"scene_category": "kitchen"}
     if component == "material_estimator":
@@ -96,7 +96,7 @@ def answer(component: str, prompt: str) -> dict[str, Any]:
 @contextmanager
 def answering(latency_s: float) -> Iterator[Server]:
     """A server that answers every call after `latency_s`, validly, as OpenAI's chat completions would."""
-    told = Server()
+    state = Server()
 
     class Handler(BaseHTTPRequestHandler):
         protocol_version = "HTTP/1.1"
@@ -104,9 +104,9 @@ def answering(latency_s: float) -> Iterator[Server]:
         def do_POST(self) -> None:
             question = self.rfile.read(int(self.headers["Content-Length"]))
             arrived = time.perf_counter()
-            asked = json.loads(question)
-            component = asked["response_format"]["json_schema"]["name"]
-            content = asked["messages"][-1]["content"]
+            request = json.loads(question)
+            component = request["response_format"]["json_schema"]["name"]
+            content = request["messages"][-1]["content"]
             prompt = content if isinstance(content, str) else "".join(part.get("text", "") for part in content)
             said = {"role": "assistant", "content": json.dumps(answer(component, prompt)), "refusal": None}
             body = json.dumps(
@@ -114,13 +114,13 @@ def answering(latency_s: float) -> Iterator[Server]:
                     "id": "x",
                     "object": "chat.completion",
                     "created": 0,
-                    "model": asked["model"],
+                    "model": request["model"],
                     "choices": [{"index": 0, "message": said, "finish_reason": "stop", "logprobs": None}],
                     "usage": {"prompt_tokens": 1, "completion_tokens": 1, "total_tokens": 2},
                 }
             ).encode()
             time.sleep(max(0.0, latency_s - (time.perf_counter() - arrived)))
-            told.answered.append(Answered(question, time.monotonic()))
+            state.answered.append(Answered(question, time.monotonic()))
             self.send_response(200)
             self.send_header("Content-Type", "application/json")
             self.send_header("Content-Length", str(len(body)))
@@ -133,12 +133,12 @@ def answering(latency_s: float) -> Iterator[Server]:
         request_queue_size = 64  # connections that may wait at once
 
         def handle_error(self, *_: object) -> None:
-            pass  # whoever asked has gone
+            pass  # the client has closed the connection
 
     server = HTTPServer(("127.0.0.1", 0), Handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
-        told.url = f"http://127.0.0.1:{server.server_port}/v1"
-        yield told
+        state.url = f"http://127.0.0.1:{server.server_port}/v1"
+        yield state
     finally:
         server.shutdown()

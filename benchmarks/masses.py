@@ -2,8 +2,8 @@
 
 python benchmarks/masses.py [FOLDER of scenes]
 
-Published weights stand as they were found, and nothing was tuned to them. Objects of other kinds, walls and floors are
-left out, since no published weight was found.
+Published weights are used as found, and nothing was tuned to them. Other types of object, walls and floors are left
+out, since no published weight was found.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ PUBLISHED_KG: dict[str, tuple[float, str]] = {
     "toilet": (45.0, "middle of two-piece toilets, 80 to 120 lb, toiletseats.top"),
     "bathtub": (29.5, "fibreglass, 60 to 70 lb, ehow"),
 }
-"""Mass of a usual object [kg] and who says so."""
+"""Mass of a usual object [kg] and its source."""
 
 SCENES = (
     ("aws_house_bedroom/aws_house_bedroom.glb", 1.0),

@@ -1,13 +1,13 @@
-"""What a block of the mix costs while a game updates, and what it allocates; docs/figures/mixing.md holds the latest.
+"""Time and allocations of a block of the mix while a game updates; docs/figures/mixing.md holds the latest.
 
 OMP_NUM_THREADS=1 python benchmarks/mixer.py [--seconds 20] [--switch-interval-ms 5]
 
-16 sources of 5 s in 20 bands at two hands, blocks of 128 frames at 48 kHz, each rendered when it is due, as a sound
-card would ask for it. Another thread sets new gains for every source, band and hand at 1 kHz, and each update keeps
-Python's interpreter lock for the given time (a busy loop, the worst that a game in Python can do).
+16 sources of 5 s in 20 bands at two hands, blocks of 128 frames at 48 kHz, each rendered when it is due, as by a sound
+card. Another thread sets new gains for every source, band and hand at 1 kHz, and each update keeps Python's interpreter
+lock for the given time (a busy loop, the worst case of a game in Python).
 
-"render" is the time inside `render_into`; "processor" is what of it the thread itself used; "from due" also holds the
-way to it: the operating system's wake-up and the wait for the interpreter lock, which no mixer can shorten.
+"render" is the time inside `render_into`; "processor" is the thread's own processor time in it; "from due" also
+includes the operating system's wake-up and the wait for the interpreter lock, which no mixer can shorten.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def times(bank: LoopBank, seconds: float, update_s: float | None) -> tuple[NDArr
 
 
 def allocation(bank: LoopBank, n_blocks: int) -> tuple[int, int]:
-    """Largest transient allocation of a block that is rendered into a given buffer, and what n_blocks left [byte]."""
+    """Largest transient allocation of a block rendered into a given buffer, and growth over n_blocks [byte]."""
     mixer, gains = new_mixer(bank), some_gains(bank)
     out = np.zeros((N_FRAMES, N_HANDS), dtype=np.float32)
     worst = held = 0
@@ -128,7 +128,7 @@ def main() -> None:
     sys.setswitchinterval(arguments.switch_interval_ms / 1000)
     print(f"Python {platform.python_version()}, numpy {version('numpy')}, scipy {version('scipy')}, ", end="")
     print(f"{platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}, seed {SEED}")
-    new_mixer(LoopBank([], Bands.third_octaves(), TACTILE_HZ))  # what is imported is not counted
+    new_mixer(LoopBank([], Bands.third_octaves(), TACTILE_HZ))  # imports are not counted
     clips = some_clips()
     tracemalloc.start()
     bank = LoopBank(clips, Bands.third_octaves(), TACTILE_HZ)

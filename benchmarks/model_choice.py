@@ -1,11 +1,11 @@
-"""Which propagation model to choose: what it costs in a coupled scene and how far it is off, as a table in Markdown.
+"""Cost and error of each propagation model in a coupled scene, as a table in Markdown.
 
 python benchmarks/model_choice.py [SCENE]
 
-The built-in kitchen of 45 objects, baked offline with masses and feet. Each model prepares the scene in a process of
-its own, and again as it does when something moves; a touch asks for a point of an object that was not asked about
-before, then for others of it. Levels at 200 points on objects that a source reaches are compared with `ModalPlate` on a
-grid of frequencies twice as dense, which itself agrees with coupled finite elements (tests/physics). Times are of the
+The built-in kitchen of 45 objects, baked offline with masses and feet. Each model prepares the scene in its own
+process, and again as after a move. "First touch" queries a point of an object that was not queried before, "further"
+other points of it. Levels at 200 points on objects that a source reaches are compared with `ModalPlate` on a grid of
+frequencies twice as dense, which itself agrees with coupled finite elements (tests/physics). Times are of the
 processor.
 """
 
@@ -47,7 +47,7 @@ from scene2hap.session.scene_state import SceneState
 
 BANDS = Bands.third_octaves(10, 1000)
 N_POINTS, SEED = 200, 11
-LEAST_DB = -80.0  # Below it nobody feels a difference.
+LEAST_DB = -80.0  # Below it a difference is not felt.
 MODELS: dict[str, tuple[Callable[[], PropagationModel], str]] = {
     "`exponential_plate`": (ExponentialPlate, "easy to read: the paper's law; the default"),
     "`infinite_plate`": (InfinitePlate, "level alone, for very large or lossy plates"),

@@ -1,11 +1,11 @@
-"""Plates that are no rectangles: the lattice beside finite elements, and its time beside that of `ModalPlate`.
+"""Plates that are not rectangles: error of the lattice against finite elements, and its time against `ModalPlate`.
 
 python benchmarks/figures.py outlines      (needs scikit-fem)
 
 A disc, an L, a top with a cut-out for a sink, and slots, of oak and of steel, at 20-400 Hz. Truth: Argyris triangles
 (tests/plate_fe.py), smaller around corners that point inwards. Errors are those of levels at 12 points, the driven one
-among them, in dB. Times are of the processor, the least of five, all caches cold; `ModalPlate` is asked for the
-rectangle of equal area.
+among them, in dB. Times are of the processor, the least of five, all caches cold; `ModalPlate` solves the rectangle of
+equal area.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def inside(x0: float, y0: float, x1: float, y1: float) -> Callable[[Any, Any], A
 
 
 def lines(step_m: float, *through_m: float) -> NDArray[np.float64]:
-    """Lines through these places, at most so far apart."""
+    """Grid lines through given places, at most `step_m` apart."""
     parts = [np.linspace(a, b, int(np.ceil((b - a) / step_m - 1e-9)) + 1) for a, b in pairwise(through_m)]
     return np.concatenate(parts)
 
@@ -94,14 +94,14 @@ def shapes() -> dict[str, tuple[Outline, Any, Corners]]:
     return found
 
 
-def cold_s(ask: Callable[[float], object]) -> float:
-    """Least processor time of five asks, each of a slightly different plate [s]."""
+def cold_s(query: Callable[[float], object]) -> float:
+    """Least processor time of five queries, each of a slightly different plate [s]."""
     taken = []
     for k in range(5):
         for kept in (bending_lattice, lines_of, _modes_up_to, lattice_body):
             kept.cache_clear()
         begin = time.process_time()
-        ask(1 + 1e-5 * (k + 1))
+        query(1 + 1e-5 * (k + 1))
         taken.append(time.process_time() - begin)
     return min(taken)
 
@@ -129,16 +129,16 @@ def main() -> None:
             n_nodes = bending_lattice(plate, resolution).n_nodes
             side_m = (plate.area_m2 * plate.length_m / plate.width_m) ** 0.5
 
-            def ask_lattice(scale: float, plate: Plate = plate, at: Any = points) -> object:
+            def query_lattice(scale: float, plate: Plate = plate, at: Any = points) -> object:
                 other = replace(plate, thickness_m=plate.thickness_m * scale)
                 return model.plate_receptance(other, at[0], at, FREQUENCIES_HZ)
 
-            def ask_modal(scale: float, plate: Plate = plate, side_m: float = side_m) -> object:
+            def query_modal(scale: float, plate: Plate = plate, side_m: float = side_m) -> object:
                 other = Plate(side_m * scale, plate.area_m2 / side_m, plate.thickness_m, plate.material)
                 at = np.linspace(0.1, 0.3, 2 * N_POINTS).reshape(-1, 2)
                 return ModalPlate().plate_receptance(other, at[0], at, FREQUENCIES_HZ)
 
-            taken_s, modal_s = cold_s(ask_lattice), cold_s(ask_modal)
+            taken_s, modal_s = cold_s(query_lattice), cold_s(query_modal)
             print(
                 f"| {name} | {kind} | {n_nodes} | {np.median(error):.3f} | {np.quantile(error, 0.95):.2f} | "
                 f"{1e3 * taken_s:.0f} | {taken_s / modal_s:.1f} |",

@@ -1,17 +1,17 @@
-"""Time of a frame here and in the paper's loop written plainly, as tables in Markdown.
+"""Time of a frame in scene2hap and in a plain version of the paper's loop, as tables in Markdown.
 
 OMP_NUM_THREADS=1 python benchmarks/paper_loop.py [n_frames] [--defaults] [--seed N]
 
 `--defaults` measures default settings alone (any number of contacts), in three rooms drawn from a seed, a new one each
-run; the other tables hold `ExponentialPlate` to two contacts, as the paper's loop.
+run; the other tables limit `ExponentialPlate` to two contacts, as in the paper's loop.
 
 The plain loop, once per frame: compare all bounding boxes with all, draw a networkx graph, follow all paths from every
-touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. Ours is
-`HapticSession.update` as a game calls it; beside it stand its parts alone (graph, paths, gains). All see the same
-frames of the same room (`busy_room`), in turns; times are medians, of the processor's time, so that other programs
-disturb them little. The 99th percentile over the median is given for sessions alone, passes of all frames by a new one
-each: of the middle pass, of the best and the worst, and of the least time that each frame took in any of them, which
-leaves out what the machine did besides.
+touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. It is compared with
+`HapticSession.update` as a game calls it, and with its parts alone (graph, paths, gains). All get the same frames of
+the same room (`busy_room`), in turns; times are medians of processor time, so that other programs disturb them little.
+The 99th percentile over the median is given for sessions alone, in several passes of all frames, each by a new session:
+of the middle pass, of the best and the worst, and of the least time of each frame in any pass, which leaves out
+disturbances by other programs.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ _N_PASSES = 11
 
 
 class PaperLoop:
-    """The loop of the paper, written down plainly."""
+    """The paper's loop in plain code."""
 
     def __init__(self, room: BusyRoom) -> None:
         self.ids = [item.id for item in room.scene.objects]
@@ -93,16 +93,16 @@ class PaperLoop:
 
 
 class OurLoop:
-    """The same frame with scene2hap's parts and nothing around them: graph, paths, gains."""
+    """The same frame with scene2hap's parts alone: graph, paths, gains."""
 
     def __init__(self, room: BusyRoom) -> None:
         self.graph = ContactGraph(room.scene)
-        price = {
+        wavenumbers = {
             name: Plate(*haptics.estimated_size_m, haptics.material).wavenumber_per_root_omega
             for name, haptics in room.bundle.objects.items()
         }
         self.sources = list(room.bundle.loops)
-        self.paths = LivePaths(self.graph, price, _crossing, self.sources, N_HOPS)
+        self.paths = LivePaths(self.graph, wavenumbers, _crossing, self.sources, N_HOPS)
         self.gains = BandRms(BANDS.edges_hz)
 
     def update(self, moved: dict[str, Pose], touches: Sequence[Touch]) -> np.ndarray:
@@ -110,7 +110,7 @@ class OurLoop:
         return self.felt(self.lengths(touches))
 
     def lengths(self, touches: Sequence[Touch]) -> list[list[float]]:
-        """What the cheapest way from each source to each hand costs: the nearest of a hand's touches is the loudest."""
+        """Least path cost from each source to each hand; the nearest touch of a hand has the largest gain."""
         by_hand: dict[str, list[tuple[str, tuple[float, float, float]]]] = {}
         for touch in touches:
             by_hand.setdefault(touch.hand, []).append((touch.object_id, touch.point_m))
@@ -130,7 +130,7 @@ def session_of(room: BusyRoom, max_hops: int | None = N_HOPS) -> HapticSession:
 
 
 def times_of(steps: Sequence[Callable[[int], object]], n_frames: int, clock: Clock, warm: int = 20) -> np.ndarray:
-    """Seconds (n_steps, n_frames) that the steps take, a second's worth of frames of one after the other's."""
+    """Times (n_steps, n_frames) [s] of the steps, which take turns after a second's worth of frames each."""
     taken = np.empty((len(steps), warm + n_frames))
     for first in range(0, warm + n_frames, _IN_A_ROW):
         for row, step in enumerate(steps):
@@ -146,7 +146,7 @@ def frames_of(room: BusyRoom, n_frames: int) -> list[tuple[dict[str, Pose], list
 
 
 def compared(n_objects: int, kind: str, n_frames: int) -> None:
-    """Medians, in turns; and the 99th percentile over the median of sessions alone, which collect garbage."""
+    """Print medians, measured in turns, and the 99th percentile over the median of sessions with garbage collection."""
     room = busy_room(n_objects, kind)
     plain, ours, session = PaperLoop(room), OurLoop(room), session_of(room)
     frames = frames_of(room, n_frames)
@@ -197,7 +197,7 @@ def worst_of(seconds: np.ndarray) -> float:
 
 
 class Stopwatch:
-    """The processor's time in methods of classes, without what belongs to watched methods that they call."""
+    """Processor time in methods of classes, without the time of watched methods that they call."""
 
     def __init__(self) -> None:
         self.spent: dict[str, float] = {}
@@ -236,7 +236,7 @@ class Stopwatch:
 
 
 def split(n_objects: int, kind: str, n_frames: int) -> None:
-    """Where the time of a session's update goes, as means of the processor's time."""
+    """Print the mean processor time of each part of a session's update."""
     room, watch = busy_room(n_objects, kind), Stopwatch()
     session, frames = session_of(room), frames_of(room, n_frames)
     for moved, touches in frames[:20]:

@@ -1,4 +1,4 @@
-"""What preparing a scene and touching it cost, as a table in Markdown; docs/figures/propagation.md holds the latest.
+"""Time to prepare a scene and to touch it, as a table in Markdown; docs/figures/propagation.md holds the latest.
 
 OPENBLAS_NUM_THREADS=1 python benchmarks/propagation.py
 
@@ -45,8 +45,11 @@ MODELS: dict[str, PropagationModel] = {"Infinite": InfinitePlate(), "Modal": Mod
 
 
 def room(n_objects: int = 50, n_contacts: int = 60, seed: int = SEED, prefix: str = "") -> ContactNetwork:
-    """Objects of a flat: a fifth are sheets of 2-6 mm steel or glass, of which half are unsymmetric, as is a fifth of
-    the rest; a fifth are compact. Each stands on one of the six before it; further contacts close loops."""
+    """Objects of a flat. A fifth are sheets of 2-6 mm steel or glass; a fifth are compact.
+
+    Half of the sheets and half of the oak plates have asymmetric edges. Each object stands on one of the six before it;
+    further contacts close loops.
+    """
     rng = np.random.default_rng(seed)
     names = [f"{prefix}{i:04d}" for i in range(n_objects)]
     kinds: list[Callable[[int], Plate]] = [
@@ -90,20 +93,20 @@ def seconds(work: Callable[[], object], repeat: int = 1) -> float:
     return (time.process_time() - begin) / repeat
 
 
-def forget() -> None:
-    """Make every plate one that was never seen."""
+def clear_caches() -> None:
+    """Clear the caches of plates."""
     for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
     infinite_plate._table.cache_clear()
 
 
 def preparing(model: PropagationModel) -> tuple[float, float]:
-    """Seconds for a room never seen, and when one of its objects moves; the median of five."""
+    """Time [s] to prepare a new room, and to prepare it again after a move of one object; the median of five."""
     network, excitations = room(), sources()
     model.prepare(network, excitations, THIRDS)  # imports are done before the clock starts
     cold, warm = [], []
     for k in range(5):
-        forget()
+        clear_caches()
         cold.append(seconds(lambda: model.prepare(network, excitations, THIRDS)))
         poses = {**network.poses, "0007": Pose((0.01 * k, 0.02, 0.0))}
         moved = ContactNetwork(network.bodies, network.contacts, poses)
@@ -114,7 +117,7 @@ def preparing(model: PropagationModel) -> tuple[float, float]:
 def touching(
     fields: dict[str, PropagationField], object_id: str, point_m: tuple[float, float, float]
 ) -> dict[str, float]:
-    """Seconds per touch: the best of nine turns of fifty."""
+    """Time per touch [s]: the best of nine turns of fifty."""
     for field in fields.values():
         field.attenuation(object_id, [point_m])
     best = dict.fromkeys(fields, np.inf)
@@ -179,7 +182,7 @@ def phone_on_oak() -> None:
 def main() -> None:
     argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     warnings.simplefilter("ignore", ThinPlateWarning)
-    print("| what | Infinite | Modal | bound |\n|---|---|---|---|")
+    print("| quantity | Infinite | Modal | bound |\n|---|---|---|---|")
     times = {name: preparing(model) for name, model in MODELS.items()}
     print(
         "| 50 objects, 60 contacts, 20 bands, cold, s | " + " | ".join(f"{t[0]:.2f}" for t in times.values()) + " | 1 |"

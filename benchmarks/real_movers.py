@@ -1,4 +1,4 @@
-"""Time of a whole `HapticSession.update` in real scenes while things move, as a table in Markdown.
+"""Time of a whole `HapticSession.update` in real scenes while objects move, as a table in Markdown.
 
 OMP_NUM_THREADS=1 python benchmarks/real_movers.py SCENE [SCENE ...] [--passes 3] [--worst 5] [--only ID]
 
@@ -7,7 +7,7 @@ two objects that touch most others. Every object up to 1 m long is a mover. A mo
 through the room at 0.4 m above its place, and lifted and dropped; then five movers at once do so, for several draws.
 
 Times are of the calling thread's processor time, garbage collection included, the least of several passes for each
-frame. `--worst` lists the movers with the dearest frames, `--profile` prints where their time goes.
+frame. `--worst` lists the movers with the slowest frames, `--profile` prints a profile of them.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def pushed(item: SceneObject, i: int) -> tuple[float, float, float]:
 
 
 def dropped(item: SceneObject, i: int) -> tuple[float, float, float]:
-    """Lifted by 0.3 m and let fall, twelve times, a little farther on each time."""
+    """Lifted by 0.3 m and dropped, twelve times, at a slightly different place each time."""
     k, phase = divmod(i, 20)
     height = 0.03 * phase if phase < 10 else 0.3 * (1 - ((phase - 10) / 6) ** 2) if phase < 16 else 0.0
     return 0.004 * k, 0.003 * k, height
@@ -150,8 +150,8 @@ def main() -> None:
     parser.add_argument("--only", help="one mover's id, or 'five'")
     parser.add_argument("--profile", action="store_true")
     args = parser.parse_args()
-    warnings.simplefilter("ignore", SceneWarning)  # of hands in the middle of what they touch
-    print("| scene | movers | path | p50 [ms] | p99 [ms] | worst [ms] | frames over 1 ms | dearest |")
+    warnings.simplefilter("ignore", SceneWarning)  # of hands in the middle of touched objects
+    print("| scene | movers | path | p50 [ms] | p99 [ms] | worst [ms] | frames over 1 ms | slowest movers |")
     print("|---|---|---|---|---|---|---|---|")
     for file in args.scenes:
         room = Room.read(file)
@@ -170,12 +170,12 @@ def main() -> None:
                     continue
                 every = np.concatenate(list(found.values()))
                 p50, p99 = np.percentile(every, (50, 99))
-                dearest = sorted(found, key=lambda who: -np.percentile(found[who], 99))[: args.worst]
-                told = ", ".join(f"{who} {np.percentile(found[who], 99):.1f}" for who in dearest)
+                slowest = sorted(found, key=lambda who: -np.percentile(found[who], 99))[: args.worst]
+                listed = ", ".join(f"{who} {np.percentile(found[who], 99):.1f}" for who in slowest)
                 kind = f"{len(room.movers)} alone" if alone else "five at once"
                 print(
                     f"| {room.name} | {kind} | {name} | {p50:.2f} | {p99:.2f} | {every.max():.2f} "
-                    f"| {100 * np.mean(every > 1):.1f} % | {told} |",
+                    f"| {100 * np.mean(every > 1):.1f} % | {listed} |",
                     flush=True,
                 )
         if profile:

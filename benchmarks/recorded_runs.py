@@ -1,4 +1,4 @@
-"""Starts and stops found in recordings of known machines, and in sounds that have none.
+"""Starts and stops found in synthetic recordings of known machines, and in sounds without any.
 
 python benchmarks/recorded_runs.py [--draws 300] [--seed 0]
 
@@ -26,18 +26,18 @@ from starting_machines import RATE_HZ, RISES, errors, machine, without_runs
 
 
 class Row(NamedTuple):
-    """A machine: whether its pitch moves, and what was found; NaN where nothing was."""
+    """A machine: whether its pitch moves, and the errors of the result; NaN if nothing was found."""
 
     spins: bool
     has_false_end: bool
     time_error: float = np.nan
     level_error_db: float = np.nan
     speed_error: float = np.nan
-    is_pitch_told: bool = False
+    is_pitch_right: bool = False
 
 
 def drawn(rng: np.random.Generator) -> Row:
-    """One machine, looked at."""
+    """Draw one machine and search its recording."""
     lasts_s = float(np.exp(rng.uniform(np.log(0.5), np.log(8.0))))
     is_start, spins, shape = rng.random() < 0.5, rng.random() < 0.5, str(rng.choice(sorted(RISES)))
     way: dict[str, Any] = {"start_s": lasts_s, "rise": shape} if is_start else {"stop_s": lasts_s, "fall": shape}
@@ -56,12 +56,12 @@ def drawn(rng: np.random.Generator) -> Row:
     if curve is None:
         return Row(spins, other is not None)
     begin_s = found.first / RATE_HZ - curve.lasts_s if is_start else found.end / RATE_HZ
-    is_told = bool(curve.speed) and curve.keeps_pitch != spins
-    return Row(spins, other is not None, curve.lasts_s / lasts_s - 1, *errors(take, curve, begin_s), is_told)
+    is_right = bool(curve.speed) and curve.keeps_pitch != spins
+    return Row(spins, other is not None, curve.lasts_s / lasts_s - 1, *errors(take, curve, begin_s), is_right)
 
 
 def spread(name: str, values: list[float], most: float, form: str) -> str:
-    """How many values are within a bound, their median and their 95th percentile."""
+    """Row of the table: share of values within a bound, median and 95th percentile."""
     off: NDArray[np.float64] = np.abs(values)
     middle, high = np.percentile(off, (50, 95))
     within = np.mean(off <= most)
@@ -69,7 +69,7 @@ def spread(name: str, values: list[float], most: float, form: str) -> str:
 
 
 def false_ends(n_seeds: int) -> Counter[str]:
-    """How many sounds without a start or a stop seem to have one, by kind."""
+    """Number of sounds without a start or a stop in which one is found, by kind."""
     sounds = [(name, x, RATE_HZ) for seed in range(n_seeds) for name, x in without_runs(seed).items()]
     sounds += [(name, x, rate) for name, (x, rate) in recordings().items()]
     found = [(name, recorded_runs(x, rate)) for name, x, rate in sounds]
@@ -86,18 +86,18 @@ def main() -> None:
     rows = [drawn(rng) for _ in range(arguments.draws)]
     found = [row for row in rows if not np.isnan(row.time_error)]
     moving = [row for row in found if row.spins]
-    told = [row for row in moving if row.is_pitch_told]
+    right = [row for row in moving if row.is_pitch_right]
     n_false = sum(row.has_false_end for row in rows)
     print(f"{len(found)} of {len(rows)} starts and stops found; {n_false} at an end that has none.\n")
     print("| | | share | median error | 95th percentile |\n|---|---|---|---|---|")
     print(spread("time", [row.time_error for row in found], 0.15, ".1%"))
     print(spread("level [dB]", [row.level_error_db for row in found], 3.0, ".1f"))
-    print(spread("pitch that moves", [row.speed_error for row in told], 0.05, ".1%"))
+    print(spread("pitch that moves", [row.speed_error for row in right], 0.05, ".1%"))
     still = [row for row in found if not row.spins]
-    n_still = sum(row.is_pitch_told for row in still)
-    print(f"\nPitch told of {len(told)} of {len(moving)} that move, and of {n_still} of {len(still)} that stay.")
+    n_still = sum(row.is_pitch_right for row in still)
+    print(f"\nPitch right for {len(right)} of {len(moving)} that move, and for {n_still} of {len(still)} that stay.")
     false = false_ends(max(1, arguments.draws // 20))
-    print(", ".join(f"{name} {n}" for name, n in false.items()) or "none seems to have one.")
+    print(", ".join(f"{name} {n}" for name, n in false.items()) or "none is found.")
 
 
 if __name__ == "__main__":

@@ -1,14 +1,15 @@
-"""What is left of recorded sounds after each converter, as a table in Markdown.
+"""How well each converter preserves recorded sounds, as a table in Markdown.
 
 python benchmarks/recordings.py [SOUND ...] [--actuator flat]
 
-By what a sound is, three things count:
-- *varies* (its level in 100 ms moves by more than 6 dB, 5th to 95th percentile): the correlation of both envelopes, to
-  be 0.8 and more;
-- *steady*: by how much the range of what is felt exceeds the sound's [dB], to be 3 and less;
-- *events*, where there are any: how many of its onsets are onsets of what is felt, within 30 ms. An onset is a place
-  where the energy in 5 ms, as decibels, rises by 12 dB over the median of the 50 ms before, above -30 dB re its peak.
-These statistics share nothing with the converters' own. Sounds are those beside the project unless some are named.
+The kind of sound decides the measure:
+- *varies* (the level in 100 ms moves by more than 6 dB, 5th to 95th percentile): correlation of the envelopes of sound
+  and vibration; the target is 0.8 or more;
+- *steady*: excess of the level range of the vibration over that of the sound [dB]; the target is 3 or less;
+- *events*, if there are any: number of onsets of the sound that are also onsets of the vibration, within 30 ms. An
+  onset is a place where the energy in 5 ms rises by 12 dB over the median of the 50 ms before, above -30 dB re its
+  peak.
+These statistics are independent of the converters' own. Sounds are those beside the project unless some are named.
 """
 
 from __future__ import annotations
@@ -43,12 +44,12 @@ def levels_db(x: Signal, rate: int, step_s: float) -> Signal:
 
 
 def range_db(level: Signal) -> float:
-    """From the 5th to the 95th percentile."""
+    """Range of a level from the 5th to the 95th percentile [dB]."""
     return float(np.subtract(*np.percentile(level, (95, 5))))
 
 
 def onsets_s(x: Signal, rate: int) -> Signal:
-    """Where something begins."""
+    """Times of onsets [s]."""
     level = levels_db(x, rate, 0.005)
     found: list[int] = []
     for i in range(10, len(level)):
@@ -59,7 +60,7 @@ def onsets_s(x: Signal, rate: int) -> Signal:
 
 
 def judged(clip: AudioClip, kind: str, actuator: str) -> str:
-    """One cell: what counts for a sound of its kind."""
+    """One cell: the measure for a sound of its kind."""
     profile, rate = actuator_profile(actuator), clip.sample_rate_hz
     anchor = anchor_of(clip.samples, rate, sensation_level_db(INTENSITY), profile)
     assert anchor is not None
@@ -70,15 +71,15 @@ def judged(clip: AudioClip, kind: str, actuator: str) -> str:
     felt = convert_clip(clip, CONVERTERS.build(kind), context).samples.astype(np.float64)
     before, after = (levels_db(x, rate, 0.1) for x in (heard, felt))
     if range_db(before) > VARIES_DB:
-        told = f"r {np.corrcoef(10 ** (before / 20), 10 ** (after / 20))[0, 1]:.2f}"
+        cell = f"r {np.corrcoef(10 ** (before / 20), 10 ** (after / 20))[0, 1]:.2f}"
     else:
-        told = f"{range_db(after) - range_db(before):+.1f} dB"
+        cell = f"{range_db(after) - range_db(before):+.1f} dB"
     starts = onsets_s(heard, rate)
     if len(starts) >= 3:
         others = onsets_s(felt, rate)
         kept = sum(bool(len(others)) and np.abs(others - start).min() <= 0.03 for start in starts)
-        told += f", {kept} of {len(starts)}"
-    return told
+        cell += f", {kept} of {len(starts)}"
+    return cell
 
 
 def main() -> None:
@@ -88,7 +89,7 @@ def main() -> None:
     given = parser.parse_args()
     paths = given.sounds or sorted(path for path in RECORDINGS.glob("*.*") if path.suffix in (".wav", ".ogg"))
     kinds = ["auto", *(kind for kind in CONVERTERS.kinds() if kind != "auto")]
-    print(f"| sound | is | {' | '.join(kinds)} |")
+    print(f"| sound | kind | {' | '.join(kinds)} |")
     print("|" + "---|" * (len(kinds) + 2))
     for path in paths:
         clip = read_clip(path)

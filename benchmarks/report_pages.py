@@ -2,11 +2,11 @@
 
 python benchmarks/report_pages.py
 
-Scenes are the demo kitchen and, where they are beside the project, three by others. In `messy_japanese_room` nobody can
-tell what the objects are; there one table hums, and everything is of oak. Building is `write_report` of a bundle in
-memory, the least of three. First paint and first picture of the scene are medians of five loads from a file, in
-headless Chromium that draws in software; they need playwright and chromium. The felt map is compared with a session's
-gains at 200 points of all patches, where the level is within the page's range.
+Scenes are the demo kitchen and, if they are beside the project, three by other authors. The objects of
+`messy_japanese_room` have no usable names; there one table hums, and everything is of oak. Building is `write_report`
+of a bundle in memory, the least of three. First paint and first picture of the scene are medians of five loads from a
+file, in headless Chromium with software rendering; they need playwright and chromium. The felt map is compared with a
+session's gains at 200 points of all patches, where the level is within the page's range.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def baked(path: Path, unit_m: float | None) -> HapticBundle:
 
 
 def built(bundle: HapticBundle, path: Path) -> float:
-    """Write the page; how long it took [s]."""
+    """Write the page. Returns the time [s]."""
     times = []
     for _ in range(N_BUILDS):
         begun = time.perf_counter()
@@ -61,7 +61,7 @@ def built(bundle: HapticBundle, path: Path) -> float:
 
 
 def off_db(bundle: HapticBundle) -> tuple[float, int]:
-    """Largest difference [dB] between levels as stored in a page and a session's, and of how many levels."""
+    """Largest difference [dB] between stored levels of a page and a session's levels, and the number of levels."""
     felt = felt_map(bundle)
     session = HapticSession(bundle)
     places = [(patch.object_id, point) for patch in felt.patches for point in patch.points_m.tolist()]
@@ -133,7 +133,7 @@ def main() -> None:
         seen = painted(pages)
     print(
         "| scene | objects | triangles | sources | page [MB] | built in [s] | first paint [ms] | first picture [ms] | "
-        "felt map off a session by at most [dB] | of levels |"
+        "largest error of the felt map [dB] | levels compared |"
     )
     print("|---|---|---|---|---|---|---|---|---|---|")
     for row, times in zip(rows, seen, strict=True):

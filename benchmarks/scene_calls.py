@@ -1,11 +1,11 @@
-"""What a model is asked about many scenes with shared furniture, with and without sharing, as a table in Markdown.
+"""Questions to a model for many scenes with shared furniture, with and without sharing, as a table in Markdown.
 
 python benchmarks/scene_calls.py [--scenes 200] [--seed 0] [--model gpt-5]
 
-Scenes are the variations of `benchmarks/bake_many.py`. No model is asked: the lexicon answers in its place, and every
-question is counted, with the tokens that it would take (`scene2hap.llm.dry_run`). Pictures are small, since they only
-have to be equal or not. The plan for more scenes is drawn from the same run: questions and tokens per scene, and how
-the number of distinct questions grows.
+Scenes are the variations of `benchmarks/bake_many.py`. The lexicon answers instead of a model, and every question is
+counted, with its estimated tokens (`scene2hap.llm.dry_run`). Pictures are small, since only their equality matters
+here. The plan for more scenes is extrapolated from the same run: questions and tokens per scene, and the growth of the
+number of distinct questions.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ QUESTIONS_A_MINUTE = (5_000, 500)
 
 
 class Counting:
-    """The lexicon, as if it were a model far away."""
+    """The lexicon as a remote model that counts its questions."""
 
     def __init__(self, model: str) -> None:
         self.identity = {"model": model, "base_url": "https://nowhere.invalid"}
@@ -57,8 +57,8 @@ class Counting:
         return await self._inner.complete(request)
 
 
-def asked(scenes: list[Path], model: str, folder: Path, settings: dict[str, Any]) -> tuple[Counting, int, list[int]]:
-    """The model's account, all questions of the chain, and how many had been sent after each scene."""
+def counted(scenes: list[Path], model: str, folder: Path, settings: dict[str, Any]) -> tuple[Counting, int, list[int]]:
+    """The model's counts, all questions of the chain, and the number of questions sent after each scene."""
     counting = Counting(model)
     backend = counting if settings.get("share_copies") is False else CacheBackend(counting, folder)
     n_questions, sent = 0, []
@@ -86,18 +86,18 @@ def main() -> None:
         rows = {}
         for k, (way, settings) in enumerate(WAYS.items()):
             begun = time.perf_counter()
-            rows[way] = (*asked(scenes, arguments.model, Path(place) / str(k), settings), time.perf_counter() - begun)
+            rows[way] = (*counted(scenes, arguments.model, Path(place) / str(k), settings), time.perf_counter() - begun)
     print(
         f"{arguments.scenes} scenes, {n_objects} objects, seed {arguments.seed}; costs are estimates at the prices of "
         f"{price_list().date} for {arguments.model}, standard tier, pictures in low detail.\n"
     )
-    print("| sharing | questions sent | a scene | about objects | cost [dollars] | cost, flex or batch |")
+    print("| sharing | questions sent | per scene | about objects | cost [dollars] | cost, flex or batch |")
     print("|---|---|---|---|---|---|")
     for way, (counting, _, sent, _) in rows.items():
         cost = counting.cost_usd
         objects = counting.calls["object_analyzer"]
         print(f"| {way} | {sent[-1]:,} | {sent[-1] / len(scenes):.1f} | {objects:,} | {cost:.2f} | {cost / 2:.2f} |")
-    print(f"\n{PLANNED:,} scenes like these, drawn on from the last half of the run, without prompt caching:\n")
+    print(f"\n{PLANNED:,} scenes like these, extrapolated from the last half of the run, without prompt caching:\n")
     high, low = QUESTIONS_A_MINUTE
     print(f"| sharing | questions | cost, flex or batch [dollars] | time at {high:,} a minute | at {low:,} a minute |")
     print("|---|---|---|---|---|")

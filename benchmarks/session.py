@@ -1,9 +1,9 @@
-"""What a session costs while it is played, as a table in Markdown; docs/figures/playing.md holds the latest.
+"""Time of a session while it is played, as a table in Markdown; docs/figures/playing.md holds the latest.
 
 OMP_NUM_THREADS=1 python benchmarks/session.py
 
 Times are of the processor and the best of many short runs, so that other programs disturb them little; the rows that
-say "wall" are by the clock, since waiting is what they are about.
+say "wall" are by the clock, since they measure waiting.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ FRAME_S = 0.02
 
 
 class Room:
-    """Tables in a row, each with things on it, some of which vibrate. y is up."""
+    """Tables in a row with objects on them, some of which vibrate. y is up."""
 
     def __init__(self, n_tables: int, n_things: int, n_sources: int) -> None:
         self.objects: list[SceneObject] = []
@@ -90,7 +90,7 @@ def best_of(
     n_times: int = 40,
     tidy_up: Callable[[], object] = lambda: None,
 ) -> float:
-    """Seconds of the processor per call, the best of many short runs; what tidies up after a run does not count."""
+    """Processor time per call [s], the best of many short runs; clean-up after a run is not counted."""
     best = np.inf
     for turn in range(n_times):
         begin = time.thread_time()
@@ -106,7 +106,7 @@ def points(n: int, rng: np.random.Generator) -> list[tuple[float, float]]:
 
 
 def at_rest(kind: str, bands: str) -> tuple[float, float]:
-    """Seconds per update with two hands and eight sources: hands that rest, and hands that glide over a table each."""
+    """Seconds per update with two hands and eight sources: for resting hands, and for hands that slide over a table."""
     rng = np.random.default_rng(SEED)
     s = Room(2, 16, 8).session(propagation=kind, bands=bands)
     frames = [

@@ -1,11 +1,11 @@
-"""What adding and removing copies of a prefab costs the game's thread, as a table in Markdown.
+"""Time on the game's thread of adding and removing copies of a prefab, as a table in Markdown.
 
 OMP_NUM_THREADS=1 python benchmarks/spawning.py
 OMP_NUM_THREADS=1 python benchmarks/spawning.py --alive 50 --scene kitchen.glb --seed 2
 
-With a scene, copies come where its floor is free, at spots 20 cm apart in an order drawn with the seed; else on a lone
-table. A copy comes at 50 Hz and goes some seconds later; what it plays is rendered between the calls, and its clicks
-are what lies above 1 kHz in 250 ms, re the minute or what those 250 ms hold, whichever is more.
+With a scene, copies are added at free spots of its floor, 20 cm apart, in a random order of the seed; else on a single
+table. Copies are added at 50 Hz and removed some seconds later; the session is rendered between the calls. A click is
+the level above 1 kHz in 250 ms, relative to the level of the minute or of those 250 ms, whichever is larger.
 """
 
 from __future__ import annotations
@@ -60,13 +60,15 @@ def thing(name: str, size_m: tuple[float, float, float], at_m: tuple[float, floa
 def bundle_of(item: SceneObject, material: str, frequency_hz: float | None) -> HapticBundle:
     """A prefab without inference; it vibrates if a frequency is given."""
     states = () if frequency_hz is None else (SourceState("on", 0.5, "motor", "motor"),)
-    told = ObjectHaptics(item.name, material, materials.lookup(material), item.size_m, "stands", states != (), states)
+    haptics = ObjectHaptics(
+        item.name, material, materials.lookup(material), item.size_m, "stands", states != (), states
+    )
     loops = {}
     if frequency_hz is not None:
         samples = 0.02 * np.sin(2 * np.pi * frequency_hz * np.arange(8000) / 8000)
         clip = AudioClip(samples.astype(np.float32), 8000)
         loops = {item.id: {"on": HapticLoop(clip, clip, frequency_hz, frequency_hz)}}
-    return HapticBundle(SceneSnapshot(item.name, "y", (item,)), "", {item.id: told}, loops)
+    return HapticBundle(SceneSnapshot(item.name, "y", (item,)), "", {item.id: haptics}, loops)
 
 
 def timed(call: Callable[[], object], of: NDArray[np.float64]) -> None:
@@ -77,7 +79,7 @@ def timed(call: Callable[[], object], of: NDArray[np.float64]) -> None:
 
 
 def resident_mib() -> float:
-    """Memory of this process, where Linux tells it."""
+    """Resident memory of this process [MiB]; needs Linux."""
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
 
@@ -123,11 +125,11 @@ def main() -> None:
     prefab = bundle_of(thing("cup", SIZE_M, (0.0, 0.0, 0.0)), "plastic", 120.0)
     n_steps, n_warm, before_mib = round(given.seconds * SPAWN_HZ), 0, 0.0
     n_block = RATE_HZ // SPAWN_HZ
-    # Written now, so that what is measured does not count as memory that grows.
+    # Allocated and written now, so that the measurements do not count as growth of memory.
     heard = np.full((n_steps, n_block), np.nan, dtype=np.float32)
     adds, removes, updates = np.full((3, n_steps, 2), np.nan)
     profile = cProfile.Profile()
-    # As docs/spawning.md advises: a full collection looks at all that a program has loaded.
+    # As docs/spawning.md advises: else a full collection visits all objects that the program has loaded.
     gc.collect()
     gc.freeze()
     for n in range(n_steps):

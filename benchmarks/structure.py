@@ -1,9 +1,9 @@
-"""The package's structure at two commits: size, import circles and fan-in of each room; files on the way to a gain.
+"""The package's structure at two commits: size, import cycles and fan-in of each room; files used for a gain.
 
 python benchmarks/structure.py [--before 01b76f5] [--after HEAD] [--part table|way|tree]
 
 A room is a module or package directly below `scene2hap`. Imports are read from the source, those below `TYPE_CHECKING`
-and inside functions included. A circle is a set of modules that import each other, directly or through others; fan-in
+and inside functions included. A cycle is a set of modules that import each other, directly or through others; fan-in
 is the number of modules outside the room that import it.
 
 The way from a `SceneSnapshot` to a gain is traced with `sys.setprofile` in a fresh process: a session over the demo
@@ -43,7 +43,7 @@ bundle = bake(load_scene(kitchen_path()))
 phase, entered, importing = "", {}, Counter()
 
 def watch(frame, event, _):
-    # Code of modules and class bodies runs while something is imported; whatever it calls is no part of the way.
+    # Code of modules and class bodies runs during imports; its calls are not part of the way.
     is_import = not frame.f_code.co_flags & inspect.CO_OPTIMIZED
     if event == "call":
         importing[threading.get_ident()] += is_import
@@ -107,7 +107,7 @@ class Source:
                     elif module in self.files:
                         yield module
 
-    def circles(self, room: str) -> list[list[str]]:
+    def cycles(self, room: str) -> list[list[str]]:
         """Sets of modules of a room that import each other, in alphabetical order."""
         inside = self.imports.subgraph(name for name in self.files if room_of(name) == room)
         return sorted(sorted(each) for each in nx.strongly_connected_components(inside) if len(each) > 1)
@@ -130,7 +130,7 @@ class Source:
         return graph
 
     def levels(self, room: str) -> list[list[str]]:
-        """Modules of a room, those that import nothing of the room first; a circle stands in braces on one level."""
+        """Modules of a room by level, those that import nothing of the room first; braces enclose a cycle."""
         inside = self.imports.subgraph(name for name in self.files if room_of(name) == room)
         merged = nx.condensation(inside)
         level: dict[int, int] = {}
@@ -174,13 +174,13 @@ def way(package: Path) -> dict[str, set[str]]:
 
 
 def table(before: Source, after: Source) -> None:
-    print("| room | modules | lines of Python | of Cython | modules in circles | fan-in |\n|---|---|---|---|---|---|")
+    print("| room | modules | lines of Python | of Cython | modules in cycles | fan-in |\n|---|---|---|---|---|---|")
     totals = [Counter[int](), Counter[int]()]
     for room in sorted({*before.rooms, *after.rooms}):
         cells = []
         for source, total in zip((before, after), totals, strict=True):
             n = sum(room_of(name) == room for name in source.files if name != PACKAGE)
-            found = [n, *source.lines(room), sum(map(len, source.circles(room))), source.fan_in(room)]
+            found = [n, *source.lines(room), sum(map(len, source.cycles(room))), source.fan_in(room)]
             cells.append(found if n else None)
             total.update(dict(enumerate(found)))
         print(f"| `{room}` | " + " | ".join(pairs(*cells)) + " |")
@@ -188,10 +188,10 @@ def table(before: Source, after: Source) -> None:
     print("| all | " + " | ".join(pairs(*both)) + " | |")
     for title, source in (("before", before), ("after", after)):
         rings = [each for each in nx.strongly_connected_components(source.room_graph()) if len(each) > 1]
-        print(f"\nCircles of whole rooms {title}: {'; '.join(', '.join(sorted(each)) for each in rings) or 'none'}.")
-        rings = [ring for room in source.rooms for ring in source.circles(room)]
+        print(f"\nCycles of whole rooms {title}: {'; '.join(', '.join(sorted(each)) for each in rings) or 'none'}.")
+        rings = [ring for room in source.rooms for ring in source.cycles(room)]
         inside = [", ".join(name.partition(".")[2] for name in ring) for ring in rings]
-        print(f"Circles inside rooms {title}: {'; '.join(inside) or 'none'}.")
+        print(f"Cycles inside rooms {title}: {'; '.join(inside) or 'none'}.")
 
 
 def pairs(before: list[int] | None, after: list[int] | None) -> list[str]:
@@ -204,12 +204,12 @@ def pairs(before: list[int] | None, after: list[int] | None) -> list[str]:
 def print_way(before: Path, after: Path) -> None:
     ways = [way(before), way(after)]
     print("| part of the way | files before | files after |\n|---|---|---|")
-    for phase, what in (
+    for phase, part in (
         ("made", "`HapticSession(scene, bundle)`"),
         ("first", "first `update`, one touch"),
         ("moved", "`update` with a moved object, the next five frames"),
     ):
-        print(f"| {what} | {len(ways[0][phase])} | {len(ways[1][phase])} |")
+        print(f"| {part} | {len(ways[0][phase])} | {len(ways[1][phase])} |")
     everything = [set().union(*each.values()) for each in ways]
     print(f"| all together | {len(everything[0])} | {len(everything[1])} |\n")
     rooms = [Counter(name.partition("/")[0].removesuffix(".py") for name in each) for each in everything]
@@ -229,7 +229,7 @@ def print_tree(before: Source, after: Source) -> None:
         print("```\n")
     for room in ("contact", "session"):
         for title, source in (("before", before), ("after", after)):
-            print(f"Modules of `{room}` {title}; each row imports rows below it, and braces hold a circle.\n\n```")
+            print(f"Modules of `{room}` {title}; each row imports rows below it, and braces enclose a cycle.\n\n```")
             for row in reversed(source.levels(room)):
                 print("  ".join(row))
             print("```\n")

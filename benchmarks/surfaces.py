@@ -1,4 +1,4 @@
-"""Measured dominant surfaces beside the true ones, as a table in Markdown; docs/figures/surfaces.md holds the latest.
+"""Measured and true dominant surfaces, as a table in Markdown; docs/figures/surfaces.md holds the latest.
 
 python benchmarks/figures.py surfaces
 
@@ -44,12 +44,12 @@ def rows() -> Iterator[tuple[dict[str, str], tuple[float, ...], tuple[float, ...
 
 
 def relative_errors(true: tuple[float, ...], measured: tuple[float, ...]) -> list[float]:
-    """Of each edge; an edge that is truly 0 must be measured as 0, or the error is infinite."""
+    """Relative error of each edge; infinite if the true edge is 0 and the measured one is not."""
     return [abs(m - t) / t if t else (0.0 if m == 0 else float("inf")) for t, m in zip(true, measured, strict=True)]
 
 
 def sampled() -> Iterator[tuple[dict[str, str], tuple[float, ...], tuple[float, ...]]]:
-    """The same as `rows` of the sample, whose truth was written down before anything was measured."""
+    """The same as `rows` for the sample, whose true sizes were noted before anything was measured."""
     with SAMPLED.open(encoding="utf-8") as file:
         for line in csv.DictReader(file):
             if (SCENES / line["file"]).is_file():

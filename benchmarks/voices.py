@@ -1,4 +1,4 @@
-"""The synthesizer beside recordings of the same machines, as a table in Markdown.
+"""The synthesizer compared with recordings of the same machines, as a table in Markdown.
 
 python benchmarks/voices.py [--takes 5]
 
@@ -35,7 +35,7 @@ OCTAVES_HZ = (40.0, 80.0, 160.0, 320.0, 640.0)
 
 
 def modulation_db(x: Signal, rate: int) -> float:
-    """How much the level in 100 ms moves, against its mean [dB]."""
+    """Standard deviation over the mean of the level in 100 ms [dB]."""
     n = round(0.1 * rate)
     level = np.sqrt((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1))
     return float(20 * np.log10(level.std() / level.mean()))
@@ -62,8 +62,8 @@ def main() -> None:
         slow, level = modulation_db(real, recording.sample_rate_hz), octaves_db(real, recording.sample_rate_hz)
         made = []
         for seed in range(takes):
-            asked = VibrationDescription(category, state, words, words, intensity, size, seed=seed)
-            clip = Synthesizer().find(asked)[0]
+            description = VibrationDescription(category, state, words, words, intensity, size, seed=seed)
+            clip = Synthesizer().find(description)[0]
             x = clip.samples.astype(np.float64)
             made.append((modulation_db(x, clip.sample_rate_hz), octaves_db(x, clip.sample_rate_hz)))
         ours = float(10 * np.log10(np.mean([10 ** (one / 10) for one, _ in made])))

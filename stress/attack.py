@@ -3,10 +3,9 @@
 python stress/attack.py [--seed 0] [--families scene_files servers ...] [--cases 100]
 
 Each case runs in a child process with limits on processor time and memory, in a fresh folder with canaries around it.
-It passes when it exits with 0, or with one sentence of ours; when no traceback and no raw control character is shown;
-when time and memory stay in bounds; and when nothing outside its folder has changed. Cases are drawn from the seed:
-another seed is another campaign. Prints a table of the families, what failed on standard error, and exits with 1 if
-any case did. Needs fork (POSIX).
+A case passes if it exits with 0 or with a one-line error of scene2hap, shows no traceback and no raw control character,
+stays within the limits of time and memory, and changes nothing outside its folder. The seed decides the cases. Prints a
+table of the families, lists failed cases on standard error, and exits with 1 if any case failed. Needs fork (POSIX).
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ FAMILIES = (
 
 
 def campaign(family: str, seed: int, cases: int, work: Path) -> list[Verdict] | None:
-    """The verdicts of a family's first cases; None where there is no such module."""
+    """Run the first cases of a family. Returns the verdicts, or None if the family has no module."""
     try:
         module = importlib.import_module(f"attacks.{family}")
     except ModuleNotFoundError as missing:
@@ -94,7 +93,7 @@ def main() -> int:
 
 
 def _preload() -> None:
-    """Import once what every forked case would import for itself."""
+    """Import common modules once, so that forked cases need not import them again."""
     for name in (
         "scene2hap.cli",
         "scene2hap.scene.load",
@@ -108,7 +107,7 @@ def _preload() -> None:
         try:
             importlib.import_module(name)
         except ImportError:
-            print(f"{name} is not installed; its files are refused with a sentence")
+            print(f"{name} is not installed; its files are refused with an error message")
 
 
 if __name__ == "__main__":

@@ -1,15 +1,15 @@
-"""Campaigns on analysis, loops and choice: random sounds of known kind, and how often the promises hold.
+"""Campaigns on analysis, loops and selection: random sounds of known kind, and how often the promises hold.
 
 python stress/audio.py [frequency] [loops] [chopped] [choice] [--seed 0] [--draws N]
 
 frequency : 1,000 tones of 15 to 500 Hz with a second partial at -6 dB, 2.5 s, noise in 20-1000 Hz at 10 dB below;
-    of the recorded hums, the strongest third octave of a bank of Butterworth filters tells the octave.
-loops : 300 clips, of which recordings, noises, tones and beats a quarter each, through every converter in turn; the
-    wrap of the loop is judged against percentiles of 200 places inside the clip (`tests/seam_judge.py`).
-chopped : a test of that test: 1,500 tones and 1,500 noises, each cut once at random; 1 to 8 tones in a hundred meet
-    themselves by chance.
+    for recorded hums, the strongest third octave of a bank of Butterworth filters confirms the octave.
+loops : 300 clips, a quarter each of recordings, noises, tones and beats, through every converter in turn; the wrap of
+    the loop is compared with percentiles of 200 places inside the clip (`tests/seam_judge.py`).
+chopped : a test of that comparison: 1,500 tones and 1,500 noises, each cut once at random; 1 to 8 tones in a hundred
+    are continuous at the cut by chance.
 choice : 200 draws of a recorded hum among the other recordings and eight synthesized decoys (`tests/sound_draws.py`).
-Recordings are looked for beside the repository (../shared/audio); without them their share is left out, and said so.
+Recordings are read from ../shared/audio beside the repository. Without them, their part is skipped with a message.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def main() -> None:
     print(f"Python {platform.python_version()}, {platform.machine()}, seed {arguments.seed}")
     real = recordings()
     if not real:
-        print("no recordings beside the repository: synthesized sounds alone")
+        print("no recordings beside the repository: only synthesized sounds")
     for name in arguments.campaigns or CAMPAIGNS:
         begin = time.perf_counter()
         CAMPAIGNS[name](real, arguments.seed, arguments.draws)
@@ -87,7 +87,7 @@ def frequency(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None)
 
 
 def strongest_third_octave_hz(x: Signal, rate: int) -> float:
-    """The centre of the third octave, 12.5 to 800 Hz, that holds most energy: Butterworth band-passes, no spectrum."""
+    """Centre of the third octave, 12.5 to 800 Hz, with most energy; by Butterworth band-passes, not by a spectrum."""
     centres = 10 ** np.arange(1.1, 2.91, 0.1)
     energies = []
     for centre in centres:
@@ -126,7 +126,7 @@ def loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> 
         by_converter[converter].append(is_felt_well)
         rows[kind].append((judge(apply_seam(heard, seam), heard, rate, rng).passes, is_felt_well))
     everything = [row for kind in rows.values() for row in kind]
-    print(f"loops, {len(everything)} clips: share whose wrap does not stand out")
+    print(f"loops, {len(everything)} clips: share whose wrap is within the steps of the clip")
     print(f"  {'kind':10} {'clips':>5} {'heard':>7} {'felt':>7}")
     for kind, row in (*rows.items(), ("all", everything)):
         heard_share, felt_share = np.mean(row, axis=0)
@@ -142,8 +142,8 @@ def loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> 
     )
 
 
-def careless(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> None:
-    print("loops cut at random: share whose wrap stands out")
+def chopped_loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> None:
+    print("loops cut at random: share whose wrap exceeds the steps of the clip")
     for number, kind in enumerate(("tone", "noise")):
         noticed = []
         for i in range(draws or 1500):
@@ -169,11 +169,11 @@ def choice(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) ->
     print(f"choice, {len(everything)} draws: the hum wins in {np.mean(everything):.1%}")
     for title, row in sorted(won.items()):
         print(f"  {title}: {sum(row)} of {len(row)}")
-    print("an example (a lost one, if any):")
+    print("example table (of a draw that the hum lost, if any):")
     print(table)
 
 
-CAMPAIGNS = {"frequency": frequency, "loops": loops, "chopped": careless, "choice": choice}
+CAMPAIGNS = {"frequency": frequency, "loops": loops, "chopped": chopped_loops, "choice": choice}
 
 if __name__ == "__main__":
     main()

@@ -1,11 +1,11 @@
-"""Kill workers and the parent of a run over many scenes, and compare with an undisturbed run.
+"""Kill workers and the parent process of a run over many scenes, and compare with an undisturbed run.
 
 python stress/bake_many.py [--scenes 200] [--kills 3] [--seed 0]
 
-Scenes are the variations of `benchmarks/bake_many.py`. The lexicon stands in for a model behind an address: each
-question that it answers is written to a file, as one that was paid for. In the disturbed run a worker is killed every
-few seconds, and the parent, with all its workers, as often as `--kills` says; each time the same command is given
-again. At the end the bundles must be equal byte for byte, and no question may stand in the file twice.
+Scenes are the variations of `benchmarks/bake_many.py`. The lexicon replaces a remote model: each request that it
+answers is written to a file, as a request that was paid for. In the disturbed run a worker is killed every few seconds,
+and the parent with all its workers is killed `--kills` times; the same command is then run again. At the end the
+bundles must be equal byte for byte, and no request may be in the file twice.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from scene2hap.llm.wrappers import CacheBackend, RepairBackend
 
 
 class Paid:
-    """Answers as the lexicon, from far away, and notes each answer before it gives it."""
+    """The lexicon as a remote model. Logs each answered request before it returns the answer."""
 
     def __init__(self, log: Path) -> None:
         self._log = log
@@ -62,14 +62,14 @@ def child(folder: Path, scenes: list[str]) -> None:
 
 
 def undisturbed(folder: Path, scenes: list[Path]) -> float:
-    """Bake; how long it took [s]."""
+    """Bake without interruption. Returns the time [s]."""
     begun = time.perf_counter()
     subprocess.run(_command(folder, scenes), check=True, stdout=subprocess.DEVNULL)
     return time.perf_counter() - begun
 
 
 def disturbed(folder: Path, scenes: list[Path], whole_s: float, n_kills: int, seed: int) -> tuple[int, int]:
-    """Bake in spite of everything; how often the parent was begun, and how many workers were killed alone."""
+    """Bake while processes are killed. Returns the number of starts of the parent and of workers killed alone."""
     chance = random.Random(seed)
     runs = n_workers = 0
     while True:
@@ -129,7 +129,7 @@ def main() -> None:
         f"{arguments.scenes} scenes, seed {arguments.seed}: the parent was killed {runs - 1} times and {n_workers} "
         f"workers were killed alone. Bundles {'equal byte for byte' if same else 'DIFFER'}. "
         f"{sum(paid[0].values()):,} questions in the undisturbed run, {sum(paid[1].values()):,} in the other; "
-        f"{twice} answers that were paid for were asked again."
+        f"{twice} paid questions were sent again."
     )
     if not same or twice:
         raise SystemExit(1)

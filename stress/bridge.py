@@ -1,10 +1,10 @@
-"""Send a bridge random and mutated messages, and see that it lives, answers, and does not grow.
+"""Send a bridge random and mutated messages, and check that it runs on, answers, and keeps its memory size.
 
     python stress/bridge.py [--messages 100000] [--seed 0]
 
-Half are JSON texts of which some characters are changed, the others frames with changed bytes, cut frames and noise. A
-second client plays all the while, and must get its gains. The bridge is a program of its own, whose memory is read
-before and after.
+Half of the messages are JSON texts with changed characters; the others are frames with changed bytes, truncated frames
+and noise. A second client plays at the same time and must get its gains. The bridge runs in its own process; its memory
+is read before and after.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def main() -> None:
                     before_mb = memory_mb(process)  # buffers and caches are warm
                 try:
                     client.socket.send(mutated(client, rng))
-                    if turn % 20 == 0:  # the server drops who does not read
+                    if turn % 20 == 0:  # the server drops a client that does not read
                         client.ask("stats")
                         heard.update(one["type"] for one in client.heard)
                         client.heard.clear()
@@ -92,7 +92,7 @@ def main() -> None:
     assert process.returncode == 0, errors
     assert "Traceback" not in errors, errors
     print(
-        f"{arguments.messages:,} messages, seed {arguments.seed}: {heard['error']:,} errors in words, "
+        f"{arguments.messages:,} messages, seed {arguments.seed}: {heard['error']:,} error replies, "
         f"{reconnected} connections closed by the bridge, no exception. Memory {before_mb:.0f} MB after a tenth, "
         f"{after_mb:.0f} MB at the end. The other client had its gains within {np.median(late_ms):.1f} ms in the "
         f"median, {max(late_ms):.0f} ms at most."

@@ -2,10 +2,10 @@
 
 python stress/bridge_godot.py [play] [cost] [--seconds 60] [--rate 60] [--godot godot3-server]
 
-play : the game of docs/bridge-protocol.md, 30 nodes, in real time, with the counters and latencies that the client saw.
-    Between two frames it polls every 50 us, so that the latency is that of wire and server, not of a game's own frames.
-    All gains are compared with those of a session in this process.
-cost : what a frame costs the game, for 30 and 500 nodes, without a server.
+play : the game of docs/bridge-protocol.md, 30 nodes, in real time, with the counters and latencies of the client.
+    Between two frames it polls every 50 us, so that the latency is that of connection and server, not of a game's
+    frames. All gains are compared with those of a session in this process.
+cost : time of a frame on the game's thread, for 30 and 500 nodes, without a server.
 Needs: apt-get install --no-install-recommends godot3-server
 """
 

@@ -1,10 +1,10 @@
-"""Random walks of contact graphs, each state compared, to the last bit, with a graph built from nothing.
+"""Random walks of contact graphs: each state must be bit-identical to a graph that is built for it.
 
 python stress/contact_walks.py [SCENE ...] [--minutes 60] [--seed N] [--objects 40]
 
-Rooms of `benchmarks/busy_room.py` with fresh seeds, equal cubes on a grid, and the scenes given, in turns. In each walk
-some objects slide, turn, are lifted, dropped, put elsewhere or tilted, one or several in a frame; now and then one is
-removed or comes back. Prints the walks, states and what differs; exits with 1 if any state does.
+Rooms of `benchmarks/busy_room.py` with new seeds, equal cubes on a grid, and the given scenes, in turns. In each walk
+one or several objects a frame slide, turn, are lifted, dropped, moved elsewhere or tilted; sometimes one is removed or
+added again. Prints the numbers of walks, states and different states; exits with 1 if any state differs.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.scene.objects import with_relative_heights
 
 N_FRAMES = 120
-_LARGE_M = 1.5  # Larger things are moved seldom.
+_LARGE_M = 1.5  # Larger objects are moved seldom.
 
 
 def cubes(seed: int, n_objects: int) -> SceneSnapshot:
@@ -47,7 +47,7 @@ def cubes(seed: int, n_objects: int) -> SceneSnapshot:
 
 
 class Walk:
-    """One walk through states of a scene."""
+    """A random walk through states of a scene."""
 
     def __init__(self, scene: SceneSnapshot, rng: random.Random) -> None:
         self.rng, self.up = rng, {"y": 1, "z": 2}[scene.up_axis]
@@ -63,7 +63,7 @@ class Walk:
         self.homes = {x: item.pose for x, item in self.things.items()}
 
     def step(self, graph: ContactGraph) -> None:
-        """Make one frame."""
+        """Move, add or remove objects for one frame."""
         rng, moved, added, removed = self.rng, dict[str, Pose](), list[SceneObject](), list[str]()
         for x in self.movers:
             if x in self.things and rng.random() < 0.9:
@@ -114,14 +114,14 @@ class Walk:
         turned = turn.compose(Pose((0.0, 0.0, 0.0), pose.rotation_xyzw)).rotation_xyzw if angle else pose.rotation_xyzw
         return Pose((x_m, y_m, z_m), turned)
 
-    def is_as_built(self, graph: ContactGraph) -> bool:
-        """Whether the graph is the one built from where all things are."""
+    def equals_new_graph(self, graph: ContactGraph) -> bool:
+        """Whether the graph equals a new graph of the present poses."""
         state = replace(self.scene, objects=tuple(self.things.values()))
         return graph.contacts == ContactGraph(state).contacts
 
 
 def scenes(paths: list[Path], n_objects: int) -> Iterator[tuple[str, Callable[[int], SceneSnapshot]]]:
-    """Names, and what makes each room from a seed."""
+    """Yield a name and a function that makes the room from a seed."""
     rooms = {
         "busy": lambda seed: busy_room(n_objects, "box", seed).scene,
         "busy meshes": lambda seed: busy_room(n_objects, "mesh", seed).scene,
@@ -159,9 +159,9 @@ def main() -> int:
                 walk.step(graph)
                 if frame % 3 == 0:
                     counts[name][1] += 1
-                    if not walk.is_as_built(graph):
+                    if not walk.equals_new_graph(graph):
                         counts[name][2] += 1
-                        print(f"{name}, seed {seed}, frame {frame}: not the graph built there", flush=True)
+                        print(f"{name}, seed {seed}, frame {frame}: differs from a new graph", flush=True)
                         break
     for name, (walks, states, different) in counts.items():
         print(f"| {name} | {walks} | {states} | {different} |")

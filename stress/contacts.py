@@ -1,11 +1,11 @@
-"""Contacts by closed forms against contacts by triangles alone, wherever things of real scenes may go.
+"""Contacts by closed forms against contacts by triangles alone, at random poses of objects in real scenes.
 
 python stress/contacts.py SCENE.glb [SCENE.glb ...] [--moves 500] [--seed 0] [--unit-m 0.01]
 
-Things are pushed, lifted, turned about the vertical, now and then tilted, and put onto or into others, one after the
-other; each state is found twice from nothing, as always and with all free space (`contact.free_space`) left unknown.
-Now and then the graph that went along is compared, to the last bit, with one built there. Prints a line for each pair
-that differs by more than 0.02 in weight, and the shares; exits with 1 if the graph that went along differs.
+Objects are pushed, lifted, turned about the vertical, sometimes tilted, and put onto or into others, one at a time. For
+each state two new graphs are built: one as usual, one without free space (`contact.free_space`). The incrementally
+updated graph must be bit-identical to the usual one. Prints a line for each pair whose weights differ by more than
+0.02, and totals; exits with 1 if the incrementally updated graph differs.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from scene2hap import Pose, SceneObject, SceneSnapshot, load_scene
 from scene2hap.contact.graph import ContactGraph
 
 EQUAL = 0.02
-_LARGE_M = 2.0  # Larger things stay where they are.
+_LARGE_M = 2.0  # Larger objects are not moved.
 
 
 @contextmanager
 def without_free_space() -> Iterator[None]:
-    """Triangles tell all that outlines do not."""
+    """Disable free space, so that triangles decide all contacts."""
     with (
         mock.patch("scene2hap.contact.pair.ledge_under", return_value=None),
         mock.patch("scene2hap.contact.pair.has_nothing_near", return_value=False),
@@ -42,7 +42,7 @@ def without_free_space() -> Iterator[None]:
 
 
 def moved(item: SceneObject, onto: SceneObject, up: int, rng: random.Random) -> Pose:
-    """Another place: near the present one, or over a random place of another thing."""
+    """A new pose: near the present one, or at a random place over another object."""
     place = np.array(item.pose.position_m)
     level = [axis for axis in range(3) if axis != up]
     if rng.random() < 0.4:
@@ -74,35 +74,35 @@ def weights(graph: ContactGraph) -> dict[tuple[str, str], float]:
 
 
 def compared(scene: SceneSnapshot, name: str, n_moves: int, rng: random.Random) -> bool:
-    """Whether the graph that went along was always the one built there."""
+    """Whether the incrementally updated graph always equals a new one."""
     up = {"y": 1, "z": 2}[scene.up_axis]
     things = {item.id: item for item in scene.objects}
     small = [item.id for item in scene.objects if np.ptp(item.bounds_m, axis=0).max() < _LARGE_M]
-    along = ContactGraph(scene)
+    updated = ContactGraph(scene)
     n_pairs = n_other = n_states = 0
     is_right = True
     for k in range(n_moves):
         which = rng.choice(small)
         pose = moved(scene.object(which), scene.object(rng.choice(list(things))), up, rng)
         things[which] = replace(things[which], pose=pose)
-        along.update({which: pose})
+        updated.update({which: pose})
         if k % 5:
             continue
         state = replace(scene, objects=tuple(things.values()))
-        told = ContactGraph(state)
-        if along.contacts != told.contacts:
-            print(f"{name}, move {k}, {which}: the graph that went along is not the one built there")
+        built = ContactGraph(state)
+        if updated.contacts != built.contacts:
+            print(f"{name}, move {k}, {which}: the updated graph differs from a new one")
             is_right = False
         with without_free_space():
             alone = weights(ContactGraph(state))
-        found = weights(told)
+        found = weights(built)
         n_states, n_pairs = n_states + 1, n_pairs + len(found.keys() | alone.keys())
         for pair in sorted(found.keys() | alone.keys()):
             one, other = found.get(pair, 0.0), alone.get(pair, 0.0)
             if abs(one - other) > EQUAL:
                 n_other += 1
                 print(f"{name}, move {k}, {pair[0]} - {pair[1]}: weight {one:.3f}, by triangles {other:.3f}")
-    print(f"{name}: {n_states} states, {n_pairs} pairs, {n_other} told otherwise by triangles alone", flush=True)
+    print(f"{name}: {n_states} states, {n_pairs} pairs, {n_other} differ by triangles alone", flush=True)
     return is_right
 
 

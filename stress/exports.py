@@ -1,10 +1,10 @@
-"""Random exports against a strict checker that was written apart from the exporter, and read back.
+"""Random exports, read back and checked by a strict checker that is independent of the exporter.
 
 python stress/exports.py [--draws 2000] [--seed 0]
 
 Each draw is a random track in one format with random settings. The checker (`tests/haptic_file_checker.py`) names every
-rule that a file breaks. `.haptic` and AHAP files are read back: what is read, played by the published rule, may differ
-from the signal by no more than the export reported, and is written again without a change.
+rule that a file breaks. `.haptic` and AHAP files are read back: the clip, played by the published rule, may differ from
+the signal by no more than the export reported, and must be written again without a change.
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
-"""Scene files broken in every way we can think of: only our own errors, no hang, bounded memory.
+"""Broken scene files of many kinds: they may raise only scene2hap's errors, without a hang, in bounded memory.
 
 python stress/fuzz_scenes.py [--files 2000] [--seed 0] [--seconds 5] [--megabytes 1024] [--kinds .meshopt.glb .urdf]
 
-Seeds are the demo kitchen as GLB, glTF-like JSON, OBJ, PLY, STL and scene JSON, built in memory, a robot arm as URDF,
-a laundry as gltfpack packs it, a small scene as USD where usd-core is there, and a Habitat dataset of which one file
-or two are broken. Each file is read in a child process with a limit on its data segment and an alarm, so that a hang or
-a crash names the file that caused it.
-Prints a table of outcomes and exits with 1 if anything but success or a Scene2HapError came out.
+Seeds are the demo kitchen as GLB, glTF-like JSON, OBJ, PLY, STL and scene JSON, built in memory, a robot arm as URDF, a
+laundry packed by gltfpack, a small USD scene if usd-core is installed, and a Habitat dataset in which one or two files
+are broken. Each file is read in a child process with a limit on its data segment and an alarm, so that a hang or a
+crash names the file that caused it. Prints a table of outcomes and exits with 1 if any outcome is neither success nor a
+Scene2HapError.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ Mutation = Callable[[bytes, random.Random], bytes]
 
 
 class Hang(BaseException):
-    """Raised by the alarm; not an Exception, so that nobody catches it by accident."""
+    """Raised by the alarm; not an Exception, so that no `except Exception` catches it."""
 
 
 def seeds() -> dict[str, bytes]:
@@ -110,7 +110,7 @@ def repeat_a_stretch(data: bytes, rng: random.Random) -> bytes:
 
 
 def blow_up_a_number(data: bytes, rng: random.Random) -> bytes:
-    """Put an absurd number where a number stands in text, JSON chunks included; lengths may lie afterwards."""
+    """Replace a number in text, JSON chunks included, by an absurd one; lengths may be wrong afterwards."""
     places = list(re.finditer(rb"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?", data[:200_000]))
     if not places:
         return flip_bytes(data, rng)
@@ -125,8 +125,8 @@ def nest_deeply(data: bytes, rng: random.Random) -> bytes:
     return data[: place + 1] + b"[" * depth + b"]" * depth + b"," + data[place + 1 :] if place >= 0 else data
 
 
-def lie_about_lengths(data: bytes, rng: random.Random) -> bytes:
-    """A 32-bit word near the front becomes something else, as in the headers of GLB, PLY and STL."""
+def change_a_length(data: bytes, rng: random.Random) -> bytes:
+    """Replace a 32-bit word near the front, where GLB, PLY and STL have lengths and counts."""
     at = rng.randrange(0, min(len(data) - 4, 120))
     word = rng.choice([0, 1, 0x7FFFFFFF, 0xFFFFFFFF, len(data) * 2, rng.getrandbits(32)])
     return data[:at] + struct.pack("<I", word) + data[at + 4 :]
@@ -138,12 +138,12 @@ MUTATIONS: tuple[Mutation, ...] = (
     repeat_a_stretch,
     blow_up_a_number,
     nest_deeply,
-    lie_about_lengths,
+    change_a_length,
 )
 
 
 def read_one(path: Path, seconds: float) -> str:
-    """What came of reading one file: "read", the name of our error, or a word that must not come."""
+    """Read one file. Returns "read", the name of scene2hap's error, or a text that begins with HANG or FOREIGN."""
 
     def ring(*_: object) -> None:
         raise Hang
@@ -166,12 +166,12 @@ def read_one(path: Path, seconds: float) -> str:
 
 
 def reader(inbox: multiprocessing.connection.Connection, seconds: float, megabytes: int) -> None:
-    """Child: read the files whose paths come in; send back outcome, time and peak memory."""
+    """Child process: read the files whose paths arrive; send outcome, time and peak memory."""
     resource.setrlimit(resource.RLIMIT_DATA, (megabytes << 20, megabytes << 20))
     while (path := inbox.recv()) is not None:
         begin = time.perf_counter()
         outcome = read_one(path, seconds)
-        # USD files are read in a process of their own.
+        # USD files are read in a further process.
         peaks = [resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
         peak_mb = max(peaks) / 1024
         inbox.send((outcome, time.perf_counter() - begin, peak_mb))
@@ -223,7 +223,7 @@ def main() -> int:
     originals = {kind: data for kind, data in {**seeds(), HABITAT: b""}.items() if kind in (arguments.kinds or [kind])}
     child = Child(arguments.seconds, arguments.megabytes)
     with tempfile.TemporaryDirectory() as folder:
-        # The mesh that the URDF names; an OBJ of its own takes its place, whole or broken.
+        # The mesh that the URDF names; an OBJ case overwrites it, valid or broken.
         (Path(folder) / "case.obj").write_bytes(seeds()[".obj"])
         for number in range(arguments.files):
             rng = random.Random(f"{arguments.seed}/{number}")

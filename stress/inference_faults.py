@@ -1,14 +1,14 @@
-"""Every fault of a model's server, many times at once, through the standard stack of backends.
+"""Every fault of a model server, in many concurrent requests, through the standard stack of backends.
 
 python stress/inference_faults.py [--requests 50] [--backends openai local ollama] [--time-scale 0.1] [--only NAME ...]
 
-A scripted server on the loopback interface plays each fault to fifty requests under a concurrency of eight: once per
-request before it mends itself, and once more for good. Each request has to end in a valid answer or in an error of
-ours; the question of a received valid answer must never be sent again, be it within the run or by a second one over the
-same cache; and the key must be in no error, traceback with its local variables, log at DEBUG, warning, cache file or
-recording. What is sent to OpenAI, and what the server says in its place, is held against OpenAI's published schema.
-Waits between retries are shortened by --time-scale; waits that the server states are not. Prints a table and exits with
-1 if any promise was broken.
+A scripted server on the loopback interface shows each fault to fifty requests at a concurrency of eight: in one row
+once per request, in another row always. Each request must end in a valid answer or in an error of scene2hap. A request
+whose valid answer was received must never be sent again, neither within the run nor by a second run with the same
+cache. The key must be in no error, traceback with its local variables, log at DEBUG, warning, cache file or recording.
+Requests to OpenAI, and the replies of the scripted server, are checked against OpenAI's published schema. --time-scale
+shortens the waits between retries, but not waits that the server requests. Prints a table and exits with 1 if any
+promise is broken.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def _row(
     cells = [
         name,
         kind,
-        "never mends" if for_good else "mends",
+        "always fails" if for_good else "recovers",
         outcome.ends["valid"],
         ", ".join(f"{count} {end}" for end, count in errors.items()) or "-",
         f"{min(outcome.calls)}..{max(outcome.calls)}",

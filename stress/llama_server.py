@@ -1,11 +1,11 @@
-"""A whole scene against a real server: llama.cpp's, with a random-weight model that speaks and sees noise.
+"""A whole scene against a real llama.cpp server, with a model of random weights that writes noise.
 
     python stress/llama_server.py [--server llama-server] [--weights FOLDER] [--no-images]
 
-Builds the server from the source that the package llama-cpp-python carries (once, 5 minutes on two cores; needs a C++
-compiler and a package index), writes the weights, and runs the chain on 44 objects with their pictures through the
-standard stack. The words are noise, but the answers must be right in form: valid, repaired, or recorded as the object's
-own error. `--weights` is a folder with tiny.gguf and mmproj.gguf, or with the script tiny_llm_gguf.py that writes them.
+Builds the server from the source in the package llama-cpp-python (once, 5 minutes on two cores; needs a C++ compiler
+and a package index), writes the weights, and runs the chain on 44 objects with their pictures through the standard
+stack. The text is noise, but each answer must have the right form: valid, repaired, or recorded as the error of its
+object. `--weights` is a folder with tiny.gguf and mmproj.gguf, or with the script tiny_llm_gguf.py that writes them.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ BUILD = ROOT / "build" / "llama"
 WEIGHTS = ROOT.parent / "shared" / "tools"
 OFF = ("BUILD_SHARED_LIBS", "LLAMA_CURL", "LLAMA_OPENSSL", "LLAMA_BUILD_TESTS", "LLAMA_BUILD_EXAMPLES")
 OFF_UI = ("LLAMA_BUILD_UI", "LLAMA_USE_PREBUILT_UI")
-LANES, CONTEXT = 4, 8192
-# The model's tokens are all bytes, three further on, and once more the printable ones, 227 further on. Bytes above 127
-# are banned: most random sequences of them are no UTF-8, which the server answers with status 500. Ends of texts and of
-# numbers, and zeros, are made likelier: in even noise nearly every answer has a text or a number beyond its bound, and
-# no object would get any farther than its first question.
+CONCURRENCY, CONTEXT = 4, 8192
+# Token numbers: byte + 3 for all bytes, and again byte + 227 for printable bytes. Bytes above 127 are banned, because
+# most random sequences of them are not UTF-8, for which the server returns status 500. Ends of texts and numbers, and
+# zeros, are made likelier. With uniform noise nearly every answer has a text or number beyond its bound, and no object
+# would get past its first request.
 BIAS = (
     *(f"{3 + byte}-1000" for byte in range(128, 256)),
     *(
@@ -55,7 +55,7 @@ TEMPERATURE = 1.0
 
 
 def main() -> int:
-    """Run it; 1 if an object ended neither in an answer nor in its own error."""
+    """Run the campaign. Returns 1 if an object has neither an answer nor its own error."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--server", type=Path, help="a llama-server that is there already")
     parser.add_argument("--weights", type=Path, default=WEIGHTS)
@@ -68,15 +68,17 @@ def main() -> int:
     with serving(server, weights(arguments.weights)) as url:
         backend = standard_stack(LocalBackend(base_url=url, max_tokens=4000, timeout_s=120.0), retries=2)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # that a model of noise ignores what it is told
-            found = asyncio.run(infer_scene(scene, backend, config={"concurrency": LANES, "temperature": TEMPERATURE}))
-        # What a cold server is worth is that it answers again: nothing that was sent may have felled it.
+            warnings.simplefilter("ignore")  # a model of noise does not follow its prompt
+            found = asyncio.run(
+                infer_scene(scene, backend, config={"concurrency": CONCURRENCY, "temperature": TEMPERATURE})
+            )
+        # No request may have crashed the server.
         healthy = httpx.get(url.removesuffix("/v1") + "/health").status_code == 200
     return show(scene, found, reports(backend), time.monotonic() - started, healthy=healthy)
 
 
 def show(scene: SceneSnapshot, found: Inference, layers: dict[str, object], wall_s: float, *, healthy: bool) -> int:
-    """Print what came of it."""
+    """Print the outcomes. Returns the exit status."""
     outcomes: Counter[str] = Counter()
     for item in scene.objects:
         haptics = found.objects[item.id]
@@ -101,10 +103,22 @@ def show(scene: SceneSnapshot, found: Inference, layers: dict[str, object], wall
 
 @contextmanager
 def serving(server: Path, folder: Path) -> Iterator[str]:
-    """The server, once it is ready; its address."""
+    """Run the server. Yields its address once it is ready."""
     bias = [word for change in BIAS for word in ("--logit-bias", change)]
     command = [server, "-m", folder / "tiny.gguf", "--mmproj", folder / "mmproj.gguf", "--jinja", "--offline"]
-    command += ["--host", "127.0.0.1", "--port", "8091", "-t", "1", "-np", LANES, "-c", LANES * CONTEXT, *bias]
+    command += [
+        "--host",
+        "127.0.0.1",
+        "--port",
+        "8091",
+        "-t",
+        "1",
+        "-np",
+        CONCURRENCY,
+        "-c",
+        CONCURRENCY * CONTEXT,
+        *bias,
+    ]
     with (BUILD / "server.log").open("wb") as log:
         process = subprocess.Popen([str(word) for word in command], stdout=log, stderr=log)
         try:
@@ -161,7 +175,7 @@ def weights(folder: Path) -> Path:
 
 
 def run(command: list[object]) -> None:
-    """A command that must succeed."""
+    """Run a command that must succeed."""
     print("+", *command, flush=True)
     subprocess.run([str(word) for word in command], check=True)
 

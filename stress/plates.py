@@ -3,23 +3,23 @@
 python stress/plates.py [--plates 100000] [--first 0] [--minutes M] [--processes 1] [--seed 1] [--seconds 1] [--only N]
 
 Draws plates of 1 cm to 10 m and aspects up to 1:100, held at any of their edges, of materials from felt to steel and of
-any loss, and asks every model for the receptance among four points, corners and edges included, at six frequencies up
-to 10 kHz, one of them exactly on a resonance of a plate that is held or free. Counted as bad:
+any loss. Queries every model for the receptance among four points, corners and edges included, at six frequencies up to
+10 kHz, one of them exactly on a resonance of a plate that is held or free. Counted as bad:
 
     not finite     NaN or infinite
     gains energy   a driven point with a positive imaginary part, or the matrix among all points with an eigenvalue of
                    it above 1e-4 of its largest entry (docs/propagation.md says what a near field leaves out)
-    negative       a driven point of a held plate that goes against a force far below its first resonance
+    negative       a driven point of a held plate that moves against the force far below its first resonance
     slow           more than a second of processor time without a warning
     other          any error outside scene2hap's own tree, or a floating-point warning
 
-On every fourth plate a source of 1e-6 to 1e4 kg stands too, and a scene of both is solved: gains must be finite and at
-least 0. A plate that a model announces by a `SlowPlateWarning` is left there and counted; every hundredth plate is
-worked out whatever it takes. A plate takes some 0.23 s of a processor in all models together.
+Every fourth plate also carries a source of 1e-6 to 1e4 kg, and a scene of both is solved: gains must be finite and at
+least 0. If a model raises a `SlowPlateWarning` for a plate, the plate is skipped and counted; every hundredth plate is
+solved all the same. A plate takes some 0.23 s of a processor in all models together.
 
-Each plate is drawn from its own number: `--only N` repeats one, `--first N` goes on where `--minutes` or Ctrl-C ended.
-A process takes `PIECE` plates at a time, and finishes them, so that those asked have no gaps. Each uses one thread of
-BLAS; more would count as processor time without being any faster. Exits with 1 if anything is bad.
+The number of a plate is its seed: `--only N` repeats one, `--first N` continues where `--minutes` or Ctrl-C ended. A
+process takes `PIECE` plates at a time and finishes them, so that there is no gap in the numbers. Each process uses one
+thread of BLAS; more threads would add processor time without being faster. Exits with 1 if anything is bad.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ MODELS: dict[str, Any] = {
     "auto": AutoFidelity(outside_domain="ignore"),
     "mass_spring_damper": MassSpringDamper(outside_domain="ignore"),
 }
-KEPT: tuple[Any, ...] = (
+CACHES: tuple[Any, ...] = (
     modes._modes_up_to,
     modal_body.modal_body,
     lattice_body.lattice_body,
@@ -76,11 +76,11 @@ KEPT: tuple[Any, ...] = (
     bending_lattice.bending_lattice,
     bending_lattice.lines_of,
 )
-"""What is remembered of plates, which would fill some gigabytes: no plate comes twice."""
+"""Caches of plates, cleared after each plate: no plate comes twice, and they would fill some gigabytes."""
 EDGES = ("FFFF", "CCCC", "SSSS", "CFFF", "SSFF", "CCFF", "SFSF", "CFSF", "FFCC", "CFFC", "SFFF", "FFSS")
 ROUNDING, BETWEEN_POINTS = 1e-9, 1e-4
-IN_A_SCENE, WHATEVER_IT_TAKES = 4, 100
-"""Every how many plates a source stands on one, and one is worked out although it is announced."""
+SCENE_EVERY, SLOW_EVERY = 4, 100
+"""Every fourth plate carries a source; every hundredth plate is solved although it is slow."""
 PIECE = 50
 """Plates that a process takes at a time."""
 Floats = NDArray[np.float64]
@@ -88,11 +88,11 @@ Floats = NDArray[np.float64]
 
 @dataclass
 class Outcome:
-    """What came back from one model."""
+    """Counts of the outcomes of one model."""
 
     answered: int = 0
     in_scenes: int = 0
-    announced: int = 0
+    skipped: int = 0
     warned: int = 0
     refused: collections.Counter[str] = field(default_factory=collections.Counter)
     bad: list[str] = field(default_factory=list)
@@ -100,10 +100,10 @@ class Outcome:
     """Of the calls without a warning."""
 
     def add(self, other: Outcome) -> None:
-        """Take in what came back in another process."""
+        """Add the counts of another process."""
         self.answered += other.answered
         self.in_scenes += other.in_scenes
-        self.announced += other.announced
+        self.skipped += other.skipped
         self.warned += other.warned
         self.refused += other.refused
         self.bad += other.bad
@@ -111,7 +111,7 @@ class Outcome:
 
 
 def some_plate(rng: random.Random) -> Plate:
-    """A plate, from a coin to a floor."""
+    """Draw a plate, from the size of a coin to that of a floor."""
     longer = math.exp(rng.uniform(math.log(0.01), math.log(10.0)))
     aspect = math.exp(rng.uniform(0.0, math.log(100.0)))
     sides = rng.sample((longer, longer / aspect), 2)
@@ -135,7 +135,7 @@ def some_points(plate: Plate, rng: random.Random) -> Floats:
 
 
 def some_frequencies(plate: Plate, rng: random.Random) -> Floats:
-    """Far below the first resonance, on it, anywhere, and high."""
+    """Six frequencies [Hz]: far below the first resonance, on it, three anywhere, and a high one."""
     first_hz = first_bending_hz(plate)
     anywhere = [10 ** rng.uniform(0.5, 3.0) for _ in range(3)]
     return np.array([min(1e-3 * first_hz, 10.0), min(first_hz, 1e4), *anywhere, 10 ** rng.uniform(3.0, 4.0)])
@@ -143,7 +143,7 @@ def some_frequencies(plate: Plate, rng: random.Random) -> Floats:
 
 @dataclass(frozen=True)
 class Case:
-    """A plate and what is asked about it."""
+    """A plate with the points, frequencies [Hz] and source of its queries."""
 
     number: int
     plate: Plate
@@ -166,21 +166,21 @@ class Case:
         return model.plate_receptance(self.plate, self.points[driven], self.points, self.f)
 
     def gains(self, model: Any) -> Floats:
-        """At all points, of a source that stands inside the plate (n_points,)."""
+        """Gains at all points (n_points,) of a source that stands inside the plate."""
         on_top = np.column_stack([self.points, np.zeros(len(self.points))])
-        hz = float(self.f[2 + self.number // IN_A_SCENE % 4])
+        hz = float(self.f[2 + self.number // SCENE_EVERY % 4])
         contact = Contact("plate", "source", tuple(on_top[-1].tolist()))
         network = ContactNetwork({"plate": self.plate}, [contact])
         scene = model.prepare(network, [Excitation("source", hz, hz, self.source_kg)], Bands.dominant())
         return scene.attenuation("plate", on_top)[:, 0, 0]
 
 
-def ask(case: Case, model: Any, limit_s: float, outcome: Outcome, name: str, *, whatever: bool) -> None:
-    """Ask one model, and note what comes back."""
-    with warnings.catch_warnings(record=True) as said:
+def query(case: Case, model: Any, limit_s: float, outcome: Outcome, name: str, *, solves_slow: bool) -> None:
+    """Query one model, and count the outcome."""
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         warnings.simplefilter("ignore", ThinPlateWarning)
-        if not whatever:
+        if not solves_slow:
             warnings.simplefilter("error", SlowPlateWarning)
         np.seterr(all="raise", under="ignore")
         slowest_s, begin = 0.0, time.process_time()
@@ -193,21 +193,21 @@ def ask(case: Case, model: Any, limit_s: float, outcome: Outcome, name: str, *, 
         try:
             found = np.stack([timed(case.receptance(model, driven)) for driven in range(len(case.points))], axis=1)
             outcome.answered += 1
-            outcome.bad += [f"{name}: {what}" for what in faults(found, case.plate, model)]
-            if case.number % IN_A_SCENE == 0:
+            outcome.bad += [f"{name}: {fault}" for fault in faults(found, case.plate, model)]
+            if case.number % SCENE_EVERY == 0:
                 gains = timed(case.gains(model))
                 outcome.in_scenes += 1
                 if not np.isfinite(gains).all() or (gains < 0).any():
                     outcome.bad.append(f"{name}: a source of {case.source_kg:.3g} kg: gain {gains.min():.3g}")
         except SlowPlateWarning:
-            outcome.announced += 1
+            outcome.skipped += 1
         except Scene2HapError as refusal:
             outcome.refused[" ".join(str(refusal).split()[-6:])] += 1
         except Exception as error:
             outcome.bad.append(f"{name}: other: {type(error).__name__} {error}")
-    outcome.warned += bool(said)
-    outcome.bad += [f"{name}: other: {one.message}" for one in said if issubclass(one.category, RuntimeWarning)]
-    if said:
+    outcome.warned += bool(caught)
+    outcome.bad += [f"{name}: other: {one.message}" for one in caught if issubclass(one.category, RuntimeWarning)]
+    if caught:
         return
     outcome.slowest_s = max(outcome.slowest_s, slowest_s)
     if slowest_s > limit_s:
@@ -215,7 +215,7 @@ def ask(case: Case, model: Any, limit_s: float, outcome: Outcome, name: str, *, 
 
 
 def faults(found: NDArray[np.complex128], plate: Plate, model: Any) -> list[str]:
-    """What is wrong with the receptances among some points (n_points, n_points, n_frequencies) [m/N]."""
+    """Faults of the receptances among some points (n_points, n_points, n_frequencies) [m/N]."""
     if not np.isfinite(found).all():
         return ["not finite"]
     wrong = []
@@ -241,29 +241,29 @@ class Campaign:
     seed: int
     limit_s: float
     end_s: float
-    leaves_none: bool = False
+    skips_none: bool = False
 
-    def ask(self, numbers: Sequence[int]) -> tuple[int, dict[str, Outcome]]:
-        """Ask all models about some plates: how many, and what came back; nothing once the time is over."""
+    def query(self, numbers: Sequence[int]) -> tuple[int, dict[str, Outcome]]:
+        """Query all models about some plates. Returns the number of plates and the outcomes; 0 after the end time."""
         outcomes = {name: Outcome() for name in self.models}
         if time.monotonic() >= self.end_s:
             return 0, outcomes
         for number in numbers:
             case = Case.drawn(number, self.seed)
-            whatever = self.leaves_none or number % WHATEVER_IT_TAKES == 0
+            solves_slow = self.skips_none or number % SLOW_EVERY == 0
             for name, outcome in outcomes.items():
                 n_bad = len(outcome.bad)
-                ask(case, MODELS[name], self.limit_s, outcome, case.name(name), whatever=whatever)
+                query(case, MODELS[name], self.limit_s, outcome, case.name(name), solves_slow=solves_slow)
                 for line in outcome.bad[n_bad:]:
                     print(f"* {line}", flush=True)
-            for kept in KEPT:
-                kept.cache_clear()
-        gc.collect()  # bodies and what they remember refer to each other
+            for cache in CACHES:
+                cache.cache_clear()
+        gc.collect()  # bodies and their caches refer to each other
         return len(numbers), outcomes
 
 
 def begin_process() -> None:
-    """Leave Ctrl-C to the process that counts."""
+    """Ignore Ctrl-C in workers; the main process handles it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     gc.freeze()
 
@@ -281,25 +281,25 @@ def main() -> int:
     given = parser.parse_args()
     models = tuple(name for name in MODELS if given.model in (None, name))
     end_s = time.monotonic() + 60 * given.minutes
-    campaign = Campaign(models, given.seed, given.seconds, end_s, leaves_none=given.only is not None)
+    campaign = Campaign(models, given.seed, given.seconds, end_s, skips_none=given.only is not None)
     numbers = range(given.first, given.plates) if given.only is None else range(given.only, given.only + 1)
     pieces = [numbers[begin : begin + PIECE] for begin in range(0, len(numbers), PIECE)]
-    asked, outcomes = 0, {name: Outcome() for name in models}
+    n_plates, outcomes = 0, {name: Outcome() for name in models}
     with ProcessPoolExecutor(given.processes, initializer=begin_process) as pool:
         try:
-            for n_asked, found in pool.map(campaign.ask, pieces):
-                asked += n_asked
+            for n_done, found in pool.map(campaign.query, pieces):
+                n_plates += n_done
                 for name, outcome in found.items():
                     outcomes[name].add(outcome)
         except KeyboardInterrupt:
             pool.shutdown(cancel_futures=True)
-    print(f"\n{asked} plates from number {numbers[0]}, seed {given.seed}\n")
-    print("| model | answered | in scenes | announced and left | with a warning | refused | bad | slowest [s] |")
+    print(f"\n{n_plates} plates from number {numbers[0]}, seed {given.seed}\n")
+    print("| model | answered | in scenes | skipped as slow | with a warning | refused | bad | slowest [s] |")
     print("|---|---|---|---|---|---|---|---|")
     for name, one in outcomes.items():
         refused = "; ".join(f"{n} ...{why}" for why, n in one.refused.most_common(4)) or "0"
-        told = f"{one.answered} | {one.in_scenes} | {one.announced} | {one.warned} | {refused}"
-        print(f"| {name} | {told} | {len(one.bad)} | {one.slowest_s:.1f} |")
+        counts = f"{one.answered} | {one.in_scenes} | {one.skipped} | {one.warned} | {refused}"
+        print(f"| {name} | {counts} | {len(one.bad)} | {one.slowest_s:.1f} |")
     return int(any(outcome.bad for outcome in outcomes.values()))
 
 

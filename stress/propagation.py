@@ -1,14 +1,14 @@
-"""Propagation at the ends of what scenes could hold: no NaN, no overflow, no hang, and every refusal a clear error.
+"""Propagation at extreme plates and scenes: no NaN, no overflow, no hang, and a clear error for every refusal.
 
 python benchmarks/figures.py stability
 
 Draws plates, scenes and time steppers far beyond furniture, queries every model, and counts the outcomes:
 
     answered    finite numbers of the right shape; attenuation also within its bounds
-    refused     an error of scene2hap's own tree, whose message has a number and says what to do
+    refused     an error of scene2hap's own tree, whose message has a number and the next step
     bad         anything else: NaN, infinity, a floating-point warning, a foreign exception, too much processor time
 
-Every case is drawn from its own number, so `--only N` repeats one.
+The number of a case is its seed, so `--only N` repeats one.
 """
 
 from __future__ import annotations
@@ -67,30 +67,30 @@ LATTICE_STEPS_S = (1e-9, 1e-6, 1e-3)
 
 
 class Hang(BaseException):
-    """The limit of processor time has passed; unlike a clock, it does not mind other work on the machine."""
+    """The limit of processor time has passed; other programs on the machine do not count."""
 
 
 @dataclass
 class Tally:
-    """What came back from one model."""
+    """Counts of the outcomes of one model."""
 
     answered: int = 0
     refused: collections.Counter[str] = field(default_factory=collections.Counter)
     bad: list[str] = field(default_factory=list)
     slowest_s: float = 0.0
 
-    def ask(self, name: str, limit_s: float, question: Callable[[], NDArray[np.generic]]) -> None:
-        """Query, and count the outcome. `name` names the case."""
+    def run(self, name: str, limit_s: float, query: Callable[[], NDArray[np.generic]]) -> None:
+        """Run a query, and count the outcome. `name` names the case."""
 
         def alarm(signum: int, frame: FrameType | None) -> None:
             raise Hang
 
         before = signal.signal(signal.SIGPROF, alarm)
-        # Again and again: a signal that comes to a thread of BLAS is not seen by Python's main thread.
+        # Repeated, since a signal that arrives in a thread of BLAS is not seen by Python's main thread.
         signal.setitimer(signal.ITIMER_PROF, limit_s, 0.1)
         begin = time.process_time()
         try:
-            answer = question()
+            answer = query()
             if np.isfinite(answer).all():
                 self.answered += 1
             else:
@@ -142,7 +142,7 @@ def some_plate(rng: random.Random) -> Plate:
 
 
 def some_frequencies(plate: Plate, rng: random.Random) -> NDArray[np.float64]:
-    """Three anywhere, and one exactly on a resonance where there is one to find."""
+    """Three random frequencies [Hz], and one exactly on a resonance if there is one below 10 kHz."""
     f = [10 ** rng.uniform(-3, 3), 10 ** rng.uniform(1, 3), rng.choice([1e-6, 1000.0, 250.0])]
     compact = max(plate.length_m, plate.width_m) < 4 * min(plate.length_m, plate.width_m)
     resonances = (
@@ -162,9 +162,9 @@ def kernels(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
     points = np.array([[rng.choice([0.0, 1.0, rng.random()]) for _ in range(2)] for _ in range(4)]) * size
     for name, model in MODELS.items():
         case = f"kernel {number}, {name}, {plate}"
-        tallies[name].ask(case, limit_s, lambda model=model: model.plate_transfer(plate, points[0], points, f))
+        tallies[name].run(case, limit_s, lambda model=model: model.plate_transfer(plate, points[0], points, f))
         if not isinstance(model, ExponentialPlate):
-            tallies[name].ask(case, limit_s, lambda model=model: model.plate_receptance(plate, points[0], points, f))
+            tallies[name].run(case, limit_s, lambda model=model: model.plate_receptance(plate, points[0], points, f))
 
 
 def some_scene(rng: random.Random) -> tuple[ContactNetwork, list[Excitation]]:
@@ -176,7 +176,7 @@ def some_scene(rng: random.Random) -> tuple[ContactNetwork, list[Excitation]]:
             bodies[object_id] = RigidBody(10 ** rng.uniform(-6, 6), rng.choice([None, (0.1, 0.2, 0.3)]))
         else:
             plate = some_plate(rng)
-            if rng.random() < 0.7:  # among furniture, so that scenes are not refused for one foil
+            if rng.random() < 0.7:  # mostly furniture, so that few scenes are refused for one foil
                 material = replace(plate.material, youngs_modulus_pa=10 ** rng.uniform(9, 11.3), density_kg_m3=1000.0)
                 plate = replace(plate, thickness_m=10 ** rng.uniform(-2.5, -1), length_m=1.0, width_m=0.7)
                 plate = replace(plate, material=material)
@@ -213,11 +213,14 @@ def scenes(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
             assert (gains >= 0).all()
             return gains
 
-        tallies[f"{name}, scene"].ask(f"scene {number}, {name}", limit_s, everywhere)
+        tallies[f"{name}, scene"].run(f"scene {number}, {name}", limit_s, everywhere)
 
 
 def steppers(n_steps: int) -> Iterator[tuple[str, float, float, float]]:
-    """(what, dt, largest gain of energy of a damped mode in one step, drift of undamped ones), parts of the first."""
+    """Yield (name, dt [s], largest gain of energy of a damped mode in a step, drift of undamped modes).
+
+    Gain and drift are parts of the initial energy.
+    """
     omega = np.tile(2 * np.pi * np.array([0.01, 1.0, 50.0, 250.0, 1000.0, 1e5]), 3)
     zeta = np.repeat([0.0, 0.005, 1.0], 6)
     for dt in STEPS_S:
@@ -253,7 +256,7 @@ def walked(
 def lattice_steppers(
     n_steps: int, boundaries: tuple[str, ...] = ("CFFF", "SFFF")
 ) -> Iterator[tuple[str, float, float, float]]:
-    """The same for all nodes of a lattice at once, by sparse factors: clamped, and hinged so that it turns away."""
+    """The same for all nodes of a lattice at once, by sparse factors: clamped, and hinged so that it can rotate."""
     from scipy.sparse import csr_array
 
     for boundary in boundaries:
@@ -270,13 +273,13 @@ def lattice_steppers(
 
 
 def run(n_kernels: int, n_scenes: int, limit_s: float = 60.0, only: int | None = None) -> dict[str, Tally]:
-    """Ask all models; RuntimeWarnings of numpy count as bad."""
+    """Query all models; RuntimeWarnings of numpy count as bad."""
     tallies: dict[str, Tally] = collections.defaultdict(Tally)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.simplefilter("ignore", ThinPlateWarning)
         warnings.simplefilter("ignore", SlowPlateWarning)
-        warnings.simplefilter("ignore", SceneWarning)  # materials are drawn from beyond what exists
+        warnings.simplefilter("ignore", SceneWarning)  # materials are drawn beyond real ones
         for case, n in ((kernels, n_kernels), (scenes, n_scenes)):
             for number in range(n) if only is None else [only]:
                 case(number, tallies, limit_s)

@@ -1,12 +1,11 @@
-"""Kill a bake at random moments and go on: no answered question is sent again, and the bundle is the same.
+"""Kill a bake at random times and resume it: no answered request is sent again, and the bundle is the same.
 
     python stress/resume.py [--kills 20] [--latency 0.15]
 
-Each round bakes a scene of 44 objects against a loopback server with an empty cache, in a process of its own that is
-killed (SIGKILL) a random moment after a random number of answers, and then bakes it again to the end. A question counts
-as answered once the server has sent its answer; the one exception are answers that were sent less than `GRACE_S` before
-the kill, which the process may not have read or written yet. The bundle is compared byte by byte with that of a bake
-that nobody killed.
+Each round bakes a scene of 44 objects against a loopback server with an empty cache. The process is killed (SIGKILL) a
+random time after a random number of answers; then the scene is baked again to the end. A request counts as answered
+once the server has sent its answer. Answers sent less than `GRACE_S` before the kill are excepted, since the process
+may not have read or written them yet. The bundle is compared byte by byte with that of an undisturbed bake.
 """
 
 from __future__ import annotations
@@ -28,11 +27,10 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 from loopback import Answered, answering, kitchen
 
 GRACE_S = 0.25
-LANES = 8
 
 
 def main() -> int:
-    """Run the campaign; 1 if any round failed."""
+    """Run the campaign. Returns 1 if any round failed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument("--latency", type=float, default=0.15, help="time that the server takes per call [s]")
@@ -44,14 +42,14 @@ def main() -> int:
         (work / "kitchen.json").write_text(kitchen().to_json(), encoding="utf-8")
         started = time.monotonic()
         assert baking(work, "whole", server.url).wait() == 0
-        whole_s, asked_whole = time.monotonic() - started, len(server.answered)
-        print(f"undisturbed: {asked_whole} calls, {whole_s:.1f} s")
+        whole_s, n_calls_whole = time.monotonic() - started, len(server.answered)
+        print(f"undisturbed: {n_calls_whole} calls, {whole_s:.1f} s")
         print(f"{'killed after':>12} {'answered':>9} {'in flight':>10} {'sent again':>12} {'wrongly':>8}  bundle")
         failures = 0
         for round_number in range(arguments.kills):
             server.answered.clear()
             name = f"round{round_number}"
-            n_answered, then_s = rng.randrange(asked_whole + 1), rng.uniform(0.0, 2 * arguments.latency)
+            n_answered, then_s = rng.randrange(n_calls_whole + 1), rng.uniform(0.0, 2 * arguments.latency)
             process = baking(work, name, server.url)
             while len(server.answered) < n_answered and process.poll() is None:
                 time.sleep(0.001)
@@ -77,7 +75,7 @@ def main() -> int:
 
 
 def baking(work: Path, name: str, url: str) -> subprocess.Popen[bytes]:
-    """A bake in a process of its own."""
+    """Start a bake in its own process."""
     command = [sys.executable, "-m", "scene2hap", "bake", "-q", work / "kitchen.json", "-o", work / name]
     command += ["--llm", "openai", "--base-url", url, "--cache", work / f"{name}.cache", "--no-pictures"]
     return subprocess.Popen(
@@ -87,7 +85,7 @@ def baking(work: Path, name: str, url: str) -> subprocess.Popen[bytes]:
 
 
 def repeated(before: list[Answered], after: list[Answered], killed: float) -> tuple[int, int, int]:
-    """How many answered questions were sent again, how many questions in all, and how many were in flight."""
+    """Numbers of answered requests sent again, of requests in flight sent again, and of requests in flight."""
     settled = {digest(one) for one in before if one.sent < killed - GRACE_S}
     flying = {digest(one) for one in before} - settled
     again = {digest(one) for one in after}
@@ -95,7 +93,7 @@ def repeated(before: list[Answered], after: list[Answered], killed: float) -> tu
 
 
 def digest(one: Answered) -> str:
-    """A name for a question."""
+    """Digest of a request."""
     return hashlib.sha256(one.question).hexdigest()
 
 

@@ -1,4 +1,4 @@
-"""Campaigns on the serial link: samples, damaged wires, random bytes, unplugging, and what it costs the caller.
+"""Campaigns on the serial link: samples, damaged data, random bytes, unplugging, and time on the caller's thread.
 
 python stress/serial_link.py [exact] [damage] [random] [unplug] [caller] [--seconds 300] [--frames 1000000]
     [--cycles 200] [--buffer 0.02] [--seed 0]
@@ -6,9 +6,9 @@ python stress/serial_link.py [exact] [damage] [random] [unplug] [caller] [--seco
 exact : 2 x 16 bit x 4 kHz over a pseudo-terminal to the reference device; every sample is compared.
 damage : frames of 32 bytes of samples, 1 % of all bytes flipped, dropped or doubled; no bad frame may be accepted, and
     the frames lost after each damaged one are counted.
-random : as many random bytes to each decoder.
-unplug : the device is pulled out and put in again; threads, files and memory before and after.
-caller : how long calls of the game's thread take while the device plays, grants no credit, or is away.
+random : the same number of random bytes to each decoder.
+unplug : the device is unplugged and plugged in again; threads, files and memory before and after.
+caller : time of calls on the game's thread while the device plays, grants no credit, or is missing.
 """
 
 from __future__ import annotations
@@ -66,14 +66,14 @@ def main() -> int:
     good = True
     for name in chosen.campaigns or CAMPAIGNS:
         began = time.perf_counter()
-        kept, told = runs[name]()
-        good &= kept
-        print(f"{name:<8}{'holds' if kept else 'FAILS':<7}{told} ({time.perf_counter() - began:.0f} s)", flush=True)
+        passed, result = runs[name]()
+        good &= passed
+        print(f"{name:<8}{'holds' if passed else 'FAILS':<7}{result} ({time.perf_counter() - began:.0f} s)", flush=True)
     return 0 if good else 1
 
 
 class Noise:
-    """A mix of noise whose samples are known by their position."""
+    """Noise whose samples can be computed from their position."""
 
     _LENGTH = 1_000_003
 
@@ -97,7 +97,7 @@ def exact(seconds: float, buffer_s: float) -> tuple[bool, str]:
     def check(block: np.ndarray) -> None:
         nonlocal wrong, compared, skipped
         if not compared:
-            skipped = sink.stats.dropped_frames  # while the device was being greeted
+            skipped = sink.stats.dropped_frames  # during the handshake
         begin, compared = compared, compared + len(block)
         wanted = noise.at(skipped + begin, len(block))
         wrong += int((block != wanted)[max(0, 200 - begin) :].sum())  # 200 samples are faded in
@@ -116,11 +116,11 @@ def exact(seconds: float, buffer_s: float) -> tuple[bool, str]:
         sink.close()
         eventually(lambda: plug.device.muted)
         lost = plug.device.lost + plug.device.refused + plug.device.damaged + stats.dropped_frames - skipped
-    told = (
+    result = (
         f"{compared} frames in {took:.0f} s, {wrong} wrong samples, {lost} lost, {stats.underruns} underruns, "
         f"latency {1e3 * (stats.latency_s or 0):.0f} ms at the end{'; '.join(['', *events[1:]])}"
     )
-    return wrong == lost == 0 and compared >= seconds * 4000, told
+    return wrong == lost == 0 and compared >= seconds * 4000, result
 
 
 def damage(n_frames: int, seed: int) -> tuple[bool, str]:
@@ -147,11 +147,11 @@ def damage(n_frames: int, seed: int) -> tuple[bool, str]:
             else:
                 waiting += 1
                 missed += 1
-    told = (
+    result = (
         f"{n_frames} frames of {len(data)} bytes, {touched_frames} damaged, {accepted} accepted, {bad} bad ones; whole "
         f"frames lost after a damaged one: {missed}, longest run {max(out_of_step, default=0)}"
     )
-    return bad == 0 and max(out_of_step, default=9) <= 2, told
+    return bad == 0 and max(out_of_step, default=9) <= 2, result
 
 
 def random_bytes(n_bytes: int, seed: int) -> tuple[bool, str]:
@@ -201,13 +201,13 @@ def unplug(cycles: int) -> tuple[bool, str]:
         during = _held()
         sink.close()
         after = _held()
-    kept = len(back) == cycles and after[:2] == before[:2] and during[:2] == warm[:2] and after[2] - warm[2] < 5
-    told = (
+    passed = len(back) == cycles and after[:2] == before[:2] and during[:2] == warm[:2] and after[2] - warm[2] < 5
+    result = (
         f"{cycles} cycles, {sink.stats.reconnects} reconnects, back after {1e3 * float(np.median(back)):.0f} ms "
         f"(median; longest {1e3 * max(back):.0f}); threads {before[0]} to {after[0]}, files {before[1]} to {after[1]}, "
         f"memory {warm[2]:.1f} to {after[2]:.1f} MB from the tenth cycle on; {dict(events)}"
     )
-    return kept, told
+    return passed, result
 
 
 def caller() -> tuple[bool, str]:
@@ -225,7 +225,7 @@ def caller() -> tuple[bool, str]:
         for name, change in (
             ("playing", lambda: None),
             ("no credit", lambda: setattr(plug.device, "grants_credit", False)),
-            ("away", plug.pull_out),
+            ("unplugged", plug.pull_out),
         ):
             change()
             times = _times(lambda: sink.stats)
@@ -242,7 +242,7 @@ def caller() -> tuple[bool, str]:
 
 
 def _times(call: Callable[[], object], seconds: float = 1.0) -> np.ndarray:
-    """Times of a game's calls, one a millisecond."""
+    """Times [s] of calls, one call a millisecond."""
     taken = []
     end = time.perf_counter() + seconds
     while time.perf_counter() < end:

@@ -1,14 +1,14 @@
-"""A session that lives long: moves, touches, adds, removes, states, levels and pauses at random.
+"""A long session with random moves, touches, adds, removes, states, levels and pauses.
 
 OMP_NUM_THREADS=1 python stress/session.py [--minutes 10] [--kind exponential_plate] [--edges]
 
-The game runs at 1 kHz in simulated time, as fast as it goes. At the end the command reports, and fails unless
+The game runs at 1 kHz in simulated time, as fast as possible. At the end the command prints a report, and fails unless
 
-    no exception came, and every sample was finite and within full scale;
-    memory did not grow from the first fifth on, by more than the noise of the allocator;
-    each loop stands where the clock says, to one sample: `position_s`, and what is heard of a tone.
+    no exception was raised, and every sample was finite and within full scale;
+    memory did not grow after the first fifth by more than the noise of the allocator;
+    each loop is within one sample of the clock, by `position_s` and by the phase of a rendered tone.
 
-With --edges every scene of tests/edge_scenes.py lives so long instead, without the check of loops.
+With --edges every scene of tests/edge_scenes.py is run instead, without the check of loops.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ TONE_HZ = {"phone": 100, "alarm": 160}
 
 @dataclass
 class Life:
-    """A session on the table with two phones, and everything that happens to it."""
+    """A session on the table with two phones, and its random events."""
 
     session: HapticSession
     random: random.Random
@@ -58,8 +58,8 @@ class Life:
         moved = {}
         if self.random.random() < 0.02:
             self.n_events += 1
-            what = self.random.choice((self._visit, self._switch, self._pause, self._hand, self._touch, self._touch))
-            what()
+            event = self.random.choice((self._visit, self._switch, self._pause, self._hand, self._touch, self._touch))
+            event()
         if self.random.random() < 0.02:
             name = self.random.choice([*self.movers, *self.there])
             lift = self.random.choice((0.0, 0.0, 0.5))
@@ -118,7 +118,7 @@ class Life:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a life: growth of memory [byte] from its first fifth on, loop error [samples], events."""
+    """Result of a run: growth of memory [byte] after its first fifth, loop error [samples], events."""
 
     grown_bytes: int
     drift_samples: float
@@ -128,7 +128,7 @@ class Outcome:
 
 
 def live(minutes: float, kind: str = "exponential_plate", seed: int = 1, bundled: Bundled | None = None) -> Outcome:
-    """A life of that length in simulated time, on the table with two phones for None. Raises: whatever goes wrong."""
+    """Run a session of that simulated length; `bundled` None: the table with two phones. Raises: any error of it."""
     begin = time.perf_counter()
     scene, bundle = bundled or table_with_two_phones()
     session = HapticSession(scene, bundle, {"sample_rate_hz": RATE, "propagation": kind})
@@ -153,7 +153,7 @@ def live(minutes: float, kind: str = "exponential_plate", seed: int = 1, bundled
 
 
 def held_bytes() -> int:
-    """Memory that Python and numpy hold [byte]; that of the whole process if nobody traces."""
+    """Memory of Python and numpy [byte] if tracemalloc is tracing, else of the whole process."""
     gc.collect()
     if tracemalloc.is_tracing():
         return tracemalloc.get_traced_memory()[0]
@@ -162,7 +162,7 @@ def held_bytes() -> int:
 
 
 def drift_samples(life: Life) -> float:
-    """How far the alarm's loop is from where the clock says, by position_s and by ear, the larger [samples]."""
+    """Distance of the alarm's loop from the clock [samples]: the larger of that by position_s and by rendered phase."""
     session = life.session
     session.resume()
     for name in list(life.there):
@@ -172,14 +172,14 @@ def drift_samples(life: Life) -> float:
     session.update({"phone": Pose((9.0, 9.0, 9.0))}, [Touch(session.hands[0], "alarm", (0.0, 0.0, 0.0))])
     session.wait_prepared(60.0)
     session.render(RATE)
-    told = session.position_s("alarm") * RATE - session.position % (RATE // 2)
+    reported = session.position_s("alarm") * RATE - session.position % (RATE // 2)
     begin = session.position
     out = session.render(RATE)[:, 0].astype(np.float64)
     cycles = TONE_HZ["alarm"] * (begin + np.arange(RATE)) / RATE
     # A sine of the clock has the phase 0; the rates are equal here, so that nothing is delayed.
     phase = np.angle(1j * (out * np.exp(-2j * np.pi * cycles)).sum())
-    heard = phase / (2 * np.pi) * RATE / TONE_HZ["alarm"]
-    return float(max(abs(told), abs(heard)))
+    rendered = phase / (2 * np.pi) * RATE / TONE_HZ["alarm"]
+    return float(max(abs(reported), abs(rendered)))
 
 
 def main() -> int:
@@ -187,24 +187,24 @@ def main() -> int:
     parser.add_argument("--minutes", type=float, default=10.0, help="simulated time (10)")
     parser.add_argument("--kind", default="exponential_plate", help="propagation model")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--edges", action="store_true", help="scenes with nothing in them, or next to nothing")
+    parser.add_argument("--edges", action="store_true", help="edge scenes, empty or nearly empty")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore", ThinPlateWarning)
     lives = [(name, made()) for name, made in EDGE_SCENES.items()] if arguments.edges else [("two phones", None)]
-    return max(told(name, bundled, arguments) for name, bundled in lives)
+    return max(report(name, bundled, arguments) for name, bundled in lives)
 
 
-def told(name: str, bundled: Bundled | None, arguments: argparse.Namespace) -> int:
-    """Run a session on a scene, and report the result: 0 on success."""
+def report(name: str, bundled: Bundled | None, arguments: argparse.Namespace) -> int:
+    """Run a session on a scene, and print the result. Returns 0 on success."""
     found = live(arguments.minutes, arguments.kind, arguments.seed, bundled)
-    is_well = found.grown_bytes < MOST_GROWN and found.drift_samples <= 1.0
-    verdict = "well" if is_well else "NOT WELL"
+    passed = found.grown_bytes < MOST_GROWN and found.drift_samples <= 1.0
+    verdict = "passed" if passed else "FAILED"
     print(
         f"{name}, {arguments.kind}, {arguments.minutes:g} minutes at {UPDATES_PER_S} Hz in {found.seconds:.0f} s: "
         f"{found.n_events} events; memory grew by {found.grown_bytes / 1024:.0f} KiB; loops off by "
         f"{found.drift_samples:.3f} samples; loudest sample {found.worst_level:.3f}: {verdict}"
     )
-    return 0 if is_well else 1
+    return 0 if passed else 1
 
 
 if __name__ == "__main__":

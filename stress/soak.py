@@ -1,10 +1,10 @@
-"""An hour on a real sound server with a null sink: every frame that its monitor recorded is held against the mix.
+"""An hour on a real sound server with a null sink: every recorded frame is compared with the mix.
 
     python stress/soak.py [--minutes 60] [--undisturbed] [--freeze]
 
-A game's thread updates at 1 kHz and makes garbage, at the default latency. What is recorded must be the safe mix,
-period after period; where it is not, the frames that are missing or too many are counted, for each hand alone, so that
-a drift between the hands would show as well.
+A game thread updates at 1 kHz and allocates garbage, at the default latency. Each recorded period must equal the safe
+mix. Where it does not, missing and surplus frames are counted, for both hands together, so that a drift between the
+hands is detected as well.
 Needs: apt-get install --no-install-recommends pulseaudio pulseaudio-utils libportaudio2 libasound2-plugins
 """
 
@@ -29,7 +29,7 @@ from sound_server import DEVICE, RATE, SoundServer, missing
 from sound_takes import PERIOD, SETTLING, Game, safe_period, session_on, undisturbed
 
 _LOUDEST_ERROR = 1e-3
-"""Of full scale; above it a frame is not what was played."""
+"""Of full scale; above it a recorded period differs from the mix."""
 
 
 def main() -> None:
@@ -48,7 +48,7 @@ def main() -> None:
 
 
 def played(server: SoundServer, seconds: float) -> NDArray[np.float32]:
-    """What the monitor heard while a game played, and a line per tenth of the time."""
+    """Record while a game plays; print a line per tenth of the time. Returns the recorded frames."""
     sink = SoundCardSink(DEVICE)
     recorder = server.record()
     print(f"Python {platform.python_version()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
@@ -70,9 +70,9 @@ def played(server: SoundServer, seconds: float) -> NDArray[np.float32]:
 
 
 def report(heard: NDArray[np.float32]) -> None:
-    """Hold each period against the mix; where it differs, find how far both hands have slipped together.
+    """Compare each period with the mix; where it differs, find the common shift of both hands.
 
-    A hand alone would not tell: its tone fits again after every wave. Hands that drift apart fit no common place.
+    One hand would not be enough: its tone matches again after every cycle. Hands that drift apart match at no shift.
     """
     steady = heard[int(np.flatnonzero(np.abs(heard).max(axis=1) > 1e-3)[0]) + SETTLING :]
     safe = safe_period()
@@ -85,28 +85,28 @@ def report(heard: NDArray[np.float32]) -> None:
             worst, apart = max(worst, error), 0
             continue
         broken += 1
-        # The period in which frames went missing fits no place; the next one tells.
+        # The period in which frames were lost matches at no shift; the next one does.
         now = shift_of(block, safe)
         if residual(block, safe, now) <= _LOUDEST_ERROR:
             slips.append((number * PERIOD / RATE, (now - at) % PERIOD))
             at, apart = now, 0
         else:
             apart += 1
-    print(f"{len(steady) / RATE / 60:.1f} min in periods of {PERIOD / RATE} s: {broken} are not the mix,")
+    print(f"{len(steady) / RATE / 60:.1f} min in periods of {PERIOD / RATE} s: {broken} differ from the mix,")
     print(f"all others equal it within {worst:.1e}")
     for at_s, frames in slips:
         print(f"  after {at_s:.1f} s both hands slipped by {frames} frames (modulo {PERIOD})")
-    print(f"periods at the end that fit no place common to both hands: {apart}")
+    print(f"periods at the end that match at no common shift of both hands: {apart}")
 
 
 def shift_of(block: NDArray[np.floating], safe: NDArray[np.float64]) -> int:
-    """Frames by which the period is turned in a block (PERIOD, 2)."""
+    """Frames by which the period is shifted in a block (PERIOD, 2)."""
     spectrum = np.fft.fft(block, axis=0) * np.conj(np.fft.fft(safe, axis=0))
     return int(np.argmax(np.fft.ifft(spectrum, axis=0).real.sum(axis=1)))
 
 
 def residual(block: NDArray[np.float64], safe: NDArray[np.float64], shift: int) -> float:
-    """The largest difference of a block from the turned period."""
+    """The largest difference of a block from the shifted period."""
     return float(np.abs(block - np.roll(safe, shift, axis=0)).max())
 
 
@@ -116,7 +116,7 @@ def memory_mb() -> float:
 
 
 def stolen_s() -> float:
-    """Time that a virtual machine's host gave to others, since boot [s]."""
+    """Time since boot [s] in which the host of a virtual machine ran other machines."""
     return int(Path("/proc/stat").read_text().split()[8]) / os.sysconf("SC_CLK_TCK")
 
 

@@ -1,12 +1,12 @@
-"""Campaigns on a real sound server with a null sink, judged by recordings of its monitor.
+"""Campaigns on a real sound server with a null sink, measured by recordings of its monitor.
 
 python stress/sound_card.py [takes] [low] [latency] [watchdog] [hitches] [unplug] [--takes 10] [--seconds 30]
     [--cycles 200] [--undisturbed] [--freeze]
 
-takes    : 30 s at the default latency while another thread updates at 1 kHz and allocates, ten times.
-low      : a take, and times as below, at "low" latency with 64, 128 and 256 frames at a time.
-latency  : time from an update to the first frame that the monitor hears, for several latencies.
-watchdog : the game's thread dies; time until the monitor hears exact zeros, against watchdog + fade + latency.
+takes    : ten times 30 s at the default latency, while another thread updates at 1 kHz and allocates.
+low      : a take, and times as below, at "low" latency with blocks of 64, 128 and 256 frames.
+latency  : time from an update to the first frame at the monitor, for several latencies.
+watchdog : the game's thread ends; time until the monitor records exact zeros, against watchdog + fade + latency.
 hitches  : a game of 30 frames per second with a hitch of 60 ms every tenth frame, 20 s.
 unplug   : the sink is unloaded and loaded again; threads, open files and memory before and after.
 Needs: apt-get install --no-install-recommends pulseaudio pulseaudio-utils libportaudio2 libasound2-plugins
@@ -62,11 +62,11 @@ def takes(arguments: argparse.Namespace) -> None:
         with SoundServer() as server:
             verdict = take(server, arguments.seconds)
         broken += verdict.residual > 1e-3
-        tell(f"take {number + 1}", verdict)
+        show(f"take {number + 1}", verdict)
     print(f"{broken} of {arguments.takes} takes with a discontinuity")
 
 
-def tell(name: str, verdict: Verdict) -> None:
+def show(name: str, verdict: Verdict) -> None:
     off_hz = max(abs(f - tone) for f, tone in zip(verdict.frequency_hz, TONES_HZ, strict=True))
     print(
         f"{name}: {verdict.seconds:.1f} s, correlation {min(verdict.correlation):.5f}, tones off by {off_hz:.1e} Hz, "
@@ -78,14 +78,14 @@ def tell(name: str, verdict: Verdict) -> None:
 def low(arguments: argparse.Namespace) -> None:
     for frames in (64, 128, 256):
         with SoundServer() as server:
-            tell(f"{frames} frames", take(server, arguments.seconds, latency="low", block_frames=frames))
+            show(f"{frames} frames", take(server, arguments.seconds, latency="low", block_frames=frames))
         with SoundServer() as server:
             times = onsets_s(server, "low", 10, block_frames=frames)
         print(f"  update to monitor median {1e3 * np.median(times):.0f}, largest {1e3 * max(times):.0f} ms")
 
 
 def onsets_s(server: SoundServer, latency: float | str, n: int, **settings: int) -> list[float]:
-    """Times from the first update with a touch to the first frame that the monitor hears."""
+    """Times [s] from the first update with a touch to the first frame at the monitor."""
     found = []
     for _ in range(n):
         sink = SoundCardSink(DEVICE, latency=latency, **settings)
@@ -109,10 +109,10 @@ def latency(arguments: argparse.Namespace) -> None:
             sink = SoundCardSink(DEVICE, latency=setting)
             with session_on(sink):
                 assert sink.wait_connected(10.0)
-                told = sink.stats.latency_s
+                reported_s = sink.stats.latency_s
             times = onsets_s(server, setting, 10)
         print(
-            f"latency {setting}: stats {1e3 * (told or 0):.0f} ms; update to monitor median "
+            f"latency {setting}: stats {1e3 * (reported_s or 0):.0f} ms; update to monitor median "
             f"{1e3 * np.median(times):.0f}, largest {1e3 * max(times):.0f} ms"
         )
 
@@ -121,7 +121,7 @@ def watchdog(arguments: argparse.Namespace) -> None:
     for setting, watchdog_s in ((0.1, 0.1), (0.1, 0.02), ("low", 0.1), ("low", 0.02)):
         with SoundServer() as server:
             longest = max(onsets_s(server, setting, 20))
-            times = [deaths_s(server, setting, watchdog_s) for _ in range(10)]
+            times = [time_to_silence_s(server, setting, watchdog_s) for _ in range(10)]
         bound = watchdog_s + 0.01 + longest
         print(
             f"latency {setting}, watchdog {watchdog_s} s: zero after {1e3 * min(times):.0f} to "
@@ -131,8 +131,8 @@ def watchdog(arguments: argparse.Namespace) -> None:
         )
 
 
-def deaths_s(server: SoundServer, setting: float | str, watchdog_s: float) -> float:
-    """Time from the last update of a game that dies to the last frame that is not zero."""
+def time_to_silence_s(server: SoundServer, setting: float | str, watchdog_s: float) -> float:
+    """Time [s] from the last update of a game that ends to the last frame that is not zero."""
     sink = SoundCardSink(DEVICE, latency=setting)
     recorder = server.record(is_timed=True)
     with session_on(sink, watchdog_s=watchdog_s) as session:
@@ -140,14 +140,14 @@ def deaths_s(server: SoundServer, setting: float | str, watchdog_s: float) -> fl
         game = Game(session, lambda _: 0.005)
         game.start()
         time.sleep(0.7 + 0.02 * np.random.default_rng().random())
-        died = game.kill()
+        ended = game.kill()
         last, begin = -1, time.monotonic()
         while last < 0 or recorder.n_heard - last < RATE // 4:
-            assert time.monotonic() < begin + 5.0, "it never fell silent"
+            assert time.monotonic() < begin + 5.0, "the sink still plays after 5 s"
             time.sleep(0.1)
             sounding = np.flatnonzero(np.abs(recorder.samples).max(axis=1))
             last = int(sounding[-1]) if len(sounding) else -1
-        found = (last + 1 - recorder.frame_at(died)) / RATE
+        found = (last + 1 - recorder.frame_at(ended)) / RATE
     recorder.stop()
     return found
 
@@ -204,7 +204,7 @@ def tasks() -> int:
 
 
 def stolen_s() -> float:
-    """Time that a virtual machine's host gave to others, since boot [s]."""
+    """Time since boot [s] in which the host of a virtual machine ran other machines."""
     return int(Path("/proc/stat").read_text().split()[8]) / os.sysconf("SC_CLK_TCK")
 
 

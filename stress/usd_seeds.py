@@ -1,4 +1,4 @@
-"""A small USD scene that uses most of what is read, as text, binary file and archive, written by usd-core."""
+"""A small USD scene with most of the features that are read, written by usd-core as text, binary file and archive."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The labels as data: what each object is, of what family of material, and whether it vibrates by itself."""
+"""The labels as data: category and material family of each object, and whether it vibrates by itself."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NAME_LISTS: dict[Half, str] = {"memory": "names_from_memory.csv", "packs": "name
 
 @dataclass(frozen=True)
 class Label:
-    """One object; `categories` and `families` hold all that is accepted, the best first."""
+    """One object; `categories` and `families` hold all accepted answers, the best first."""
 
     scene: str
     object_id: str
@@ -36,7 +36,7 @@ class Label:
 
 @dataclass(frozen=True)
 class LabelledScene:
-    """Where a labelled scene lies, on which half, and what kinds of place are accepted.
+    """Path of a labelled scene, its half, and the accepted kinds of place.
 
     A list of names without a file has no `path`; `longest_m` gives the longest edge of each.
     """

@@ -1,4 +1,4 @@
-"""The paper's ten materials: what a backend says of density, modulus and Poisson's ratio, beside literature ranges.
+"""The paper's ten materials: density, modulus and Poisson's ratio from a backend, and ranges from literature.
 
 Source: Scene2Hap, CHI 2026, table "Comparison of LLM's material property estimation": ranges, the paper's own sources
 for them and the answers of GPT-4o, as printed. A value on a bound is inside.
@@ -49,7 +49,7 @@ def within(values: tuple[float, float, float] | None, ranges: tuple[tuple[float,
 
 
 async def material_table(backend: LLMBackend) -> list[MaterialRow]:
-    """Ask for each of the ten by its name alone, as the chain does, one after the other."""
+    """Estimate each of the ten materials by its name alone, as the chain does, one after the other."""
     return [await _row(backend, row) for row in read_rows("paper_materials.csv")]
 
 

@@ -13,9 +13,9 @@ MODELS = (".glb", ".gltf")
 
 
 def read(item: LabelledScene, folder: Path) -> SceneSnapshot:
-    """The snapshot of a labelled scene, as the file has it: lying units are part of the task.
+    """The snapshot of a labelled scene, as in the file: wrong units are part of the task.
 
-    Raises: ValueError: its objects are not those that were labelled.
+    Raises: ValueError: its objects differ from the labelled ones.
     """
     if not item.path:
         return _boxes(item)
@@ -27,7 +27,7 @@ def read(item: LabelledScene, folder: Path) -> SceneSnapshot:
     apart = {thing.id for thing in scene.objects} ^ set(item.labels)
     if apart:
         raise ValueError(f"{item.scene}: not labelled, or labelled and not there: {', '.join(sorted(apart)[:5])}.")
-    # The name of the file is often "scene"; what a user would see is the folder.
+    # The name of the file is often "scene"; a user would see the name of the folder.
     return replace(scene, name=item.scene)
 
 

@@ -1,4 +1,4 @@
-"""What an answer is worth beside a label: rules in docs/inference-evaluation.md, counts added up scene by scene."""
+"""Scores of answers against labels: rules in docs/inference-evaluation.md, counts summed scene by scene."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _plain(text: str) -> str:
 
 @dataclass(frozen=True)
 class Counts:
-    """How many objects, of each kind of agreement; two add up."""
+    """Numbers of objects by kind of agreement; counts can be added."""
 
     objects: int = 0
     unknown: int = 0
@@ -120,7 +120,7 @@ class Judgement:
 
     @property
     def misses(self) -> tuple[str, ...]:
-        """What disagrees with the label."""
+        """Names of the fields that disagree with the label."""
         one = self.counts
         wrong = {
             "unknown": one.unknown,
@@ -128,7 +128,7 @@ class Judgement:
             "material": one.claimed_material and not one.family_right,
             "vibrates": self.label.vibrates != self.vibrates,
         }
-        return tuple(what for what, holds in wrong.items() if holds)
+        return tuple(field for field, is_wrong in wrong.items() if is_wrong)
 
 
 def judge(label: Label, haptics: ObjectHaptics) -> Judgement:

@@ -1,4 +1,4 @@
-"""One attack: a command that has to end well or in one sentence of ours, within bounds, in its own folder."""
+"""One attack: a command that must succeed or end in a one-line error, within limits, in its own folder."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ Kind = TypeVar("Kind")
 
 @dataclass(frozen=True)
 class Attack:
-    """A command and what it may take.
+    """A command with its limits.
 
-    argv : what is run; "scene2hap" first means the command line of this package, which is forked for speed. call : what
-    the child calls instead, its status returned. seconds : of processor time; memory_bytes : resident; untouched :
-    further paths that must not change.
+    argv : the command; "scene2hap" first means the command line of this package, which is forked for speed. call : a
+    function that the child calls instead; it returns the status. seconds : limit of processor time. memory_bytes :
+    limit of resident memory. untouched : further paths that must not change.
     """
 
     family: str
@@ -34,7 +34,7 @@ class Attack:
 def in_turn(
     family: str, kinds: Sequence[Kind], seed: int, work: Path
 ) -> Iterator[tuple[int, Kind, Path, random.Random]]:
-    """The number, kind, new folder and chance of each case; kinds in turn, without end."""
+    """Yield number, kind, new folder and random generator of each case; kinds in turn, without end."""
     for number in itertools.count():
         folder = work / str(number)
         folder.mkdir()

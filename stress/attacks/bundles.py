@@ -1,4 +1,4 @@
-"""Bundles that somebody damaged, edited into nonsense or laid as a trap, given to what reads and replaces them."""
+"""Damaged, wrongly edited and malicious bundles, for all code that reads or replaces bundles."""
 
 from __future__ import annotations
 
@@ -34,25 +34,25 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
         shutil.copytree(whole, folder)
         outside = _new(folder.parent / "outside.json")
         done = [_damaged(folder, rng, damage) for damage in rng.choices(_DAMAGES, k=rng.choice([1, 1, 1, 3]))]
-        what = rng.choice(["inspect", "inspect", "report", "render", "bake"])
-        argv: tuple[str, ...] = ("scene2hap", what, str(folder))
-        if what == "render":
+        command = rng.choice(["inspect", "inspect", "report", "render", "bake"])
+        argv: tuple[str, ...] = ("scene2hap", command, str(folder))
+        if command == "render":
             track = work / str(number) / "touches.json"
             steps = [{"time_s": 0.02, "hand": "left", "touch": name} for name in ("fan", "table")]
             document = {"format": "scene2hap/touches", "version": 1, "duration_s": 0.1, "steps": steps}
             track.write_text(json.dumps(document))
             argv = ("scene2hap", "render", str(folder), "--touches", str(track), "-o", "out.wav")
-        elif what == "bake":
+        elif command == "bake":
             argv = ("scene2hap", "bake", str(scene), "-o", str(folder))
         more = ("--json",) if rng.random() < 0.3 else ()
-        if what == "render":
+        if command == "render":
             from attacks.touch_files import judged
 
-            name = f"{number} {what}: {', '.join(done)}"
+            name = f"{number} {command}: {', '.join(done)}"
             call = partial(judged, (*argv[1:], *more))
             yield Attack("bundles", name, (), call=call, untouched=(outside,))
             continue
-        yield Attack("bundles", f"{number} {what}: {', '.join(done)}", (*argv, *more), untouched=(outside,))
+        yield Attack("bundles", f"{number} {command}: {', '.join(done)}", (*argv, *more), untouched=(outside,))
 
 
 def sound(work: Path) -> Path:
@@ -163,7 +163,7 @@ def _encode(folder: Path, rng: random.Random) -> str:
 
 
 def _replace(folder: Path, rng: random.Random) -> str:
-    """Something that is no file in a file's place."""
+    """A folder, link or pipe in place of a file."""
     path = _a_file(folder, rng)
     path.unlink()
     kind = rng.choice(["nothing", "folder", "pipe", "circle", "outside", "device", "dangling", "empty", "sparse"])
@@ -183,7 +183,7 @@ def _replace(folder: Path, rng: random.Random) -> str:
 
 
 def _wave(folder: Path, rng: random.Random) -> str:
-    """A WAV file whose header lies."""
+    """A WAV file with a wrong header."""
     paths = sorted(path for path in (folder / "sounds").glob("*.wav") if path.is_file() and not path.is_symlink())
     if not paths:
         return "nothing"
@@ -198,7 +198,7 @@ def _wave(folder: Path, rng: random.Random) -> str:
 
 
 def _loop(folder: Path, rng: random.Random) -> str:
-    """A loop of numbers that are none, of an odd rate, or of no length."""
+    """A loop of NaN, of an unusual rate, or of no length."""
     import numpy as np
     import soundfile
 
@@ -238,7 +238,7 @@ def _spell(folder: Path, rng: random.Random) -> str:
 
 
 def _mesh(folder: Path, rng: random.Random) -> str:
-    """A PLY file whose header lies."""
+    """A PLY file with a wrong header."""
     paths = sorted(path for path in (folder / "meshes").glob("*.ply") if path.is_file() and not path.is_symlink())
     if not paths:
         return "nothing"
@@ -261,7 +261,7 @@ def _newer(folder: Path, rng: random.Random) -> str:
 
 
 def _many(folder: Path, rng: random.Random) -> str:
-    """A megabyte of a document, of rows that are alike."""
+    """A document of a megabyte of equal rows."""
     path = _document(folder, rng)
     try:
         document = json.loads(path.read_text())
@@ -282,7 +282,7 @@ def _document(folder: Path, rng: random.Random) -> Path:
 
 
 def _fresh(path: Path) -> Path:
-    """A file to damage: what an earlier damage made a link, pipe or folder is made a file, lest the harm spreads."""
+    """A file to damage. Links, pipes and folders of earlier damage are replaced, so that damage does not spread."""
     if path.is_symlink() or (path.exists() and not path.is_file()):
         path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
     return path if path.exists() else _new(path)

@@ -1,4 +1,4 @@
-"""The command line itself: arguments that make no sense, folders that are not its own, output that goes nowhere."""
+"""The command line itself: invalid arguments, folders of other programs, and output streams that are closed or full."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from attacks import bundles
 from attacks.attack import Attack
 
 _NUMBERS = ("nan", "inf", "-inf", "-1", "0", "1e400", "1e-400", "9" * 5000, "", "x", "²", "1_000", "0x10", "٣")
-# Nothing here names a place outside of the case's folder that could be written to, whoever runs the campaign.
+# No path here is outside of the case's folder and writable, for any user who runs the campaign.
 _WORDS = (
     "", " ", "-", "--", "\n", "\x1b[2J", "é" * 300, "a" * 5000, "/dev/null", "/dev/full",
     "{", '{"kind": 1}', "{" * 2000, "[]", "null", "no:such", "http://", "kind:\ud800", ".", "~",
@@ -58,7 +58,7 @@ def _arguments(number: int, rng: random.Random, work: Path, room: Path) -> Attac
 
 
 def _places(number: int, rng: random.Random, work: Path, room: Path) -> Attack:
-    """Folders with things of a person, which a bake is told to write to."""
+    """Folders with files of a user, given as the output folder of a bake."""
     folder = work / str(number) / "thesis"
     folder.mkdir(parents=True)
     (folder / "chapter.txt").write_text("ten years")
@@ -91,9 +91,9 @@ def _streams(number: int, rng: random.Random, work: Path, room: Path) -> Attack:
     where = rng.choice(_REDIRECTIONS)
     run = shlex.join([sys.executable, "-m", "scene2hap", *words])
     unbuffered = rng.choice(["", "1"])
-    # A pipeline's status is its last command's, unless told otherwise; what the reader does is no matter here.
+    # A pipeline returns the status of its last command by default; the status of the reader does not count here.
     shell = f"export PYTHONIOENCODING={encoding} PYTHONUNBUFFERED={unbuffered}; set -o pipefail; {run} {where}"
-    # Where standard error is closed or full, no sentence can be told.
-    told = "; status=$?; case $status in 1 | 2) echo 'scene2hap: error: as told' >&2;; esac; exit $status"
+    # Where standard error is closed or full, no error message can be printed.
+    message = "; status=$?; case $status in 1 | 2) echo 'scene2hap: error: as stated' >&2;; esac; exit $status"
     name = f"{number} {words[:1]} {where} {encoding}"
-    return Attack("command_line", name, ("bash", "-c", shell + told), untouched=(room,))
+    return Attack("command_line", name, ("bash", "-c", shell + message), untouched=(room,))

@@ -1,4 +1,4 @@
-"""What an attack may leave: sentences of ours that can be printed, numbers that are numbers, samples within [-1, 1]."""
+"""Checks of results: errors of scene2hap that can be printed, finite numbers, and samples within [-1, 1]."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 
-def told(error: Exception) -> int:
-    """Print an error of ours as the command line does; its text must be one that can be shown."""
+def printed(error: Exception) -> int:
+    """Print an error of scene2hap as the command line does; its text must be printable. Returns 1."""
     from scene2hap.printable import printable
 
     print(f"scene2hap: error: {printable(str(error))[:2000]}", file=sys.stderr)
@@ -18,7 +18,7 @@ def told(error: Exception) -> int:
 
 
 def is_harmless(made: Any) -> bool:
-    """Whether arrays among what came back hold finite numbers alone, and blocks of samples none outside of [-1, 1]."""
+    """Whether all numbers of a result are finite, and all blocks of samples are within [-1, 1]."""
     if isinstance(made, list | tuple):
         return all(map(is_harmless, made))
     if isinstance(made, float):
@@ -30,7 +30,7 @@ def is_harmless(made: Any) -> bool:
 
 
 def wav_is_harmless(path: Path) -> bool:
-    """Whether a sound file holds finite samples within [-1, 1] alone; one that was not written does."""
+    """Whether all samples of a sound file are finite and within [-1, 1]; True if there is no file."""
     import soundfile
 
     if not path.exists():

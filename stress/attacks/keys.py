@@ -1,4 +1,4 @@
-"""Keys that a server, a library or a program tells again in other spellings: none may be read from what is shown or kept."""
+"""Keys that a server, a library or a program repeats in other spellings: no shown or stored text may reveal one."""
 
 # ruff: noqa: E501  # tables of cases
 
@@ -75,7 +75,7 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
 
 
 def shown(name: str, around: str) -> str:
-    """What stands where a key in a spelling stood."""
+    """The scrubbed text of a key in a spelling."""
     from scene2hap.secret import Secret
 
     before, after = AROUND[around]
@@ -90,7 +90,7 @@ def is_shown(name: str, text: str) -> bool:
 
 
 def scrubbed(name: str, around: str) -> int:
-    """Fails where a key is shown."""
+    """Scrub a key. Returns 0. Raises: AssertionError: the key is shown."""
     if is_shown(name, shown(name, around)):
         raise AssertionError(f"the key is shown, {name} in {around}")
     return 0

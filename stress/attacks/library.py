@@ -1,6 +1,6 @@
-"""Hostile numbers and arrays at the public names of the library: refused with an error of ours, or harmless.
+"""Hostile numbers and arrays at the public names of the library: refused with an error of scene2hap, or harmless.
 
-Objects of another class than is asked for are none of this: of those Python itself tells.
+Objects of a wrong class are not part of this family: Python itself reports them.
 """
 
 # ruff: noqa: E501  # tables of cases
@@ -19,7 +19,7 @@ import numpy as np
 
 from attacks import bundles
 from attacks.attack import Attack
-from attacks.judging import is_harmless, told
+from attacks.judging import is_harmless, printed
 from attacks.values import SCALARS, arrays
 
 Entry = Callable[[Any, Path], object]
@@ -125,7 +125,7 @@ def _session(room: Path, **config: Any) -> Any:
 
 
 def _played(room: Path, act: Callable[[Any], object], **config: Any) -> Any:
-    """What comes out of a session after an act; it is judged."""
+    """Rendered samples of a session after an action, to be checked."""
     from scene2hap import Touch
 
     with _session(room, **config) as session:
@@ -138,7 +138,7 @@ def _played(room: Path, act: Callable[[Any], object], **config: Any) -> Any:
 def _field(kind: str, **how: Any) -> Callable[[Any, Path], object]:
     """A model's answer over two plates, with a hostile number in one place."""
 
-    def ask(value: Any, room: Path) -> object:
+    def query(value: Any, room: Path) -> object:
         import scene2hap as s
 
         model = getattr(s, kind)()
@@ -147,7 +147,7 @@ def _field(kind: str, **how: Any) -> Callable[[Any, Path], object]:
         given[place] = [(value, 0.1)] if place == "points" else (value, 0.1) if place == "drive" else [value]
         return model.plate_transfer(_plate(), given["drive"], given["points"], given["frequencies"])
 
-    return ask
+    return query
 
 
 def _network(value: Any, room: Path, place: str) -> object:
@@ -158,16 +158,16 @@ def _network(value: Any, room: Path, place: str) -> object:
         "weight": 1.0,
         "hz": 100.0,
         "mass": 1.0,
-        "ask": [(0.1, 0.1, 0.0)],
+        "query": [(0.1, 0.1, 0.0)],
     }
-    given[place] = (value, 0.1, 0.0) if place == "point" else [(value, 0.1, 0.0)] if place == "ask" else value
+    given[place] = (value, 0.1, 0.0) if place == "point" else [(value, 0.1, 0.0)] if place == "query" else value
     bodies = {"a": _plate(), "b": RigidBody(1.0)}
     network = ContactNetwork(
         bodies, [Contact("a", "b", given["point"], weight=given["weight"])], {"a": Pose(), "b": Pose()}
     )
     excitations = [Excitation("b", given["hz"], given["hz"], given["mass"])]
     return [
-        model().prepare(network, excitations, Bands.dominant()).attenuation("a", given["ask"])
+        model().prepare(network, excitations, Bands.dominant()).attenuation("a", given["query"])
         for model in (ExponentialPlate, ModalPlate)
     ]
 
@@ -236,7 +236,7 @@ NUMBERS: dict[str, Entry] = {
     "ExponentialPlate loss": lambda v, _: _s("ExponentialPlate")(interface_loss_db=v),
     "ExponentialPlate floor": lambda v, _: _s("ExponentialPlate")(floor_db=v),
     "FullPropagation hops": lambda v, _: _s("FullPropagation")(max_hops=v),
-    **{f"network {place}": partial(_network, place=place) for place in ("point", "weight", "hz", "mass", "ask")},
+    **{f"network {place}": partial(_network, place=place) for place in ("point", "weight", "hz", "mass", "query")},
     "Bands": lambda v, _: _s("Bands")((v, 100.0)).widths_hz,
     "Bands.third_octaves low": lambda v, _: _s("Bands").third_octaves(v, 1000.0),
     "Bands.third_octaves high": lambda v, _: _s("Bands").third_octaves(10.0, v),
@@ -357,7 +357,7 @@ ARRAYS: dict[str, tuple[int, int, Entry]] = {
     "infinite points": (4, 2, lambda a, _: _s("InfinitePlate")().plate_transfer(_plate(), (0.1, 0.1), a, [100.0])),
     "exponential points": (4, 2, lambda a, _: _s("ExponentialPlate")().plate_transfer(_plate(), (0.1, 0.1), a, [100.0])),
     "wavenumber": (4, 1, lambda a, _: _plate().wavenumber_rad_m(a)),
-    "network ask": (4, 3, lambda a, room: _ask(a)),
+    "network query": (4, 3, lambda a, room: _query(a)),
     "on_body": (4, 3, lambda a, room: _net().on_body("a", a)),
     "session touches": (3, 3, lambda a, room: _played(room, lambda s: s.update({}, a))),
     "plate_motion": (9, 1, lambda a, _: _s("MassSpringDamper")(resolution=8).plate_motion(_plate(), (0.1, 0.1), [(0.2, 0.1)], a, 8000.0)),
@@ -374,7 +374,7 @@ def _net() -> Any:
     return _s("ContactNetwork")(bodies, [contact], {"a": _s("Pose")(), "b": _s("Pose")()})
 
 
-def _ask(points: Any) -> Any:
+def _query(points: Any) -> Any:
     excitations = [_s("Excitation")("b", 100.0, 100.0)]
     return _s("ExponentialPlate")().prepare(_net(), excitations, _s("Bands").dominant()).attenuation("a", points)
 
@@ -387,7 +387,7 @@ def _pull(frames: Any, room: Path) -> Any:
 
 
 def every() -> Iterator[tuple[str, Callable[[Path], object]]]:
-    """Every entry with every value, each as what is called with the bundle's folder."""
+    """Every entry with every value, each as a function of the bundle's folder."""
     for (name, entry), value in itertools.product(NUMBERS.items(), SCALARS):
         yield f"{name} = {value}", partial(entry, SCALARS[value])
     for name, (rows, columns, entry) in ARRAYS.items():
@@ -422,7 +422,7 @@ def _one(name: str, entry: Callable[[Path], object], room: Path) -> int:
             warnings.simplefilter("ignore")
             made = entry(room)
     except Scene2HapError as error:
-        return told(error)
-    if not is_harmless(made) and not name.startswith("Pose.to_"):  # a change of frame tells of no number what it is
+        return printed(error)
+    if not is_harmless(made) and not name.startswith("Pose.to_"):  # a change of frame passes any number on
         raise AssertionError(f"{name} gave a number that is none, or one outside of [-1, 1]")
     return 0

@@ -31,7 +31,7 @@ def _obj(n_vertices: int, n_faces: int, rng: random.Random) -> bytes:
 
 
 def height_field(rng: random.Random) -> Files:
-    """Heights that no byte stands for."""
+    """Heights without bytes in the file."""
     return _mjcf('<geom type="hfield" hfield="h"/>', '<hfield name="h" nrow="5000" ncol="5000" size="1 1 1 1"/>')
 
 
@@ -82,13 +82,13 @@ def mesh_fitted(rng: random.Random) -> Files:
 
 
 def built_in_meshes(rng: random.Random) -> Files:
-    """Spheres that are made up, thousands of them."""
+    """Thousands of generated spheres."""
     rows = "".join(f'<mesh name="m{i}" builtin="sphere" params="4"/>' for i in range(2001))
     return _mjcf('<geom type="mesh" mesh="m0"/>', rows)
 
 
 def built_in_meshes_of_all_kinds(rng: random.Random) -> Files:
-    """Made up meshes at their largest."""
+    """Generated meshes of the largest size."""
     kinds = ['"plate" params="200 200"', '"supersphere" params="200 1 1"', '"supertorus" params="200 0.5 1 1"']
     rows = "".join(f'<mesh name="m{i}" builtin={kinds[i % 3]}/>' for i in range(60))
     return _mjcf('<geom type="mesh" mesh="m0"/>', rows)
@@ -123,7 +123,7 @@ def joints(rng: random.Random) -> Files:
 
 
 def numbers(rng: random.Random) -> Files:
-    """Custom numbers that are promised."""
+    """Custom numbers that are declared but absent."""
     return _mjcf(before=f'<custom><numeric name="n" size="{rng.choice([500_000_000, 2_000_000_000])}"/></custom>')
 
 
@@ -144,7 +144,7 @@ def key_frames(rng: random.Random) -> Files:
 
 
 def user_data(rng: random.Random) -> Files:
-    """Room for the user in every row, taken from the longest."""
+    """User numbers in every row, as many as in the longest."""
     geoms = "".join(f'<geom size="1" pos="{i} 0 0"/>' for i in range(3800))
     return _mjcf(geoms + f'<geom size="1" user="{"1 " * 150_000}"/>')
 
@@ -164,7 +164,7 @@ def equalities(rng: random.Random) -> Files:
 
 
 def included_files(rng: random.Random) -> Files:
-    """As many files as a person would not write."""
+    """More files than an author would write."""
     files = {
         f"f{i}.xml": f'<mujoco><worldbody><geom size="1" pos="{i} 0 0"/></worldbody></mujoco>' for i in range(3000)
     }
@@ -174,7 +174,7 @@ def included_files(rng: random.Random) -> Files:
 
 
 def skin_of_numbers(rng: random.Random) -> Files:
-    """A deformable skin that is written out, and drawn by no one."""
+    """A deformable skin that no geom draws."""
     vertex = " ".join(f"{rng.random():.3f}" for _ in range(60_000))
     face = " ".join(str(rng.randrange(20_000)) for _ in range(60_000))
     bone = '<bone body="world" bindpos="0 0 0" bindquat="1 0 0 0" vertid="0" vertweight="1"/>'
@@ -194,7 +194,7 @@ def flexes(rng: random.Random) -> Files:
 
 
 def custom_texture(rng: random.Random) -> Files:
-    """Files of MuJoCo's own kinds that promise more than they hold."""
+    """Files of MuJoCo's own formats with wrong counts."""
     texture = '<texture name="t" type="2d" content_type="image/vnd.mujoco.texture" file="t.bin"/>'
     mesh = '<mesh name="m" file="m.stl"/>'
     data = {"t.bin": struct.pack("<ii", 30_000, 30_000), "m.stl": bytes(80) + struct.pack("<I", 2**32 - 1) + bytes(99)}

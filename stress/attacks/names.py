@@ -1,4 +1,4 @@
-"""Names: what a terminal obeys, what no encoding can write, and what file systems mean something by."""
+"""Names with control characters, with characters that no encoding can write, and with a meaning to file systems."""
 
 from __future__ import annotations
 

@@ -52,13 +52,13 @@ def distinct_boxes(rng: random.Random) -> Files:
 
 
 def mirrored_copies(rng: random.Random) -> Files:
-    """A mesh of a thousand triangles, mirrored and scaled anew for each of its copies."""
+    """A mesh of a thousand triangles, mirrored and scaled differently for each of its copies."""
     nodes = [{"mesh": 0, "scale": [-1 - i / 1000, 1, 1], "translation": [i * 3, 0, 0]} for i in range(2500)]
     return _gltf(_floats(3 * 3000, rng), accessors=[_vec3(3000, bufferView=0)], nodes=nodes)
 
 
 def items_of_one_group(rng: random.Random) -> Files:
-    """A group of leaves that might each be a thing of its own."""
+    """A group of leaves, each of which could be a separate object."""
     n = 9000
     leaves: list[dict[str, Any]] = [
         {"name": f"tea_{rng.choice(['cup', 'spoon', 'pot'])}", "mesh": 0, "translation": [3 * i, 0, 0]}
@@ -93,7 +93,7 @@ def empty_nodes(rng: random.Random) -> Files:
 
 
 def flat_boxes(rng: random.Random) -> Files:
-    """Boxes without height, turned anew each."""
+    """Boxes without height, each with another rotation."""
     return _boxes(
         [
             {
@@ -123,7 +123,7 @@ def long_names(rng: random.Random) -> Files:
 
 
 def equal_names(rng: random.Random) -> Files:
-    """Names that look like ids that were made from others."""
+    """Names that look like generated ids."""
     return _boxes([{"mesh": 0, "name": "a" if i % 2 else f"a#{i}", "translation": [2 * i, 0, 0]} for i in range(3990)])
 
 
@@ -205,7 +205,7 @@ def quantised(rng: random.Random) -> Files:
 
 
 def huge_numbers(rng: random.Random) -> Files:
-    """Vertices at the ends of what a float holds, and no numbers at all."""
+    """Vertices at the limits of a float, and NaN."""
     numbers = [3.4e38, -3.4e38, 1e-45, float("nan"), float("inf"), 1e5, -1e5]
     data = struct.pack("<900f", *(rng.choice(numbers[:3] + numbers[5:]) for _ in range(900)))
     return _gltf(data, accessors=[_vec3(300, bufferView=0)], nodes=[{"mesh": 0, "scale": [1e-38] * 3}])
@@ -226,7 +226,7 @@ def data_uri_pictures(rng: random.Random) -> Files:
 
 
 def ignored_tables(rng: random.Random) -> Files:
-    """Skins, animations and cameras that nobody reads."""
+    """Skins, animations and cameras, which are not read."""
     row = {"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}] * 5, "samplers": [{}] * 5}
     return _boxes([{"mesh": 0, "skin": 0}], animations=[row] * 2000, skins=[{"joints": [0] * 50_000}], cameras=[{}])
 
@@ -301,7 +301,7 @@ def draco_large(rng: random.Random) -> Files:
 
 
 def draco_promises(rng: random.Random) -> Files:
-    """Headers of few bytes that promise as many triangles as a number holds, in both methods."""
+    """Short headers with the largest number of triangles, in both methods."""
     number = b"\xff\xff\xff\xff\x0f"
     header = b"DRACO" + bytes([2, 2, 1, rng.choice([0, 1]), 0, 0])
     return _draco(header + bytes([0]) + number + number + number + bytes(1000), 40)
@@ -347,7 +347,7 @@ def json_names(rng: random.Random) -> Files:
 
 
 def json_sources(rng: random.Random) -> Files:
-    """Things that all vibrate, and that each need something that is not there."""
+    """Sources that each need contact with a missing object."""
     kinds = ["frying pan", "soup pot", "smartphone", "microwave oven", "kettle", "toothbrush"]
     objects = [
         {

@@ -1,4 +1,4 @@
-"""Run an attack in a child with limits and judge what came of it."""
+"""Run an attack in a child process with limits, and check the outcome."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _OURS = re.compile(rb"^(scene2hap(\.\w+)?|scene2hap \w+|[\w.]+): (error|warning)
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of one attack; `fault` is "" where it was met."""
+    """Outcome of one attack; `fault` is "" if it passed."""
 
     attack: Attack
     status: int
@@ -83,7 +83,7 @@ def _fault(
 
 
 def _child(attack: Attack, folder: Path, logs: Path) -> tuple[int, float, int]:
-    """Exit status (negative: a signal), processor time [s] and peak memory [bytes]."""
+    """Returns exit status (negative: a signal), processor time [s] and peak memory [bytes]."""
     pid = os.fork()
     if pid == 0:
         status = 71

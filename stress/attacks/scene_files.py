@@ -1,4 +1,4 @@
-"""Scene files: totals that a few bytes ask for, and small valid files broken at random."""
+"""Scene files: few bytes that expand to large totals, and small valid files broken at random."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def _vec3(count: int, **more: Any) -> dict[str, Any]:
 
 
 def accessors_without_bytes(rng: random.Random) -> Files:
-    """As many zeros as fifty rows ask for."""
+    """Fifty rows that each declare a large table of zeros."""
     n, count = rng.choice([1, 50, 2000]), rng.choice([10**5, 10**6, 10**7])
     primitives = [{"attributes": {"POSITION": i}} for i in range(n)]
     return _gltf(accessors=[_vec3(count)] * n, meshes=[{"primitives": primitives}])
@@ -218,7 +218,7 @@ def mtl_again(rng: random.Random) -> Files:
 
 
 def ply_promises(rng: random.Random) -> Files:
-    """A header that promises what is not there."""
+    """A header with wrong counts."""
     n, m = rng.choice([0, 3, 10**9, 10**15]), rng.choice([1, 10**9, 10**18])
     form = rng.choice(["ascii", "binary_little_endian", "binary_big_endian"])
     properties = rng.choice(["property float x\nproperty float y\nproperty float z\n", ""])
@@ -290,7 +290,7 @@ def json_objects(rng: random.Random) -> Files:
 
 
 def json_deep(rng: random.Random) -> Files:
-    """Brackets, digits, halves of characters."""
+    """Brackets, digits, lone surrogates."""
     core = rng.choice(["[" * 300_000, '{"a":' * 100_000, "9" * 900_000, '"\\ud800"', "1e999", "NaN", "-" * 10])
     return {"case.json": f'{{"format": "scene2hap/scene", "version": 1, "name": {core}'.encode()}
 
@@ -300,7 +300,7 @@ def _mjcf(inside: str, assets: str = "") -> str:
 
 
 def mjcf_textures(rng: random.Random) -> Files:
-    """Textures that are made up, each within its limit."""
+    """Generated textures, each within its limit."""
     edge, n = rng.choice([512, 2000, 8000]), rng.choice([1, 50, 2000])
     kind = rng.choice(['type="2d"', 'type="cube"', ""])
     rows = "".join(f'<texture name="t{i}" {kind} builtin="flat" width="{edge}" height="{edge}"/>' for i in range(n))
@@ -356,7 +356,7 @@ def habitat_instances(rng: random.Random) -> Files:
 
 
 def habitat_models(rng: random.Random) -> Files:
-    """Many models, each of which asks for what one model may ask for."""
+    """Many models, each as large as one model may be."""
     n, count = rng.choice([10, 400]), rng.choice([10**4, 10**5])
     model = _gltf(_floats(9, rng), accessors=[_vec3(count), _vec3(3, bufferView=0)])["case.gltf"]
     return _habitat([f"m{i}" for i in range(n)], rng, **{f"m{i}.gltf": model for i in range(n)})
@@ -426,7 +426,7 @@ def usd_text(rng: random.Random) -> Files:
 
 
 def usdz_promises(rng: random.Random) -> Files:
-    """An archive whose entries are one and the same, are packed, or promise what is not there."""
+    """An archive with equal entries, compressed entries, or entries with wrong sizes."""
     content = b'#usda 1.0\ndef Cube "c" {\n}\n' + b" " * rng.choice([0, 500_000])
     n, size = rng.choice([1, 5_000]), rng.choice([len(content), 2**31])
     how = rng.choice([0, 8])

@@ -21,10 +21,10 @@ import numpy as np
 import soundfile
 
 from attacks import keys
-from attacks.ask import KEY
 from attacks.attack import Attack
+from attacks.query import KEY
 
-_ASK = str(Path(__file__).with_name("ask.py"))
+_QUERY = str(Path(__file__).with_name("query.py"))
 _SECONDS = 8.0
 Send = Callable[[bytes], object]
 
@@ -32,7 +32,7 @@ ECHOES = tuple(spelling for name, spelling in keys.SPELLINGS.items() if name not
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Replies drawn from the seed, by a server on the loopback interface that lives as long as this does."""
+    """Replies drawn from the seed, by a server on the loopback interface that runs as long as this generator."""
     with _Server(("127.0.0.1", 0), _Handler) as server:
         server.seed = seed
         threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
@@ -43,7 +43,7 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
                     where, kind = str(_sound(work / f"{number}.flac", rng)), "sound"
                 else:
                     where, kind = f"http://127.0.0.1:{server.server_address[1]}/{number}", rng.choice(KINDS)
-                argv = (sys.executable, _ASK, kind, where)
+                argv = (sys.executable, _QUERY, kind, where)
                 yield Attack("servers", f"{number} {kind}", argv, seconds=_SECONDS)
         finally:
             server.shutdown()
@@ -71,7 +71,7 @@ class _Server(socketserver.ThreadingTCPServer):
     seed = 0
 
     def handle_error(self, request: object, client_address: object) -> None:
-        pass  # a client that has had enough is what is wanted
+        pass  # the client is expected to close the connection
 
 
 class _Handler(socketserver.StreamRequestHandler):
@@ -86,7 +86,7 @@ class _Handler(socketserver.StreamRequestHandler):
 
 
 def _play_raw(rng: random.Random, send: Send) -> None:
-    """What is hardly HTTP: heads without end, or drop by drop, lengths that lie, packs within packs, the key in a line."""
+    """Invalid HTTP: endless or slow heads, wrong lengths, nested compression, the key in a header line."""
     ok, length = b"HTTP/1.1 200 OK\r\n", b"content-length: "
     twice = gzip.compress(gzip.compress(bytes(1 << 24)))
     once = rng.choice(
@@ -117,7 +117,7 @@ def _play_raw(rng: random.Random, send: Send) -> None:
 
 
 def _play(rng: random.Random, send: Send) -> None:
-    """One reply: a head that may lie, and a body."""
+    """One reply: a head, which may be wrong, and a body."""
     kind = rng.choice(
         ["bomb", "endless", "drip", "headers", "charset", "echo", "odd", "deep", "cut", "redirect", "raw"]
     )

@@ -1,4 +1,4 @@
-"""Sound files that claim or hold hours, or are no sound: in `convert`, as a folder of sounds, and as a clip of a person's."""
+"""Sound files of hours, with wrong lengths, or without sound: for `convert`, as a sound folder, and as a user's clip."""
 
 # ruff: noqa: E501  # tables of cases
 
@@ -16,7 +16,7 @@ import soundfile
 
 from attacks import bundles
 from attacks.attack import Attack, in_turn
-from attacks.judging import told, wav_is_harmless
+from attacks.judging import printed, wav_is_harmless
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
@@ -26,7 +26,7 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
         made = kind(folder, rng)
         use = rng.choice(["convert", "convert", "folder", "convert folder", "clip", "more", "table"])
         name = f"{number} {kind.__name__.strip('_')} as {use}"
-        # Reading what is within the bounds, two minutes of sound, takes some seconds by itself.
+        # Reading two minutes of sound, which is within the bounds, takes some seconds by itself.
         yield Attack("sounds", name, (), call=partial(_used, made, use, work, room), seconds=8.0, untouched=(room,))
 
 
@@ -69,7 +69,7 @@ def _used(path: Path, use: str, work: Path, room: Path) -> int:
         status = ended.code if isinstance(ended.code, int) else 1
     written = [Path("out.wav"), *out.rglob("*.wav"), *out.rglob("*.flac")]
     if not all(map(wav_is_harmless, written)):
-        raise AssertionError("what was written is no number, or outside of [-1, 1]")
+        raise AssertionError("written samples are not finite, or outside of [-1, 1]")
     return status
 
 
@@ -81,7 +81,7 @@ def _clip(path: Path, room: Path) -> int:
     try:
         bundle = rebake(HapticBundle.load(room).override("phone", clip=read_clip(path)))
     except Scene2HapError as error:
-        return told(error)
+        return printed(error)
     samples = [loop.tactile.samples for states in bundle.loops.values() for loop in states.values()]
     if not all(np.isfinite(block).all() and np.abs(block).max(initial=0.0) <= 1.0 for block in samples):
         raise AssertionError("a loop is no number, or outside of [-1, 1]")
@@ -149,7 +149,7 @@ def _long_flac(folder: Path, rng: random.Random) -> Path:
 
 
 def _claiming_flac(folder: Path, rng: random.Random) -> Path:
-    """STREAMINFO tells of 2^36 samples, or of none, or of another rate."""
+    """STREAMINFO states 2^36 samples, none, or another rate."""
     path = _flac(folder / "fan humming.flac", 48_000, 1, 4.0)
     data = bytearray(path.read_bytes())
     word = int.from_bytes(data[18:26], "big")
@@ -195,7 +195,7 @@ def _long_mp3(folder: Path, rng: random.Random) -> Path:
 
 
 def _other_formats(folder: Path, rng: random.Random) -> Path:
-    """What the library beneath reads, by its content, whatever the file is called."""
+    """Formats that libsndfile reads by content, under any file name."""
     kind, subtype = rng.choice(
         [
             ("AIFF", "PCM_16"),
@@ -228,7 +228,7 @@ def _short(folder: Path, rng: random.Random) -> Path:
 
 
 def _rates(folder: Path, rng: random.Random) -> Path:
-    """Honest sounds of odd rates and many channels."""
+    """Valid sounds of unusual rates and many channels."""
     rate, channels = rng.choice([(1, 1), (50, 2), (2000, 1), (10**6, 1), (2**31 - 1, 1), (48_000, 64), (48_000, 1024)])
     path = folder / "fan humming.wav"
     soundfile.write(path, np.random.default_rng(0).uniform(-1, 1, (20_000, channels)), rate, subtype="PCM_16")

@@ -45,7 +45,7 @@ def obj_tetrahedra(rng: random.Random) -> Files:
 
 
 def obj_materials(rng: random.Random) -> Files:
-    """An object of as many materials as fit, each with a texture that lies in its own way."""
+    """An object of as many materials as fit, each with its own texture transform."""
     n = 12_000
     faces = "".join(f"usemtl m{i}\nf 1/1 2/1 3/1\n" for i in range(n))
     rows = "".join(f"newmtl m{i}\nmap_Kd -s {i} 1 1 a.png\n" for i in range(n))
@@ -157,7 +157,7 @@ def ply_colours(rng: random.Random) -> Files:
 
 
 def ply_one_list(rng: random.Random) -> Files:
-    """One face that promises all corners that a number can count."""
+    """One face with the largest number of corners."""
     head = (
         f"ply\nformat binary_little_endian 1.0\nelement vertex 3\n{_XYZ}element face 1\n"
         "property list uint int vertex_indices\nend_header\n"
@@ -170,7 +170,7 @@ def ply_one_list(rng: random.Random) -> Files:
 
 
 def dae_polygons_drawn_again(rng: random.Random) -> Files:
-    """A mesh of polygons that every node cuts into triangles anew."""
+    """A mesh of polygons that is triangulated again for every node."""
     n = 60_000
     polygons = (
         f'<polylist count="{n}"><input semantic="VERTEX" source="#v" offset="0"/><vcount>{"3 " * n}</vcount>'

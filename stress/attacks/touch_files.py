@@ -1,4 +1,4 @@
-"""Files of touches whose durations, rates and numbers of steps ask for more than there is; what is written is judged."""
+"""Touch files with excessive durations, rates and numbers of steps; the written output is checked."""
 
 # ruff: noqa: E501  # tables of cases
 
@@ -53,14 +53,14 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
     """Each kind of file in turn, with values drawn from the seed. Without end."""
     room = bundles.sound(work)
     for number, kind, folder, rng in in_turn("touch_files", _KINDS, seed, work):
-        told, path, more = kind(folder, rng)
+        label, path, more = kind(folder, rng)
         argv = ("render", str(room), "--touches", str(path), "-o", "out.wav", *more)
-        name = f"{number} {kind.__name__.strip('_')} {told}"
+        name = f"{number} {kind.__name__.strip('_')} {label}"
         yield Attack("touch_files", name, argv, call=partial(judged, argv), untouched=(room,))
 
 
 def judged(argv: tuple[str, ...]) -> int:
-    """Run a command of this package; what it writes is held against the bounds of an actuator."""
+    """Run a command of this package, and check its output against the limits of an actuator."""
     from scene2hap.cli import main
 
     try:
@@ -68,7 +68,7 @@ def judged(argv: tuple[str, ...]) -> int:
     except SystemExit as ended:
         status = ended.code if isinstance(ended.code, int) else 1
     if not wav_is_harmless(Path("out.wav")):
-        raise AssertionError("what was written is no number, or outside of [-1, 1]")
+        raise AssertionError("written samples are not finite, or outside of [-1, 1]")
     return status
 
 

@@ -1,4 +1,4 @@
-"""Values that are no numbers, or not those that were asked for: scalars, and arrays of a shape."""
+"""Values that are not numbers or are out of range: scalars, and arrays of a shape."""
 
 # ruff: noqa: E501  # tables of cases
 
@@ -12,7 +12,7 @@ import numpy as np
 
 
 class Raising:
-    """A number that cannot be had."""
+    """An object whose conversion to a number or array raises."""
 
     def __float__(self) -> float:
         raise RuntimeError("no number")
@@ -24,7 +24,7 @@ class Raising:
 
 
 class Sub(float):
-    """A float whose value cannot be had."""
+    """A float whose conversion raises."""
 
     def __float__(self) -> float:
         raise ZeroDivisionError("no number")
@@ -47,7 +47,7 @@ SCALARS: dict[str, Any] = {
 
 
 def arrays(rows: int, columns: int) -> dict[str, Any]:
-    """What is not quite an array of floats of a shape."""
+    """Values that are almost an array of floats of a shape."""
     whole = np.linspace(0.0, 1.0, rows * columns).reshape(rows, columns)
     read_only = whole.copy()
     read_only.setflags(write=False)

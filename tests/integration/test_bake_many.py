@@ -49,14 +49,14 @@ def plain(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delenv(name, raising=False)
 
 
-def test_a_bundle_is_the_one_that_bake_makes(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
+def test_bundles_equal_those_of_bake(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
     bake(load_scene(scenes[1])).save(tmp_path / f"{scenes[1].stem}.bundle")
     mine = digests(tmp_path)
     assert mine
     assert mine.items() <= digests(alone).items()
 
 
-def test_executors_of_others_make_the_same(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
+def test_other_executors_make_the_same_bundles(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
     with ThreadPoolExecutor(2) as executor:
         report = bake_many(scenes[:2], tmp_path, executor=executor)
     assert [one.scene for one in report.scenes] == [str(path) for path in scenes[:2]]
@@ -74,7 +74,7 @@ if __name__ == "__main__":
 """
 
 
-def test_dask_makes_the_same(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
+def test_dask_makes_the_same_bundles(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
     if find_spec("distributed") is None:
         pytest.skip("distributed is not installed; pip install 'scene2hap[dask]'")
     program = tmp_path / "run.py"
@@ -85,7 +85,7 @@ def test_dask_makes_the_same(scenes: list[Path], alone: Path, tmp_path: Path) ->
     assert digests(tmp_path / "out") == digests(alone)
 
 
-def test_what_is_done_is_kept_until_scene_or_settings_change(scenes: list[Path], tmp_path: Path) -> None:
+def test_finished_bundles_are_kept_until_scene_or_settings_change(scenes: list[Path], tmp_path: Path) -> None:
     copies = write_scenes(tmp_path / "scenes", 2)
     folder = tmp_path / "out"
     assert bake_many(copies, folder).count("baked") == 2
@@ -122,7 +122,9 @@ def test_scenes_that_fail_do_not_stop_the_others(scenes: list[Path], tmp_path: P
     assert (data["baked"], data["failed"]) == (1, 3)
 
 
-def test_a_model_is_asked_from_here_and_each_question_once(scenes: list[Path], plain: None, tmp_path: Path) -> None:
+def test_model_is_queried_from_the_main_process_once_per_question(
+    scenes: list[Path], plain: None, tmp_path: Path
+) -> None:
     """Scenes that share a thing share its answer; a second run, whose sounds a worker makes, asks nothing."""
     with serving(by=answered) as server:
         config = {
@@ -158,9 +160,7 @@ def radios(folder: Path, n: int) -> list[Path]:
 
 @pytest.mark.skipif(find_spec("embreex") is None, reason="needs the extra 'pictures'")
 @pytest.mark.parametrize("share", [False, True])
-def test_equal_objects_of_several_scenes_are_asked_about_once_if_wished(
-    share: bool, plain: None, tmp_path: Path
-) -> None:
+def test_equal_objects_of_several_scenes_share_a_request_on_demand(share: bool, plain: None, tmp_path: Path) -> None:
     """In three rooms: three questions about radios, or one; pictures are a worker's."""
     with serving(by=answered) as server:
         config = {
@@ -193,7 +193,7 @@ class Broken:
         return found
 
 
-def test_a_worker_that_is_gone_costs_its_scene_alone(scenes: list[Path], tmp_path: Path) -> None:
+def test_dead_worker_fails_only_its_scene(scenes: list[Path], tmp_path: Path) -> None:
     report = bake_many(scenes[:1], tmp_path, executor=Broken())
     assert "the worker is gone" in report.scenes[0].error
     assert bake_many(scenes[:1], tmp_path).count("baked") == 1
@@ -209,7 +209,7 @@ if __name__ == "__main__":
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="children are found in /proc, on Linux")
 @pytest.mark.parametrize("who", ["worker", "parent"])
-def test_killed_on_the_way_the_bundles_are_those_of_an_undisturbed_run(
+def test_bundles_after_a_killed_run_equal_an_undisturbed_run(
     who: str, scenes: list[Path], alone: Path, tmp_path: Path
 ) -> None:
     program = tmp_path / "run.py"
@@ -252,7 +252,9 @@ def _children(parent: int, seconds: float) -> list[int]:
     raise AssertionError("no workers began")
 
 
-def test_wrong_requests_are_answered(scenes: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_requests_get_an_error_message(
+    scenes: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     for given, told in (
         (([], "out"), "scenes is empty"),
         ((str(scenes[0]), "out"), "give a list of paths"),
@@ -267,7 +269,7 @@ def test_wrong_requests_are_answered(scenes: list[Path], tmp_path: Path, capsys:
     assert "no file matches" in capsys.readouterr().err
 
 
-def test_the_command_bakes_what_a_pattern_matches(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
+def test_command_bakes_all_files_that_match_a_pattern(scenes: list[Path], alone: Path, tmp_path: Path) -> None:
     pattern = str(scenes[0].parent / "room_[01].json")
     assert main(["bake-many", pattern, "-o", str(tmp_path), "-q"]) == 0
     assert set(digests(tmp_path)) == {name for name in digests(alone) if name.startswith(("room_0", "room_1"))}
@@ -281,7 +283,7 @@ def test_files_beside_a_scene_count(tmp_path: Path) -> None:
     assert scene_digest(scene) != before
 
 
-def test_equal_file_names_get_bundles_of_their_own(scenes: list[Path], tmp_path: Path) -> None:
+def test_equal_file_names_get_separate_bundles(scenes: list[Path], tmp_path: Path) -> None:
     others = write_scenes(tmp_path / "b", 1)
     report = bake_many([scenes[0], others[0]], tmp_path / "out")
     assert len({one.bundle for one in report.scenes}) == 2

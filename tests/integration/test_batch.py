@@ -72,7 +72,7 @@ def nothing_was_asked_twice(server: BatchServer) -> None:
     assert max(server.answered.values()) == 1
 
 
-def test_the_bundles_are_those_of_live_questions_and_none_is_asked_again(
+def test_batch_gives_the_bundles_of_live_requests_without_repeats(
     run: Run, server: BatchServer, scenes: list[Path], tmp_path: Path
 ) -> None:
     """Kind of place, objects, materials and states, repairs of what was out of bounds: a batch each."""
@@ -98,7 +98,7 @@ def test_the_bundles_are_those_of_live_questions_and_none_is_asked_again(
         assert report.cost_usd == pytest.approx(report.n_answers * each)
 
 
-def test_what_came_to_nothing_is_asked_again_and_nothing_else(run: Run, server: BatchServer) -> None:
+def test_only_failed_requests_are_sent_again(run: Run, server: BatchServer) -> None:
     """Expired, failed on the server, cut short by a cancellation: each in turn, of every third question."""
     broken = refused(500, {"message": "try later", "type": "server_error", "param": None, "code": None})
     plans = (
@@ -113,7 +113,7 @@ def test_what_came_to_nothing_is_asked_again_and_nothing_else(run: Run, server: 
     assert max(server.sent.values()) > 1
 
 
-def test_a_second_collection_fetches_nothing_and_changes_nothing(run: Run, server: BatchServer) -> None:
+def test_second_collect_changes_nothing(run: Run, server: BatchServer) -> None:
     run.submit()
     server.end()
     first = run.collect()
@@ -126,7 +126,7 @@ def test_a_second_collection_fetches_nothing_and_changes_nothing(run: Run, serve
         assert path.read_bytes() == content
 
 
-def test_questions_under_way_are_not_sent_again(run: Run, server: BatchServer) -> None:
+def test_pending_requests_are_not_sent_again(run: Run, server: BatchServer) -> None:
     assert run.submit().n_under_way == 3  # what kind of place each is
     again = run.submit()
     assert (again.n_under_way, again.n_to_send) == (3, 0)
@@ -134,7 +134,7 @@ def test_questions_under_way_are_not_sent_again(run: Run, server: BatchServer) -
     assert len(server.batches) == 1
 
 
-def test_a_batch_whose_beginning_was_not_answered_is_found_again(run: Run, server: BatchServer) -> None:
+def test_batch_is_found_again_after_a_lost_start_reply(run: Run, server: BatchServer) -> None:
     server.faults.append(("POST /v1/batches", "loses the answer"))
     with pytest.raises(BackendUnavailable):
         run.submit()
@@ -148,7 +148,7 @@ def test_a_batch_whose_beginning_was_not_answered_is_found_again(run: Run, serve
 
 
 @pytest.mark.parametrize("path", ["POST /v1/files", "POST /v1/batches"])
-def test_what_was_written_is_sent_by_the_next_run(path: str, run: Run, server: BatchServer) -> None:
+def test_written_requests_are_sent_by_the_next_run(path: str, run: Run, server: BatchServer) -> None:
     server.faults += [(path, "refuses")] * 3
     with pytest.raises(BackendUnavailable):
         run.submit()
@@ -166,7 +166,7 @@ def test_a_lost_download_is_repeated(run: Run, server: BatchServer) -> None:
     assert run.collect().n_answers == 3
 
 
-def test_a_parameter_that_the_model_does_not_take_is_left_out_of_the_next_batch(run: Run, server: BatchServer) -> None:
+def test_refused_parameter_is_left_out_of_the_next_batch(run: Run, server: BatchServer) -> None:
     error = {"message": "no", "type": "invalid_request_error", "param": "temperature", "code": "unsupported_value"}
     wrong = refused(400, error)
     plan = Plan("completed", lambda place, body: wrong if "temperature" in body else "answered")
@@ -176,7 +176,7 @@ def test_a_parameter_that_the_model_does_not_take_is_left_out_of_the_next_batch(
     assert len(with_it) == 3  # of the first batch alone
 
 
-def test_a_question_that_is_refused_becomes_an_error_and_stops_no_other(run: Run, server: BatchServer) -> None:
+def test_refused_request_becomes_an_error_and_others_continue(run: Run, server: BatchServer) -> None:
     filtered = refused(400, {"message": "no", "type": "invalid_request_error", "param": None, "code": "content_filter"})
 
     def each(place: int, body: dict[str, Any]) -> str | Scripted:
@@ -189,7 +189,7 @@ def test_a_question_that_is_refused_becomes_an_error_and_stops_no_other(run: Run
     assert [server.sent[key] for key in refused_ones] == [1]
 
 
-def test_an_end_that_is_asked_for_keeps_what_was_answered(run: Run, server: BatchServer) -> None:
+def test_cancelled_batch_keeps_received_answers(run: Run, server: BatchServer) -> None:
     run.submit()
     report = batch_status(run.folder, config=run.config, cancel=True)
     assert [row.status for row in report.batches] == ["cancelling"]
@@ -199,7 +199,7 @@ def test_an_end_that_is_asked_for_keeps_what_was_answered(run: Run, server: Batc
     nothing_was_asked_twice(server)
 
 
-def test_status_asks_the_server_and_fetches_nothing(run: Run, server: BatchServer) -> None:
+def test_status_queries_the_server_without_download(run: Run, server: BatchServer) -> None:
     run.submit()
     server.end()
     report = batch_status(run.folder, config=run.config)
@@ -207,9 +207,7 @@ def test_status_asks_the_server_and_fetches_nothing(run: Run, server: BatchServe
     assert not any("content" in line for line in server.log)
 
 
-def test_the_limit_on_cost_is_held_before_anything_is_sent(
-    server: BatchServer, scenes: list[Path], tmp_path: Path
-) -> None:
+def test_cost_limit_is_checked_before_sending(server: BatchServer, scenes: list[Path], tmp_path: Path) -> None:
     run = Run(server, scenes, tmp_path, max_cost_usd=1e-6)
     with pytest.raises(BudgetExceeded, match="3 questions would bring the cost to about .* Nothing was sent"):
         run.submit()
@@ -230,7 +228,7 @@ def test_scenes_that_cannot_be_read_do_not_stop_the_others(run: Run, server: Bat
     assert list(report.errors) == [str(broken)]
 
 
-def test_no_key_is_on_disk(run: Run, server: BatchServer) -> None:
+def test_key_is_not_written_to_disk(run: Run, server: BatchServer) -> None:
     run.to_the_end()
     for path in run.folder.rglob("*"):
         if path.is_file():
@@ -244,7 +242,7 @@ def test_large_batches_are_split(run: Run, server: BatchServer, monkeypatch: pyt
     assert len(server.batches) == 2
 
 
-def test_wrong_requests_are_answered(run: Run, scenes: list[Path], tmp_path: Path) -> None:
+def test_invalid_requests_get_an_error_message(run: Run, scenes: list[Path], tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="batches need a model of kind 'openai'"):
         submit_batch(scenes, tmp_path / "out", config={"llm": "lexicon"})
     state = run.folder / ".bake-many" / "batch"
@@ -254,7 +252,7 @@ def test_wrong_requests_are_answered(run: Run, scenes: list[Path], tmp_path: Pat
         run.submit()
 
 
-def test_two_runs_at_once_do_not_ask_the_same(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_concurrent_runs_do_not_send_equal_requests(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[str] = []
 
     async def meanwhile(*_: object) -> None:
@@ -293,7 +291,7 @@ def test_the_command_leads_from_step_to_step(
     assert "needs the scene files" in capsys.readouterr().err
 
 
-def test_an_answer_to_a_question_that_no_one_asked_is_no_answer(run: Run, server: BatchServer) -> None:
+def test_answer_with_unknown_id_is_ignored(run: Run, server: BatchServer) -> None:
     run.submit()
     server.end()
     (batch,) = server.batches.values()
@@ -306,7 +304,7 @@ def test_an_answer_to_a_question_that_no_one_asked_is_no_answer(run: Run, server
     assert report.n_answers == 2
 
 
-def test_questions_that_a_cache_has_are_not_sent(run: Run, server: BatchServer, tmp_path: Path) -> None:
+def test_cached_requests_are_not_sent(run: Run, server: BatchServer, tmp_path: Path) -> None:
     bake_many(run.scenes, tmp_path / "live", config=run.config)
     n_live = len(server.live)
     assert n_live
@@ -315,5 +313,5 @@ def test_questions_that_a_cache_has_are_not_sent(run: Run, server: BatchServer, 
     assert not server.batches
 
 
-def test_the_model_is_the_scripted_one() -> None:
+def test_scripted_model_is_used() -> None:
     assert answered(Asked("", {}, {"response_format": {"keywords": 1}})).status == 200

@@ -158,7 +158,7 @@ def test_json_and_glb_hold_the_same_objects(scenes: tuple[SceneSnapshot, SceneSn
 
 @needs_bpy
 @pytest.mark.parametrize("object_id", EXPECTED)
-def test_an_object_is_where_and_as_large_as_it_was_built(
+def test_objects_have_the_place_and_size_that_were_built(
     object_id: str, scenes: tuple[SceneSnapshot, SceneSnapshot]
 ) -> None:
     position_m, size_m, expected_m3 = EXPECTED[object_id]
@@ -184,7 +184,7 @@ def test_the_mirrored_wedge_points_to_the_other_side(scenes: tuple[SceneSnapshot
 
 
 @needs_bpy
-def test_a_mass_is_that_of_a_rigid_body_that_somebody_set(scenes: tuple[SceneSnapshot, SceneSnapshot]) -> None:
+def test_mass_is_read_from_configured_rigid_bodies(scenes: tuple[SceneSnapshot, SceneSnapshot]) -> None:
     assert {item.id: item.mass_kg for item in scenes[0].objects if item.mass_kg is not None} == {
         "Table": pytest.approx(12.0)
     }

@@ -42,7 +42,7 @@ def _tried(work: Path, kind: str, how: str) -> list[dict[str, Any]]:
 
 @pytest.mark.parametrize("how", ["exchange", "renames"])
 @pytest.mark.parametrize("kind", ["kill", "refuse"])
-def test_a_fault_at_each_step(kind: str, how: str) -> None:
+def test_bundle_is_valid_after_a_fault_at_any_step(kind: str, how: str) -> None:
     """And what is not ours is there, and the next save removes what the fault left."""
     rows = faults(kind, how)
     for row in rows:
@@ -57,12 +57,12 @@ def test_a_fault_at_each_step(kind: str, how: str) -> None:
     assert {row["found"] for row in rows} >= {"old", "new"}
 
 
-def test_an_exchange_leaves_no_moment_without_a_bundle() -> None:
+def test_exchange_always_leaves_a_readable_bundle() -> None:
     if not sys.platform.startswith(("linux", "darwin")):
         pytest.skip("this system has no exchange in one step")
     assert not any(row["was_missing"] for row in faults("kill", "exchange"))
 
 
-def test_without_it_the_moment_between_two_renames_is_mended_aloud() -> None:
+def test_interrupted_rename_is_repaired_with_a_warning() -> None:
     between = [row for row in faults("kill", "renames") if row["was_missing"]]
     assert [row["found"] for row in between] == ["new, recovered"]

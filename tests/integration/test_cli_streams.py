@@ -44,14 +44,14 @@ def run(command: str, *arguments: object) -> subprocess.CompletedProcess[str]:
 
 @posix
 @pytest.mark.parametrize("options", [(), ("--json",)], ids=["tables", "json"])
-def test_a_reader_that_goes_is_no_error(room: Path, options: tuple[str, ...]) -> None:
+def test_closed_pipe_is_no_error(room: Path, options: tuple[str, ...]) -> None:
     outcome = run("$run | head -c 1", "inspect", room, *options)
     assert (outcome.returncode, outcome.stderr) == (0, "")
 
 
 @posix
 @pytest.mark.parametrize("arguments", [("inspect", "ROOM"), ("inspect", "ROOM", "--json"), ("--help",), ("--version",)])
-def test_a_full_disk_is_one_sentence(room: Path, arguments: tuple[str, ...]) -> None:
+def test_full_disk_gives_a_one_line_error(room: Path, arguments: tuple[str, ...]) -> None:
     outcome = run("$run > /dev/full", *(str(room) if word == "ROOM" else word for word in arguments))
     assert outcome.returncode == 1
     assert "standard output cannot be written: No space left on device" in outcome.stderr
@@ -61,7 +61,7 @@ def test_a_full_disk_is_one_sentence(room: Path, arguments: tuple[str, ...]) -> 
 @posix
 @pytest.mark.parametrize("closed", [">&-", "2> /dev/full", "<&- >&- 2>&-"])
 @pytest.mark.parametrize("arguments", [("inspect", "ROOM"), ("inspect", "nowhere.glb"), ("bad",)])
-def test_closed_streams(room: Path, closed: str, arguments: tuple[str, ...]) -> None:
+def test_commands_work_with_closed_streams(room: Path, closed: str, arguments: tuple[str, ...]) -> None:
     outcome = run(f"$run {closed}", *(str(room) if word == "ROOM" else word for word in arguments))
     assert outcome.returncode == {"nowhere.glb": 1, "bad": 2}.get(arguments[-1], 0)
     assert "Traceback" not in outcome.stderr
@@ -69,7 +69,7 @@ def test_closed_streams(room: Path, closed: str, arguments: tuple[str, ...]) -> 
 
 
 @posix
-def test_wrong_usage_is_2_where_argparse_raises_what_it_cannot_write() -> None:
+def test_wrong_usage_exits_with_2_when_stderr_is_unwritable() -> None:
     """As argparse of Python 3.11.2, the one of Debian 12, does."""
     program = (
         "import argparse, sys\n"
@@ -84,7 +84,7 @@ def test_wrong_usage_is_2_where_argparse_raises_what_it_cannot_write() -> None:
 
 
 @posix
-def test_what_was_asked_for_is_done_though_nobody_reads(room: Path, tmp_path: Path) -> None:
+def test_command_completes_without_a_reader(room: Path, tmp_path: Path) -> None:
     outcome = run("$run > /dev/full", "bake", room, "-o", tmp_path / "bundle")
     assert outcome.returncode == 1
     assert (tmp_path / "bundle" / "bundle.json").is_file()
@@ -103,7 +103,7 @@ def test_any_encoding_can_show_any_name(room: Path, encoding: str) -> None:
             assert ("冷蔵庫" in text) or (r"\u51b7\u8535\u5eab" in text)
 
 
-def test_names_do_not_steer_the_terminal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_names_with_control_characters_are_escaped(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for arguments in (["inspect", str(room)], ["inspect", str(room), "--json"], ["inspect", f"{ESCAPES}.glb"]):
         main(arguments)
         shown = capsys.readouterr()
@@ -123,14 +123,14 @@ def test_an_error_stays_one_line_of_bounded_length(capsys: pytest.CaptureFixture
 
 
 @posix
-def test_a_file_name_that_is_no_utf_8(tmp_path: Path) -> None:
+def test_file_name_that_is_not_utf_8_is_shown(tmp_path: Path) -> None:
     outcome = run("$run", "inspect", os.fsdecode(os.fsencode(tmp_path) + b"/\xff\xfe.glb"))
     assert outcome.returncode == 1
     assert outcome.stderr.startswith("scene2hap: error:")
     assert outcome.stderr.count("\n") == 1
 
 
-def test_a_bake_is_refused_before_it_begins(
+def test_invalid_bake_is_refused_before_it_begins(
     room: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "thesis").mkdir()
@@ -145,7 +145,7 @@ def test_a_bake_is_refused_before_it_begins(
 
 
 @pytest.mark.parametrize("group", ["²", "9" * 5000, "-1", "", "1e3"])
-def test_a_grouping_that_is_none(room: Path, group: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_grouping_is_refused(room: Path, group: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["inspect", str(room), f"--group={group}"]) in (0, 1)
     assert "Traceback" not in capsys.readouterr().err
 

@@ -28,7 +28,7 @@ def hum(path: Path, frequency_hz: float = 98.0) -> Path:
     return path
 
 
-def test_a_file_becomes_a_file_and_the_table_says_what_happened(
+def test_command_converts_a_file_and_prints_a_table(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -59,7 +59,7 @@ def test_converter_actuator_and_format_are_chosen_by_name(tmp_path: Path, capsys
     assert 20 * np.log10(made["peak_out"]) == pytest.approx(threshold_db(98.0) + made["asked_level_db"] + 3.9, abs=2.5)
 
 
-def test_one_bad_file_is_told_and_the_others_are_made(tmp_path: Path) -> None:
+def test_bad_file_is_reported_and_others_are_converted(tmp_path: Path) -> None:
     good, bad = hum(tmp_path / "good.wav"), tmp_path / "bad.wav"
     bad.write_text("not a sound")
     command = [sys.executable, "-m", "scene2hap", "convert", str(bad), str(good), "-o", str(tmp_path / "out")]
@@ -73,7 +73,7 @@ def test_one_bad_file_is_told_and_the_others_are_made(tmp_path: Path) -> None:
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["good.wav"]
 
 
-def test_what_exists_is_kept_unless_forced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_existing_files_are_kept_unless_forced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source, output = hum(tmp_path / "hum.wav"), tmp_path / "felt.wav"
     output.write_bytes(b"mine")
     assert main(["convert", str(source), "-o", str(output), "-q"]) == 1
@@ -93,7 +93,7 @@ def test_what_exists_is_kept_unless_forced(tmp_path: Path, capsys: pytest.Captur
         (["--workers", "0"], "--workers is 0"),
     ],
 )
-def test_wrong_settings_are_one_line(
+def test_invalid_settings_give_a_one_line_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], reason: str
 ) -> None:
     source = hum(tmp_path / "hum.wav")

@@ -50,7 +50,7 @@ def outcome(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object
     return found
 
 
-def test_the_designers_day_runs_as_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_designer_page_runs_as_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     shutil.copy(kitchen_path(), "kitchen.glb")
     (tmp_path / "my_sounds").mkdir()
@@ -84,7 +84,7 @@ def test_intensity_changes_the_level_of_one_state(folder: Path, capsys: pytest.C
     assert quiet < 0.5 * loud
 
 
-def test_pitch_moves_what_is_felt_and_stays_in_the_band(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_pitch_moves_the_felt_frequency_within_the_band(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["edit", str(folder), "pitch", "handheld_fan", "90", "-q"]) == 0
     loop = HapticBundle.load(folder).loops["handheld_fan"]["on"]
     spectrum = np.abs(np.fft.rfft(loop.tactile.samples))
@@ -100,7 +100,7 @@ def test_pitch_moves_what_is_felt_and_stays_in_the_band(folder: Path, capsys: py
     assert "130 to 230 Hz" in capsys.readouterr().err
 
 
-def test_locked_loops_refuse_what_would_change_them(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_locked_loops_refuse_changes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["edit", str(folder), "lock", "smartphone", "-q"]) == 0
     for verb, value in (("intensity", "0.1"), ("pitch", "90"), ("sound", str(tone(folder.parent / "s.wav", 90.0)))):
         assert main(["edit", str(folder), verb, "smartphone", value]) == 1
@@ -130,7 +130,7 @@ def test_audition_writes_one_source_alone(folder: Path, capsys: pytest.CaptureFi
     assert not Path("none.wav").exists()
 
 
-def test_lists_have_what_settings_take(capsys: pytest.CaptureFixture[str]) -> None:
+def test_lists_show_the_accepted_settings(capsys: pytest.CaptureFixture[str]) -> None:
     lists = outcome(capsys, "list")
     assert list(lists) == ["materials", "actuators", "kinds"]
     for name in ("actuators", "kinds"):
@@ -158,7 +158,7 @@ def test_the_page_of_the_command_line_is_up_to_date() -> None:
     assert PAGE.read_text(encoding="utf-8") == page(), "run: python tests/command_line_page.py"
 
 
-def test_help_says_where_the_docs_are(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_names_the_documentation(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["--help"])
     assert "docs/README.md" in capsys.readouterr().out

@@ -30,7 +30,7 @@ def server() -> Iterator[SoundServer]:
         yield running
 
 
-def test_it_tells_every_extra(capsys: pytest.CaptureFixture[str]) -> None:
+def test_doctor_lists_every_extra(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert {"dae", "mujoco", "panda3d", "pictures", "serial", "soundcard"} <= {row["extra"] for row in told["extras"]}
@@ -38,7 +38,7 @@ def test_it_tells_every_extra(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(("wish", "kernels"), [("0", "plain"), ("", "compiled")])
-def test_it_tells_whether_kernels_are_compiled(wish: str, kernels: str) -> None:
+def test_doctor_states_whether_kernels_are_compiled(wish: str, kernels: str) -> None:
     import scene2hap.contact
 
     package = Path(scene2hap.contact.__file__).parent
@@ -51,7 +51,7 @@ def test_it_tells_whether_kernels_are_compiled(wish: str, kernels: str) -> None:
     assert json.loads(run.stdout)["kernels"] == kernels
 
 
-def test_a_missing_package_is_told_with_its_command(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_doctor_states_the_install_command_of_a_missing_package(monkeypatch: pytest.MonkeyPatch) -> None:
     def absent(name: str) -> str:
         raise doctor.metadata.PackageNotFoundError(name)
 
@@ -77,7 +77,7 @@ def test_the_sweep_visits_one_hand_after_the_other_and_is_quiet(tmp_path: Path) 
 
 
 @pytest.mark.parametrize(("sink", "sentence"), [("nothing", "nothing"), ("{oops", "no JSON")])
-def test_a_sink_that_is_none(sink: str, sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_sink_is_refused(sink: str, sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "-q", "--sweep", sink]) == 1
     assert sentence in capsys.readouterr().err
 
@@ -89,7 +89,9 @@ def test_a_sink_that_is_none(sink: str, sentence: str, capsys: pytest.CaptureFix
         (["--sweep", "memory", "--loop-back"], "--loop-back cannot hear --sweep 'memory', which plays nothing"),
     ],
 )
-def test_a_loop_back_without_sound(arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_loop_back_without_sound_is_reported(
+    arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["doctor", "-q", *arguments]) == 1
     assert sentence in " ".join(capsys.readouterr().err.split())
 
@@ -113,7 +115,7 @@ def _found_s(recorder: Recorder, heard: NDArray[np.float32], channel: int, wave:
 
 
 @with_sound
-def test_the_latency_at_a_loop_back_is_what_another_recorder_finds(
+def test_loop_back_latency_equals_that_of_an_independent_recorder(
     server: SoundServer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(doctor, "_Sweeps", Sweeps)
@@ -147,7 +149,7 @@ def test_the_latency_at_a_loop_back_is_what_another_recorder_finds(
 
 
 @with_sound
-def test_a_sweep_that_does_not_come_back(
+def test_sweep_that_is_not_recorded_is_reported(
     server: SoundServer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     subprocess.run(["pactl", "set-source-mute", "hap.monitor", "1"], check=True)

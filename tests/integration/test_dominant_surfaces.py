@@ -29,14 +29,14 @@ def test_the_median_error_is_small_and_no_error_is_large(surfaces: ModuleType) -
     assert median(error for own in errors.values() for error in own) <= 0.02
 
 
-def test_most_of_a_sample_that_was_judged_before_it_was_measured_is_right(surfaces: ModuleType) -> None:
+def test_most_surfaces_of_a_labelled_sample_are_right(surfaces: ModuleType) -> None:
     largest = [max(surfaces.relative_errors(true, measured)) for _, true, measured in surfaces.sampled()]
     if len(largest) < 40:
         pytest.skip("needs the shared folder beside the checkout (libraries of models)")
     assert sum(error <= surfaces.WITHIN for error in largest) > 0.55 * len(largest)
 
 
-def test_the_demo_kitchen_is_measured_as_it_was_built(surfaces: ModuleType) -> None:
+def test_surfaces_of_the_demo_kitchen_have_their_built_size(surfaces: ModuleType) -> None:
     for line, true, measured in surfaces.rows():
         if line["scene"] == "demo":
             assert measured == pytest.approx(true, rel=1e-3), line["object"]

@@ -75,7 +75,7 @@ def test_edits_of_a_designer_stay_when_the_actuator_changes(tmp_path: Path, caps
     assert muted == set(session.source_ids) - {first}
 
 
-def test_a_wrong_id_or_material_leaves_the_bundle_as_it_was(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_id_or_material_keeps_the_bundle_unchanged(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = tmp_path / "kitchen.bundle"
     assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
     before = (folder / "bundle.json").stat().st_ino
@@ -119,7 +119,7 @@ def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.Captur
     assert remade[mine] == {state: ["actuator"] for state in HapticBundle.load(folder).loops[mine]}
 
 
-def test_there_is_nothing_to_undo_at_first(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_undo_without_edits_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = tmp_path / "kitchen.bundle"
     assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
     assert main(["edit", str(folder), "undo"]) == 1

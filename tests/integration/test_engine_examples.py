@@ -86,7 +86,7 @@ def kitchen(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[float, dict[
     return found, folder / "kitchen.wav"
 
 
-def test_the_gain_falls_as_the_phone_slides_away_as_the_model_says(
+def test_gain_falls_with_distance_as_the_model_predicts(
     kitchen: tuple[dict[float, dict[str, tuple[float, float]]], Path],
 ) -> None:
     told, wav = kitchen
@@ -157,7 +157,7 @@ def intervals(told: str) -> list[tuple[float, float, str]]:
     return [(begin, end, what) for (begin, what), end in zip(rows, ends, strict=True)]
 
 
-def test_a_walker_feels_what_is_touched_and_nothing_else(tmp_path: Path) -> None:
+def test_walker_feels_only_touched_objects(tmp_path: Path) -> None:
     pytest.importorskip("panda3d", reason="needs the extra panda3d")
     told = run("panda3d_walk.py", "--headless", "-o", "walk.wav", folder=tmp_path)
     assert {path.name for path in tmp_path.iterdir()} == {"walk.wav"}
@@ -199,7 +199,7 @@ def test_a_walker_feels_what_is_touched_and_nothing_else(tmp_path: Path) -> None
 
 
 @pytest.mark.skipif(bool(rasteriser_problem()), reason=rasteriser_problem())
-def test_a_picture_of_what_the_walker_sees(tmp_path: Path) -> None:
+def test_picture_of_the_view_of_the_walker(tmp_path: Path) -> None:
     told = run("panda3d_walk.py", "--headless", "--seconds", "1", "--picture", "view.png", folder=tmp_path)
     felt(tmp_path / "walk.wav", 1.0)
     assert told.splitlines()[-2].split(" s: ")[1].startswith("right hand on wooden table")

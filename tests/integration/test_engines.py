@@ -76,7 +76,7 @@ def own_engine() -> dict[str, Any]:
     return names
 
 
-def test_a_mujoco_scene_is_felt_in_three_lines(mujoco_engine: Any) -> None:
+def test_three_lines_of_code_play_a_mujoco_scene(mujoco_engine: Any) -> None:
     model, data, scene, step = mujoco_engine
     sink = MemorySink()
     with HapticSession(scene, bake(scene), sink=sink) as session:
@@ -92,7 +92,7 @@ def test_a_mujoco_scene_is_felt_in_three_lines(mujoco_engine: Any) -> None:
     assert np.abs(sink.samples).max() > 0.001
 
 
-def test_contacts_may_be_the_engines(mujoco_engine: Any) -> None:
+def test_engine_contacts_can_be_used(mujoco_engine: Any) -> None:
     model, data, scene, step = mujoco_engine
     session = HapticSession(scene, bake(scene))
     link = MuJoCoLink(model, data, session, contacts="engine")
@@ -102,7 +102,7 @@ def test_contacts_may_be_the_engines(mujoco_engine: Any) -> None:
     assert frame.gain("left", "smartphone") > 0.05
 
 
-def test_a_panda3d_scene_is_felt_in_three_lines() -> None:
+def test_three_lines_of_code_play_a_panda3d_scene() -> None:
     render, scene = panda3d_engine()
     session = HapticSession(scene, bake(scene))
     link = Panda3DLink(render, session)
@@ -118,20 +118,20 @@ def test_every_adapter_keeps_its_contract(mujoco_engine: Any) -> None:
     check_engine_adapter(link._adapter, scene, step=step, moves="finger")
 
 
-def test_the_pages_own_engine_keeps_it_too() -> None:
+def test_engine_of_the_page_keeps_the_adapter_contract() -> None:
     names = own_engine()
     adapter = names["adapter"]
     names["world"].reset()
     check_engine_adapter(adapter, names["scene"], step=names["world"].step, moves="smartphone")
 
 
-def test_panda3d_keeps_it_too() -> None:
+def test_panda3d_adapter_keeps_its_contract() -> None:
     render, scene = panda3d_engine()
     link = Panda3DLink(render, HapticSession(scene, bake(scene)))
     check_engine_adapter(link._adapter, scene, step=lambda: render.find("**/smartphone").set_x(0.1), moves="smartphone")
 
 
-def test_what_is_at_rest_is_not_moved(mujoco_engine: Any) -> None:
+def test_objects_at_rest_are_not_updated(mujoco_engine: Any) -> None:
     """Nor by what trembles; but slow motion adds up."""
     _, _, scene, _ = mujoco_engine
 
@@ -175,7 +175,7 @@ HAND = """
 """
 
 
-def test_what_hangs_on_a_hand_touches_for_it() -> None:
+def test_attached_parts_touch_for_their_hand() -> None:
     """The nail touches the table, the palm nothing; contacts among the hand's own parts are none."""
     mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
     from scene2hap.scene.engines.mujoco import snapshot
@@ -194,7 +194,7 @@ def test_what_hangs_on_a_hand_touches_for_it() -> None:
 
 
 @pytest.mark.parametrize("contacts", [None, "engine"])
-def test_what_the_session_has_not_is_left_out(mujoco_engine: Any, contacts: Any) -> None:
+def test_objects_missing_in_the_session_are_skipped(mujoco_engine: Any, contacts: Any) -> None:
     """Removed while the engine goes on, and followed again once it is back."""
     model, data, scene, step = mujoco_engine
     session = HapticSession(scene, bake(scene))
@@ -223,7 +223,7 @@ def test_a_session_may_have_less_than_the_engine(mujoco_engine: Any) -> None:
     assert frame.gain("left", "smartphone") > 0.05
 
 
-def test_an_object_comes_back_from_where_the_engine_has_it(mujoco_engine: Any) -> None:
+def test_readded_object_has_the_pose_of_the_engine(mujoco_engine: Any) -> None:
     """Also if it did not move in the engine meanwhile; the same for poses in a table and in a mapping."""
     model, data, scene, _ = mujoco_engine
     for adapter in (MuJoCoLink(model, data, HapticSession(scene, bake(scene)))._adapter, Given(scene)):
@@ -326,7 +326,7 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("given", "error", "answered", "asserted"), WRONG)
-def test_what_an_adapter_may_not_say(given: Any, error: type[Exception], answered: str, asserted: str) -> None:
+def test_invalid_adapter_results_are_refused(given: Any, error: type[Exception], answered: str, asserted: str) -> None:
     """A link answers it in play, and the contract finds it."""
     scene = own_scene()
     with pytest.raises(error, match=re.escape(answered)):
@@ -347,14 +347,14 @@ def test_what_an_adapter_may_not_say(given: Any, error: type[Exception], answere
         ({}, "cup", "which is no object of the scene"),
     ],
 )
-def test_what_the_contract_alone_finds(given: Any, moves: str | None, words: str) -> None:
+def test_contract_finds_faults_that_play_does_not(given: Any, moves: str | None, words: str) -> None:
     scene = own_scene()
     with pytest.raises(AssertionError, match=words):
         check_engine_adapter(Given(scene, **given), scene, step=lambda: None, moves=moves)
 
 
 @pytest.mark.parametrize("as_table", [False, True])
-def test_a_session_that_differs_is_brought_to_the_engine(as_table: bool) -> None:
+def test_link_moves_a_diverged_session_to_the_engine_state(as_table: bool) -> None:
     """By an object that was put back at another place between two frames, and by a frame that was refused."""
     scene = own_scene()
     session = HapticSession(scene, bake(scene))
@@ -380,7 +380,7 @@ def test_a_session_that_differs_is_brought_to_the_engine(as_table: bool) -> None
     assert session.poses["phone"] == there
 
 
-def test_a_frame_has_its_place_on_the_clock() -> None:
+def test_frame_has_a_time_on_the_clock() -> None:
     scene = own_scene()
     link = EngineLink(Given(scene), HapticSession(scene, bake(scene)))
     link.update(at_sample=480)
@@ -388,7 +388,7 @@ def test_a_frame_has_its_place_on_the_clock() -> None:
         link.update(None, at_sample=479)
 
 
-def test_a_mocap_hand_touches_what_can_move() -> None:
+def test_mocap_hand_touches_only_movable_objects() -> None:
     """MuJoCo finds no contact between a mocap body and what has no joint."""
     mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
     from scene2hap.scene.engines.mujoco import snapshot
@@ -416,7 +416,7 @@ def test_links_are_public_and_load_no_engine() -> None:
     assert run.stdout.rstrip().endswith("set()")
 
 
-def test_units_are_compared_while_the_engine_goes_on(mujoco_engine: Any) -> None:
+def test_unit_mismatch_is_detected_in_play(mujoco_engine: Any) -> None:
     """A link that forgets the unit is refused; one thing that moved away from the origin is no unit."""
     model, data, _, _ = mujoco_engine
     from scene2hap.scene.engines.mujoco import snapshot
@@ -462,7 +462,9 @@ def test_units_are_compared_while_the_engine_goes_on(mujoco_engine: Any) -> None
         (lambda m, d, s: EngineLink(object(), s), ConfigError, "object has no method 'poses'"),
     ],
 )
-def test_what_is_no_link(make: Any, error: type[Exception], words: str, mujoco_engine: Any) -> None:
+def test_objects_that_are_not_links_are_refused(
+    make: Any, error: type[Exception], words: str, mujoco_engine: Any
+) -> None:
     model, data, scene, _ = mujoco_engine
     with pytest.raises(error, match=words):
         make(model, data, HapticSession(scene, bake(scene)))
@@ -488,7 +490,7 @@ for link in (lambda: MuJoCoLink(None, None, session), lambda: Panda3DLink(None, 
     assert done.stdout.count("is not installed. Run: pip install 'scene2hap[") == 2, done.stderr
 
 
-def test_a_session_of_another_scene_is_refused(mujoco_engine: Any) -> None:
+def test_session_of_a_different_scene_is_refused(mujoco_engine: Any) -> None:
     model, data, _, _ = mujoco_engine
     _, other = panda3d_engine()
     with pytest.raises(SceneError, match=r"the engine lacks 1 of 2 objects of the session: 'wooden table'"):

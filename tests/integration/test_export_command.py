@@ -110,7 +110,7 @@ def test_one_clip_is_turned_into_other_formats_and_back(tmp_path: Path) -> None:
         assert found["frequency"][0]["frequency"] == pytest.approx(0.25, abs=1e-6)
 
 
-def test_wrong_requests_are_answered_and_write_nothing(
+def test_invalid_requests_get_an_error_and_write_nothing(
     kitchen: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     bundle = HapticBundle.load(kitchen)
@@ -140,7 +140,7 @@ def test_wrong_requests_are_answered_and_write_nothing(
     assert not out.exists()
 
 
-def test_scenes_without_sources_and_with_one_object(tmp_path: Path) -> None:
+def test_scenes_without_sources_or_with_one_object_are_exported(tmp_path: Path) -> None:
     table = SceneObject("oak table", geometry=Box((1.2, 0.05, 0.7)))
     silent = bake(SceneSnapshot.build([table]))
     report = export_bundle(silent, tmp_path / "silent")

@@ -30,7 +30,7 @@ def amplifier(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return program
 
 
-def test_the_firmware_plays_what_was_sent(amplifier: Path, tmp_path: Path) -> None:
+def test_firmware_plays_the_sent_samples(amplifier: Path, tmp_path: Path) -> None:
     events: list[SinkEvent] = []
     position = [0]
 

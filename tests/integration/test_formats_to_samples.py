@@ -18,7 +18,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.scene.check.Sc
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_a_washing_machine_is_felt_on_itself_and_on_the_floor(path: Path, tmp_path: Path) -> None:
+def test_washing_machine_is_felt_on_its_housing_and_the_floor(path: Path, tmp_path: Path) -> None:
     if path.suffix == ".urdf":
         pytest.importorskip("collada", reason="needs the extra dae")
     scene = load_scene(path)

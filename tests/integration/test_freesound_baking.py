@@ -57,7 +57,7 @@ def origins(bundle: HapticBundle) -> dict[str, str]:
     return {name: loop.audible.credit.origin for name, states in bundle.loops.items() for loop in states.values()}
 
 
-def test_retrieval_first_generation_for_what_was_not_found(tmp_path: Path) -> None:
+def test_bake_generates_only_sounds_that_were_not_found(tmp_path: Path) -> None:
     with host(Page(hum(4.0))) as cdn:
         row = result(7, f"http://localhost:{cdn.port}/7.ogg", name="Fridge", username="bob")
 
@@ -94,7 +94,7 @@ def test_a_generator_that_fails_leaves_the_bake_to_the_next(tmp_path: Path, mann
     assert [str(w.message).split(":")[0] for w in caught if w.category is SourceWarning] == list(VIBRATING)
 
 
-def test_a_bake_without_any_sound_says_what_became_of_each_source(tmp_path: Path) -> None:
+def test_bake_without_sounds_reports_the_failure_of_each_source(tmp_path: Path) -> None:
     with (
         host(refused(401)) as api,
         pytest.warns(SourceWarning),

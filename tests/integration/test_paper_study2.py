@@ -83,7 +83,7 @@ async def last_values(cells: list[dict[str, Any]]) -> list[object]:
     return shown
 
 
-def test_the_cells_of_the_notebook_run_in_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_notebook_cells_run_in_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In one namespace, and what a cell ends with can be shown."""
     notebook = json.loads((EXAMPLES / "paper_study2.ipynb").read_text(encoding="utf-8"))
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]

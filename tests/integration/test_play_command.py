@@ -20,7 +20,7 @@ from scenes import table_with_two_phones
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX terminal")
 
 
-def test_the_plan_shows_what_is_on_top() -> None:
+def test_plan_shows_the_uppermost_objects() -> None:
     scene, bundle = table_with_two_phones()
     plan = Plan.of(scene)
     hits = {plan.touched(row, column) for row in range(22) for column in range(64)}
@@ -49,7 +49,7 @@ def test_keys_move_lift_and_turn() -> None:
     assert not player.press("q")
 
 
-def test_without_a_terminal_it_says_what_to_do(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_play_without_a_terminal_explains_the_alternative(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["play", str(tmp_path)]) == 1
     assert "terminal" in capsys.readouterr().err
 
@@ -93,7 +93,7 @@ def test_a_person_plays(tmp_path: Path) -> None:
     assert b"nothing was played" not in said
 
 
-def test_without_an_actuator_it_says_that_nobody_feels_it(tmp_path: Path) -> None:
+def test_play_without_an_actuator_warns(tmp_path: Path) -> None:
     pytest.importorskip("serial")
     code, said = played(tmp_path, "--sink", '{"kind": "serial", "port": "/dev/no such port"}')
     assert code == 0
@@ -101,7 +101,7 @@ def test_without_an_actuator_it_says_that_nobody_feels_it(tmp_path: Path) -> Non
     assert b"nothing was played: no serial port" in said
 
 
-def test_a_file_takes_what_is_played(tmp_path: Path) -> None:
+def test_play_can_write_to_a_file(tmp_path: Path) -> None:
     wav = tmp_path / "played.wav"
     assert played(tmp_path, "--sink", json.dumps({"kind": "wav", "path": str(wav)}))[0] == 0
     samples, rate = soundfile.read(wav)

@@ -64,7 +64,7 @@ def high_db(x: Signal) -> float:
     return float(10 * np.log10(power[np.fft.rfftfreq(len(x), 1 / RATE_HZ) > 1000].sum() / power.sum()))
 
 
-def test_the_bundle_tells_what_was_recorded(baked: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_bundle_states_the_recorded_times(baked: Path, capsys: pytest.CaptureFixture[str]) -> None:
     bundle = HapticBundle.load(baked)
     (state,) = bundle.objects["fan"].states
     loop = bundle.loops["fan"][state.name]
@@ -104,7 +104,7 @@ def test_a_hand_feels_the_recorded_start_and_stop(baked: Path) -> None:
     assert levels(up)[-1] == pytest.approx(level, rel=0.1)
 
 
-def test_nothing_clicks_even_when_cut_short(baked: Path) -> None:
+def test_interrupted_recorded_starts_cause_no_click(baked: Path) -> None:
     with HapticSession(ROOM, HapticBundle.load(baked), {"prepare": "blocking"}) as session:
         parts = [feel(session, 0.5)]
         for seconds in (1.0, 0.7, 0.3, 0.9, 0.1, 2.5, 5.0, 3.0):
@@ -119,7 +119,7 @@ def test_nothing_clicks_even_when_cut_short(baked: Path) -> None:
         assert abs(after - before) < 0.25 * steady
 
 
-def test_afterwards_it_is_in_step_as_if_it_had_never_been_off(baked: Path) -> None:
+def test_loop_is_at_its_position_after_a_recorded_start(baked: Path) -> None:
     bundle = HapticBundle.load(baked)
     ends = []
     for is_switched in (True, False):
@@ -134,9 +134,7 @@ def test_afterwards_it_is_in_step_as_if_it_had_never_been_off(baked: Path) -> No
     np.testing.assert_allclose(ends[0][1], ends[1][1], atol=1e-4)
 
 
-def test_a_person_outranks_the_recording_and_another_sound_brings_the_inferred_time_back(
-    baked: Path, tmp_path: Path
-) -> None:
+def test_override_outranks_the_recording_and_a_new_sound_restores_inferred_times(baked: Path, tmp_path: Path) -> None:
     bundle = HapticBundle.load(baked)
     shorter = bundle.override("fan", start_up_s=0.5)
     again = HapticBundle.load(rebake(shorter).save(tmp_path / "b"))

@@ -16,7 +16,7 @@ def bundle(tmp_path: Path) -> Path:
     return bake(SCENE, {"llm": Scripted()}).override("phone", gain_db=-6.0).save(tmp_path / "b")
 
 
-def test_report_tells_who_said_what(bundle: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_report_names_the_origin_of_each_value(bundle: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["report", str(bundle)]) == 0
     said = capsys.readouterr().out
     assert "phone ringing (intensity 0.5)" in said
@@ -33,12 +33,12 @@ def test_report_on_named_objects_as_json(bundle: Path, capsys: pytest.CaptureFix
     assert told["table"]["reasons"]["size"] == "s"
 
 
-def test_report_on_what_is_not_there(bundle: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_report_on_a_missing_object_is_refused(bundle: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["report", str(bundle), "chair"]) == 1
     assert "chair" in capsys.readouterr().err
 
 
-def test_dry_run_asks_nobody_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_dry_run_sends_no_request_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     cache = tmp_path / "cache"
     asked = ["bake", str(kitchen_path()), "--dry-run", "--llm", "openai:gpt-4o", "--no-pictures", "--cache", str(cache)]
     assert main(asked) == 0
@@ -48,7 +48,7 @@ def test_dry_run_asks_nobody_and_writes_nothing(tmp_path: Path, capsys: pytest.C
     assert not any(cache.glob("*"))
 
 
-def test_a_model_without_a_price_costs_unknown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_cost_of_a_model_without_price_is_unknown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     address = ["--llm", "local:nobody", "--base-url", "http://127.0.0.1:9/v1", "--cache", str(tmp_path)]
     assert main(["bake", str(kitchen_path()), "--dry-run", "--no-pictures", "--json", *address]) == 0
     told = json.loads(capsys.readouterr().out)
@@ -61,7 +61,7 @@ def test_bake_needs_a_folder(capsys: pytest.CaptureFixture[str]) -> None:
     assert "-o BUNDLE" in capsys.readouterr().err
 
 
-def test_a_page_tells_what_the_bake_took(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_page_shows_the_account_of_the_bake(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A run of `bake` leaves its account beside the bundle; `report` finds it there."""
     scene = tmp_path / "room.json"
     scene.write_text(SCENE.to_json())

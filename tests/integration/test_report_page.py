@@ -143,7 +143,7 @@ def test_the_felt_map_follows_source_model_and_band(opened: Opened) -> None:
     assert opened.page.locator("#canvas").screenshot() != before
 
 
-def test_a_point_under_the_cursor_tells_its_level(opened: Opened) -> None:
+def test_point_under_the_cursor_shows_its_level(opened: Opened) -> None:
     x, y = opened.report("project('refrigerator')")
     opened.page.mouse.move(x, y)
     tip = opened.page.locator("#tip")
@@ -152,7 +152,7 @@ def test_a_point_under_the_cursor_tells_its_level(opened: Opened) -> None:
     assert re.search(r"-?\d+(\.\d)? dB", tip.inner_text())
 
 
-def test_a_point_under_the_cursor_tells_the_path_to_it(opened: Opened) -> None:
+def test_point_under_the_cursor_shows_the_path_to_it(opened: Opened) -> None:
     """The phone lies on the table; nothing else brings its vibration there."""
     opened.report("setFelt({source: '__proto__'})")
     x, y = opened.report("project('table')")
@@ -182,7 +182,7 @@ def test_both_players_play_in_step(opened: Opened) -> None:
     assert opened.page.evaluate("[...document.querySelectorAll('audio')].every((a) => a.paused)")
 
 
-def test_changed_fields_are_downloaded_and_no_others(opened: Opened) -> None:
+def test_only_changed_fields_are_downloaded(opened: Opened) -> None:
     opened.report("select('__proto__')")
     opened.page.locator("[data-field=gain_db]").fill("-3")
     opened.page.locator("[data-field=intensity]").first.fill("0.25")
@@ -219,7 +219,7 @@ def test_the_table_is_searched_sorted_and_used_by_keys(opened: Opened) -> None:
     assert opened.report("selected()") is None
 
 
-def test_names_are_text_alone(opened: Opened) -> None:
+def test_names_are_shown_as_plain_text(opened: Opened) -> None:
     opened.report("select('cup')")
     shown = opened.page.locator("#panel h2").inner_text()
     assert shown == _STRANGE.replace("\x1b", "\\x1b")
@@ -228,7 +228,7 @@ def test_names_are_text_alone(opened: Opened) -> None:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_a_phone_has_all_of_it_without_scrolling_sideways(theme: str, browser: Any, html: str, tmp_path: Path) -> None:
+def test_page_fits_a_phone_without_horizontal_scrolling(theme: str, browser: Any, html: str, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     path.write_text(html, encoding="utf-8")
     opened = Opened(browser, path.as_uri(), color_scheme=theme)
@@ -244,7 +244,7 @@ def test_a_phone_has_all_of_it_without_scrolling_sideways(theme: str, browser: A
     assert opened.errors == []
 
 
-def test_a_finger_sees_the_level_and_the_path_too(browser: Any, html: str, tmp_path: Path) -> None:
+def test_touch_input_shows_level_and_path(browser: Any, html: str, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     path.write_text(html, encoding="utf-8")
     opened = Opened(browser, path.as_uri(), has_touch=True)
@@ -260,7 +260,7 @@ def test_a_finger_sees_the_level_and_the_path_too(browser: Any, html: str, tmp_p
     assert opened.errors == []
 
 
-def test_without_webgl_the_rest_works(browser: Any, html: str, tmp_path: Path) -> None:
+def test_page_works_without_webgl(browser: Any, html: str, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     # A browser without WebGL has no such context.
     path.write_text(html, encoding="utf-8")
@@ -328,7 +328,7 @@ def test_the_policy_names_the_script_and_the_style_of_the_page(html: str) -> Non
         assert f"{kind}-src 'sha256-{digest}'" in html
 
 
-def test_strange_data_cannot_leave_its_element() -> None:
+def test_data_cannot_inject_markup() -> None:
     page = assemble({"scene": "</script><!--<script>\u2028"})
     (data,) = re.findall(r'<script type="application/json" id="report">(.*?)</script>', page, re.S)
     assert json.loads(data) == {"scene": "</script><!--<script>\u2028"}
@@ -364,7 +364,7 @@ def walled(browser: Any, tmp_path: Path) -> Iterator[Opened]:
     assert found.errors == []
 
 
-def test_a_room_of_separate_walls_is_looked_into(walled: Opened) -> None:
+def test_walls_towards_the_camera_are_hidden(walled: Opened) -> None:
     x, y = walled.report("project('table')")
     assert walled.report(f"pick({x}, {y})") == "table"
     walled.page.get_by_label("walls").select_option("all")
@@ -378,7 +378,7 @@ def test_a_room_of_separate_walls_is_looked_into(walled: Opened) -> None:
     assert walled.report(f"pick({x}, {y - 40})") == "north"
 
 
-def test_a_source_called_all_is_one_of_them(walled: Opened) -> None:
+def test_source_named_all_is_listed_separately(walled: Opened) -> None:
     sources = walled.page.get_by_label("source", exact=True)
     assert sources.locator("option").all_inner_texts() == ["all sources", "smartphone", "electric fan"]
     walled.report("select('table')")
@@ -422,7 +422,7 @@ def _baked(name: str) -> HapticBundle:
 
 @pytest.mark.filterwarnings("ignore")  # of scenes by others
 @pytest.mark.parametrize("name", _SCENES)
-def test_a_scene_is_looked_at_heard_corrected_and_baked_again(name: str, browser: Any, tmp_path: Path) -> None:
+def test_page_supports_inspection_correction_and_rebake(name: str, browser: Any, tmp_path: Path) -> None:
     path, _, most_bytes = _SCENES[name]
     if name != "demo_kitchen":
         needed(path)

@@ -23,7 +23,7 @@ def loaded(name: str) -> SceneSnapshot:
 
 
 @pytest.mark.parametrize("name", ROOMS)
-def test_every_triangle_is_where_it_was_put(name: str) -> None:
+def test_every_triangle_has_its_composed_place(name: str) -> None:
     room, scene = ROOMS[name], loaded(name)
     ours = [item.pose.to_world(item.geometry.mesh.vertices_m)[item.geometry.mesh.faces] for item in scene.objects]
     # Fixed weights sort both alike, whatever the order of corners; coordinates are stored in single precision.
@@ -32,7 +32,7 @@ def test_every_triangle_is_where_it_was_put(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ROOMS)
-def test_what_stands_on_a_source_is_felt_and_what_is_lifted_off_is_not(name: str) -> None:
+def test_object_on_a_source_is_felt_and_lifted_object_is_not(name: str) -> None:
     room, scene = ROOMS[name], loaded(name)
     session = HapticSession(scene, bake(scene))
     for a, b in sorted(room.contacts):
@@ -53,7 +53,7 @@ def test_what_stands_on_a_source_is_felt_and_what_is_lifted_off_is_not(name: str
 @pytest.mark.parametrize("name", ROOMS)
 @settings(max_examples=15, deadline=None)
 @given(data=st.data())
-def test_moving_there_is_building_there(name: str, data: st.DataObject) -> None:
+def test_moved_scene_equals_a_scene_built_at_that_place(name: str, data: st.DataObject) -> None:
     room, scene = ROOMS[name], loaded(name)
     graph = ContactGraph(scene)
     offsets = st.tuples(*[st.sampled_from([-0.2, -0.05, -0.004, 0.0, 0.003, 0.05, 0.3])] * 3)

@@ -62,17 +62,17 @@ def scene(name: str) -> SceneSnapshot:
 
 
 @pytest.mark.parametrize(("name", "count"), known({name: len(room.things) for name, room in ROOMS.items()}, COUNTS))
-def test_every_thing_is_one_object(name: str, count: int) -> None:
+def test_every_composed_item_is_one_object(name: str, count: int) -> None:
     assert len(scene(name).objects) == count
 
 
 @pytest.mark.parametrize("name", ROOMS)
-def test_names_and_axis_are_those_of_the_construction(name: str) -> None:
+def test_names_and_axis_equal_the_composition(name: str) -> None:
     assert [item.id for item in scene(name).objects] == ROOMS[name].ids
     assert scene(name).up_axis == ROOMS[name].up_axis
 
 
-def test_names_are_those_of_the_author() -> None:
+def test_names_equal_the_authored_names() -> None:
     needed(SCENES)
     assert [item.id for item in scene(BATHROOM).objects] == [
         *("floor", "wall_back", "wall_right", "washing_machine", "tumble_dryer", "vanity_sink", "mirror", "toilet"),
@@ -115,7 +115,7 @@ def world_triangles(snapshot: SceneSnapshot) -> NDArray[np.float64]:
 
 
 @pytest.mark.parametrize("name", [*OWN_GLTF, *others(KITCHEN, COMPOSED, BATHROOM, MERGED)])
-def test_every_triangle_is_where_the_file_puts_it(name: str) -> None:
+def test_every_triangle_has_the_place_of_the_file(name: str) -> None:
     """All corners of all triangles, as sets, to a millionth of the scene."""
     ours = world_triangles(scene(name)).reshape(-1, 9)
     theirs = np.concatenate(list(drawn_triangles(file_of(name)))).reshape(-1, 9)
@@ -158,7 +158,7 @@ LOOKS = {
 
 
 @pytest.mark.parametrize(("name", "count"), known({name: ROOMS[name].n_looks for name in OWN_GLTF}, LOOKS))
-def test_every_material_and_texture_is_there_once(name: str, count: tuple[int, int]) -> None:
+def test_every_material_and_texture_is_read_once(name: str, count: tuple[int, int]) -> None:
     header, buffer = header_and_buffer(file_of(name))
     used = {primitive["material"] for mesh in header["meshes"] for primitive in mesh["primitives"]}
     images = {image for i in used for image in images_of(header, buffer, header["materials"][i], file_of(name).parent)}
@@ -177,14 +177,14 @@ def test_every_material_and_texture_is_there_once(name: str, count: tuple[int, i
 
 
 @pytest.mark.parametrize("name", [*OWN_GLTF, *others(LIVING, BEDROOM)])
-def test_bounds_are_those_of_an_independent_reading(name: str) -> None:
+def test_bounds_equal_those_of_an_independent_reader(name: str) -> None:
     theirs = np.concatenate(list(drawn_triangles(file_of(name)))).reshape(-1, 3)
     ours = np.array([item.bounds_m for item in scene(name).objects])
     np.testing.assert_allclose(ours[:, 0].min(axis=0), theirs.min(axis=0), atol=1e-5)
     np.testing.assert_allclose(ours[:, 1].max(axis=0), theirs.max(axis=0), atol=1e-5)
 
 
-def test_draco_gives_what_the_file_promises() -> None:
+def test_draco_meshes_have_the_bounds_of_the_header() -> None:
     """The header tells the bounds of every compressed mesh; one step of quantisation is allowed."""
     header, _ = header_and_buffer(needed(SCENES / DRACO))
     for item, node in zip(scene(DRACO).objects, header["nodes"][2:], strict=True):
@@ -203,7 +203,7 @@ BOXES_BY_OTHERS = ("floor", "wall_back", "wall_left", "wall_right")
 
 
 @pytest.mark.parametrize("name", [*ROOMS, *others(COMPOSED, BATHROOM)])
-def test_closed_things_face_outwards(name: str) -> None:
+def test_closed_meshes_face_outwards(name: str) -> None:
     """The volume of a closed mesh is positive, and that of a box is known by its size."""
     for item in scene(name).objects:
         mesh = item.geometry.mesh
@@ -235,7 +235,7 @@ def test_copies_share_their_mesh(name: str, copies: list[str]) -> None:
 
 
 @pytest.mark.parametrize("name", ROOMS)
-def test_things_of_one_mesh_and_no_others_share_it(name: str) -> None:
+def test_only_objects_of_one_mesh_share_it(name: str) -> None:
     meshes = {thing.id: id(thing.mesh) for thing in ROOMS[name].things}
     loaded = {item.id: id(item.geometry) for item in scene(name).objects}
     for x in meshes:
@@ -246,12 +246,12 @@ def test_things_of_one_mesh_and_no_others_share_it(name: str) -> None:
     ("name", "one", "other"),
     [("dining_room", "plate_1", "cup"), *((name, "PortraitB_01", "PortraitD_01") for name in others(LIVING))],
 )
-def test_things_that_are_no_copies_do_not_share(name: str, one: str, other: str) -> None:
+def test_distinct_objects_do_not_share_meshes(name: str, one: str, other: str) -> None:
     assert scene(name).object(one).instance_key != scene(name).object(other).instance_key
 
 
 @pytest.mark.parametrize("name", [*ROOMS, *others(LIVING, BEDROOM, COMPOSED, BATHROOM, MERGED)])
-def test_plausible_scenes_are_silent(name: str) -> None:
+def test_plausible_scenes_do_not_warn(name: str) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         load_scene(file_of(name))
@@ -260,7 +260,7 @@ def test_plausible_scenes_are_silent(name: str) -> None:
 @pytest.mark.parametrize(
     ("name", "unit_m"), [("dining_room", 0.01), ("dining_room", 0.1), *known({}, {KITCHEN: 0.01, DRACO: 0.1})]
 )
-def test_lying_units_are_found_out(tmp_path: Path, name: str, unit_m: float) -> None:
+def test_wrong_units_are_detected(tmp_path: Path, name: str, unit_m: float) -> None:
     own = ROOMS.get(name)
     path = SCENES / name if own is None else own.in_units(unit_m).write(tmp_path)
     with pytest.warns(UnitWarning, match=rf"unit_m={unit_m:g} "):
@@ -299,7 +299,7 @@ OWN_SIZES = {(name, thing): size for name, room in ROOMS.items() for thing, size
     [(*place, size) for place, size in OWN_SIZES.items()]
     + [(*place, SIZES[place]) for place in there(SIZES, lambda place: SCENES / place[0])],
 )
-def test_sizes_are_those_of_the_construction_or_read_by_hand(
+def test_sizes_equal_constructed_or_hand_measured_sizes(
     name: str, object_id: str, expected: tuple[float, float, float]
 ) -> None:
     # Rounded edges shorten the median span a little; 2 % and a millimetre allow for them. The rooms have none.
@@ -333,7 +333,7 @@ def test_a_file_cut_short_is_refused(tmp_path: Path, name: str, n: int) -> None:
 
 
 @pytest.mark.parametrize(("name", "n"), known(dict.fromkeys(ROOMS, 25), {MERGED: 120, DRACO: 5}))
-def test_flipped_bytes_lead_to_our_own_errors_or_to_a_scene(tmp_path: Path, name: str, n: int) -> None:
+def test_flipped_bytes_give_a_scene_error_or_a_scene(tmp_path: Path, name: str, n: int) -> None:
     data = np.frombuffer(file_of(name).read_bytes(), np.uint8)
     path = tmp_path / file_of(name).name
     rng = np.random.default_rng(300)

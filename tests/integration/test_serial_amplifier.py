@@ -129,7 +129,7 @@ def test_a_session_of_48_khz_is_converted(tmp_path: Path) -> None:
     np.testing.assert_allclose(kept.samples[400:2400, 1] / 32767, 0.5 * left, atol=1e-4)
 
 
-def test_a_bad_wire_costs_frames_and_nothing_else(tmp_path: Path, events: list[SinkEvent]) -> None:
+def test_noisy_wire_loses_only_frames(tmp_path: Path, events: list[SinkEvent]) -> None:
     blocks: list[NDArray[np.int16]] = []
     device = Deaf(on_samples=blocks.append)
     mix = Counting()
@@ -148,7 +148,7 @@ def test_a_bad_wire_costs_frames_and_nothing_else(tmp_path: Path, events: list[S
     assert starts[-1] < mix.position
 
 
-def test_a_device_without_credit_is_taken_up_again(tmp_path: Path, events: list[SinkEvent]) -> None:
+def test_device_without_credit_resumes(tmp_path: Path, events: list[SinkEvent]) -> None:
     mix = Counting()
     with Plug(tmp_path) as plug, SerialAmplifierSink(str(plug.path), on_event=events.append) as sink:
         sink.open(FORMAT)
@@ -165,7 +165,7 @@ def test_a_device_without_credit_is_taken_up_again(tmp_path: Path, events: list[
     assert kinds(events)[2] in ("resumed", "lost")
 
 
-def test_a_device_that_restarts_is_greeted_anew(tmp_path: Path, events: list[SinkEvent]) -> None:
+def test_restarted_device_gets_a_new_hello(tmp_path: Path, events: list[SinkEvent]) -> None:
     with Plug(tmp_path) as plug, SerialAmplifierSink(str(plug.path), on_event=events.append) as sink:
         sink.open(FORMAT)
         sink.start(Counting())
@@ -175,7 +175,7 @@ def test_a_device_that_restarts_is_greeted_anew(tmp_path: Path, events: list[Sin
     assert "restarted" in events[1].message
 
 
-def test_pulled_out_and_put_in_again(tmp_path: Path, events: list[SinkEvent]) -> None:
+def test_unplugged_device_is_reconnected(tmp_path: Path, events: list[SinkEvent]) -> None:
     plug = Plug(tmp_path)
     sink = SerialAmplifierSink(str(plug.path), on_event=events.append)
     mix = Counting()
@@ -198,7 +198,7 @@ def test_pulled_out_and_put_in_again(tmp_path: Path, events: list[SinkEvent]) ->
     assert kinds(events).count("connected") == kinds(events).count("lost") == 3
 
 
-def test_a_frozen_device_is_given_up_and_found_again(
+def test_frozen_device_is_dropped_and_reconnected(
     tmp_path: Path, events: list[SinkEvent], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("scene2hap.devices.serial_amp.ANSWER_S", 0.2)
@@ -235,7 +235,7 @@ def test_a_session_goes_on_without_its_amplifier(tmp_path: Path, events: list[Si
     assert kinds(events)[:3] == ["unavailable", "connected", "lost"]
 
 
-def test_what_is_at_the_port_is_told_apart(
+def test_devices_at_the_port_are_identified(
     tmp_path: Path, events: list[SinkEvent], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def told(words: str, make: Kept | None = None, **settings: object) -> None:
@@ -262,7 +262,7 @@ def test_what_is_at_the_port_is_told_apart(
         told("permission denied")
 
 
-def test_a_port_in_use(tmp_path: Path, events: list[SinkEvent]) -> None:
+def test_port_in_use_is_reported(tmp_path: Path, events: list[SinkEvent]) -> None:
     with Plug(tmp_path) as plug:
         # What another program does; a second sink of this one is refused by `open`, see tests/unit/devices/test_claims.
         other = SerialPort(str(plug.path), 921600)
@@ -274,7 +274,7 @@ def test_a_port_in_use(tmp_path: Path, events: list[SinkEvent]) -> None:
     assert "in use" in events[0].message
 
 
-def test_something_that_does_not_answer(events: list[SinkEvent], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unresponsive_port_is_reported(events: list[SinkEvent], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scene2hap.devices.serial_amp.ANSWER_S", 0.2)
     terminal = PseudoTerminal()
     with SerialAmplifierSink(terminal.name, on_event=events.append) as sink:
@@ -285,7 +285,7 @@ def test_something_that_does_not_answer(events: list[SinkEvent], monkeypatch: py
     assert "does not answer" in events[0].message
 
 
-def test_the_reference_device_is_a_program(tmp_path: Path) -> None:
+def test_reference_device_runs_as_a_program(tmp_path: Path) -> None:
     wav = tmp_path / "heard.wav"
     command = [sys.executable, "-m", "scene2hap.devices.reference_device", "--wav", str(wav)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as program:

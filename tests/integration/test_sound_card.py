@@ -50,7 +50,7 @@ def test_a_take_of_ten_seconds() -> None:
     assert verdict.residual < 1e-4, f"a discontinuity; underruns told: {verdict.underruns}"
 
 
-def test_fades_and_the_dead_game(server: SoundServer) -> None:
+def test_sound_card_fades_in_and_fades_out_when_the_game_stops(server: SoundServer) -> None:
     sink = SoundCardSink(DEVICE)
     recorder = server.record(is_timed=True)
     threads = threading.active_count()
@@ -77,7 +77,7 @@ def test_fades_and_the_dead_game(server: SoundServer) -> None:
     assert heard[first : first + 48].max() < 0.01
 
 
-def test_unplug_and_return(server: SoundServer) -> None:
+def test_unplugged_sound_card_is_reconnected(server: SoundServer) -> None:
     events: list[SinkEvent] = []
     sink = SoundCardSink(DEVICE, on_event=events.append)
     with session_on(sink) as session:
@@ -102,7 +102,7 @@ def test_unplug_and_return(server: SoundServer) -> None:
     assert [event.kind for event in events if event.kind != "unavailable"] == ["connected"] + 3 * ["lost", "connected"]
 
 
-def test_a_server_that_crashes_and_comes_back(server: SoundServer) -> None:
+def test_crashed_sound_server_is_reconnected(server: SoundServer) -> None:
     events: list[SinkEvent] = []
     sink = SoundCardSink(DEVICE, on_event=events.append)
     with session_on(sink) as session:
@@ -118,7 +118,7 @@ def test_a_server_that_crashes_and_comes_back(server: SoundServer) -> None:
     assert kinds[-1] == "connected"
 
 
-def test_a_server_that_stands_still(server: SoundServer) -> None:
+def test_stalled_sound_server_is_reported(server: SoundServer) -> None:
     events: list[SinkEvent] = []
     sink = SoundCardSink(DEVICE, on_event=events.append)
     with session_on(sink):
@@ -129,7 +129,7 @@ def test_a_server_that_stands_still(server: SoundServer) -> None:
         wait_for(lambda: events[-1].kind in ("resumed", "connected"))
 
 
-def test_a_device_of_another_rate(server: SoundServer) -> None:
+def test_device_of_another_rate_is_resampled(server: SoundServer) -> None:
     recorder = server.record()
     sink = SoundCardSink(DEVICE, sample_rate_hz=44100)
     with session_on(sink) as session:
@@ -165,7 +165,7 @@ def test_hands_on_the_back_channels_of_a_game_pad() -> None:
     assert peaks[3] > 0.1
 
 
-def test_a_device_that_is_not_there(server: SoundServer) -> None:
+def test_missing_device_is_refused(server: SoundServer) -> None:
     events: list[SinkEvent] = []
     sink = SoundCardSink("no such card", on_event=events.append)
     with session_on(sink) as session:

@@ -71,7 +71,7 @@ def test_the_receiver_of_the_page_gets_every_sample(listener: socket.socket) -> 
     np.testing.assert_array_equal(after_fade[:, 1], -after_fade[:, 0])
 
 
-def test_it_is_paced_by_the_clock(listener: socket.socket) -> None:
+def test_udp_stream_is_paced_by_the_clock(listener: socket.socket) -> None:
     with UdpSink("127.0.0.1", listener.getsockname()[1]) as sink:
         sink.open(SinkFormat(8000, ("left",)))
         sink.start(lambda n: np.zeros((n, 1), dtype=np.float32))
@@ -82,7 +82,7 @@ def test_it_is_paced_by_the_clock(listener: socket.socket) -> None:
         assert time.monotonic() - began > 0.29
 
 
-def test_a_receiver_that_is_not_there_yet(listener: socket.socket) -> None:
+def test_receiver_that_starts_later_gets_the_stream(listener: socket.socket) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as reserved:
         reserved.bind(("127.0.0.1", 0))
         port = reserved.getsockname()[1]
@@ -130,7 +130,7 @@ class MaxPatch:
         return [values for heard, values in self.heard if heard == address]
 
 
-def test_gains_reach_a_patch_as_the_paper_sent_them() -> None:
+def test_gain_messages_have_the_format_of_the_paper() -> None:
     scene, bundle = table_with_two_phones()
     with MaxPatch() as patch:
         sink = UdpSink("127.0.0.1", patch.port, content="osc", clips={"phone": "loops/phone.wav"})

@@ -18,7 +18,7 @@ NAME = next(iter(ROOMS))
 
 
 @pytest.mark.parametrize("suffix", [".usda", ".usdc"])
-def test_a_room_is_the_same_from_glb_and_from_usd(tmp_path: Path, suffix: str) -> None:
+def test_room_is_equal_from_glb_and_usd(tmp_path: Path, suffix: str) -> None:
     usd("Usd")
     expected = load_scene(room_file(NAME), unit_m=1.0)
     found = load_scene(as_usd(expected, tmp_path / f"{NAME}{suffix}"), unit_m=1.0)

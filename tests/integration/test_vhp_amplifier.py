@@ -96,7 +96,7 @@ def test_a_sleeve_is_switched_on_fed_and_switched_off(events: list[SinkEvent]) -
     assert packets[-3][4:100:12] == bytes([255] * 8)
 
 
-def test_a_board_that_stops_asking_is_lost(events: list[SinkEvent]) -> None:
+def test_board_that_stops_requesting_is_lost(events: list[SinkEvent]) -> None:
     with (
         Board(b"buffer_copied\r\n", 100) as board,
         VhpSink(board.terminal.name, on_event=events.append) as sink,
@@ -111,7 +111,7 @@ def test_a_board_that_stops_asking_is_lost(events: list[SinkEvent]) -> None:
         assert eventually(lambda: events[-1].kind == "connected")
 
 
-def test_a_board_that_never_asks(events: list[SinkEvent]) -> None:
+def test_board_that_never_requests_is_reported(events: list[SinkEvent]) -> None:
     terminal = PseudoTerminal()
     with VhpSink(terminal.name, on_event=events.append) as sink:
         sink.open(SinkFormat(2000, ("left",)))
@@ -122,6 +122,6 @@ def test_a_board_that_never_asks(events: list[SinkEvent]) -> None:
     assert "asks for no samples" in events[0].message
 
 
-def test_another_board() -> None:
+def test_unknown_board_is_refused() -> None:
     with pytest.raises(ConfigError, match="sleeve"):
         VhpSink("/dev/none", board="fat")  # type: ignore[arg-type]

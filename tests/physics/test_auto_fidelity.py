@@ -38,7 +38,7 @@ def phone_on(plate: Plate, mass_kg: float = 0.2) -> tuple[ContactNetwork, list[E
     return ContactNetwork({"top": plate}, feet), [Excitation("phone", 175.0, 175.0, mass_kg)]
 
 
-def test_it_keeps_its_tolerance_on_furniture() -> None:
+def test_auto_fidelity_keeps_its_tolerance_on_furniture() -> None:
     errors, rungs = [], set()
     for one in furniture(60):
         field = MODEL.prepare(one.network, one.excitations, one.bands)
@@ -91,7 +91,7 @@ def test_no_gain_exceeds_the_level_that_is_promised() -> None:
         (Plate(0.5, 0.4, 0.002, STEEL, "clamped"), Bands.third_octaves(), "modal"),
     ],
 )
-def test_which_rung(plate: Plate, bands: Bands, rung: str) -> None:
+def test_plate_and_bands_decide_the_rung(plate: Plate, bands: Bands, rung: str) -> None:
     field = MODEL.prepare(*phone_on(plate), bands)
     choice = field.choices["top"]
     assert choice.rung == rung
@@ -110,7 +110,7 @@ def test_a_tighter_tolerance_never_chooses_a_cheaper_rung() -> None:
             assert chosen[-1].bound_db <= 0.1
 
 
-def test_at_the_tightest_tolerance_it_is_the_modal_plate() -> None:
+def test_tightest_tolerance_gives_the_modal_plate() -> None:
     one = furniture(1)[0]
     field = AutoFidelity(0.1, outside_domain="ignore").prepare(one.network, one.excitations, one.bands)
     truth = ModalPlate(outside_domain="ignore").prepare(one.network, one.excitations, one.bands)

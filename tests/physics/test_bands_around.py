@@ -50,7 +50,7 @@ def test_the_gain_is_the_rms_over_the_band(is_expected: bool) -> None:
         assert 20 * np.log10(found[:, k, 0] / expected) == pytest.approx(0.0, abs=0.15)
 
 
-def test_a_source_has_its_gain_whichever_others_there_are() -> None:
+def test_gain_of_a_source_does_not_depend_on_other_sources() -> None:
     both = ModalPlate().prepare(table(), SOURCES, HALF).attenuation("top", POINTS)
     turned = ModalPlate().prepare(table(), SOURCES[::-1], HALF).attenuation("top", POINTS)
     np.testing.assert_allclose(both, turned[:, ::-1], rtol=1e-9)
@@ -62,7 +62,7 @@ def test_a_source_has_its_gain_whichever_others_there_are() -> None:
     np.testing.assert_allclose(three[:, :2], both, rtol=1e-9)
 
 
-def test_a_source_is_itself_and_carriers_add_up() -> None:
+def test_source_has_unit_gain_and_carrier_shares_sum_up() -> None:
     field = ModalPlate().prepare(table(), SOURCES, HALF)
     np.testing.assert_array_equal(field.attenuation("pump", POINTS)[:, 1], 1.0)
     assert isinstance(field, CarryingField)

@@ -33,7 +33,7 @@ def test_the_lighter_object_rests_in_equal_shares(n: int) -> None:
     assert stiffness(OVEN, TABLE, CORNERS[:n]) == pytest.approx(expected, rel=1e-3)
 
 
-def test_without_masses_the_laws_own_preload_counts() -> None:
+def test_default_preload_is_used_without_masses() -> None:
     bare = [replace(one, object_mass_kg=None) for one in (OVEN, TABLE)]
     assert stiffness(*bare, CORNERS) == pytest.approx(4 * hertz(0.5), rel=1e-3)
     assert stiffness(bare[0], TABLE, CORNERS) == pytest.approx(4 * hertz(25.0 * 9.80665 / 4), rel=1e-3)
@@ -45,7 +45,7 @@ def test_heavier_things_stand_stiffer_by_the_third_root() -> None:
     assert math.isfinite(stiffness(replace(OVEN, object_mass_kg=1e-6), TABLE, CORNERS))
 
 
-def test_the_lighter_stands_on_its_feet_and_the_heavier_does_not() -> None:
+def test_feet_of_the_lighter_object_are_the_contacts() -> None:
     rubber, felt = materials.lookup("rubber"), materials.lookup("felt")
     shod = stiffness(replace(OVEN, feet=rubber), replace(TABLE, feet=felt), CORNERS)
     compliance = sum((1 - m.poisson_ratio**2) / m.youngs_modulus_pa for m in (rubber, TABLE.material))

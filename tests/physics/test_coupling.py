@@ -124,7 +124,7 @@ def test_equal_to_one_assembled_system(build, seed: int) -> None:  # type: ignor
 
 
 @pytest.mark.parametrize("build", [pair, chain, loop, three_contacts])
-def test_order_of_bodies_and_joints_does_not_matter(build) -> None:  # type: ignore[no-untyped-def]
+def test_solution_does_not_depend_on_the_order_of_bodies_and_joints(build) -> None:  # type: ignore[no-untyped-def]
     made = build(np.random.default_rng(1))
     plain = couple(made.bodies, made.joints, ["s"], FREQUENCIES_HZ)
     turned = [
@@ -137,7 +137,7 @@ def test_order_of_bodies_and_joints_does_not_matter(build) -> None:  # type: ign
         np.testing.assert_allclose(other.deflection(name, points), plain.deflection(name, points), rtol=1e-8)
 
 
-def test_one_contact_in_mobilities() -> None:
+def test_one_contact_follows_the_mobility_formula() -> None:
     rng = np.random.default_rng(5)
     receiver, link = Lump(rng), joint("s", "r", 0, 2, rng)
     omega = 2 * np.pi * FREQUENCIES_HZ
@@ -175,7 +175,7 @@ def test_soft_joints_decouple_and_stiff_ones_are_rigid(build) -> None:  # type: 
         assert np.abs(sides[0] - sides[1]).max() <= 1e-6 * np.abs(sides[0]).max()
 
 
-def test_rigid_feet_that_statics_cannot_tell_apart() -> None:
+def test_statically_indeterminate_rigid_feet_give_the_right_motion() -> None:
     """Four rigid joints between two rigid masses leave the forces open, but not the motion: 1 kg carries 3 kg."""
     joints = [Joint("s", "r", (i, 0), (i, 0)) for i in range(4)]
     solved = couple({"s": Weight(1.0), "r": Weight(3.0)}, joints, ["s"], FREQUENCIES_HZ)
@@ -202,7 +202,7 @@ def test_reciprocal_and_passive(seed: int, build) -> None:  # type: ignore[no-un
     assert (np.linalg.eigvalsh(lossy).max(axis=1) <= 1e-9 * largest[:, 0, 0]).all()
 
 
-def test_joints_that_end_nowhere() -> None:
+def test_joints_with_missing_ends_are_refused() -> None:
     bodies = {"s": Weight(1.0), "r": Weight(1.0)}
     for a, b in (("s", "ghost"), ("s", "s")):
         with pytest.raises(ModelDomainError, match="it must join two of the bodies 'r', 's'"):

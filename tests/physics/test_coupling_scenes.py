@@ -121,7 +121,7 @@ def random_scene(seed: int) -> tuple[ContactNetwork, list[Excitation]]:
 
 @settings(derandomize=True, deadline=None, max_examples=15)
 @given(st.integers(0, 10**6), st.sampled_from(MODELS))
-def test_sources_feel_each_other_alike(seed: int, model: ModalPlate | InfinitePlate) -> None:
+def test_transfer_between_sources_is_reciprocal(seed: int, model: ModalPlate | InfinitePlate) -> None:
     """Reciprocity: a free deflection of 1 is a force of m omega^2, so that attenuations are as the masses."""
     network, sources = random_scene(seed)
     band = Bands((80.0, 100.0))
@@ -133,7 +133,7 @@ def test_sources_feel_each_other_alike(seed: int, model: ModalPlate | InfinitePl
 
 @settings(derandomize=True, deadline=None, max_examples=15)
 @given(st.integers(0, 10**6), st.sampled_from(MODELS))
-def test_nothing_gives_energy_back(seed: int, model: ModalPlate | InfinitePlate) -> None:
+def test_coupled_scene_is_passive(seed: int, model: ModalPlate | InfinitePlate) -> None:
     network, _ = random_scene(seed)
     f = np.geomspace(15.0, 400.0, 40)
     bodies = {
@@ -152,7 +152,7 @@ def test_nothing_gives_energy_back(seed: int, model: ModalPlate | InfinitePlate)
 @given(
     st.integers(0, 10**6), st.sampled_from(MODELS), st.sampled_from([Bands.dominant(), Bands((10.0, 12.5, 40, 500.0))])
 )
-def test_finite_never_negative_and_the_order_does_not_matter(
+def test_gains_are_finite_and_do_not_depend_on_order(
     seed: int, model: ModalPlate | InfinitePlate, bands: Bands
 ) -> None:
     network, sources = random_scene(seed)
@@ -172,7 +172,7 @@ def test_finite_never_negative_and_the_order_does_not_matter(
 
 @settings(derandomize=True, deadline=None, max_examples=10)
 @given(*[st.floats(0.2, 5.0)] * 3)
-def test_units_leave_ratios_alone(kg: float, m: float, s: float) -> None:
+def test_gains_do_not_depend_on_units(kg: float, m: float, s: float) -> None:
     """Every quantity told in other units of mass, length and time."""
 
     def steel_shelf(kg: float, m: float, s: float) -> NDArray[np.float64]:
@@ -199,7 +199,7 @@ def test_units_leave_ratios_alone(kg: float, m: float, s: float) -> None:
     np.testing.assert_allclose(steel_shelf(kg, m, s), steel_shelf(1, 1, 1), rtol=1e-6)
 
 
-def test_half_a_weight_is_half_a_stiffness_and_no_weight_no_contact() -> None:
+def test_contact_weight_scales_the_stiffness() -> None:
     source = [Excitation("phone", 99.0, 240.0, 0.2)]
     model = ModalPlate()
 
@@ -252,7 +252,7 @@ def test_a_band_is_the_rms_over_its_width() -> None:
     assert abs(20 * math.log10(found / math.sqrt((h**2).mean()))) < 0.2
 
 
-def test_a_moved_plate_takes_its_coordinates_along() -> None:
+def test_moved_plate_keeps_its_plate_coordinates() -> None:
     turn = Pose((3.0, -1.0, 2.0), (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5)))
     source = [Excitation("phone", 99.0, 200.0, 0.2)]
     still = ModalPlate().prepare(phone_on(TABLE), source, THIRDS).attenuation("table", [[0.9, 0.6, 0.0]])
@@ -263,7 +263,7 @@ def test_a_moved_plate_takes_its_coordinates_along() -> None:
     )
 
 
-def test_a_foot_beside_the_plate_stands_at_its_edge() -> None:
+def test_foot_outside_the_plate_is_moved_to_its_edge() -> None:
     source = [Excitation("phone", 99.0, 200.0, 0.2)]
     outside, edge = (
         ModalPlate().prepare(phone_on(TABLE, at), source, THIRDS).attenuation("table", [[0.9, 0.6, 0.0]])

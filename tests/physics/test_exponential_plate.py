@@ -50,7 +50,7 @@ def relative_error(found: float, expected: Decimal) -> float:
 
 @pytest.mark.parametrize("surface", STUDY_2)
 @pytest.mark.parametrize("distance_m", DISTANCES_M)
-def test_one_plate(surface: str, distance_m: float) -> None:
+def test_transfer_along_one_plate_follows_the_published_law(surface: str, distance_m: float) -> None:
     material, h, length, width, f = STUDY_2[surface]
     plate = Plate(length, width, h, materials.lookup(material))
     # Along both axes and slantwise: 3-4-5 triangles keep the distance exact.
@@ -141,7 +141,7 @@ def test_the_nearest_of_several_contacts_counts() -> None:
     np.testing.assert_allclose(found, np.exp(-float(plate.wavenumber_rad_m(99.0)) * 0.1), rtol=1e-12)
 
 
-def test_weight_is_the_loss_of_a_contact_at_250_hz_and_zero_is_none() -> None:
+def test_contact_weight_is_the_loss_at_250_hz_and_weight_zero_removes_it() -> None:
     plain = ExponentialPlate().prepare(chain(1), [Excitation("source", 250.0, 250.0)], Bands.dominant())
     half = ExponentialPlate().prepare(chain(1, 0.5), [Excitation("source", 250.0, 250.0)], Bands.dominant())
     gone = ExponentialPlate().prepare(chain(1, 0.0), [Excitation("source", 250.0, 250.0)], Bands.dominant())
@@ -150,7 +150,7 @@ def test_weight_is_the_loss_of_a_contact_at_250_hz_and_zero_is_none() -> None:
     assert gone.attenuation("p0", at) == 0.0
 
 
-def test_an_object_without_a_body_carries_nothing_but_may_be_a_source() -> None:
+def test_object_without_a_body_can_only_be_a_source() -> None:
     network = chain(3)
     bodies = {name: body for name, body in network.bodies.items() if name not in ("source", "p1")}
     field = ExponentialPlate().prepare(
@@ -162,7 +162,7 @@ def test_an_object_without_a_body_carries_nothing_but_may_be_a_source() -> None:
 
 
 @pytest.mark.parametrize("bands", [Bands.dominant(), Bands.third_octaves(10, 1000)])
-def test_controls(bands: Bands) -> None:
+def test_control_models_give_full_and_no_propagation(bands: Bands) -> None:
     excitations = [Excitation("source", 100.0, 100.0), Excitation("p2", 80.0, 80.0)]
     network = chain(4)
     cut = ContactNetwork(network.bodies, [c for c in network.contacts if (c.a, c.b) != ("p0", "p1")])

@@ -87,7 +87,7 @@ def tray_on_table(table_pose: Pose) -> ContactNetwork:
 
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("touched", ["tray", "top"])
-def test_a_hand_is_as_a_body_of_the_scene(model: type, touched: str) -> None:
+def test_hand_load_equals_a_body_of_the_scene(model: type, touched: str) -> None:
     """Touching a point loads it exactly as a rigid joint to a body of the hand's impedance does."""
     network, at = tray_on_table(Pose()), (0.55, 0.4, 0.0)
     for f in (25.0, 90.0, 240.0, 610.0):
@@ -125,7 +125,7 @@ def test_bands_are_the_rms_over_frequencies(bands: Bands) -> None:
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_thin_plates_are_loaded_and_heavy_ones_are_not(model: type) -> None:
+def test_hand_loads_thin_plates_and_not_heavy_ones(model: type) -> None:
     def change_db(plate: Plate, hand: str) -> float:
         network = ContactNetwork({"plate": plate}, [Contact("plate", "phone", (0.2, 0.15, 0.0))])
         source, points = [Excitation("phone", 170.0, 170.0, 0.2)], [[0.35, 0.25, 0.0], [0.5, 0.1, 0.0]]
@@ -143,7 +143,7 @@ def test_thin_plates_are_loaded_and_heavy_ones_are_not(model: type) -> None:
     assert change_db(steel, "fingertip") < change_db(steel, "palm") / 3
 
 
-def test_what_stands_upright_is_loaded_in_three_directions() -> None:
+def test_upright_board_is_loaded_in_three_directions() -> None:
     """A board on its edge: a hand of no impedance changes nothing, one of much holds it still."""
     upright = (0.5**0.5, 0.0, 0.0, 0.5**0.5)
     network = ContactNetwork(
@@ -164,7 +164,7 @@ def test_what_stands_upright_is_loaded_in_three_directions() -> None:
     assert (much < 1e-3 * none).all()
 
 
-def test_a_source_is_still_itself_and_what_nothing_reaches_is_still() -> None:
+def test_loaded_source_keeps_unit_gain_and_unreached_objects_zero() -> None:
     network = tray_on_table(Pose())
     field = ModalPlate(hand="fingertip").prepare(network, [Excitation("phone", 90.0, 90.0, 0.2)], Bands.dominant())
     assert (field.attenuation("phone", [[0.5, 0.3, 0.0]]) == 1.0).all()

@@ -43,7 +43,7 @@ def ports(*rows: tuple[float, ...]) -> np.ndarray:
     return np.array(rows)
 
 
-def test_frequencies_in_its_plane_are_the_published_ones() -> None:
+def test_in_plane_frequencies_equal_the_published_ones() -> None:
     """Of a free square, omega a sqrt(rho (1 - nu^2) / E), nu = 0.3.
 
     Source: Bardell, Langley, Dunsdon, J. Sound Vib. 191 (1996) 459, table of the completely free plate.
@@ -55,7 +55,7 @@ def test_frequencies_in_its_plane_are_the_published_ones() -> None:
     assert np.sqrt(modes.squares[3:9]) * scale == pytest.approx([2.321, 2.472, 2.472, 2.628, 2.987, 3.452], abs=2e-3)
 
 
-def test_far_below_its_first_mode_a_board_moves_as_a_rigid_one() -> None:
+def test_board_moves_rigidly_far_below_its_first_mode() -> None:
     """Two forces up at the lower edge of an upright board: heave, and roll about the middle."""
     board = Plate(0.6, 0.4, 0.02, OAK)
     body = inclined(board, ModalPlate().elastic_body(board, 1000.0))
@@ -68,7 +68,7 @@ def test_far_below_its_first_mode_a_board_moves_as_a_rigid_one() -> None:
     np.testing.assert_allclose(found, expected, rtol=2e-3)
 
 
-def test_over_feet_in_front_and_behind_a_box_pitches() -> None:
+def test_box_on_front_and_rear_feet_pitches() -> None:
     """A refrigerator that is no plate: heave and pitch of a box by its feet, in closed form."""
     box = Plate(0.6, 0.5, 0.55, STEEL, object_mass_kg=75.0)
     body = inclined(box, None)
@@ -94,7 +94,7 @@ def test_over_feet_in_front_and_behind_a_box_pitches() -> None:
     seed=st.integers(0, 1000),
     f=st.floats(5.0, 1000.0),
 )
-def test_it_gains_no_energy(
+def test_inclined_body_is_passive(
     length: float, width: float, thickness: float, is_compact: bool, seed: int, f: float
 ) -> None:
     plate = Plate(length, width, thickness, OAK)
@@ -109,7 +109,7 @@ def test_it_gains_no_energy(
     assert np.linalg.eigvalsh(found.imag).max() <= 1e-9 * size
 
 
-def test_what_is_summed_before_a_touch_is_the_sum() -> None:
+def test_precomputed_sums_equal_the_direct_sum() -> None:
     board = Plate(0.9, 0.6, 0.004, STEEL)
     body = inclined(board, ModalPlate().elastic_body(board, 1000.0))
     assert isinstance(body, InclinedShapes)
@@ -141,7 +141,7 @@ def on_a_table(normal: tuple[float, float, float] | None, pose: Pose) -> Contact
     return ContactNetwork({"table": table, "board": board}, contacts, {"table": Pose(), "board": pose})
 
 
-def test_only_what_is_pushed_aside_is_inclined() -> None:
+def test_only_bodies_pushed_in_their_plane_are_inclined() -> None:
     phone = Excitation("phone", 150.0, 150.0, 0.2)
     level, upright = Pose((0.3, 0.2, 0.0)), Pose((0.3, 0.3, 0.0), UPRIGHT)
     for pose, normal, expected in ((level, UP, set()), (upright, None, set()), (upright, UP, {"board"})):
@@ -171,7 +171,7 @@ def test_an_upright_board_does_not_bend() -> None:
 
 
 @pytest.mark.parametrize("felt_on", ["lower", "board"])
-def test_an_upright_board_beside_finite_elements(monkeypatch: pytest.MonkeyPatch, felt_on: str) -> None:
+def test_upright_board_agrees_with_finite_elements(monkeypatch: pytest.MonkeyPatch, felt_on: str) -> None:
     """One system of bending and plane stress; `benchmarks/coupled.py` has more cases and frequencies."""
     pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
     monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))

@@ -104,7 +104,7 @@ def test_loss_decays_by_a_quarter_of_eta_per_radian(eta: float) -> None:
     ],
     ids=lambda case: str(case),
 )
-def test_only_kr_counts(change: dict[str, float], factor: float) -> None:
+def test_transfer_depends_only_on_wavenumber_times_distance(change: dict[str, float], factor: float) -> None:
     """A plate of `factor` times the wavenumber answers at a distance as the other does at `factor` times it."""
     (name, times), r = next(iter(change.items())), 0.2
     f = 100.0
@@ -162,6 +162,6 @@ def test_refused_frequencies(frequencies_hz: list[float]) -> None:
         InfinitePlate().plate_transfer(PLATE, [0.0, 0.0], [1.0, 0.0], frequencies_hz)
 
 
-def test_no_receptance_at_rest() -> None:
+def test_receptance_at_0_hz_is_refused() -> None:
     with pytest.raises(ModelDomainError, match="0 Hz"):
         InfinitePlate().plate_receptance(PLATE, [0.0, 0.0], [1.0, 0.0], [0.0, 10.0])

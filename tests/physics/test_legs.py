@@ -23,7 +23,7 @@ MASSES_KG = np.array([1.0, 1.5, 0.8, 2.0])
 F_HZ = np.array([20.0, 47.0, 111.0, 260.0, 730.0])
 
 
-def test_it_is_the_plate_coupled_to_its_legs() -> None:
+def test_legged_plate_equals_a_plate_coupled_to_its_legs() -> None:
     top = ModalPlate().elastic_body(TOP, 1000.0)
     legs = {f"leg {k}": RigidMotion(float(m)) for k, m in enumerate(MASSES_KG)}
     source = RigidMotion(0.4)
@@ -36,7 +36,7 @@ def test_it_is_the_plate_coupled_to_its_legs() -> None:
     np.testing.assert_allclose(together.deflection("top", points), expected, rtol=1e-6, atol=1e-9 * abs(expected).max())
 
 
-def test_far_below_its_first_mode_it_moves_with_all_its_weight() -> None:
+def test_legged_plate_moves_with_its_total_mass_below_its_first_mode() -> None:
     top = ModalPlate().elastic_body(TOP, 1000.0)
     middle, f = np.array([[0.6, 0.35]]), np.array([1.0])
     masses = np.full(4, 1.5)
@@ -46,7 +46,7 @@ def test_far_below_its_first_mode_it_moves_with_all_its_weight() -> None:
 
 @settings(derandomize=True, deadline=None, max_examples=40)
 @given(st.integers(0, 500), st.integers(1, 5), st.floats(3.0, 1000.0))
-def test_it_gains_no_energy(seed: int, n_legs: int, f: float) -> None:
+def test_legged_plate_is_passive(seed: int, n_legs: int, f: float) -> None:
     rng = np.random.default_rng(seed)
     body = legged(
         InfinitePlate().elastic_body(TOP, 1000.0),
@@ -59,7 +59,7 @@ def test_it_gains_no_energy(seed: int, n_legs: int, f: float) -> None:
     assert np.linalg.eigvalsh(found.imag).max() <= 1e-9 * np.abs(found).max()
 
 
-def test_what_is_summed_before_a_touch_is_the_sum() -> None:
+def test_precomputed_sums_equal_the_direct_sum() -> None:
     body = legged(ModalPlate().elastic_body(TOP, 1000.0), LEGS_M, MASSES_KG)
     assert isinstance(body, LeggedShapes)
     rng = np.random.default_rng(4)
@@ -80,7 +80,7 @@ def on_a_floor(table: Plate, leg_m: float) -> ContactNetwork:
     )
 
 
-def test_only_what_stands_on_legs_has_them() -> None:
+def test_only_objects_with_legs_get_leg_masses() -> None:
     heavy = replace(TOP, object_mass_kg=25.0)
     assert legs_of(on_a_floor(heavy, 0.7), "table", heavy) == sorted(map(tuple, LEGS_M.tolist()))
     assert legs_of(on_a_floor(heavy, 0.01), "table", heavy) == []

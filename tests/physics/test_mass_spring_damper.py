@@ -99,7 +99,7 @@ def test_modes_and_series_are_the_direct_solution(boundary: str) -> None:
     np.testing.assert_allclose(found[:, :3], expected[:, :3], rtol=2e-4)
 
 
-def test_it_tends_to_the_modal_plate() -> None:
+def test_model_converges_to_the_modal_plate() -> None:
     """Error in dB below the fifth mode, where a frequency slightly off does not yet pass over a resonance."""
     plate = Plate(1.2, 0.7, 0.025, replace(materials.lookup("oak"), loss_factor=0.05))
     f = np.geomspace(10.0, 300.0, 60)
@@ -192,7 +192,7 @@ def test_loss_floor() -> None:
         MassSpringDamper(16, loss_floor=0.0).plate_receptance(lossless, *ask)
 
 
-def test_refusals() -> None:
+def test_invalid_requests_are_refused() -> None:
     plate = Plate(1.2, 0.7, 0.025, materials.lookup("oak"))
     with pytest.raises(ModelDomainError, match="holds 0 Hz"):
         MassSpringDamper().plate_receptance(plate, [0.1, 0.1], [0.2, 0.2], [0.0])
@@ -207,7 +207,7 @@ def test_refusals() -> None:
             MassSpringDamper(**wrong)  # type: ignore[arg-type]
 
 
-def test_a_resolution_is_the_least() -> None:
+def test_resolution_is_refined_for_short_waves() -> None:
     """Waves get the cells that they need, whatever was asked for."""
     plate = Plate(0.8, 0.5, 0.002, materials.lookup("steel"))
     ask = (plate, [0.1, 0.1], [[0.5, 0.3], [0.7, 0.1]], np.geomspace(100.0, 900.0, 20))

@@ -118,7 +118,7 @@ def test_a_scene_stepped_in_time_settles_to_its_harmonic_answer() -> None:
     np.testing.assert_allclose(look @ total, look @ expected, rtol=0.02, atol=0.01 * np.abs(look @ expected).max())
 
 
-def test_it_gives_what_the_modal_plate_gives() -> None:
+def test_gains_agree_with_the_modal_plate() -> None:
     """Third octaves over the same scene, in dB."""
     bands = Bands((10.0, 20.0, 40.0, 80.0, 160.0, 320.0))
     touches = [[0.05, 0.05, 0.0], [0.45, 0.35, 0.0], [0.31, 0.2, 0.0]]
@@ -130,7 +130,7 @@ def test_it_gives_what_the_modal_plate_gives() -> None:
 
 
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.SlowPlateWarning")
-def test_it_is_chosen_by_kind_and_refines_thin_plates() -> None:
+def test_model_is_chosen_by_kind_and_refines_thin_plates() -> None:
     model: MassSpringDamper = MODELS.build({"kind": "mass_spring_damper", "resolution": 8})  # type: ignore[assignment]
     foil = Plate(0.4, 0.3, 0.0005, materials.lookup("steel"))
     body = model.elastic_body(foil, 1000.0)

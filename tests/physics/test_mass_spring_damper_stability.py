@@ -34,13 +34,13 @@ def test_every_model_answers_or_refuses(campaign: ModuleType) -> None:
     assert all(tally.answered for tally in tallies.values())
 
 
-def test_no_stepper_makes_energy(campaign: ModuleType) -> None:
+def test_no_stepper_gains_energy(campaign: ModuleType) -> None:
     for name, dt, gain, drift in [*campaign.steppers(300), *campaign.lattice_steppers(100)]:
         assert gain <= 1e-12, (name, dt)
         assert drift <= 1e-12, (name, dt)
 
 
-def test_the_campaign_sees_what_is_bad(campaign: ModuleType) -> None:
+def test_campaign_detects_each_kind_of_fault(campaign: ModuleType) -> None:
     def spin() -> object:
         while True:
             pass
@@ -49,12 +49,12 @@ def test_the_campaign_sees_what_is_bad(campaign: ModuleType) -> None:
         raise ModelDomainError("no")
 
     tally = campaign.Tally()
-    tally.ask("infinite", 5.0, lambda: campaign.np.array([float("inf")]))
-    tally.ask("foreign", 5.0, lambda: 1 / 0)
-    tally.ask("unclear", 5.0, refuse)
-    tally.ask("endless", 0.05, spin)
-    tally.ask("clear", 5.0, lambda: Plate(1.0, -1.0, 0.1, Material("m", 1.0, 1.0, 0.0)))
-    tally.ask("fine", 5.0, lambda: campaign.np.zeros(3))
+    tally.run("infinite", 5.0, lambda: campaign.np.array([float("inf")]))
+    tally.run("foreign", 5.0, lambda: 1 / 0)
+    tally.run("unclear", 5.0, refuse)
+    tally.run("endless", 0.05, spin)
+    tally.run("clear", 5.0, lambda: Plate(1.0, -1.0, 0.1, Material("m", 1.0, 1.0, 0.0)))
+    tally.run("fine", 5.0, lambda: campaign.np.zeros(3))
     kinds = [line.split(":")[0] for line in tally.bad]
     assert kinds == ["infinite", "foreign", "unclear", "endless"]
     assert (tally.answered, tally.refused.total()) == (1, 1)

@@ -214,7 +214,7 @@ def test_loss_floor() -> None:
         ModalPlate(loss_floor=-0.1)
 
 
-def test_refusals() -> None:
+def test_invalid_requests_are_refused() -> None:
     plate = FURNITURE["oak table"]
     with pytest.raises(ModelDomainError, match="holds 0 Hz"):
         ModalPlate().plate_receptance(plate, [0.1, 0.1], [0.2, 0.2], [0.0])

@@ -42,14 +42,14 @@ def test_a_narrow_plate_held_on_both_long_edges_is_a_strip(ends: str, held: str,
 
 
 @pytest.mark.parametrize("held", ["C", "S"])
-def test_so_is_one_that_is_held_on_the_other_two_edges(held: str) -> None:
+def test_narrow_plate_held_on_the_other_two_edges_is_a_strip(held: str) -> None:
     plate = Plate(0.05, 1.0, 0.002, "steel", 2 * held + "FF")
     at = np.array([[0.025, 0.5]])
     deflection = ModalPlate().plate_receptance(plate, at[0], at, [1.0])[0, 0].real
     assert deflection * plate.bending_stiffness_nm / 0.05**2 == pytest.approx(STRIPS[held], rel=0.03)
 
 
-def test_a_narrow_shelf_answers_alike_at_every_length() -> None:
+def test_response_of_a_narrow_shelf_does_not_depend_on_its_length() -> None:
     """What is held along one long edge carries nothing far along it."""
     answers = [compliance(Plate(length, 0.05, 0.002, "steel", "FFCF"), 0.5, 0.5) for length in (0.5, 1.0, 2.0)]
     np.testing.assert_allclose(answers, answers[1], rtol=0.02)
@@ -58,7 +58,7 @@ def test_a_narrow_shelf_answers_alike_at_every_length() -> None:
 @pytest.mark.parametrize("rung", FINENESS)
 @pytest.mark.parametrize("aspect", [1.0, 5.0, 30.0])
 @pytest.mark.parametrize("edges", ["CCFF", "SCFF", "FFSS", "CFCF", "CCCC"])
-def test_a_held_edge_does_not_move_and_no_forces_gain_energy(edges: str, aspect: float, rung: str) -> None:
+def test_held_edge_is_at_rest_and_the_plate_is_passive(edges: str, aspect: float, rung: str) -> None:
     """Of all near fields, images in one edge must cancel in the other, which is near on a narrow plate."""
     plate = Plate(1.0, 1.0 / aspect, 0.1 / aspect, "oak", edges)
     inside = [(0.11, 0.58), (0.05, 0.9), (0.5, 0.5), (0.93, 0.3)]
@@ -74,7 +74,7 @@ def test_a_held_edge_does_not_move_and_no_forces_gain_energy(edges: str, aspect:
 
 @pytest.mark.parametrize("rung", FINENESS)
 @pytest.mark.parametrize("edges", ["CCFF", "SSFF", "CFFF", "FFFF"])
-def test_what_a_near_field_leaves_out_gains_no_more_than_is_stated(edges: str, rung: str) -> None:
+def test_energy_gain_by_truncated_near_fields_is_below_the_stated_bound(edges: str, rung: str) -> None:
     """2e-5 of the largest receptance, among points in clusters on plates with free long edges (docs/propagation.md)."""
     rng = np.random.default_rng(4)
     for _ in range(25):
@@ -97,9 +97,7 @@ def test_what_a_near_field_leaves_out_gains_no_more_than_is_stated(edges: str, r
     y=st.sampled_from([0.0, 0.001, 0.004, 0.03, 0.25, 0.5, 1.0]),
     material=st.sampled_from(["steel", "oak", "rubber"]),
 )
-def test_a_driven_point_takes_energy_in_and_gives_none(
-    aspect: float, edges: str, x: float, y: float, material: str
-) -> None:
+def test_driven_point_only_absorbs_energy(aspect: float, edges: str, x: float, y: float, material: str) -> None:
     plate = Plate(0.6, 0.6 / aspect, 0.006, material, edges)
     at = np.array([[x * plate.length_m, y * plate.width_m]])
     try:
@@ -111,7 +109,7 @@ def test_a_driven_point_takes_energy_in_and_gives_none(
     assert (mobility.real >= -1e-6 * np.abs(mobility)).all()
 
 
-def test_what_is_too_narrow_for_its_edges_is_refused() -> None:
+def test_plate_too_narrow_for_its_edges_is_refused() -> None:
     plate = Plate(1.0, 0.002, 0.001, "steel", "FFCC")
     with pytest.raises(ModelDomainError, match="too narrow for edges that hold it .FFCC.; widen it"):
         compliance(plate, 0.5, 0.5)
@@ -128,7 +126,7 @@ def test_a_plate_that_needs_many_functions_at_any_frequency_is_a_body() -> None:
     np.testing.assert_allclose(answer[:, 0], alone, rtol=0.02)
 
 
-def test_what_takes_long_is_announced_once() -> None:
+def test_slow_plate_warns_once() -> None:
     plate = Plate(1.0, 0.0213, 0.002, "steel", "FFCF")
     with pytest.warns(SlowPlateWarning, match=r"functions in one eigenproblem of a plate of 1 × 0\.0213"):
         ModalPlate().plate_receptance(plate, [0.5, 0.01], [[0.5, 0.01]], [50.0])

@@ -88,7 +88,7 @@ def test_errors_fall_with_the_cell(outline: Outline) -> None:
     assert errors[1] / errors[2] > 2**1.8
 
 
-def test_a_rectangle_told_as_an_outline_is_that_rectangle() -> None:
+def test_rectangular_outline_equals_the_rectangle() -> None:
     outline = Outline((((0, 0), (0.9, 0), (0.9, 0.6), (0, 0.6)),))
     f, points = np.geomspace(20.0, 600.0, 40), np.array([[0.1, 0.2], [0.9, 0.6], [0.45, 0.3]])
     found = MassSpringDamper().plate_receptance(outlined(outline), points[0], points, f)
@@ -96,7 +96,7 @@ def test_a_rectangle_told_as_an_outline_is_that_rectangle() -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
-def test_an_l_is_what_finite_elements_make_of_it() -> None:
+def test_l_shape_agrees_with_finite_elements() -> None:
     mesh = outline_mesh(np.linspace(0, 1.0, 11), np.linspace(0, 0.9, 10), lambda x, y: (x > 0.5) & (y > 0.4))
     points, f = np.array([[0.1, 0.1], [0.9, 0.35], [0.1, 0.85], [0.5, 0.4], [0.45, 0.2]]), np.geomspace(15, 300, 25)
     expected = fe_receptance_within(outlined(L), refined_at(mesh, [(0.5, 0.4)], 2), points[0], points, f, 0.02)
@@ -105,7 +105,7 @@ def test_an_l_is_what_finite_elements_make_of_it() -> None:
 
 @pytest.mark.parametrize("angle", [0.3, 0.5 * math.pi, 2.0])
 @pytest.mark.parametrize("outline", [L, SINK], ids=["L", "sink"])
-def test_it_does_not_matter_how_a_plate_lies_on_its_grid(outline: Outline, angle: float) -> None:
+def test_result_does_not_depend_on_rotation_against_the_grid(outline: Outline, angle: float) -> None:
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     rings = [np.array(ring) @ turn.T for ring in outline.rings_m]
     low = np.concatenate(rings).min(axis=0)
@@ -116,7 +116,7 @@ def test_it_does_not_matter_how_a_plate_lies_on_its_grid(outline: Outline, angle
     assert p95_db(MassSpringDamper(16).plate_receptance(other, turned[0], turned, f), one) < 0.6
 
 
-def test_nothing_is_passed_on_across_a_slot() -> None:
+def test_slot_separates_both_sides() -> None:
     """Both sides of a slot of 1 mm have nodes of their own, but for those that reach around its end."""
     comb = Outline((((0, 0), (1.0, 0), (1.0, 0.1), (0.1, 0.1), (0.1, 0.101), (1.0, 0.101), (1.0, 0.2), (0, 0.2)),))
     lattice = bending_lattice(outlined(comb), 8)
@@ -151,7 +151,7 @@ def test_any_outline_is_reciprocal_and_passive(
         assert np.linalg.eigvalsh(-(Y[..., k] - Y[..., k].conj().T) / 2j).min() > -1e-6 * size[k]
 
 
-def test_other_models_say_what_they_make_of_it() -> None:
+def test_other_models_refuse_or_explain_outlines() -> None:
     plate = outlined(disc(0.4))
     with pytest.raises(ModelDomainError, match="ModalPlate is for rectangles"):
         ModalPlate().plate_receptance(plate, [0.4, 0.4], [0.4, 0.4], [100.0])

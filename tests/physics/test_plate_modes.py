@@ -180,7 +180,7 @@ def test_every_mode_up_to_the_top_is_converged(boundary: str, monkeypatch: pytes
     assert len(finer) - len(found) <= 1  # one may have come down across the limit
 
 
-def test_both_ways_of_asking_agree() -> None:
+def test_modes_by_count_and_by_frequency_agree() -> None:
     of = plate("FFFF", 1.0, 0.7)
     up_to = plate_modes(of, max_frequency_hz=300.0)
     counted = plate_modes(of, len(up_to.frequencies_hz))
@@ -194,7 +194,7 @@ def test_both_ways_of_asking_agree() -> None:
 @pytest.mark.parametrize(
     "question", [{}, {"n_modes": 3, "max_frequency_hz": 10.0}, {"n_modes": 0}, {"max_frequency_hz": -1.0}]
 )
-def test_refused_questions(question: dict[str, float]) -> None:
+def test_invalid_mode_requests_are_refused(question: dict[str, float]) -> None:
     with pytest.raises(ModelDomainError, match="n_modes|max_frequency_hz"):
         plate_modes(plate("FFFF"), **question)
 
@@ -210,7 +210,7 @@ def test_points_off_the_plate_are_refused() -> None:
         modes.shapes([[0.5, 0.5], [1.2, 0.1]])
 
 
-def test_the_first_modes_of_a_small_stiff_plate_are_found_though_the_search_goes_on_beyond_any_vibration() -> None:
+def test_first_modes_of_a_small_stiff_plate_are_found_at_very_high_frequencies() -> None:
     plate = Plate(0.0144, 0.0144, 0.0104, Material("light and stiff", 1.0, 1e14, 0.3))
     softer = replace(plate, material=replace(plate.material, youngs_modulus_pa=1e8))
     found = plate_modes(plate, 8).frequencies_hz

@@ -1,4 +1,4 @@
-"""What must hold of every sound, drawn at random."""
+"""Invariants of conversion, loops and selection for random sounds."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def sounds(draw: st.DrawFn, shortest_s: float = 0.3, longest_s: float = 1.5) -> 
 
 @given(x=sounds(), cut=st.integers(0, 4000), seed=seeds)
 @quick
-def test_the_band_pass_does_not_see_the_size_of_blocks(x: np.ndarray, cut: int, seed: int) -> None:
+def test_band_pass_does_not_depend_on_block_size(x: np.ndarray, cut: int, seed: int) -> None:
     block = x.astype(np.float32)
     whole = SvfBandpass().stream(RATE, ConversionContext()).process(block)
     stream = SvfBandpass().stream(RATE, ConversionContext())
@@ -121,7 +121,7 @@ def test_measures_do_not_depend_on_level(x: np.ndarray, gain: float) -> None:
 
 @given(x=sounds(), before=st.integers(0, 3000), after=st.integers(0, 3000))
 @quick
-def test_trimming_twice_is_trimming_once_and_never_cuts_sound(x: np.ndarray, before: int, after: int) -> None:
+def test_trimming_is_idempotent_and_never_cuts_sound(x: np.ndarray, before: int, after: int) -> None:
     padded = np.concatenate([np.zeros(before), x - x.mean(), np.zeros(after)]).astype(np.float32)
     once = analysis.trim_silence(padded, RATE)
     assert len(once) <= len(padded)
@@ -134,7 +134,7 @@ def test_trimming_twice_is_trimming_once_and_never_cuts_sound(x: np.ndarray, bef
 
 @given(picks=st.permutations([0, 1, 2]), levels=st.lists(st.floats(0.01, 1.0), min_size=3, max_size=3))
 @settings(derandomize=True, deadline=None, max_examples=10)
-def test_order_and_level_do_not_decide_a_choice(picks: list[int], levels: list[float]) -> None:
+def test_selection_does_not_depend_on_order_or_level(picks: list[int], levels: list[float]) -> None:
     t = np.arange(3 * RATE) / RATE
     rng = np.random.default_rng(0)
     hum = np.sin(2 * np.pi * 60 * t)

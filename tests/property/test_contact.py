@@ -1,4 +1,4 @@
-"""What must hold for contacts wherever things go: no memory, no favourite direction, no favourite order."""
+"""Invariants of contacts for any motion: no dependence on history, direction or order of objects."""
 
 from dataclasses import replace
 
@@ -38,7 +38,7 @@ def things(places: dict[str, Pose]) -> list[SceneObject]:
 
 @given(st.fixed_dictionaries(dict.fromkeys(SIZES, poses())), PATHS, st.sampled_from([None, None, 0.0, 0.02]))
 @settings(derandomize=True, deadline=None, max_examples=200)
-def test_every_step_of_a_path_ends_where_building_from_nothing_does(
+def test_incremental_updates_equal_a_new_graph(
     places: dict[str, Pose], path: list[tuple[dict[str, Pose], str | None]], tolerance_m: float | None
 ) -> None:
     graph = ContactGraph(scene(*things(places)), tolerance_m=tolerance_m)
@@ -93,7 +93,7 @@ def check_goes_along(objects: list[SceneObject], motion: Pose, tolerance_m: floa
 
 @given(stacks(), st.floats(-3, 3), st.tuples(*[st.floats(-5, 5)] * 3))
 @settings(derandomize=True, deadline=None, max_examples=40)
-def test_contacts_go_along_when_the_whole_scene_moves_upright(
+def test_contacts_are_invariant_under_upright_motion(
     objects: list[SceneObject], angle: float, shift: tuple[float, float, float]
 ) -> None:
     check_goes_along(objects, Pose(shift, (0.0, np.sin(angle / 2), 0.0, np.cos(angle / 2))), None)
@@ -101,7 +101,7 @@ def test_contacts_go_along_when_the_whole_scene_moves_upright(
 
 @given(stacks(), st.tuples(*[st.integers(-5, 5)] * 4).filter(any), st.tuples(*[st.floats(-5, 5)] * 3))
 @settings(derandomize=True, deadline=None, max_examples=40)
-def test_contacts_at_a_stated_tolerance_go_along_with_any_rigid_motion(
+def test_contacts_at_a_stated_tolerance_are_invariant_under_rigid_motion(
     objects: list[SceneObject], rotation: tuple[float, float, float, float], shift: tuple[float, float, float]
 ) -> None:
     check_goes_along(objects, Pose(shift, rotation), 0.005)
@@ -109,7 +109,7 @@ def test_contacts_at_a_stated_tolerance_go_along_with_any_rigid_motion(
 
 @given(stacks(), st.randoms(use_true_random=False))
 @settings(derandomize=True, deadline=None, max_examples=20)
-def test_the_order_of_objects_does_not_matter(objects: list[SceneObject], random: "object") -> None:
+def test_contacts_do_not_depend_on_object_order(objects: list[SceneObject], random: "object") -> None:
     shuffled = list(objects)
     random.shuffle(shuffled)  # type: ignore[attr-defined]
     assert ContactGraph(scene(*shuffled)).contacts == ContactGraph(scene(*objects)).contacts

@@ -93,7 +93,7 @@ def stepped(item: SceneObject, step: tuple[float, float, float, float]) -> Scene
 
 @given(PATHS)
 @settings(derandomize=True, deadline=None, max_examples=350)
-def test_every_step_of_a_slide_ends_where_building_from_nothing_does(
+def test_incremental_updates_of_a_slide_equal_a_new_graph(
     scene_and_path: tuple[list[SceneObject], list[dict[str, tuple[float, float, float, float]]]],
 ) -> None:
     items, path = scene_and_path
@@ -111,7 +111,7 @@ def test_every_step_of_a_slide_ends_where_building_from_nothing_does(
 
 @given(st.integers(0, 10**6), st.sampled_from([THINGS, INSIDE, CROWD]))
 @settings(derandomize=True, deadline=None, max_examples=12)
-def test_small_steps_in_a_row_end_where_building_from_nothing_does(seed: int, items: list[SceneObject]) -> None:
+def test_incremental_updates_of_small_steps_equal_a_new_graph(seed: int, items: list[SceneObject]) -> None:
     """A game's frames: some millimetres each, some things turning, one lifted and put down again now and then."""
     rng = np.random.default_rng(seed)
     things = {item.id: item for item in items}

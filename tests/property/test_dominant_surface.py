@@ -1,4 +1,4 @@
-"""What must hold for the dominant surface of any shape of a kind, wherever it stands and however it is turned."""
+"""Invariants of the dominant surface for any shape of a kind, at any place and rotation."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def middle(surface: DominantSurface) -> np.ndarray[tuple[int], np.dtype[np.float
 
 @given(edges, edges, edges, seeds)
 @common
-def test_a_box_is_its_edges_from_long_to_short(x: float, y: float, z: float, seed: int) -> None:
+def test_size_of_a_box_is_its_sorted_edges(x: float, y: float, z: float, seed: int) -> None:
     mesh, pose = turned(Box((x, y, z)).mesh, seed)
     surface = dominant_surface(mesh)
     # Sides that differ by less than a hundredth in area count as equal; any of them may be the plate.
@@ -60,7 +60,7 @@ def test_a_box_is_its_edges_from_long_to_short(x: float, y: float, z: float, see
 
 @given(st.floats(0.5, 3.0), st.floats(0.5, 1.0), thin, st.floats(0.3, 1.0), st.floats(0.02, 0.08), seeds)
 @common
-def test_a_slab_on_legs_is_the_slab(
+def test_surface_of_a_slab_on_legs_is_the_slab(
     length: float, share: float, thickness: float, height: float, leg: float, seed: int
 ) -> None:
     width = length * share
@@ -76,7 +76,7 @@ def test_a_slab_on_legs_is_the_slab(
 
 @given(st.floats(0.3, 2.0), st.floats(0.3, 2.0), st.floats(0.3, 2.0), st.floats(0.002, 0.02), seeds)
 @common
-def test_a_hollow_box_is_as_thick_as_its_wall(x: float, y: float, z: float, wall: float, seed: int) -> None:
+def test_thickness_of_a_hollow_box_is_its_wall(x: float, y: float, z: float, wall: float, seed: int) -> None:
     a, b, c = sorted((x, y, z), reverse=True)
     assume(b / c > 1.02)
     outer, inner = Box((x, y, z)).mesh, Box((x - 2 * wall, y - 2 * wall, z - 2 * wall)).mesh
@@ -87,7 +87,7 @@ def test_a_hollow_box_is_as_thick_as_its_wall(x: float, y: float, z: float, wall
 
 @given(st.floats(0.05, 1.0), st.floats(0.02, 0.2), seeds)
 @settings(derandomize=True, deadline=None, max_examples=15)
-def test_a_bowl_is_its_rim_and_wall_within_a_rays_spacing(radius: float, wall_share: float, seed: int) -> None:
+def test_size_of_a_bowl_is_its_rim_and_wall_within_a_ray_spacing(radius: float, wall_share: float, seed: int) -> None:
     """Half a sphere with a wall: chords of the rim, and the vertical length of wall at the median of its area."""
     inner = radius * (1 - wall_share)
     angle = np.linspace(0, np.pi / 2, 25)
@@ -127,7 +127,7 @@ def test_any_triangles_have_a_surface_inside_their_box(seed: int, n: int, power:
 
 @given(seeds, st.floats(0.01, 100.0))
 @settings(derandomize=True, deadline=None, max_examples=25)
-def test_a_larger_thing_has_a_larger_surface_of_the_same_shape(seed: int, factor: float) -> None:
+def test_surface_scales_with_the_object(seed: int, factor: float) -> None:
     rng = np.random.default_rng(seed)
     hull = trimesh.Trimesh(rng.normal(size=(30, 3)) * [1.0, 0.7, 0.2]).convex_hull
     small = dominant_surface(TriMesh(hull.vertices, hull.faces))

@@ -1,4 +1,4 @@
-"""What must hold of every export, drawn at random; `stress/exports.py` draws thousands."""
+"""Invariants of every export, drawn at random; `stress/exports.py` draws thousands."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ seeds = st.integers(0, 2**32 - 1)
 @pytest.mark.parametrize("kind", CHECKED)
 @given(seed=seeds)
 @many
-def test_files_keep_every_rule_of_their_format(kind: str, seed: int) -> None:
+def test_exported_files_are_valid(kind: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
     track = random_track(rng)
     exporter, chosen = random_exporter(rng, kind)
@@ -37,9 +37,7 @@ def test_files_keep_every_rule_of_their_format(kind: str, seed: int) -> None:
 @pytest.mark.parametrize("kind", ["haptic", "ahap"])
 @given(seed=seeds)
 @quick
-def test_what_is_read_back_is_as_near_as_reported(
-    kind: str, seed: int, tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_exported_signal_has_the_reported_error(kind: str, seed: int, tmp_path_factory: pytest.TempPathFactory) -> None:
     rng = np.random.default_rng(seed)
     track = random_track(rng)
     exporter, chosen = random_exporter(rng, kind)
@@ -63,7 +61,7 @@ def test_what_is_read_back_is_as_near_as_reported(
 
 @given(seed=seeds)
 @quick
-def test_samples_are_the_signal(seed: int) -> None:
+def test_sample_exports_reproduce_the_signal(seed: int) -> None:
     """WAV, raw PCM and DualSense at the signal's own rate or above keep it to the last bits that they have."""
     rng = np.random.default_rng(seed)
     track = random_track(rng, longest_s=1.0)

@@ -1,4 +1,4 @@
-"""Whatever is asked, the lexicon answers in shape, and the same each time."""
+"""The lexicon answers every request in the right form, and repeatably."""
 
 import asyncio
 from typing import Any

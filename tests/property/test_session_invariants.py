@@ -1,4 +1,4 @@
-"""What must hold for any scene, any touch and any block size."""
+"""Invariants of sessions for any scene, any touch and any block size."""
 
 import math
 from dataclasses import replace
@@ -51,7 +51,7 @@ def play(session: HapticSession, events: list[tuple], blocks: list[int]) -> np.n
 
 @settings(derandomize=True, deadline=None, max_examples=30)
 @given(EVENTS, st.lists(st.integers(1, 4096), min_size=1, max_size=5))
-def test_block_size_does_not_matter(events: list[tuple], blocks: list[int]) -> None:
+def test_session_output_does_not_depend_on_block_size(events: list[tuple], blocks: list[int]) -> None:
     whole = play(new_session(), events, [N_FRAMES])
     np.testing.assert_allclose(play(new_session(), events, blocks), whole, atol=1e-6)
 
@@ -115,7 +115,7 @@ def play_edge(session: HapticSession, data: list[tuple[int, int, float]], blocks
     ),
     bands=st.sampled_from([Bands.dominant(), Bands.third_octaves()]),
 )
-def test_the_edges_stay_within_full_scale_and_lose_nothing(
+def test_edge_scenes_stay_within_full_scale_and_lose_no_samples(
     name: str, data: list[tuple[int, int, float]], bands: Bands
 ) -> None:
     lean, whole = (new_session(EDGE_SCENES[name](), bands=bands, skip=skip, impacts=False) for skip in (True, False))
@@ -182,7 +182,9 @@ def test_moving_scene_and_hands_together_changes_nothing(
 
 @settings(derandomize=True, deadline=None, max_examples=25)
 @given(st.floats(-math.pi, math.pi), st.tuples(*[st.floats(-20.0, 20.0)] * 3), X)
-def test_contacts_found_from_geometry_go_along_too(angle: float, shift: tuple[float, float, float], x: float) -> None:
+def test_geometric_contacts_are_invariant_under_common_motion(
+    angle: float, shift: tuple[float, float, float], x: float
+) -> None:
     # About the vertical, since what rests on what depends on where down is.
     snapshot, _ = table_with_two_phones()
     motion = Pose(shift, rotation((0, 1, 0), angle).rotation_xyzw)
@@ -225,7 +227,7 @@ def rooms(draw: st.DrawFn) -> tuple[SceneSnapshot, HapticBundle]:
     st.sampled_from(["exponential_plate", "infinite_plate"]),
     st.sampled_from([Bands.dominant(), Bands.third_octaves(10, 1000)]),
 )
-def test_what_is_left_out_stays_10_db_below_the_threshold_of_touch(
+def test_skipped_sources_are_10_db_below_the_threshold_of_touch(
     room: tuple[SceneSnapshot, HapticBundle], steps: list[list[tuple]], kind: str, bands: Bands
 ) -> None:
     model = {"kind": kind, "outside_domain": "ignore"}

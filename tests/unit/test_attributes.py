@@ -26,7 +26,7 @@ def unmade(cls: type) -> Any:
 
 
 @pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: cls.__name__)
-def test_every_public_class_answers_a_name_that_it_does_not_have(cls: type) -> None:
+def test_every_public_class_reports_unknown_attributes(cls: type) -> None:
     thing = unmade(cls)
     with pytest.raises(UnknownAttribute, match="has no attribute 'no_such_thing'"):
         _ = thing.no_such_thing
@@ -35,7 +35,7 @@ def test_every_public_class_answers_a_name_that_it_does_not_have(cls: type) -> N
     assert getattr(thing, "no_such_thing", 3) == 3
 
 
-def test_the_nearest_name_is_told() -> None:
+def test_error_names_the_nearest_attribute() -> None:
     scene = SceneSnapshot.build([SceneObject("mug", geometry=Box((0.1, 0.1, 0.1)))])
     with pytest.raises(UnknownAttribute, match=r"SceneSnapshot has no attribute 'objetcs'. Did you mean 'objects'"):
         _ = scene.objetcs  # type: ignore[attr-defined]  # as people write it
@@ -45,7 +45,7 @@ def test_the_nearest_name_is_told() -> None:
         _ = Pose().scale  # type: ignore[attr-defined]  # as people write it
 
 
-def test_frozen_data_and_sessions_refuse_to_be_set() -> None:
+def test_frozen_data_and_sessions_refuse_attribute_assignment() -> None:
     mug = SceneObject("mug", geometry=Box((0.1, 0.1, 0.1)))
     with pytest.raises(ReadOnlyAttribute, match=r"dataclasses.replace\(..., pose=...\)"):
         mug.pose = Pose((1, 2, 3))  # type: ignore[misc]  # as people write it
@@ -58,7 +58,7 @@ def test_frozen_data_and_sessions_refuse_to_be_set() -> None:
         session.hands = ("left",)
 
 
-def test_things_without_items_tell_what_they_have() -> None:
+def test_indexing_error_lists_the_attributes() -> None:
     with pytest.raises(CallError, match="a Pose has no items.*position_m"):
         Pose()[0]  # type: ignore[index]  # as people write it
     with pytest.raises(TypeError):
@@ -90,13 +90,13 @@ class _Broken:
         return self.nothing  # type: ignore[attr-defined, no-any-return]  # the mistake is inside
 
 
-def test_a_property_that_fails_tells_its_own_error_and_protocols_are_asked() -> None:
+def test_failing_property_raises_its_own_error() -> None:
     with pytest.raises(UnknownAttribute, match="'nothing'"):
         _ = _Broken().depth
     assert not isinstance(_Broken(), _Speaks)
 
 
-def test_a_mapping_of_a_bundle_names_the_nearest() -> None:
+def test_bundle_mapping_error_names_the_nearest_key() -> None:
     objects = ByName({"phone": 1, "mug": 2}, "object")
     with pytest.raises(UnknownObject, match="the bundle has no object 'phon'. Did you mean 'phone'") as caught:
         objects["phon"]

@@ -24,7 +24,7 @@ class Player:
         return clip
 
 
-def test_the_nearest_argument_is_named() -> None:
+def test_error_names_the_nearest_argument() -> None:
     with pytest.raises(CallError, match=r"no argument 'gain'. Did you mean 'gain_db'\? Call played\(clip"):
         played("a", gain=3)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match="3 is one argument too many; give it by name: gain_db="):
@@ -33,7 +33,7 @@ def test_the_nearest_argument_is_named() -> None:
         played()  # type: ignore[call-arg]
 
 
-def test_a_type_error_from_inside_is_not_ours() -> None:
+def test_type_error_from_inside_is_passed_unchanged() -> None:
     with pytest.raises(TypeError, match=r"has no len\(\)") as caught:
         played("a")
     assert not isinstance(caught.value, CallError)
@@ -44,7 +44,7 @@ def test_a_function_keeps_its_name_signature_and_docs() -> None:
     assert list(inspect.signature(played).parameters) == ["clip", "gain_db"]
 
 
-def test_of_a_class_public_methods_answer() -> None:
+def test_public_methods_of_a_class_are_covered() -> None:
     assert Player().play("a") == "a"
     with pytest.raises(CallError, match=r"Call Player.play\(clip\)"):
         Player().play(clips="a")  # type: ignore[call-arg]
@@ -53,7 +53,7 @@ def test_of_a_class_public_methods_answer() -> None:
     assert not isinstance(caught.value, CallError)
 
 
-def test_a_setting_is_sent_to_the_configuration() -> None:
+def test_error_sends_a_setting_to_the_configuration() -> None:
     def bake(scene: object, config: object = None) -> None: ...
 
     assert "config={'llm': ...}" in misfit(bake, (1,), {"llm": "lexicon"})
@@ -73,5 +73,5 @@ def test_a_setting_is_sent_to_the_configuration() -> None:
         ("mute", [], ""),
     ],
 )
-def test_the_nearest_name(wanted: object, known: list[str], sentence: str) -> None:
+def test_nearest_name_is_found(wanted: object, known: list[str], sentence: str) -> None:
     assert checks.did_you_mean(wanted, known) == sentence

@@ -32,7 +32,7 @@ def test_any_real_number_becomes_a_float(value: object) -> None:
         (None, {}, "density is None; it must be a number [kg/m3]."),
     ],
 )
-def test_what_is_out_of_bounds_says_value_unit_and_bound(
+def test_error_out_of_bounds_states_value_unit_and_bound(
     value: object, bounds: dict[str, float], sentence: str
 ) -> None:
     with pytest.raises(MaterialError) as caught:

@@ -67,7 +67,7 @@ def test_every_link_leads_somewhere(page: Path) -> None:
     assert not faults, "\n".join([str(page.relative_to(ROOT)), *faults])
 
 
-def test_there_are_links_to_check() -> None:
+def test_checker_finds_links() -> None:
     assert sum(len(links(page)) for page in PAGES) > 300
 
 
@@ -82,7 +82,7 @@ def test_there_are_links_to_check() -> None:
         ("decisions/", "folder"),
     ],
 )
-def test_a_dead_link_is_told(target: str, why: str | None) -> None:
+def test_dead_link_is_reported(target: str, why: str | None) -> None:
     told = fault(ROOT / "docs" / "README.md", target)
     assert (told is None) if why is None else why in str(told)
 

@@ -49,7 +49,7 @@ def test_a_block_says_command_commit_date_and_machine(name: str) -> None:
 
 @pytest.mark.parametrize("name", FIGURES)
 @pytest.mark.filterwarnings("ignore")
-def test_its_script_accepts_the_options(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_options_of_every_block_are_accepted_by_its_script(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     figure = FIGURES[name]
     parse = argparse.ArgumentParser.parse_args
 
@@ -72,7 +72,7 @@ def page_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> t
     return page, Figure("page", str(tmp_path / "script.py"), 0)
 
 
-def test_a_block_is_replaced_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_the_block_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page, figure = page_with(tmp_path, monkeypatch, r"print('| a |\n|---|\n| \\1 |')")
     figures.refresh("one", figure)
     text = page.read_text()

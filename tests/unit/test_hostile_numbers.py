@@ -128,7 +128,7 @@ REFUSED: dict[str, Callable[[], object]] = {
 
 
 @pytest.mark.parametrize("case", REFUSED)
-def test_it_is_refused_with_a_sentence(case: str) -> None:
+def test_hostile_number_is_refused_with_a_message(case: str) -> None:
     with pytest.raises(Scene2HapError) as caught:
         REFUSED[case]()
     assert 20 < len(str(caught.value)) < 2000

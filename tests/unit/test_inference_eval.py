@@ -76,7 +76,7 @@ class Away:
         raise BackendUnavailable("the server is away", retryable=False)
 
 
-def test_labels_are_many_and_whole() -> None:
+def test_labels_are_complete() -> None:
     scenes = labels.labelled_scenes()
     every = [item for scene in scenes for item in scene.labels.values()]
     assert len(every) == len(labels.read_rows("labels.csv")) >= 200
@@ -122,7 +122,7 @@ def test_labels_are_those_of_the_scene(name: str) -> None:
         ("", "table", False),
     ],
 )
-def test_a_kind_of_the_thing_is_the_thing(answer: str, accepted: str, same: bool) -> None:
+def test_subtype_of_a_category_counts_as_correct(answer: str, accepted: str, same: bool) -> None:
     assert scoring.same_category(answer, accepted.split("|")) is same
 
 
@@ -188,7 +188,7 @@ def test_any_backend_is_scored() -> None:
     assert "| room | 3 | 66.7 % | 50.0 % | 100.0 % | 66.7 % | 50.0 % | 50.0 % | 33.3 % | a Kitchen (ok) |" in shown
 
 
-def test_a_backend_that_is_away_is_a_row_and_not_a_crash() -> None:
+def test_unreachable_backend_becomes_a_row() -> None:
     result = asyncio.run(inference_eval.score(Away(), three_things(), SCENES))
     assert "BackendUnavailable" in result.error
     assert (result.counts.unknown, result.counts.objects) == (3, 3)
@@ -208,7 +208,7 @@ def test_materials_beside_the_literature() -> None:
     assert material_table.own_table_differs() == []
 
 
-def test_no_answer_about_a_material_is_outside() -> None:
+def test_material_without_answer_counts_as_outside() -> None:
     class Mute(Scripted):
         def material_estimator(self, request: LLMRequest) -> dict[str, Any]:
             return {"density_kg_m3": "heavy"}

@@ -17,7 +17,7 @@ from scene2hap.needs import meets
         ("coffee table", "table"), ("charging station", "charger"), ("heat source", "campfire"),
     ],
 )  # fmt: skip
-def test_words_of_one_meaning_meet(needed: str, category: str) -> None:
+def test_synonyms_match(needed: str, category: str) -> None:
     assert meets(needed, "Object_7", category)
 
 
@@ -28,22 +28,22 @@ def test_words_of_one_meaning_meet(needed: str, category: str) -> None:
         ("hot plate", "plate"), ("table", "table lamp"), ("stove", "fire extinguisher"), ("stove", ""),
     ],
 )  # fmt: skip
-def test_words_of_another_meaning_do_not(needed: str, category: str) -> None:
+def test_words_of_different_meaning_do_not_match(needed: str, category: str) -> None:
     assert not meets(needed, "Object_7", category)
 
 
-def test_an_id_is_enough_and_its_words_are_read_where_nobody_knows_what_it_is() -> None:
+def test_need_matches_the_id_when_the_category_is_unknown() -> None:
     assert meets("Cube.003", "Cube.003", "cabinet")
     assert meets("stove", "Kitchen_Cooktop_01", "unknown")
     assert not meets("stove", "Kitchen_Cooktop_01", "shelf")
 
 
 @pytest.mark.parametrize("needed", ["", "  ", "none", "None", "NULL", "null", "n/a", "not needed", None])
-def test_words_for_no_need_are_none(needed: str | None) -> None:
+def test_words_for_no_need_are_read_as_none(needed: str | None) -> None:
     assert SourceState("on", 0.5, "s", "k", needed).needs_contact is None
 
 
-def test_every_synonym_of_what_the_lexicon_needs_is_met() -> None:
+def test_every_synonym_of_lexicon_needs_matches() -> None:
     needed = {noun for row in table() for state in row.states for noun in state.needs_contact}
     assert needed
     for row in table():
@@ -52,7 +52,7 @@ def test_every_synonym_of_what_the_lexicon_needs_is_met() -> None:
                 assert meets("stove", "Object_7", word), word
 
 
-def test_what_nothing_meets_is_told_and_the_object_itself_does_not_count() -> None:
+def test_unmet_needs_are_reported_and_an_object_cannot_meet_its_own() -> None:
     states = (SourceState("boiling", 0.5, "s", "k", "stove"), SourceState("on", 0.5, "s", "k"))
     (told,) = unmet_needs("stove", states, {"stove": "stove", "table": "table"})
     assert "'boiling' needs contact with 'stove', which no other object here is" in told

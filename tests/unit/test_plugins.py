@@ -43,7 +43,7 @@ def test_wrong_settings_name_the_kind() -> None:
         GROUP.build({"kind": "fraction", "colour": 1})
 
 
-def test_no_kind() -> None:
+def test_settings_without_kind_are_refused() -> None:
     with pytest.raises(ConfigError, match="names no kind"):
         GROUP.build({"numerator": 1})
 
@@ -53,21 +53,21 @@ def test_missing_attribute() -> None:
         GROUP.load("gone")
 
 
-def test_guests_come_by_entry_points(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_plugins_are_found_by_entry_points(monkeypatch: pytest.MonkeyPatch) -> None:
     guest = EntryPoint("decimal", "decimal:Decimal", "scene2hap.test")
     monkeypatch.setattr(plugins, "entry_points", lambda group: (guest,) if group == "scene2hap.test" else ())
     assert "decimal" in GROUP.kinds()
     assert str(GROUP.build({"kind": "decimal", "value": "1.5"})) == "1.5"
 
 
-def test_broken_guest_is_our_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_broken_plugin_raises_a_plugin_error(monkeypatch: pytest.MonkeyPatch) -> None:
     guest = EntryPoint("broken", "scene2hap_no_such_module:Thing", "scene2hap.test")
     monkeypatch.setattr(plugins, "entry_points", lambda group: (guest,))
     with pytest.raises(ConfigError, match="does not import"):
         GROUP.load("broken")
 
 
-def test_guests_are_listed_with_what_is_wrong_with_them(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_plugins_are_listed_with_their_errors(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "scene2hap_breaks.py").write_text("1 / 0")
     monkeypatch.syspath_prepend(tmp_path)
     found = {
@@ -99,7 +99,7 @@ class Half:
         ({"__doc__": ()}, "Half has no '__doc__'"),
     ],
 )
-def test_what_lacks_a_member_is_told_by_its_class(members: plugins.Members, words: str) -> None:
+def test_error_for_a_missing_member_names_the_class(members: plugins.Members, words: str) -> None:
     group = replace(GROUP, members=members)
     with pytest.raises(ConfigError, match=re.escape(f"scene2hap.test: {words}")):
         group.build(Half())

@@ -20,14 +20,14 @@ def is_quiet(text: str) -> bool:
     return all(letter.isprintable() or letter == "\n" for letter in text)
 
 
-def test_what_a_terminal_obeys_is_written_out() -> None:
+def test_control_characters_are_escaped() -> None:
     assert printable(f"a{TITLE}b") == r"a\x1b]0;owned\x07\x1b[2Jb"
     assert printable("Küche 台所 🍳") == "Küche 台所 🍳"
     assert printable("a\tb\nc", lines=True) == "a\tb\nc"
     assert printable("\ud800") == r"\ud800"
 
 
-def test_json_means_what_it_did() -> None:
+def test_escaped_json_keeps_its_meaning() -> None:
     told = {"a\x9b": f"{TITLE}\u202e\ud800ü"}
     text = printable_json(json.dumps(told, ensure_ascii=False, indent=1))
     assert json.loads(text) == told
@@ -35,7 +35,7 @@ def test_json_means_what_it_did() -> None:
     assert "ü" in text
 
 
-def test_halves_of_characters_are_replaced() -> None:
+def test_lone_surrogates_are_replaced() -> None:
     assert writable("a\udcffb") == "a\ufffdb"
     assert writable("\ud83c\udf73") == "🍳"
 
@@ -75,7 +75,7 @@ def test_arguments_are_shown_as_data(capfd: pytest.CaptureFixture[str]) -> None:
     assert is_quiet(capfd.readouterr().err)
 
 
-def test_a_name_with_half_a_character_is_read(tmp_path: Path) -> None:
+def test_name_with_a_lone_surrogate_is_read(tmp_path: Path) -> None:
     (tmp_path / "a.obj").write_text(OBJECT)
     text = load_scene(tmp_path / "a.obj").to_json().replace('"name": "a"', '"name": "\\ud800"')
     (tmp_path / "a.json").write_text(text)
@@ -83,7 +83,7 @@ def test_a_name_with_half_a_character_is_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="file names are Unicode there")
-def test_a_file_name_that_is_no_utf_8(tmp_path: Path) -> None:
+def test_file_name_that_is_not_utf_8_is_shown(tmp_path: Path) -> None:
     path = tmp_path / "a\udcff\x1b.obj"
     try:
         path.write_text(OBJECT)

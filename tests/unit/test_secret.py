@@ -19,7 +19,7 @@ KEY = "sk-0123456789abcdef"
 
 
 @pytest.mark.parametrize("value", ["sk-0123456789abcdef", None])
-def test_secret_shows_itself_to_nobody(value: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_secret_is_masked_in_str_and_repr(value: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("A_KEY", "sk-0123456789abcdef")
     secret = Secret(value, "A_KEY")
     assert f"{secret} {secret!r} {[secret]}" == "Secret(******) Secret(******) [Secret(******)]"
@@ -104,18 +104,18 @@ def test_most_of_a_key_counts_as_the_key(part: str) -> None:
     assert Secret(KEY).scrub(f"You sent {part}.") == "You sent ******."
 
 
-def test_what_stands_around_a_key_stays_parts_of_escapes_included() -> None:
+def test_text_around_a_key_is_kept_including_partial_escapes() -> None:
     text = f'{{"a": "%41{KEY}&amp;", "b": "\\u0041\\u0073{KEY[1:]}\\n"}}'
     assert Secret(KEY).scrub(text) == '{"a": "%41******&amp;", "b": "\\u0041******\\n"}'
 
 
 @pytest.mark.parametrize("piece", ["\\", "&#", "0", "%25", "\x1b[0;", KEY[:9], "=", "&amp;"])
-def test_a_long_text_is_read_in_time_of_its_length(piece: str) -> None:
+def test_masking_time_is_linear_in_text_length(piece: str) -> None:
     secret = Secret(KEY)
     assert secret.scrub(piece * 200_000) == piece * 200_000
 
 
-def test_a_short_key_is_a_word_that_answers_may_hold() -> None:
+def test_short_keys_are_not_masked_in_answers() -> None:
     assert Secret("lm-studio").scrub("made by lm-studio") == "made by lm-studio"
 
 
@@ -126,7 +126,7 @@ def test_a_secret_is_not_pickled_but_may_be_copied() -> None:
     assert copy.deepcopy(secret) is secret
 
 
-def test_a_key_that_no_header_may_carry_is_not_among_the_local_variables() -> None:
+def test_invalid_key_is_not_in_local_variables_of_the_traceback() -> None:
     secret = Secret(f"{KEY}\n{KEY}")
     with pytest.raises(ConfigError) as caught:
         secret.reveal()

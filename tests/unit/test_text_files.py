@@ -8,7 +8,7 @@ import pytest
 from scene2hap.text_files import read_small, read_small_text
 
 
-def test_a_file_of_just_the_bound_is_read_and_one_more_byte_is_refused(tmp_path: Path) -> None:
+def test_file_size_limit_is_exact(tmp_path: Path) -> None:
     path = tmp_path / "settings.toml"
     path.write_bytes(b"a" * 10)
     assert read_small(path, 10) == b"a" * 10
@@ -23,7 +23,7 @@ def test_a_byte_order_mark_is_left_out(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
-def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+def test_pipe_is_refused_without_waiting(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.json")
     with pytest.raises(ValueError, match="a pipe or a device"):
         read_small(tmp_path / "pipe.json")

@@ -43,7 +43,7 @@ def changed(step: int, **fields: object) -> dict[str, object]:
     return {**DOCUMENT, "steps": steps}
 
 
-def test_json_and_csv_say_the_same(tmp_path: Path) -> None:
+def test_json_and_csv_give_the_same_track(tmp_path: Path) -> None:
     (tmp_path / "touches.json").write_text(json.dumps(DOCUMENT))
     (tmp_path / "touches.csv").write_text(CSV)
     assert TouchTrack.load(tmp_path / "touches.json") == TouchTrack.load(tmp_path / "touches.csv")
@@ -105,7 +105,7 @@ def test_a_hand_goes_along_with_the_object_it_holds() -> None:
         ([], "whole file"),
     ],
 )
-def test_what_is_wrong_is_named(document: object, sentence: str) -> None:
+def test_error_names_the_wrong_field(document: object, sentence: str) -> None:
     with pytest.raises(SessionError, match=sentence):
         TouchTrack.parse(document)
 
@@ -113,13 +113,13 @@ def test_what_is_wrong_is_named(document: object, sentence: str) -> None:
 @pytest.mark.parametrize(
     ("name", "text"), [("t.json", "{"), ("t.json", "\x00"), ("t.csv", "time_s,hand\n1.0,left\n"), ("t.csv", "")]
 )
-def test_a_file_that_is_none(tmp_path: Path, name: str, text: str) -> None:
+def test_file_that_is_not_a_track_is_refused(tmp_path: Path, name: str, text: str) -> None:
     (tmp_path / name).write_text(text)
     with pytest.raises(SessionError, match="cannot be read as touches"):
         TouchTrack.load(tmp_path / name)
 
 
-def test_a_file_that_is_missing(tmp_path: Path) -> None:
+def test_missing_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(SessionError, match="cannot be read"):
         TouchTrack.load(tmp_path / "nowhere.json")
 
@@ -130,7 +130,7 @@ def test_touch_on_an_unknown_object() -> None:
 
 
 @pytest.mark.parametrize("rate_hz", [1e308, 5e-324, 0.0, float("nan"), 48_001])
-def test_a_rate_that_no_game_has_is_refused(rate_hz: float) -> None:
+def test_implausible_rate_is_refused(rate_hz: float) -> None:
     sink = MemorySink()
     with (
         HapticSession(*table_with_two_phones(), {"prepare": "blocking"}, sink=sink) as session,
@@ -140,13 +140,13 @@ def test_a_rate_that_no_game_has_is_refused(rate_hz: float) -> None:
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
-def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+def test_pipe_is_refused_without_waiting(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "touches.json")
     with pytest.raises(SessionError, match="a pipe or a device"):
         TouchTrack.load(tmp_path / "touches.json")
 
 
-def test_too_many_steps_are_refused_before_any_is_looked_at() -> None:
+def test_too_many_steps_are_refused_before_reading() -> None:
     with pytest.raises(SessionError, match="steps: 100001 items; at most 100000 items"):
         TouchTrack.parse({**DOCUMENT, "steps": [{}] * 100_001})
 

@@ -21,7 +21,7 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Room:
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_mistake_is_answered_or_works(room: Room, mistake: Mistake) -> None:
+def test_usual_mistakes_raise_helpful_errors_or_work(room: Room, mistake: Mistake) -> None:
     answer = room.answer(mistake.code)
     assert is_answered(mistake, answer), answer
     if answer.is_ours or answer.is_warning:
@@ -36,7 +36,7 @@ def test_the_code_of_the_page_runs(room: Room, block: str) -> None:
     assert room.answer(block).kind is None, room.answer(block)
 
 
-def test_the_page_has_the_answers_as_they_are(tmp_path: Path) -> None:
+def test_page_quotes_the_current_error_messages(tmp_path: Path) -> None:
     """In a room of its own, since mistakes leave files behind, whose names are then the nearest to others."""
     page = PAGE.read_text("utf-8")
     assert page == with_tables(page, page_tables(Room(tmp_path))), "run: python tests/mistakes_room.py"

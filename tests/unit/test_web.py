@@ -80,7 +80,7 @@ def test_a_body_that_drips_for_ever_is_ended() -> None:
     assert caught.value.retryable
 
 
-def test_an_answer_that_is_packed_though_nobody_asked() -> None:
+def test_unrequested_compression_is_decoded_or_refused() -> None:
     packed = httpx.Response(200, headers={"content-encoding": "gzip"}, stream=httpx.ByteStream(gzip.compress(b"{}")))
     assert posted(packed).json() == {}
 
@@ -91,19 +91,19 @@ def test_an_unknown_packing_is_refused(packing: str) -> None:
         posted(httpx.Response(200, headers={"content-encoding": packing}, stream=httpx.ByteStream(b"{}")))
 
 
-def test_what_is_not_packed_as_it_says() -> None:
+def test_wrong_compression_header_is_refused() -> None:
     with pytest.raises(BackendUnavailable, match="and it is not"):
         posted(httpx.Response(200, headers={"content-encoding": "gzip"}, stream=httpx.ByteStream(b"{}")))
 
 
 @pytest.mark.parametrize("charset", ["rot13", "idna", "zlib", "hex", "utf-7", "undefined", "utf-16", "no such"])
-def test_json_is_utf_8_whatever_the_server_says(charset: str) -> None:
+def test_json_is_read_as_utf_8_for_any_declared_charset(charset: str) -> None:
     body = httpx.ByteStream('{"a": "\u00fc"}'.encode())
     headers = {"content-type": f"application/json; charset={charset}"}
     assert posted(httpx.Response(200, headers=headers, stream=body)).json() == {"a": "\u00fc"}
 
 
-def test_a_part_of_what_was_packed_is_no_answer() -> None:
+def test_truncated_compressed_body_is_refused() -> None:
     packed = gzip.compress(b'{"a": 1}' * 100)[:-12]
     response = httpx.Response(200, stream=httpx.ByteStream(packed), headers={"content-encoding": "gzip"})
     with pytest.raises(BackendUnavailable, match="sends a part of it") as caught:
@@ -111,7 +111,7 @@ def test_a_part_of_what_was_packed_is_no_answer() -> None:
     assert caught.value.retryable
 
 
-def test_a_look_up_of_a_name_that_does_not_end_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_endless_name_lookup_runs_into_the_timeout(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("ALL_PROXY", "HTTP_PROXY", "HTTPS_PROXY", "all_proxy", "http_proxy", "https_proxy"):
         monkeypatch.delenv(name, raising=False)
     over = threading.Event()
@@ -134,7 +134,7 @@ def test_a_look_up_of_a_name_that_does_not_end_is_not_waited_for(monkeypatch: py
     "line",
     ["HTTP/1.1 {} OK\r\n\r\n", "HTTP/1.1 200 OK\r\nbad {}\r\n\r\n", "HTTP/1.1 302 x\r\nlocation: x{}://a\r\n\r\n"],
 )
-def test_a_key_in_a_broken_reply_is_in_no_cause_and_no_log(line: str, caplog: pytest.LogCaptureFixture) -> None:
+def test_key_in_a_broken_reply_is_in_no_cause_and_no_log(line: str, caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level(logging.DEBUG)
     with socket.create_server(("127.0.0.1", 0)) as server:
 

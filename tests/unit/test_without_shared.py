@@ -8,7 +8,7 @@ import others
 
 
 @pytest.mark.parametrize("folder", ["scenes", "audio"])
-def test_what_is_left_out_without_the_shared_folder(folder: str) -> None:
+def test_tests_skip_without_the_shared_folder(folder: str) -> None:
     assert set(others.LEFT_OUT) <= {"scenes", "audio"}
     if others.LEFT_OUT[folder]:
         own = {"scenes": "the rooms of tests/rooms", "audio": "the sounds of tests/own_sounds.py"}[folder]

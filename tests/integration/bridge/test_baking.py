@@ -22,7 +22,7 @@ from scene2hap.bridge.jobs import MAX_RUNNING
 Bridge = Callable[..., BridgeServer]
 
 
-def test_a_bake_is_that_of_this_process(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
+def test_bake_over_the_bridge_equals_a_local_bake(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
     scene = json.loads(desk.snapshot.to_json())
     with Client(bridge().url) as client:
         job = client.ask("bake", scene=scene, save="made.bundle")["job"]
@@ -48,7 +48,7 @@ def test_a_scene_file_below_the_root(bridge: Bridge, root: Path, desk: HapticBun
         assert client.play(job=job)["layout"] == 1
 
 
-def test_settings_of_the_server_are_not_a_client_s(bridge: Bridge, desk: HapticBundle) -> None:
+def test_client_cannot_set_server_settings(bridge: Bridge, desk: HapticBundle) -> None:
     scene = json.loads(desk.snapshot.to_json())
     with Client(bridge().url) as client:
         for name, value in (
@@ -64,7 +64,7 @@ def test_settings_of_the_server_are_not_a_client_s(bridge: Bridge, desk: HapticB
             client.ask("bake")
 
 
-def test_a_bake_that_fails_is_told(bridge: Bridge, desk: HapticBundle) -> None:
+def test_failed_bake_is_reported(bridge: Bridge, desk: HapticBundle) -> None:
     scene = json.loads(desk.snapshot.to_json())
     with Client(bridge().url) as client:
         with pytest.raises(Refused, match="version is 9") as refused:
@@ -97,7 +97,7 @@ def test_a_bake_is_cancelled(bridge: Bridge, root: Path, desk: HapticBundle) -> 
             client.ask("bake", scene=scene)
 
 
-def test_a_bake_goes_on_without_its_client(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
+def test_bake_continues_without_its_client(bridge: Bridge, root: Path, desk: HapticBundle) -> None:
     server = bridge()
     with Client(server.url) as client:
         client.ask("bake", scene=json.loads(desk.snapshot.to_json()), save="alone.bundle")

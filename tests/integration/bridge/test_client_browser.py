@@ -350,7 +350,7 @@ class TestDesk:
         opened.wait("effects.at(-1).weakMagnitude > 0")
         opened.page.get_by_label("gamepads rumble").uncheck()
 
-    def test_it_is_dark_or_light_and_fits_a_phone(self, opened: Opened) -> None:
+    def test_page_supports_dark_and_light_mode_and_fits_a_phone(self, opened: Opened) -> None:
         sky = "scene2hapExample.stage.scene.background.getHexString()"
         opened.page.set_viewport_size({"width": 390, "height": 844})
         for theme, colour in {"light": "dfe3e8", "dark": "1a1e22"}.items():
@@ -447,7 +447,7 @@ def test_a_page_of_a_foreign_origin_is_refused(browser: Any, port: int) -> None:
         assert opened.errors == []
 
 
-def test_the_token_is_in_hello_alone(browser: Any, port: int) -> None:
+def test_token_is_sent_only_in_hello(browser: Any, port: int) -> None:
     token = "a token, which nobody else sees"
     with serving(token=token) as server:
         with _opened(browser, address(port, url=server.url, token=token)) as opened:
@@ -480,7 +480,7 @@ def _bridge(port: int) -> Iterator[subprocess.Popen[str]]:
         process.stdout.close()
 
 
-def test_the_page_plays_on_after_the_server_was_killed_and_restarted(browser: Any, port: int) -> None:
+def test_page_continues_after_a_server_restart(browser: Any, port: int) -> None:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         bridge_port = free.getsockname()[1]

@@ -84,7 +84,7 @@ def hex_of_page(before: str) -> str:
 # ---- The example ----
 
 
-def test_frames_and_gains_are_those_of_the_page(game: Path) -> None:
+def test_frames_and_gains_equal_the_examples_of_the_page(game: Path) -> None:
     environment = {**os.environ, "SCENE2HAP_SELF_TEST": "1"}
     run = subprocess.run([str(game)], env=environment, capture_output=True, text=True, check=True, timeout=20)
     assert run.stdout.splitlines() == [
@@ -96,7 +96,7 @@ def test_frames_and_gains_are_those_of_the_page(game: Path) -> None:
     ]
 
 
-def test_it_plays_the_game_of_the_check(game: Path) -> None:
+def test_c_client_plays_the_reference_game(game: Path) -> None:
     found = check_bridge_client([str(game)])
     assert (found.n_frames, found.n_resumed) == (600, 1)
     assert found.worst < 1e-7
@@ -120,12 +120,12 @@ def test_the_example_of_the_readme_feels_the_phone(
 
 
 @needs_cpp
-def test_it_plays_the_game_as_c_plus_plus(build: Build) -> None:
+def test_c_client_plays_the_game_compiled_as_c_plus_plus(build: Build) -> None:
     found = check_bridge_client([str(build(CLIENT / "example_game.c", language="c++17"))], n_frames=120)
     assert (found.n_frames, found.n_resumed) == (120, 1)
 
 
-def test_it_plays_the_game_at_a_rate(game: Path) -> None:
+def test_c_client_plays_the_game_at_a_frame_rate(game: Path) -> None:
     begun_s = time.monotonic()
     found = check_bridge_client([str(game)], n_frames=60, rate_hz=60.0, cuts=False)
     assert (found.n_frames, found.n_resumed) == (60, 0)
@@ -133,7 +133,7 @@ def test_it_plays_the_game_at_a_rate(game: Path) -> None:
 
 
 @pytest.mark.parametrize("language", ["gnu11", "c17", pytest.param("c++20", marks=needs_cpp)])
-def test_it_compiles_without_warnings_in_other_languages_too(build: Build, language: str) -> None:
+def test_client_compiles_without_warnings_in_every_language_standard(build: Build, language: str) -> None:
     build(CLIENT / "example_game.c", language=language, flags=("-O2",), sanitized=False)
 
 
@@ -151,7 +151,7 @@ def test_c_plus_plus_uses_the_client_of_a_c_file(build: Build, tmp_path: Path) -
     subprocess.run([str(tmp_path / "engine")], check=True, timeout=20)
 
 
-def test_it_plays_on_when_the_server_is_killed_and_started_again(game: Path, tmp_path: Path) -> None:
+def test_c_client_continues_after_a_server_restart(game: Path, tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     n_frames, out, server = 90, tmp_path / "gains.csv", start_server(port)
@@ -290,7 +290,7 @@ def kinds(events: list[dict[str, Any]]) -> list[str]:
 # ---- Against a bridge ----
 
 
-def test_all_that_a_game_does_with_a_session(driver: Driver, bridge: Callable[..., BridgeServer]) -> None:
+def test_client_supports_every_session_request(driver: Driver, bridge: Callable[..., BridgeServer]) -> None:
     driver.do(f"create {bridge().url} - 0 0")
     play = driver.one('play 0 desk.bundle phone,mug newest {"session": {"watchdog_s": 1}}')["request"]
     found = driver.until("playing")
@@ -419,7 +419,7 @@ def test_a_picture_is_taken(driver: Driver, bridge: Callable[..., BridgeServer])
     assert "phone" in error["text"] or "picture" in error["text"]
 
 
-def test_without_a_server_it_says_so_and_connects_once_there_is_one(driver: Driver) -> None:
+def test_client_reports_a_missing_server_and_connects_later(driver: Driver) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     driver.do(f"create ws://localhost:{port}/ - 0 0")
@@ -446,7 +446,7 @@ def test_without_a_server_it_says_so_and_connects_once_there_is_one(driver: Driv
         "ws://127.0.0.1:1/" + "a" * 2000,
     ],
 )
-def test_a_url_that_is_none_is_final(driver: Driver, url: str) -> None:
+def test_invalid_url_is_a_final_error(driver: Driver, url: str) -> None:
     driver.do(f"create {url} - 0 0")
     offline = driver.until("offline")
     assert offline["wait_s"] == -1
@@ -545,7 +545,7 @@ def start(driver: Driver, url: str) -> None:
     driver.one("pose phone 1 2 3")
 
 
-def test_poses_are_left_out_once_the_server_has_taken_them(driver: Driver) -> None:
+def test_acknowledged_poses_are_not_sent_again(driver: Driver) -> None:
     n_poses = []
 
     def handle(ws: ServerConnection, _: int) -> None:
@@ -573,7 +573,7 @@ def test_poses_are_left_out_once_the_server_has_taken_them(driver: Driver) -> No
     assert n_poses == [1, 1, 0, 0, 1]
 
 
-def test_gains_are_zero_once_they_are_old_and_wrong_ones_are_left_out(driver: Driver) -> None:
+def test_outdated_gains_become_zero_and_invalid_gains_are_ignored(driver: Driver) -> None:
     nan = gains_of(4, gain=float("nan"))
     wrong = [gains_of(4, layout=2), nan, gains_of(4)[:-1], gains_of(4) + b"\0", b"S2HB", b""]
 
@@ -618,7 +618,7 @@ def test_gains_are_zero_once_they_are_old_and_wrong_ones_are_left_out(driver: Dr
         assert driver.one("felt right phone")["gain"] == 0
 
 
-def test_a_session_that_was_forgotten_is_baked_and_played_again(driver: Driver) -> None:
+def test_forgotten_session_is_baked_and_played_again(driver: Driver) -> None:
     scene = {"objects": [{"id": "é"}]}
 
     def handle(ws: ServerConnection, number: int) -> None:
@@ -832,7 +832,7 @@ def test_requests_carry_all_of_their_values_exactly(driver: Driver) -> None:
     assert len(heard) == 64
 
 
-def test_what_is_too_large_is_not_sent(driver: Driver) -> None:
+def test_oversized_messages_are_not_sent(driver: Driver) -> None:
     def handle(ws: ServerConnection, _: int) -> None:
         next_request(ws, "pause")
         until_closed(ws)
@@ -852,7 +852,7 @@ def test_what_is_too_large_is_not_sent(driver: Driver) -> None:
         assert driver.until("error")["error"] == "TooMuchToSend"
 
 
-def test_what_a_game_gets_wrong_in_frames_is_reported_once(driver: Driver) -> None:
+def test_invalid_frame_data_is_reported_once(driver: Driver) -> None:
     frames: list[Frame] = []
 
     def handle(ws: ServerConnection, _: int) -> None:
@@ -1181,7 +1181,7 @@ UPGRADE, CONNECTION, ACCEPT = "Upgrade: websocket\r\n", "Connection: Upgrade\r\n
         "SSH-2.0-OpenSSH_9.2\r\n",
     ],
 )
-def test_handshakes_that_are_none_are_refused(driver: Driver, answer: str) -> None:
+def test_invalid_handshakes_are_refused(driver: Driver, answer: str) -> None:
     after: list[bytes] = []
 
     def handle(sock: socket.socket) -> None:
@@ -1199,7 +1199,7 @@ def test_handshakes_that_are_none_are_refused(driver: Driver, answer: str) -> No
     assert after == [b""]  # in particular no hello
 
 
-def test_a_server_that_says_nothing_counts_as_lost(driver: Driver) -> None:
+def test_silent_server_counts_as_lost(driver: Driver) -> None:
     def handle(sock: socket.socket) -> None:
         greet(sock)  # with a heartbeat of 0.1 s, which counts as 0.4 s
         read_exactly(sock, 1)
@@ -1213,7 +1213,7 @@ def test_a_server_that_says_nothing_counts_as_lost(driver: Driver) -> None:
         driver.do("destroy")
 
 
-def test_a_flood_of_messages_does_not_hold_up_a_frame(driver: Driver) -> None:
+def test_many_messages_do_not_delay_a_frame(driver: Driver) -> None:
     def handle(sock: socket.socket) -> None:
         greet(sock)
         many = 1000 * frame(0x81, b'{"type": "later"}') + 100 * frame(0x81, b'{"type": "warning", "message": "w"}')
@@ -1233,7 +1233,7 @@ def test_a_flood_of_messages_does_not_hold_up_a_frame(driver: Driver) -> None:
 @pytest.mark.parametrize(
     "text", [b"", b"{", b"[1]", b'{"type": 1}', b'{"a": 1}', b"nan", b'{"type": "x"} x', 70 * b"[" + 70 * b"]"]
 )
-def test_messages_that_make_no_sense_are_reported(driver: Driver, text: bytes) -> None:
+def test_invalid_messages_are_reported(driver: Driver, text: bytes) -> None:
     def handle(ws: ServerConnection, _: int) -> None:
         ws.send(text.decode())
         say(ws, "warning", message="still here")
@@ -1260,7 +1260,7 @@ def test_messages_that_make_no_sense_are_reported(driver: Driver, text: bytes) -
         {"session": 4},
     ],
 )
-def test_sessions_that_make_no_sense_are_reported(driver: Driver, wrong: dict[str, Any]) -> None:
+def test_invalid_sessions_are_reported(driver: Driver, wrong: dict[str, Any]) -> None:
     def handle(ws: ServerConnection, _: int) -> None:
         begin(ws, **wrong)
         until_closed(ws)
@@ -1319,19 +1319,19 @@ def assert_is(found: float, expected: float) -> None:
         assert found == pytest.approx(expected, rel=1e-14, abs=5e-324)
 
 
-def test_bytes_that_are_no_utf8_are_no_json(driver: Driver) -> None:
+def test_json_with_invalid_utf_8_is_refused(driver: Driver) -> None:
     wrong = [b"\xff", b"\xc0\x80", b"\xed\xa0\x80", b"\xf4\x90\x80\x80", b"\xe2\x82", b"\xf0\x8f\xbf\xbf", b"\x80"]
     for text in (b'"' + one + b'"' for one in wrong):
         assert not driver.one(f"parse {text.hex()}")["is_json"]
 
 
-def test_depth_is_bounded(driver: Driver) -> None:
+def test_json_depth_is_bounded(driver: Driver) -> None:
     assert driver.one(f"parse {(64 * b'[' + 64 * b']').hex()}")["is_json"]
     assert not driver.one(f"parse {(65 * b'[' + 65 * b']').hex()}")["is_json"]
     assert not driver.one(f"parse {(30000 * b'[').hex()}")["is_json"]
 
 
-def test_half_surrogates_and_zeros_are_replaced(driver: Driver) -> None:
+def test_lone_surrogates_and_zeros_are_replaced(driver: Driver) -> None:
     text = rb'"a\u0000b\ud800c\udc00d\ud800\u0041"'
     assert driver.one(f"parse {text.hex()}")["string"] == "a\ufffdb\ufffdc\ufffdd\ufffdA"
 
@@ -1341,7 +1341,7 @@ def test_long_strings_are_cut_between_characters(driver: Driver) -> None:
     assert driver.one(f"parse {text.hex()}")["string"] == "a" + "€" * 84  # of 255 bytes
 
 
-def test_numbers_survive_writing_and_reading(driver: Driver) -> None:
+def test_numbers_round_trip_exactly(driver: Driver) -> None:
     rng = np.random.default_rng(3)
     bits = rng.integers(0, 1 << 64, 300, dtype=np.uint64)
     numbers = [*bits.view(float), 0.1, 1 / 3, 5e-324, 1.7976931348623157e308, 0.0, 123456789.0, 1e21, 2**53 + 2.0]
@@ -1356,7 +1356,7 @@ def test_numbers_survive_writing_and_reading(driver: Driver) -> None:
             assert found == {"failed": True}
 
 
-def test_scenes_are_what_was_meant(driver: Driver) -> None:
+def test_scenes_built_by_the_client_equal_the_expected_scenes(driver: Driver) -> None:
     driver.do("scene")
     scene = SceneSnapshot.from_json(driver.printed[-2])
     assert (scene.name, scene.up_axis) == ('a "study"', "z")

@@ -173,7 +173,7 @@ def test_the_game_of_the_protocol_page(programs: Path) -> None:
     assert (found.n_frames, found.n_resumed) == (600, 1)
 
 
-def test_frames_that_do_not_wait_for_the_gains_of_the_last(programs: Path) -> None:
+def test_frames_are_sent_without_waiting_for_gains(programs: Path) -> None:
     found = check_bridge_client([str(RUNTIME), str(programs / "game.exe")], n_frames=120, rate_hz=400, cuts=False)
     assert found.n_frames == 120
 
@@ -199,7 +199,7 @@ def test_every_request(trial: Callable[..., list[str]]) -> None:
     assert lines[-2:] == ["left", "state Ready"]
 
 
-def test_a_killed_server_is_played_anew_once_it_is_back(programs: Path) -> None:
+def test_session_restarts_after_a_server_restart(programs: Path) -> None:
     port = free_port()
     server = bridge_process(port)
     command = [str(RUNTIME), str(programs / "trials.exe"), "play", f"ws://127.0.0.1:{port}/", "90"]
@@ -232,7 +232,7 @@ def test_a_wrong_token_is_reported_and_not_tried_again(trial: Callable[..., list
         assert "feels" in trial("play-until-felt", server.url, token=TOKEN)
 
 
-def test_no_server_blocks_no_frame(trial: Callable[..., list[str]]) -> None:
+def test_missing_server_does_not_block_frames(trial: Callable[..., list[str]]) -> None:
     lines = trial("play", f"ws://127.0.0.1:{free_port()}/", 2)
     # With waits of 0.1, 0.2, 0.4 and 0.8 s between them, 4 or 5 attempts fit into 2 s.
     assert 3 <= sum(line.startswith("error the connection") for line in lines) <= 5, lines
@@ -241,7 +241,7 @@ def test_no_server_blocks_no_frame(trial: Callable[..., list[str]]) -> None:
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-def test_200_damaged_messages_end_no_game(trial: Callable[..., list[str]], seed: int) -> None:
+def test_game_survives_200_damaged_messages(trial: Callable[..., list[str]], seed: int) -> None:
     messages = iter(damaged(random.Random(seed), 200))
     # A client that a busy machine delays reads the newest of several gains alone.
     last = iter([*[math.nan] * 20, *[math.inf] * 20])
@@ -273,7 +273,7 @@ def test_200_damaged_messages_end_no_game(trial: Callable[..., list[str]], seed:
     assert lines[-1] == "disposed"
 
 
-def test_gains_that_are_old_are_zero(trial: Callable[..., list[str]]) -> None:
+def test_outdated_gains_become_zero(trial: Callable[..., list[str]]) -> None:
     """The connection stays, but only the first frame is answered."""
     n_answered = 0
 
@@ -291,7 +291,7 @@ def test_gains_that_are_old_are_zero(trial: Callable[..., list[str]]) -> None:
 
 
 @pytest.mark.parametrize("knows_job", [True, False])
-def test_a_bake_whose_connection_is_lost(trial: Callable[..., list[str]], knows_job: bool) -> None:
+def test_bake_continues_after_a_lost_connection(trial: Callable[..., list[str]], knows_job: bool) -> None:
     """The first connection is lost while the server bakes, the second before `playing`. Meanwhile the server may have
     been restarted, and know no job."""
     types: list[str] = []
@@ -476,7 +476,7 @@ def test_pings_are_answered_and_parts_of_messages_joined(trial: Callable[..., li
     assert not [line for line in lines if line.startswith("error")]
 
 
-def test_what_is_no_websocket_is_reported(trial: Callable[..., list[str]]) -> None:
+def test_server_without_websocket_is_reported(trial: Callable[..., list[str]]) -> None:
     cases = [
         (b"", b"\xc1\x00", "a frame that WebSockets do not have"),  # a reserved bit
         (b"", b"\x81\x81\x00\x00\x00\x00a", "a frame that WebSockets do not have"),  # masked
@@ -521,7 +521,7 @@ def test_what_is_no_websocket_is_reported(trial: Callable[..., list[str]]) -> No
         assert expected in line
 
 
-def test_another_scheme_is_reported(trial: Callable[..., list[str]]) -> None:
+def test_unsupported_url_scheme_is_reported(trial: Callable[..., list[str]]) -> None:
     (line,) = trial("first-errors", "wss://127.0.0.1:1/", 1)
     assert line == "the connection to wss://127.0.0.1:1/ failed: its address must begin with ws://"
 
@@ -600,7 +600,7 @@ def test_json_is_read_and_written_as_python_does(trial: Callable[..., list[str]]
     assert json.loads(line.removeprefix("read ")) == {"v": json.loads(text)}
 
 
-def test_what_is_no_json_is_refused_with_its_place(trial: Callable[..., list[str]]) -> None:
+def test_invalid_json_is_refused_with_its_position(trial: Callable[..., list[str]]) -> None:
     wrong = ['{"a" "b"', "[1,2", '{"a":}', '"abc', "tru", "1 2", "{1:2}", "[1 2]", '"\\x"', "nul", '"\\u12g4"', "--1"]
     wrong += ["1e999", "\t\x01"]
     lines = trial("json", given="\n".join(wrong) + "\n")
@@ -609,7 +609,7 @@ def test_what_is_no_json_is_refused_with_its_place(trial: Callable[..., list[str
         assert re.fullmatch(r"refused .+ at character \d+", line), line
 
 
-def test_unity_scene_as_matrix_algebra_has_it(trial: Callable[..., list[str]]) -> None:
+def test_unity_scene_equals_the_matrix_conversion(trial: Callable[..., list[str]]) -> None:
     """A point p of Unity's world is M p in a right-handed one, with M = diag(-1, 1, 1), whatever frames lie between."""
     text = trial("unity-scene", "meshes")
     assert text[1] == "none True"

@@ -72,21 +72,21 @@ def hex_of_page(before: str) -> str:
     return re.sub(r"\s", "", found[1])
 
 
-def test_frames_and_gains_are_those_of_the_page() -> None:
+def test_frames_and_gains_equal_the_examples_of_the_page() -> None:
     lines = godot("--path", str(CLIENT / "example"), SCENE2HAP_SELF_TEST="1").splitlines()
     assert f"frame {hex_of_page('A frame in hexadecimal')}" in lines
     assert f"of {hex_of_page('Gains that answer it')}" in lines
     assert lines[-5:] == ["read True", "intensities 0.125 0", "gains 0.5 0", "cut False", "stale 0 0"]
 
 
-def test_it_plays_the_game_of_the_check() -> None:
+def test_godot_client_plays_the_reference_game() -> None:
     found = check_bridge_client([str(GODOT), "--path", str(CLIENT / "example")], environment={"LC_ALL": "C.UTF-8"})
     assert found.n_frames == 600
     assert found.n_resumed == 1
     assert found.worst < 1e-9  # what nine digits leave of a single below 1
 
 
-def test_it_plays_on_when_the_server_is_killed_and_started_again(tmp_path: Path) -> None:
+def test_godot_client_continues_after_a_server_restart(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     out, server = tmp_path / "gains.csv", start_server(port)
@@ -145,7 +145,7 @@ def test_a_wrong_token_is_an_error_that_does_not_show_it(bridge: Callable[..., B
     assert "another" not in json.dumps(said)
 
 
-def test_without_a_server_it_says_so_and_connects_once_there_is_one() -> None:
+def test_client_reports_a_missing_server_and_connects_later() -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
 
@@ -167,7 +167,7 @@ def test_without_a_server_it_says_so_and_connects_once_there_is_one() -> None:
     assert answer["re"] == request
 
 
-def test_all_that_a_game_does_with_a_session(bridge: Callable[..., BridgeServer]) -> None:
+def test_client_supports_every_session_request(bridge: Callable[..., BridgeServer]) -> None:
     said = drive("tour", SCENE2HAP_URL=bridge().url)
     answers = dict(values(said, "answered"))
     after = {work: rest for work, *rest in values(said, "after")}
@@ -289,7 +289,7 @@ def gains_of(sequence: int, *, layout: int = 1, intensity: float = 0.25, flags: 
     return encode_gains(Gains(layout, sequence, skipped, 0.0, flags, np.float32([intensity, 0.0]), gains))
 
 
-def test_a_server_that_answers_no_frame_gets_few_and_the_newest() -> None:
+def test_unresponsive_server_gets_only_the_newest_frames() -> None:
     frames: list[Frame] = []
 
     def handle(ws: ServerConnection) -> None:
@@ -313,7 +313,7 @@ def test_a_server_that_answers_no_frame_gets_few_and_the_newest() -> None:
         assert frame.poses[0, 0] == frame.sequence - 1
 
 
-def test_poses_are_left_out_once_the_server_has_taken_them() -> None:
+def test_acknowledged_poses_are_not_sent_again() -> None:
     n_poses = []
 
     def handle(ws: ServerConnection) -> None:
@@ -353,7 +353,7 @@ def test_poses_are_repeated_while_the_server_skips_their_frame() -> None:
     assert [frame.poses[:, 0].tolist() for frame in frames] == [[0], [1], [1], []]
 
 
-def test_gains_are_zero_once_they_are_old_and_those_of_another_layout_are_left_out() -> None:
+def test_outdated_gains_become_zero_and_gains_of_other_layouts_are_ignored() -> None:
     def handle(ws: ServerConnection) -> None:
         begin(ws)
         ws.send(gains_of(next_frame(ws).sequence, flags=3, skipped=5))

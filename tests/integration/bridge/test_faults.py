@@ -65,7 +65,7 @@ def test_the_first_message_is_a_hello(bridge: Bridge) -> None:
     assert "no field 'colour'" in said
 
 
-def test_another_version_is_refused(bridge: Bridge) -> None:
+def test_other_protocol_version_is_refused(bridge: Bridge) -> None:
     code, _, said = closing_of(bridge().url, json.dumps({"type": "hello", "version": 2, "novelty": []}))
     assert code == 4001
     assert "speaks version 1" in said
@@ -85,7 +85,7 @@ def test_a_wrong_token_is_refused_and_never_shown(bridge: Bridge, caplog: pytest
     assert TOKEN not in caplog.text
 
 
-def test_pages_of_others_may_not_connect(bridge: Bridge) -> None:
+def test_pages_of_foreign_origins_are_refused(bridge: Bridge) -> None:
     url = bridge(origins=["https://game.example"]).url
     foreign = ("https://evil.example", "null", "http://127.0.0.1.evil.example", "http://localhost.evil.example:80", "")
     for origin in foreign:
@@ -98,7 +98,7 @@ def test_pages_of_others_may_not_connect(bridge: Bridge) -> None:
 
 
 @pytest.mark.parametrize("path", ["../outside.bundle", "/etc", "a/../../outside.bundle", "link/x", ".", "", "a\0b"])
-def test_paths_leave_the_root_by_no_way(bridge: Bridge, root: Path, path: str) -> None:
+def test_paths_outside_the_root_are_refused(bridge: Bridge, root: Path, path: str) -> None:
     (root.parent / "outside.bundle").mkdir()
     (root / "link").symlink_to(root.parent, target_is_directory=True)
     with Client(bridge().url) as client:
@@ -114,7 +114,7 @@ def test_without_a_root_there_are_no_files(bridge: Bridge) -> None:
         client.ask("play", bundle="desk.bundle")
 
 
-def test_what_cannot_be_done_is_said_and_the_session_goes_on(bridge: Bridge) -> None:
+def test_failed_requests_are_reported_and_the_session_continues(bridge: Bridge) -> None:
     with Client(bridge().url) as client:
         with pytest.raises(Refused, match="no session"):
             client.ask("pause")
@@ -143,7 +143,7 @@ def test_what_cannot_be_done_is_said_and_the_session_goes_on(bridge: Bridge) -> 
         assert_plays(client, 9)
 
 
-def test_large_messages(bridge: Bridge) -> None:
+def test_messages_above_the_size_limit_are_refused(bridge: Bridge) -> None:
     server = bridge(max_message_bytes=12_000_000)
     with Client(server.url) as client, Client(server.url) as other:
         client.play(bundle="desk.bundle", moving=[])
@@ -162,7 +162,7 @@ def test_large_messages(bridge: Bridge) -> None:
         assert_plays(client, 2)
 
 
-def test_a_client_that_does_not_read(bridge: Bridge) -> None:
+def test_client_that_does_not_read_is_disconnected(bridge: Bridge) -> None:
     server = bridge(heartbeat_s=60)
     with Client(server.url) as player:
         session = player.play(bundle="desk.bundle", moving=[], frames="every")["session"]
@@ -308,7 +308,7 @@ def test_warnings_reach_the_client(root: Path) -> None:
         assert "table" in warning["message"]
 
 
-def test_a_port_that_is_taken(root: Path) -> None:
+def test_port_in_use_is_reported(root: Path) -> None:
     with program("--port", "0") as (_, url):
         port = url.rstrip("/").rpartition(":")[2]
         words = [sys.executable, "-m", "scene2hap", "bridge", "--port", port]

@@ -39,7 +39,7 @@ def test_no_answer_is_lost_with_frames_in_flight() -> None:
     assert (found.n_frames, found.n_resumed) == (60, 1)
 
 
-def test_gains_are_those_of_a_session_here(bridge: Bridge, desk: HapticBundle) -> None:
+def test_gains_over_the_bridge_equal_a_local_session(bridge: Bridge, desk: HapticBundle) -> None:
     session = HapticSession(desk)
     with Client(bridge().url) as client:
         order = client.play(bundle="desk.bundle", moving=["phone", "mug"])
@@ -58,7 +58,7 @@ def test_gains_are_those_of_a_session_here(bridge: Bridge, desk: HapticBundle) -
         assert found.gains[1, 0, 0] == 0.0
 
 
-def test_intensity_is_what_the_hand_would_feel(bridge: Bridge, desk: HapticBundle) -> None:
+def test_intensity_is_the_rendered_level_of_the_hand(bridge: Bridge, desk: HapticBundle) -> None:
     session = HapticSession(desk)
     session.wait_prepared(30)
     blocks = []
@@ -171,7 +171,7 @@ def test_prefabs_are_spawned(bridge: Bridge, root: Path, desk: HapticBundle) -> 
         assert (client.next_gains().gains[0, :, 0] > 0.0).all()
 
 
-def test_impacts_are_told(bridge: Bridge) -> None:
+def test_impacts_are_sent_to_clients(bridge: Bridge) -> None:
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=[])
         client.socket.send(client.frame(1, 0.0, poses(), [ON_TABLE]))
@@ -240,7 +240,7 @@ def test_poses_of_a_skipped_frame_hold(bridge: Bridge, monkeypatch: pytest.Monke
         assert found.gains[0, 0, 0] == 0.0
 
 
-def test_every_frame_is_answered_if_wished(bridge: Bridge) -> None:
+def test_every_frame_is_answered_on_request(bridge: Bridge) -> None:
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=[], frames="every")
         for sequence in range(1, 201):
@@ -257,7 +257,7 @@ def test_old_frames_are_dropped_and_counted(bridge: Bridge) -> None:
         assert client.ask("stats")["frames"] == {"received": 5, "skipped": 0, "outdated": 3}
 
 
-def test_a_session_outlives_its_connection(bridge: Bridge) -> None:
+def test_session_is_kept_across_connections(bridge: Bridge) -> None:
     server = bridge()
     with Client(server.url) as watcher, Client(server.url) as client:
         client.play(bundle="desk.bundle", moving=["phone"])
@@ -287,7 +287,7 @@ def test_a_session_outlives_its_connection(bridge: Bridge) -> None:
             assert watcher.hear(lambda one: one["type"] == "state")["is"] == "playing"
 
 
-def test_whoever_has_the_key_takes_over(bridge: Bridge) -> None:
+def test_session_key_allows_takeover(bridge: Bridge) -> None:
     server = bridge()
     with Client(server.url) as old, Client(server.url) as new:
         old.play(bundle="desk.bundle", moving=[])
@@ -299,7 +299,7 @@ def test_whoever_has_the_key_takes_over(bridge: Bridge) -> None:
         assert new.next_gains().gains.max() > 0.0
 
 
-def test_a_fault_of_the_bridge_is_told_and_logged(
+def test_bridge_error_is_reported_and_logged(
     bridge: Bridge, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     with Client(bridge().url) as client:
@@ -317,7 +317,7 @@ def test_a_fault_of_the_bridge_is_told_and_logged(
         assert client.next_gains().gains.max() > 0.0
 
 
-def test_a_pause_outlives_the_connection_too(bridge: Bridge) -> None:
+def test_pause_is_kept_across_connections(bridge: Bridge) -> None:
     server = bridge()
     with Client(server.url) as client:
         client.play(bundle="desk.bundle", moving=[])
@@ -332,7 +332,7 @@ def test_a_pause_outlives_the_connection_too(bridge: Bridge) -> None:
         assert again.next_gains().gains.max() > 0.0
 
 
-def test_a_session_is_not_kept_for_ever(bridge: Bridge) -> None:
+def test_session_without_client_ends_after_a_timeout(bridge: Bridge) -> None:
     server = bridge()
     with Client(server.url) as client:
         client.play(bundle="desk.bundle", keep_s=0.1)

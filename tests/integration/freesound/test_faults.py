@@ -23,7 +23,7 @@ from scene2hap.errors import BackendUnavailable, BadAnswer
     ],
     ids=["401", "403", "404", "400", "day", "an-hour"],
 )
-def test_what_no_retry_mends_is_asked_once(tmp_path: Path, page: Page, said: str) -> None:
+def test_permanent_errors_are_not_retried(tmp_path: Path, page: Page, said: str) -> None:
     error, api, time = failed(tmp_path, page)
     assert said in str(error)
     assert isinstance(error, BackendUnavailable)
@@ -32,7 +32,7 @@ def test_what_no_retry_mends_is_asked_once(tmp_path: Path, page: Page, said: str
 
 
 @pytest.mark.parametrize("status", [500, 502, 503])
-def test_a_service_that_stumbles_is_asked_again_twice(tmp_path: Path, status: int) -> None:
+def test_temporary_errors_are_retried_twice(tmp_path: Path, status: int) -> None:
     error, api, time = failed(tmp_path, Page(b"<html>oops", status))
     assert f"answered {status}: nothing more" in str(error)
     assert (len(api.asked), time.slept) == (3, [0.5, 1.0])
@@ -40,7 +40,7 @@ def test_a_service_that_stumbles_is_asked_again_twice(tmp_path: Path, status: in
         assert len(freesound(api, tmp_path).find(describe())) == 1
 
 
-def test_too_many_a_minute_waits_a_minute(tmp_path: Path) -> None:
+def test_rate_limit_waits_a_minute(tmp_path: Path) -> None:
     time = Time()
     with host(Page(hum())) as cdn:
         throttled = refused(429, "Request was throttled: limit rate (60/minute)")
@@ -62,7 +62,7 @@ def test_too_many_a_minute_waits_a_minute(tmp_path: Path) -> None:
     ],
     ids=["html", "list", "text", "count", "no-sounds", "nested", "bytes"],
 )
-def test_an_answer_that_is_none_is_a_bad_answer(tmp_path: Path, page: Page) -> None:
+def test_invalid_response_is_a_bad_answer(tmp_path: Path, page: Page) -> None:
     error, api, _ = failed(tmp_path, page)
     assert isinstance(error, BadAnswer)
     assert len(api.asked) == 1
@@ -70,19 +70,19 @@ def test_an_answer_that_is_none_is_a_bad_answer(tmp_path: Path, page: Page) -> N
 
 
 @pytest.mark.parametrize("manner", ["hang", "drip"])
-def test_a_server_that_stalls_is_given_up_in_time(tmp_path: Path, manner: str) -> None:
+def test_stalled_server_runs_into_the_timeout(tmp_path: Path, manner: str) -> None:
     error, _, time = failed(tmp_path, Page(manner=manner), timeout_s=0.2)
     assert "did not answer within 0.2 s" in str(error)
     assert time.slept == [0.5, 1.0]  # a busy server may not have read a request that was given up
 
 
-def test_an_endless_answer_is_cut_off(tmp_path: Path) -> None:
+def test_endless_response_is_cut_off(tmp_path: Path) -> None:
     error, api, _ = failed(tmp_path, Page(manner="endless"))
     assert "sends more than 2000000 bytes" in str(error)
     assert len(api.asked) == 1
 
 
-def test_a_connection_that_drops_and_a_host_that_is_away(tmp_path: Path) -> None:
+def test_lost_connection_and_missing_host_are_reported(tmp_path: Path) -> None:
     error, api, _ = failed(tmp_path, Page(manner="drop"))
     assert "cannot be reached" in str(error)
     assert len(api.asked) == 3
@@ -90,7 +90,7 @@ def test_a_connection_that_drops_and_a_host_that_is_away(tmp_path: Path) -> None
         freesound(api, tmp_path).find(describe())
 
 
-def test_a_service_that_failed_is_left_alone_for_a_while(tmp_path: Path) -> None:
+def test_failed_service_is_not_queried_for_a_while(tmp_path: Path) -> None:
     time = Time()
     with host(refused(503)) as api:
         source = freesound(api, tmp_path, time)
@@ -103,7 +103,7 @@ def test_a_service_that_failed_is_left_alone_for_a_while(tmp_path: Path) -> None
         assert source.find(describe()) == []
 
 
-def test_a_refused_token_is_not_sent_twice_but_a_refused_query_ends_alone(tmp_path: Path) -> None:
+def test_refused_token_ends_all_queries_and_refused_query_only_itself(tmp_path: Path) -> None:
     for status, calls in ((401, 1), (400, 3)):
         with host(refused(status)) as api:
             source = freesound(api, tmp_path)
@@ -113,7 +113,7 @@ def test_a_refused_token_is_not_sent_twice_but_a_refused_query_ends_alone(tmp_pa
         assert len(api.asked) == calls
 
 
-def test_it_works_inside_a_running_event_loop(tmp_path: Path) -> None:
+def test_search_works_inside_a_running_event_loop(tmp_path: Path) -> None:
     import asyncio
 
     async def find() -> int:

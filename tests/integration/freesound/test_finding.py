@@ -55,7 +55,7 @@ def test_the_ladder_goes_from_all_key_words_to_the_head_noun(tmp_path: Path) -> 
     assert len(cdn.asked) == 1
 
 
-def test_nothing_found_is_no_failure_and_kept(tmp_path: Path) -> None:
+def test_empty_result_is_cached_and_no_failure(tmp_path: Path) -> None:
     with host(results()) as api:
         assert freesound(api, tmp_path).find(describe("fan", "whirring")) == []
         assert len(api.asked) == 2
@@ -63,14 +63,14 @@ def test_nothing_found_is_no_failure_and_kept(tmp_path: Path) -> None:
     assert len(api.asked) == 2
 
 
-def test_words_cannot_command_the_search(tmp_path: Path) -> None:
+def test_keywords_cannot_add_search_operators(tmp_path: Path) -> None:
     with host(results()) as api:
         freesound(api, tmp_path).find(describe('air-conditioner "x" AND -fan', "license:*"))
     assert all(set(asked.query["query"]).isdisjoint('-":*') for asked in api.asked)
     assert api.asked[0].query["query"] == "air conditioner x and fan license"
 
 
-def test_up_to_five_in_the_order_of_the_service(tmp_path: Path) -> None:
+def test_first_five_results_keep_the_order_of_the_service(tmp_path: Path) -> None:
     with catalogue(*({} for _ in range(8))) as (api, cdn):
         clips = freesound(api, tmp_path).find(describe())
         assert len(freesound(api, tmp_path, candidates=2).find(describe())) == 2
@@ -79,7 +79,7 @@ def test_up_to_five_in_the_order_of_the_service(tmp_path: Path) -> None:
     assert len(api.asked) == 1
 
 
-def test_what_was_found_needs_neither_network_nor_token_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cached_results_need_no_network_and_no_token(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with catalogue({}, {}) as (api, _):
         first = freesound(api, tmp_path).find(describe())
     monkeypatch.delenv("FREESOUND_TOKEN")
@@ -88,7 +88,7 @@ def test_what_was_found_needs_neither_network_nor_token_again(tmp_path: Path, mo
     assert all((a.samples == b.samples).all() for a, b in zip(again, first, strict=True))
 
 
-def test_the_cache_holds_no_token_and_no_halves(tmp_path: Path) -> None:
+def test_cache_contains_no_token_and_no_partial_files(tmp_path: Path) -> None:
     with catalogue({}) as (api, _):
         freesound(api, tmp_path).find(describe())
     files = [path for path in (tmp_path / "cache").rglob("*") if path.is_file()]
@@ -97,7 +97,7 @@ def test_the_cache_holds_no_token_and_no_halves(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("junk", [b"", b"not json", b"[1]", b'{"results": 3}', b"\x00" * 5_000_000])
-def test_a_damaged_cache_is_asked_for_again(tmp_path: Path, junk: bytes) -> None:
+def test_damaged_cache_entry_is_requested_again(tmp_path: Path, junk: bytes) -> None:
     with catalogue({}) as (api, cdn):
         freesound(api, tmp_path).find(describe())
         for path in (tmp_path / "cache").rglob("*.*"):
@@ -112,7 +112,7 @@ def test_without_a_folder_the_user_s_own_cache_is_used(tmp_path: Path) -> None:
     assert list((tmp_path / "home-cache" / "scene2hap" / "freesound" / "previews").iterdir())
 
 
-def test_a_cache_that_cannot_be_written_says_so(tmp_path: Path) -> None:
+def test_unwritable_cache_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with catalogue({}) as (api, _), pytest.raises(ConfigError, match="cannot write the cache .*Set `cache`"):
         freesound(api, tmp_path, cache=tmp_path / "file").find(describe())
@@ -135,6 +135,6 @@ def test_a_cache_that_cannot_be_written_says_so(tmp_path: Path) -> None:
     ],
     ids=str,
 )
-def test_settings_that_cannot_work_are_refused(settings: dict[str, Any]) -> None:
+def test_invalid_settings_are_refused(settings: dict[str, Any]) -> None:
     with pytest.raises(ConfigError, match=f"{next(iter(settings))[:5]}"):
         SOURCES.build({"kind": "freesound", **settings})

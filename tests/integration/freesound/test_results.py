@@ -23,7 +23,7 @@ from scene2hap.errors import BackendUnavailable
         ("http://creativecommons.org/licenses/sampling+/1.0/", ("sampling+",), "CC-Sampling+-1.0"),
     ],
 )
-def test_licences_as_the_deed_says(tmp_path: Path, licence: str, wanted: tuple[str, ...], credit: str) -> None:
+def test_licences_are_read_from_their_url(tmp_path: Path, licence: str, wanted: tuple[str, ...], credit: str) -> None:
     with catalogue({"license": licence}) as (api, _):
         (clip,) = freesound(api, tmp_path, licences=wanted).find(describe())
     assert clip.credit.licence == credit
@@ -47,14 +47,14 @@ def test_licences_as_the_deed_says(tmp_path: Path, licence: str, wanted: tuple[s
     ],
     ids=str,
 )
-def test_a_result_beyond_what_was_asked_is_left_alone(tmp_path: Path, change: dict[str, Any]) -> None:
+def test_results_outside_the_filter_are_dropped(tmp_path: Path, change: dict[str, Any]) -> None:
     with catalogue(change, {}) as (api, cdn):
         (clip,) = freesound(api, tmp_path).find(describe())
     assert clip.credit.title == "hum 2"
     assert [asked.path for asked in cdn.asked] == ["/previews/2.ogg"]
 
 
-def test_a_title_stays_on_its_line(tmp_path: Path) -> None:
+def test_titles_are_reduced_to_one_line(tmp_path: Path) -> None:
     odd = {"name": "hum\nSounds by me\x1b[31m", "username": "  ", "url": "javascript:alert(1)"}
     with catalogue(odd) as (api, _):
         (clip,) = freesound(api, tmp_path).find(describe())
@@ -77,7 +77,7 @@ def test_a_title_stays_on_its_line(tmp_path: Path) -> None:
     ],
     ids=["404", "empty", "html", "cut", "long", "endless", "to-ftp", "to-plain-http"],
 )
-def test_a_preview_that_is_none_is_skipped_aloud_and_not_kept(tmp_path: Path, page: Page) -> None:
+def test_invalid_preview_is_skipped_with_a_warning_and_not_cached(tmp_path: Path, page: Page) -> None:
     def file(get: Get) -> Page:
         return page if get.path.endswith("1.ogg") else Page(hum())
 
@@ -91,12 +91,12 @@ def test_a_preview_that_is_none_is_skipped_aloud_and_not_kept(tmp_path: Path, pa
     assert len(list((tmp_path / "cache" / "previews").iterdir())) == 1
 
 
-def test_a_preview_that_is_too_short_once_trimmed_does_not_count(tmp_path: Path) -> None:
+def test_preview_too_short_after_trimming_is_skipped(tmp_path: Path) -> None:
     with catalogue({}, sound=Page(hum(2.0))) as (api, _):
         assert freesound(api, tmp_path).find(describe()) == []
 
 
-def test_previews_that_are_all_away_are_a_failure_not_an_empty_shelf(tmp_path: Path) -> None:
+def test_failure_of_all_previews_is_an_error(tmp_path: Path) -> None:
     with catalogue(*({} for _ in range(5)), sound=Page(manner="drop")) as (api, cdn), warnings.catch_warnings():
         warnings.simplefilter("ignore", UnusableSound)
         with pytest.raises(BackendUnavailable, match="previews/2.ogg cannot be reached"):

@@ -18,7 +18,7 @@ from scene2hap.audio.sources.freesound import Freesound
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
 
 
-def test_the_token_stays_at_home(tmp_path: Path) -> None:
+def test_token_is_sent_only_to_the_api_host(tmp_path: Path) -> None:
     """Not to the previews' host, nor to where that one sends us, nor to where the API itself does."""
     with host(Page(hum())) as third:
         moved = Page(b"", 302, {"location": f"http://localhost:{third.port}/a.ogg"})
@@ -45,13 +45,13 @@ def test_the_token_stays_at_home(tmp_path: Path) -> None:
         "",
     ],
 )
-def test_an_address_that_is_not_safe_for_a_token_is_refused(base_url: str) -> None:
+def test_insecure_address_is_refused(base_url: str) -> None:
     with pytest.raises(ConfigError, match="base_url must be an https address") as caught:
         Freesound(base_url=base_url)
     assert "pw" not in str(caught.value)
 
 
-def test_the_token_is_shown_to_nobody(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_token_is_masked_everywhere(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level(logging.DEBUG)
     echo, _, _ = failed(tmp_path, refused(401, f"bad token {TOKEN}"))
     assert "bad token ******" in str(echo)
@@ -71,7 +71,7 @@ def test_the_token_is_shown_to_nobody(tmp_path: Path, caplog: pytest.LogCaptureF
         assert TOKEN not in "".join(traceback.format_exception(caught.value))
 
 
-def test_no_frame_of_a_failure_holds_the_token(tmp_path: Path) -> None:
+def test_no_traceback_frame_contains_the_token(tmp_path: Path) -> None:
     error, _, _ = failed(tmp_path, Page(manner="drop"))
     seen: BaseException | None = error.__cause__
     assert isinstance(seen, httpx.HTTPError)
@@ -90,7 +90,7 @@ def test_without_a_token_nothing_is_sent(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize("token", ["a\nb", "schlüssel"])
-def test_a_token_that_no_header_carries_is_refused(tmp_path: Path, token: str) -> None:
+def test_token_invalid_in_a_header_is_refused(tmp_path: Path, token: str) -> None:
     with host(results()) as api, pytest.raises(ConfigError, match="copy it again") as caught:
         freesound(api, tmp_path, token=token).find(describe())
     assert token not in str(caught.value)

@@ -36,7 +36,7 @@ def calls_for_good(fault: Fault, retries: int) -> int:
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_a_server_that_mends_itself(name: str, tmp_path: Path) -> None:
+def test_recovering_server_is_retried_successfully(name: str, tmp_path: Path) -> None:
     fault = FAULTS[name]
     outcome = run(fault, "openai", tmp_path, n=N, sleep=short)
     assert_kept_its_promises(outcome)
@@ -45,7 +45,7 @@ def test_a_server_that_mends_itself(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", LASTING)
-def test_a_server_that_never_does(name: str, tmp_path: Path) -> None:
+def test_permanently_failing_server_ends_with_an_error(name: str, tmp_path: Path) -> None:
     fault = FAULTS[name]
     outcome = run(fault, "openai", tmp_path, n=2, for_good=True, retries=1, sleep=short)
     assert_kept_its_promises(outcome)

@@ -51,7 +51,7 @@ def test_key_that_a_server_echoes_in_a_header(caplog: pytest.LogCaptureFixture) 
     assert KEY not in caplog.text
 
 
-def test_key_that_a_server_echoes_is_nowhere(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_key_echoed_by_a_server_is_removed_everywhere(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     """In no error, repr, log, answer, cache file or recording."""
     shown: list[str] = []
     refusals = [
@@ -82,7 +82,7 @@ def test_key_that_a_server_echoes_is_nowhere(tmp_path: Path, caplog: pytest.LogC
 
 
 @pytest.mark.parametrize("base_url", [f"http://me:{KEY}@127.0.0.1/v1", f"http://127.0.0.1/v1?key={KEY}"])
-def test_key_within_the_address_is_refused_unseen(base_url: str) -> None:
+def test_key_in_the_address_is_refused_without_showing_it(base_url: str) -> None:
     with pytest.raises(ConfigError, match="give the key as api_key") as caught:
         OpenAIBackend(base_url=base_url)
     assert KEY not in str(caught.value)

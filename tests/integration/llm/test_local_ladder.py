@@ -31,7 +31,7 @@ def test_ladder_stops_where_the_server_agrees() -> None:
     assert backend.rung == "json_object"
 
 
-def test_what_no_rung_can_save_teaches_nothing() -> None:
+def test_failure_at_every_format_is_not_remembered() -> None:
     with serving(refused(400, "context length exceeded")) as server:
         backend = local(server)
         with pytest.raises(BackendUnavailable, match="context length exceeded"):
@@ -64,7 +64,7 @@ def test_llama_cpp_reads_only_the_nested_json_schema() -> None:
     assert_openai_takes(server.bodies[0])
 
 
-def test_llama_cpp_without_eyes_is_not_retried() -> None:
+def test_llama_cpp_without_vision_is_not_retried() -> None:
     script = refused(
         500, {"code": 500, "message": "image input is not supported - hint: mmproj", "type": "server_error"}
     )
@@ -110,14 +110,14 @@ def test_vllm_has_no_guided_parameters_any_more() -> None:
     assert_openai_takes(server.bodies[0])
 
 
-def test_vllm_that_takes_fewer_pictures_says_so() -> None:
+def test_vllm_picture_limit_is_reported() -> None:
     few = refused(400, {"message": "At most 1 image(s) may be provided in one prompt.", "code": 400})
     with serving(few) as server, pytest.raises(BackendUnavailable, match=r"At most 1 image\(s\)") as caught:
         ask(local(server), request(images=(PNG, PNG)))
     assert not caught.value.retryable
 
 
-def test_lm_studio_crashes_on_pictures_with_a_schema_and_is_asked_without_one() -> None:
+def test_lm_studio_gets_pictures_without_a_schema() -> None:
     crash = refused(400, "The model has crashed without additional information. (Exit code: 11)")
     with serving(crash, REJECTS_JSON_OBJECT, said()) as server:
         backend = local(server)
@@ -172,7 +172,7 @@ def test_pictures_go_as_data_and_never_as_addresses() -> None:
     assert [part["image_url"]["url"][:22] for part in parts] == ["data:image/png;base64,"] * 2
 
 
-def test_llama_cpp_holds_whole_numbers_to_their_bounds_and_others_not() -> None:
+def test_llama_cpp_enforces_bounds_of_integers_only() -> None:
     wrong = {**GOOD["material_estimator"], "poisson_ratio": 0.7}
     with serving(said(wrong), said(GOOD["material_estimator"])) as server:
         reply = ask(RepairBackend(local(server)), request("material_estimator"))

@@ -36,7 +36,7 @@ def test_the_only_model_of_ollama_needs_no_name() -> None:
     assert server.bodies[0]["model"] == "qwen2.5vl:latest"
 
 
-def test_of_several_models_one_must_be_named() -> None:
+def test_model_name_is_required_with_several_models() -> None:
     with (
         serving(said(), pages=models({"id": "a"}, {"id": "b"})) as server,
         pytest.raises(ConfigError, match=r"serves 2 models \(a, b\); give `model`"),
@@ -48,7 +48,7 @@ def test_of_several_models_one_must_be_named() -> None:
 @pytest.mark.parametrize(
     "page", [Scripted({"data": []}), Scripted(b"<html>"), Scripted({}, 404), Scripted({"data": 3})]
 )
-def test_a_server_that_names_no_model(page: Scripted) -> None:
+def test_server_without_models_is_refused(page: Scripted) -> None:
     with (
         serving(said(), pages={"/v1/models": page}) as server,
         pytest.raises(BackendUnavailable, match="names no model"),
@@ -56,7 +56,7 @@ def test_a_server_that_names_no_model(page: Scripted) -> None:
         ask(local(server, model=None))
 
 
-def test_a_cache_tells_the_models_apart_that_one_address_served(tmp_path: Path) -> None:
+def test_cache_separates_models_served_at_one_address(tmp_path: Path) -> None:
     with serving(by=lambda asked: said({"scene_category": asked.body["model"]})) as server:
         for name in ("old", "new"):
             server.pages = models({"id": name})
@@ -68,7 +68,7 @@ def test_a_cache_tells_the_models_apart_that_one_address_served(tmp_path: Path) 
     assert len(server.asked) == 2
 
 
-def test_llama_cpp_says_that_it_is_blind() -> None:
+def test_llama_cpp_without_vision_is_detected() -> None:
     listed = {"id": "llava", "architecture": {"input_modalities": ["text"]}}
     with serving(said(), pages=models(listed)) as server:
         backend = local(server)
@@ -90,7 +90,7 @@ def test_llama_cpp_says_that_it_is_blind() -> None:
     ],
     ids=["sees", "does not tell", "another", "odd"],
 )
-def test_eyes_are_checked_once_and_silence_is_no_answer(listed: dict[str, Any]) -> None:
+def test_vision_support_is_checked_once_and_may_be_unknown(listed: dict[str, Any]) -> None:
     with serving(said(), pages=models(listed)) as server:
         backend = local(server)
         ask(backend, request(images=(PNG,)))
@@ -100,14 +100,14 @@ def test_eyes_are_checked_once_and_silence_is_no_answer(listed: dict[str, Any]) 
 
 
 @pytest.mark.parametrize("page", [Scripted(drop=True), Scripted(reset=True), Scripted({}, 501), Scripted(b"?")])
-def test_a_server_without_a_list_is_asked_all_the_same(page: Scripted) -> None:
+def test_server_without_model_list_is_queried(page: Scripted) -> None:
     with serving(said(), pages={"/v1/models": page}) as server:
         ask(local(server), request(images=(PNG,)))
     assert len(server.asked) == 1
 
 
 @pytest.mark.parametrize("name", ["qwen2.5vl", "qwen2.5vl:latest"])
-def test_newer_ollama_lists_what_its_models_can(name: str) -> None:
+def test_capabilities_are_read_from_the_model_list_of_newer_ollama(name: str) -> None:
     with (
         serving(ollama_said(), pages=tags({"name": name, "capabilities": ["completion"]})) as server,
         pytest.raises(BackendUnavailable, match="takes no pictures"),
@@ -117,7 +117,7 @@ def test_newer_ollama_lists_what_its_models_can(name: str) -> None:
 
 
 @pytest.mark.parametrize("capabilities", [["completion"], ["completion", "vision"]])
-def test_older_ollama_is_asked_to_show_the_model(capabilities: list[str]) -> None:
+def test_capabilities_are_read_from_show_of_older_ollama(capabilities: list[str]) -> None:
     with serving(Scripted({"capabilities": capabilities}), ollama_said(), pages=tags({"name": "qwen2.5vl"})) as server:
         if "vision" in capabilities:
             ask(ollama(server), request(images=(PNG,)))
@@ -128,7 +128,7 @@ def test_older_ollama_is_asked_to_show_the_model(capabilities: list[str]) -> Non
     assert server.asked[0].body == {"model": "qwen2.5vl"}
 
 
-def test_ollama_behind_v1_is_warned_of() -> None:
+def test_openai_endpoint_of_ollama_warns() -> None:
     """There each picture is a message of its own, and the first are dropped where they do not fit."""
     with serving(said(), pages=models({"id": "llava", "owned_by": "library"})) as server:
         backend = local(server)
@@ -137,7 +137,7 @@ def test_ollama_behind_v1_is_warned_of() -> None:
         ask(backend, request(images=(PNG,)))
 
 
-def test_many_calls_that_start_at_once_all_know_the_model() -> None:
+def test_concurrent_first_calls_all_know_the_model() -> None:
     with serving(said(), pages=models({"id": "gemma"})) as server:
         backend = local(server, model=None)
 

@@ -12,7 +12,7 @@ from scene2hap import (
 from scene2hap.errors import BackendUnavailable, BadAnswer
 
 
-def test_ollama_loses_no_images_in_one_native_message() -> None:
+def test_native_message_contains_all_images() -> None:
     with serving(ollama_said()) as server:
         reply = ask(ollama(server, num_ctx=8192, max_tokens=300, seed=3), request(images=(PNG, PNG + b"2")))
     (asked,) = server.asked
@@ -26,14 +26,14 @@ def test_ollama_loses_no_images_in_one_native_message() -> None:
     assert (reply.model, reply.usage) == ("qwen2.5vl", {"prompt_tokens": 5000, "completion_tokens": 20})
 
 
-def test_ollama_goes_down_the_ladder_in_its_own_words() -> None:
+def test_ollama_falls_back_through_its_native_formats() -> None:
     with serving(refused(400, "invalid format"), refused(400, "invalid format"), ollama_said()) as server:
         ask(ollama(server))
     assert [body.get("format", "none") for body in server.bodies][1:] == ["json", "none"]
 
 
 @pytest.mark.parametrize("dialect", ["openai", "ollama"])
-def test_images_dropped_silently_are_warned_of(dialect: str) -> None:
+def test_silently_dropped_images_warn(dialect: str) -> None:
     few = ollama_said(prompt_eval_count=90) if dialect == "ollama" else said()
     if dialect == "openai":
         few.body["usage"]["prompt_tokens"] = 90
@@ -44,7 +44,7 @@ def test_images_dropped_silently_are_warned_of(dialect: str) -> None:
         ask(backend, request(images=(PNG,) * 8))  # a second warning would be an error here
 
 
-def test_images_that_were_read_are_not_warned_of() -> None:
+def test_read_images_do_not_warn() -> None:
     with serving(ollama_said(prompt_eval_count=8 * 256), ollama_said(prompt_eval_count=5)) as server:
         ask(ollama(server), request(images=(PNG,) * 8))
         ask(ollama(server), request())
@@ -56,17 +56,17 @@ def test_ollama_errors_are_plain_texts() -> None:
         ask(ollama(server))
 
 
-def test_ollama_cut_short() -> None:
+def test_truncated_reply_of_ollama_is_an_error() -> None:
     with serving(ollama_said('{"scene', done_reason="length")) as server, pytest.raises(BadAnswer, match="cut off"):
         ask(ollama(server))
 
 
-def test_ollama_dialect_against_another_server() -> None:
+def test_ollama_dialect_at_another_server_is_reported() -> None:
     with serving(said()) as server, pytest.raises(BadAnswer, match="Check base_url and the dialect"):
         ask(ollama(server))
 
 
-def test_thinking_is_off_unless_it_is_wanted_and_options_are_passed_on() -> None:
+def test_thinking_is_off_by_default_and_options_are_sent() -> None:
     with serving(ollama_said()) as server:
         ask(ollama(server, reasoning_effort="none"))
         ask(ollama(server, reasoning_effort="high", top_p=0.9, extra={"top_k": 1}))

@@ -13,20 +13,20 @@ from scene2hap import (
 from scene2hap.errors import AnswerRefused, BadAnswer
 
 
-def test_length_comes_before_everything_else() -> None:
+def test_truncation_is_reported_before_other_faults() -> None:
     script = said('{"scene_category": "kit', "length", refusal="no")
     with openai_serving(script) as server, pytest.raises(BadAnswer, match="cut off at its token limit") as caught:
         ask(openai(server))
     assert caught.value.raw_text == '{"scene_category": "kit'
 
 
-def test_content_filter_comes_before_refusal() -> None:
+def test_content_filter_is_reported_before_refusal() -> None:
     script = said(None, "content_filter", refusal="no")
     with openai_serving(script) as server, pytest.raises(BadAnswer, match="content filter"):
         ask(openai(server))
 
 
-def test_refusal_is_told_and_not_repaired() -> None:
+def test_refusal_is_reported_and_not_repaired() -> None:
     script = said(None, refusal="I cannot help with that.")
     with (
         openai_serving(script) as server,
@@ -49,7 +49,7 @@ def test_success_without_a_chat_completion(body: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("body", [b"<html>hello</html>", b"[1]", b"\xff\xfe", b"[" * 100_000, b""])
-def test_success_without_json_is_no_model_server(body: bytes) -> None:
+def test_success_status_without_json_is_not_a_model_server(body: bytes) -> None:
     error = failed(Scripted(body))
     assert "without a JSON object. Check base_url" in str(error)
     assert not error.retryable

@@ -13,12 +13,12 @@ from scene2hap.errors import BackendUnavailable
 
 
 @pytest.mark.parametrize("status", [408, 409, 429, 500, 502, 503, 529])
-def test_retry_as_sdk(status: int) -> None:
+def test_retries_follow_the_rules_of_the_sdk(status: int) -> None:
     assert failed(refused(status, {"message": "busy", "type": "server_error"})).retryable
 
 
 @pytest.mark.parametrize("status", [301, 400, 401, 403, 404, 413, 422])
-def test_no_retry_on_what_the_caller_did(status: int) -> None:
+def test_client_errors_are_not_retried(status: int) -> None:
     assert not failed(refused(status, {"message": "wrong"})).retryable
 
 
@@ -42,7 +42,7 @@ def test_fail_fast_on_429_without_money(error: dict[str, Any]) -> None:
     assert "The account is used up" in str(caught)
 
 
-def test_rate_limit_tells_when_to_come_back() -> None:
+def test_rate_limit_reply_gives_the_retry_delay() -> None:
     caught = failed(refused(429, {"message": "slow", "code": "rate_limit_exceeded"}, retry_after="20"))
     assert (caught.retryable, caught.retry_after_s) == (True, 20.0)
 
@@ -60,7 +60,7 @@ def test_silence_is_a_timeout_that_can_be_retried() -> None:
     assert "did not answer within 0.04 s" in str(error)
 
 
-def test_a_slow_drip_is_a_timeout_too() -> None:
+def test_slow_trickle_is_a_timeout() -> None:
     """Each byte comes in time, the answer does not."""
     dripping = dataclasses.replace(said(), drip_s=5.0)
     error = failed(dripping, timeout_s=0.1)
@@ -75,7 +75,7 @@ def test_a_connection_that_is_reset_can_be_retried() -> None:
 
 
 @pytest.mark.parametrize("status", [200, 404, 502])
-def test_html_is_no_model_server_unless_it_stands_in_for_one(status: int) -> None:
+def test_html_reply_is_not_a_model_server_except_for_gateway_errors(status: int) -> None:
     page = Scripted(b"<html><h1>Bad gateway</h1></html>", status, {"content-type": "text/html"})
     assert failed(page).retryable is (status == 502)
 
@@ -97,7 +97,7 @@ def test_body_cut_short_can_be_retried() -> None:
     assert failed(Scripted(b'{"choices"', headers={"content-length": "500"})).retryable
 
 
-def test_nobody_listens() -> None:
+def test_refused_connection_is_reported() -> None:
     with openai_serving(said()) as server:
         pass
     with pytest.raises(BackendUnavailable, match="cannot be reached") as caught:

@@ -42,7 +42,7 @@ def test_max_tokens_is_renamed_and_seed_dropped() -> None:
     assert_openai_takes(server.bodies[2])
 
 
-def test_top_p_is_sent_where_it_is_wanted_and_dropped_where_it_is_refused() -> None:
+def test_top_p_is_sent_on_request_and_dropped_when_refused() -> None:
     with (
         openai_serving(no_parameter("top_p"), said()) as server,
         pytest.warns(BackendWarning, match="'top_p'; it is no longer sent"),
@@ -51,7 +51,7 @@ def test_top_p_is_sent_where_it_is_wanted_and_dropped_where_it_is_refused() -> N
     assert [body.get("top_p") for body in server.bodies] == [0.9, None]
 
 
-def test_reasoning_effort_is_sent_as_wished_and_never_dropped() -> None:
+def test_reasoning_effort_is_sent_and_never_dropped() -> None:
     """With "none" gpt-5.1 to 5.6 take a temperature; who asked for an effort is told where the model has none."""
     with openai_serving(said(), no_parameter("reasoning_effort")) as server:
         backend = openai(server, model="gpt-5.4", reasoning_effort="none")
@@ -61,7 +61,7 @@ def test_reasoning_effort_is_sent_as_wished_and_never_dropped() -> None:
     assert [(body["reasoning_effort"], body["temperature"]) for body in server.bodies] == [("none", 0.2)] * 2
 
 
-def test_what_one_model_taught_is_not_held_against_another() -> None:
+def test_refused_parameters_are_remembered_per_model() -> None:
     with openai_serving(no_parameter("temperature"), said(), said()) as server:
         with pytest.warns(BackendWarning):
             ask(openai(server, model="o3"))
@@ -69,7 +69,7 @@ def test_what_one_model_taught_is_not_held_against_another() -> None:
     assert "temperature" in server.bodies[2]
 
 
-def test_many_calls_under_way_learn_and_warn_once() -> None:
+def test_concurrent_calls_learn_and_warn_once() -> None:
     def strict(asked: Asked) -> Scripted:
         return no_parameter("temperature") if "temperature" in asked.body else said()
 
@@ -85,7 +85,7 @@ def test_many_calls_under_way_learn_and_warn_once() -> None:
 
 
 @pytest.mark.parametrize("param", ["temperature", "response_format", "messages", ""])
-def test_a_parameter_gives_way_once_and_others_never(param: str) -> None:
+def test_optional_parameter_is_dropped_once_and_required_ones_never(param: str) -> None:
     warnings.simplefilter("ignore", BackendWarning)
     with (
         openai_serving(no_parameter(param)) as server,

@@ -68,7 +68,7 @@ def billed(prompt_tokens: int) -> Scripted:
 
 
 @pytest.mark.parametrize(("detail", "tokens"), [("low", 20_000), ("high", 150_000)])
-def test_pictures_billed_as_text_are_warned_of(detail: Any, tokens: int) -> None:
+def test_pictures_billed_as_text_warn(detail: Any, tokens: int) -> None:
     """gpt-5.4-mini was seen to bill the base64 of pictures as text: 8 tokens for each dozen characters."""
     with openai_serving(billed(tokens)) as server:
         backend = openai(server, detail=detail)
@@ -77,7 +77,7 @@ def test_pictures_billed_as_text_are_warned_of(detail: Any, tokens: int) -> None
         ask(backend, request(images=(PNG, PNG)))  # a second warning would be an error here
 
 
-def test_what_pictures_may_cost_is_not_warned_of() -> None:
+def test_plausible_picture_costs_do_not_warn() -> None:
     """gpt-4o-mini at its dearest: 2,833 tokens a picture, or 48,169 for eight tiles; and prompts without pictures."""
     with openai_serving(billed(2 * 2_833 + 40), billed(2 * 48_169 + 40), billed(90_000)) as server:
         ask(openai(server), request(images=(PNG, PNG)))
@@ -124,7 +124,7 @@ def test_detail_is_always_sent_and_images_keep_their_order(detail: Any) -> None:
     assert [base64.b64decode(url.removeprefix("data:image/png;base64,"), validate=True) for url in urls] == [*images]
 
 
-def test_a_name_that_is_not_utf8_can_be_asked_about() -> None:
+def test_name_that_is_not_utf_8_can_be_sent() -> None:
     with openai_serving(said()) as server:
         ask(openai(server), request(prompt="What is the \ud800 käse?"))
     assert server.bodies[0]["messages"][0]["content"][0]["text"] == "What is the ? käse?"

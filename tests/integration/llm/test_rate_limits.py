@@ -50,7 +50,7 @@ async def one_sent_away_then_eight(backend: OpenAIBackend) -> None:
     ],
     ids=lambda headers: next(iter(headers)),
 )
-def test_other_lanes_wait_with_the_one_that_was_told_to(headers: dict[str, str]) -> None:
+def test_all_concurrent_calls_wait_for_a_requested_pause(headers: dict[str, str]) -> None:
     came_s, script = timed(lambda number: limited(**headers) if number == 0 else said())
     with openai_serving(by=script) as server:
         asyncio.run(one_sent_away_then_eight(openai(server)))
@@ -58,7 +58,7 @@ def test_other_lanes_wait_with_the_one_that_was_told_to(headers: dict[str, str])
     assert min(came_s[1:]) - came_s[0] >= WAIT_S
 
 
-def test_a_limit_that_an_answer_used_up_is_heeded_before_it_is_broken() -> None:
+def test_exhausted_limit_in_a_reply_delays_the_next_request() -> None:
     headers = {"x-ratelimit-remaining-requests": "0", "x-ratelimit-reset-requests": f"{WAIT_S * 1000:g}ms"}
     came_s, script = timed(lambda number: dataclasses.replace(said(), headers=headers if number == 0 else {}))
     with openai_serving(by=script) as server:
@@ -80,7 +80,7 @@ def test_a_limit_that_an_answer_used_up_is_heeded_before_it_is_broken() -> None:
     ],
     ids=["no header", "too long", "no money", "our fault", "some left", "answered, too long"],
 )
-def test_what_is_no_pause_holds_up_nobody(reply: Scripted) -> None:
+def test_invalid_pause_does_not_delay_requests(reply: Scripted) -> None:
     """The second request goes at once; a pause of a minute would run into the timeout of the test."""
     with openai_serving(reply, said()) as server:
         backend = openai(server)
@@ -93,7 +93,7 @@ def test_what_is_no_pause_holds_up_nobody(reply: Scripted) -> None:
         asyncio.run(both())
 
 
-def test_a_reset_that_is_hours_away_is_no_wait() -> None:
+def test_reset_after_hours_is_not_waited_for() -> None:
     away = limited(x_ratelimit_remaining_requests="0", x_ratelimit_reset_requests="1h2m3s")
     with openai_serving(away) as server, pytest.raises(BackendUnavailable, match="asks to wait 3723 s") as caught:
         ask(RetryBackend(openai(server)))
@@ -101,7 +101,7 @@ def test_a_reset_that_is_hours_away_is_no_wait() -> None:
     assert len(server.asked) == 1
 
 
-def test_eight_lanes_get_through_a_limit_of_one_request_in_a_window() -> None:
+def test_eight_concurrent_calls_pass_a_limit_of_one_request_per_window() -> None:
     """Whoever is sent away seven times is served in the end, and nobody asks while the window is shut."""
     window_s = 0.1
     passed_s: list[float] = []

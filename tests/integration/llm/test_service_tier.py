@@ -40,7 +40,7 @@ def tiers(bodies: list[dict[str, Any]]) -> list[str | None]:
     return [body.get("service_tier") for body in bodies]
 
 
-def test_the_tier_is_sent_and_read_and_waits_longer() -> None:
+def test_tier_is_sent_and_read_and_has_a_longer_timeout() -> None:
     with openai_serving(billed("flex")) as server:
         backend = openai(server, model="gpt-5", service_tier="flex")
         reply = ask(backend)
@@ -52,12 +52,12 @@ def test_the_tier_is_sent_and_read_and_waits_longer() -> None:
     assert openai(server, service_tier="flex", timeout_s=30.0).timeout_s == 30.0
 
 
-def test_the_tier_does_not_decide_the_answer_so_no_question_is_paid_twice() -> None:
+def test_tier_is_not_part_of_the_cache_key() -> None:
     with openai_serving(said()) as server:
         assert openai(server, service_tier="flex").identity == openai(server).identity
 
 
-def test_without_capacity_one_answer_costs_the_standard_price_and_the_next_is_tried_again() -> None:
+def test_missing_capacity_falls_back_to_standard_for_one_request() -> None:
     with openai_serving(NO_CAPACITY, billed("default"), billed("flex")) as server:
         backend = openai(server, model="gpt-5", service_tier="flex")
         assert ask(backend).service_tier == "default"
@@ -66,7 +66,7 @@ def test_without_capacity_one_answer_costs_the_standard_price_and_the_next_is_tr
     assert reports(backend) == {"OpenAIBackend": {"without_capacity": 1}}
 
 
-def test_a_model_that_is_not_in_the_tier_is_asked_without_from_then_on() -> None:
+def test_tier_is_dropped_for_models_that_do_not_support_it() -> None:
     with openai_serving(NOT_OFFERED, billed("default"), billed("default")) as server:
         backend = openai(server, service_tier="flex")
         with pytest.warns(BackendWarning, match="does not take 'service_tier'.*cost the standard price"):
@@ -75,7 +75,7 @@ def test_a_model_that_is_not_in_the_tier_is_asked_without_from_then_on() -> None
     assert tiers(server.bodies) == ["flex", None, None]
 
 
-def test_an_ordinary_limit_is_waited_for_in_the_same_tier() -> None:
+def test_rate_limit_is_waited_for_in_the_same_tier() -> None:
     limit = refused(429, {"message": "slow down", "type": "requests", "param": None, "code": "rate_limit_exceeded"})
     waits: list[float] = []
 
@@ -88,14 +88,14 @@ def test_an_ordinary_limit_is_waited_for_in_the_same_tier() -> None:
     assert len(waits) == 1
 
 
-def test_no_capacity_in_the_standard_tier_is_an_error_as_ever() -> None:
+def test_missing_capacity_in_the_standard_tier_is_an_error() -> None:
     with openai_serving(NO_CAPACITY) as server, pytest.raises(BackendUnavailable, match="429") as caught:
         ask(openai(server))
     assert caught.value.retryable
     assert len(server.bodies) == 1
 
 
-def test_many_calls_fall_back_each_for_itself() -> None:
+def test_concurrent_calls_fall_back_independently() -> None:
     def scarce(asked: Asked) -> Scripted:
         return NO_CAPACITY if "service_tier" in asked.body else billed("default")
 

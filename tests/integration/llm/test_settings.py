@@ -30,6 +30,6 @@ from scene2hap.errors import ConfigError
         (lambda: LocalBackend("m", base_url="http://a", num_ctx=0), "num_ctx is 0 tokens"),
     ],
 )
-def test_settings_that_cannot_work(make: Any, named: str) -> None:
+def test_invalid_settings_are_refused(make: Any, named: str) -> None:
     with pytest.raises(ConfigError, match=named):
         make()

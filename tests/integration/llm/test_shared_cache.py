@@ -26,7 +26,7 @@ print("\\n".join(reply.text for reply in asyncio.run(ask())))
 """
 
 
-def test_runs_at_the_same_time_pay_for_each_answer_once(tmp_path: Path) -> None:
+def test_concurrent_runs_pay_for_each_answer_once(tmp_path: Path) -> None:
     def slow(asked: Asked) -> Scripted:
         time.sleep(0.05)
         return said({"scene_category": asked.prompt[:-1]})

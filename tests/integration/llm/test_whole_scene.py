@@ -19,7 +19,7 @@ from scenes import box, scene
 
 
 @pytest.mark.parametrize("dialect", ["openai", "ollama", "OpenAI itself"])
-def test_a_scene_inferred_over_http_is_what_the_model_said(dialect: str) -> None:
+def test_scene_inferred_over_http_equals_direct_inference(dialect: str) -> None:
     """The lexicon plays the model: it answers the same questions once directly and once behind a server."""
     kitchen = scene(box("fridge", (0.7, 1.8, 0.7), (0.4, 0.9, 0.4)), box("phone", (0.1, 0.01, 0.1), (3.0, 0.7, 0.4)))
     spoken: dict[str, Any] = {}

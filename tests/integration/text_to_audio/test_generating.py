@@ -33,13 +33,13 @@ def test_the_sentence_goes_out_and_sounds_with_their_origin_come_in(tmp_path: Pa
     assert_nothing_left(tmp_path)
 
 
-def test_five_takes_unless_told_otherwise(tmp_path: Path) -> None:
+def test_five_takes_are_generated_by_default(tmp_path: Path) -> None:
     source = TextToAudio([sys.executable, "-S", str(GENERATOR), "good"], cache=tmp_path / "cache")
     assert len(source.find(describe())) == 5
     assert [(run["count"], run["duration_s"]) for run in runs(tmp_path)] == [(5, 5.0)]
 
 
-def test_what_was_generated_is_not_generated_again(tmp_path: Path) -> None:
+def test_generated_sounds_are_cached(tmp_path: Path) -> None:
     first = generator(tmp_path).find(describe())
     again = generator(tmp_path).find(describe())
     assert len(runs(tmp_path)) == 1
@@ -71,30 +71,30 @@ def test_a_damaged_take_is_generated_again(tmp_path: Path) -> None:
     assert len(runs(tmp_path)) == 2
 
 
-def test_paths_go_where_the_command_says(tmp_path: Path) -> None:
+def test_paths_replace_placeholders_of_the_command(tmp_path: Path) -> None:
     swapped = "import sys; a = sys.argv; sys.argv = ['', 'good', a[2][2:], a[1][2:]]; exec(open(a[3]).read())"
     command = [sys.executable, "-S", "-c", swapped, "o={folder}", "i={request}", str(GENERATOR)]
     assert len(TextToAudio(command, count=1, cache=tmp_path / "cache").find(describe())) == 1
 
 
-def test_nothing_to_say_nothing_to_make(tmp_path: Path) -> None:
+def test_empty_description_generates_nothing(tmp_path: Path) -> None:
     silent = VibrationDescription("", "", " \n", " ", 0.5, (0.0, 0.0, 0.0))
     assert generator(tmp_path).find(silent) == []
     assert runs(tmp_path) == []
 
 
-def test_one_bad_take_spoils_no_other_and_no_more_than_asked_are_read(tmp_path: Path) -> None:
+def test_bad_take_is_skipped_and_extra_takes_are_ignored(tmp_path: Path) -> None:
     with pytest.warns(UnusableTake, match="skipped take 2"):
         assert len(generator(tmp_path, "one-junk", count=3).find(describe())) == 2
     assert len(generator(tmp_path, "more").find(describe())) == 2
 
 
-def test_a_model_that_does_not_say_who_it_is(tmp_path: Path) -> None:
+def test_model_without_identity_is_refused(tmp_path: Path) -> None:
     credit = generator(tmp_path, "nameless").find(describe())[0].credit
     assert (credit.author, credit.licence, credit.address) == ("an unnamed model", "free as in beer", "")
 
 
-def test_the_program_sees_no_keys_but_those_it_is_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_program_gets_only_the_configured_environment_keys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("OPENAI_API_KEY", "FREESOUND_TOKEN", "HF_TOKEN", "AWS_SECRET_ACCESS_KEY", "DB_PASSWORD", "HF_HOME"):
         monkeypatch.setenv(name, "0123456789")
     generator(tmp_path).find(describe())

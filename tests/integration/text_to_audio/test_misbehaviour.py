@@ -17,7 +17,7 @@ from scene2hap.audio.sources.text_to_audio import TextToAudio, UnusableTake
 from scene2hap.errors import BackendError, BackendUnavailable, BadAnswer, ConfigError
 
 
-def test_one_that_hangs_is_ended(tmp_path: Path) -> None:
+def test_hanging_generator_is_killed(tmp_path: Path) -> None:
     start = time.monotonic()
     assert "did not finish within 0.3 s" in str(failed(tmp_path, "hang", timeout_s=0.3))
     assert time.monotonic() - start < 30.0, "the program sleeps for a minute"
@@ -25,7 +25,7 @@ def test_one_that_hangs_is_ended(tmp_path: Path) -> None:
 
 @posix
 @pytest.mark.parametrize("timeout_s", [10.0, 0.01])
-def test_what_it_started_ends_with_it(tmp_path: Path, timeout_s: float) -> None:
+def test_child_processes_of_a_generator_are_killed(tmp_path: Path, timeout_s: float) -> None:
     if timeout_s > 1.0:
         generator(tmp_path, "orphan", timeout_s=timeout_s).find(describe())
     else:
@@ -55,7 +55,7 @@ def is_running(process: int) -> bool:
     return True
 
 
-def test_one_that_dies_is_quoted_without_its_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_error_quotes_a_crashed_generator_without_its_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HF_TOKEN", "hf_0123456789abcdef")
     error = failed(tmp_path, "die")
     assert "ended with status 3. It said last: loading the model CUDA out of memory, key ******" in str(error)
@@ -63,7 +63,7 @@ def test_one_that_dies_is_quoted_without_its_key(tmp_path: Path, monkeypatch: py
 
 
 @posix
-def test_one_that_is_killed(tmp_path: Path) -> None:
+def test_killed_generator_is_reported(tmp_path: Path) -> None:
     assert "was ended by signal 9 (out of memory?)" in str(failed(tmp_path, "killed"))
 
 
@@ -76,7 +76,7 @@ def test_one_that_is_killed(tmp_path: Path) -> None:
         ("litter", "wrote 1001 files"),
     ],
 )
-def test_one_that_writes_too_much_is_ended(tmp_path: Path, manner: str, said: str) -> None:
+def test_generator_that_writes_too_much_is_killed(tmp_path: Path, manner: str, said: str) -> None:
     assert said in str(failed(tmp_path, manner, max_bytes=20_000_000))
 
 
@@ -91,7 +91,7 @@ def test_one_that_writes_too_much_is_ended(tmp_path: Path, manner: str, said: st
         ("error", "the generator says: no GPU for you"),
     ],
 )
-def test_one_that_breaks_the_contract(tmp_path: Path, manner: str, said: str) -> None:
+def test_generator_that_breaks_the_contract_is_refused(tmp_path: Path, manner: str, said: str) -> None:
     with pytest.raises(BackendError, match=said):
         raise failed(tmp_path, manner)
 
@@ -108,14 +108,14 @@ def test_one_that_breaks_the_contract(tmp_path: Path, manner: str, said: str) ->
         pytest.param("pipe", "is not a plain file", marks=posix),
     ],
 )
-def test_one_whose_sounds_are_none(tmp_path: Path, manner: str, said: str) -> None:
+def test_generator_without_valid_sounds_is_refused(tmp_path: Path, manner: str, said: str) -> None:
     with pytest.warns(UnusableTake, match=said):
         error = failed(tmp_path, manner)
     assert isinstance(error, BadAnswer)
     assert "can be used" in str(error)
 
 
-def test_one_that_is_not_there_is_tried_once(tmp_path: Path) -> None:
+def test_missing_generator_is_tried_once(tmp_path: Path) -> None:
     source = TextToAudio(["/no/such/program"], cache=tmp_path / "cache")
     for _ in range(2):
         with pytest.raises(BackendUnavailable, match=r"cannot start '/no/such/program': No such file.*Check `command`"):
@@ -123,7 +123,7 @@ def test_one_that_is_not_there_is_tried_once(tmp_path: Path) -> None:
     assert_nothing_left(tmp_path)
 
 
-def test_one_that_fails_twice_in_a_row_is_not_started_again(tmp_path: Path) -> None:
+def test_generator_that_fails_twice_is_not_started_again(tmp_path: Path) -> None:
     source = generator(tmp_path, "silent")
     for _ in range(4):
         with pytest.raises(BadAnswer, match=r"left no reply\.json"):
@@ -148,6 +148,6 @@ def test_one_that_fails_twice_in_a_row_is_not_started_again(tmp_path: Path) -> N
     ],
     ids=str,
 )
-def test_settings_that_cannot_work_are_refused(settings: dict[str, Any]) -> None:
+def test_invalid_settings_are_refused(settings: dict[str, Any]) -> None:
     with pytest.raises(ConfigError, match="command|runner|count|duration_s|timeout_s|max_bytes"):
         SOURCES.build({"kind": "text_to_audio", **settings})

@@ -100,7 +100,7 @@ class StableAudioModel:
         ("stable_audio", "stable_audio_3.py", STABLE_AUDIO, 44100, "Stability AI Community License", 0.5),
     ],
 )
-def test_runners_ask_their_libraries_as_documented(
+def test_runners_call_their_libraries_as_documented(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     runner: str,
@@ -122,7 +122,7 @@ def test_runners_ask_their_libraries_as_documented(
     assert abs(clips[0].samples).max() == pytest.approx(peak, abs=1e-4)
 
 
-def test_a_runner_without_its_model_says_what_is_missing(tmp_path: Path) -> None:
+def test_runner_names_its_missing_model(tmp_path: Path) -> None:
     source = TextToAudio(runner="audiogen", python=sys.executable, cache=tmp_path / "cache")
     with pytest.raises(BackendUnavailable, match="No module named '(torch|audiocraft)'"):
         source.find(describe())
@@ -138,7 +138,7 @@ def test_a_runner_without_its_model_says_what_is_missing(tmp_path: Path) -> None
         ({"seed": None}, "misuses"),
     ],
 )
-def test_runners_refuse_requests_that_make_no_sense(tmp_path: Path, change: dict[str, Any], said: str) -> None:
+def test_runners_refuse_invalid_requests(tmp_path: Path, change: dict[str, Any], said: str) -> None:
     asked = {"contract": "scene2hap/text-to-audio", "version": 1, "prompt": "a", "count": 1, "duration_s": 1, "seed": 0}
     (tmp_path / "request.json").write_text(json.dumps({**asked, **change}))
     script = [sys.executable, "-S", str(RUNNERS / "audiogen.py"), "--rehearse", str(tmp_path / "request.json")]

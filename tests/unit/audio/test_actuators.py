@@ -44,7 +44,7 @@ def test_the_inverse_makes_the_response_flat_up_to_its_limit() -> None:
     assert inverse_db(profile, [39.0, 801.0]).tolist() == [0.0, 0.0]
 
 
-def test_an_equalized_loop_comes_out_of_the_actuator_as_it_went_in() -> None:
+def test_equalized_loop_has_its_original_spectrum_on_the_actuator() -> None:
     profile = ActuatorProfile("resonant", 20.0, 1000.0, 160.0, 2.0)
     t = np.arange(8000) / 8000
     x = (0.1 * np.sin(2 * np.pi * 100 * t) + 0.1 * np.sin(2 * np.pi * 240 * t)).astype(np.float32)
@@ -81,7 +81,7 @@ def test_a_wrong_csv_file_is_refused(tmp_path: Path, text: str, said: str) -> No
         read_response_csv(path)
 
 
-def test_profiles_come_by_name_fields_or_ready_made() -> None:
+def test_profile_is_built_from_name_fields_or_object() -> None:
     assert actuator_profile("lra") is ACTUATORS["lra"]
     assert actuator_profile(ACTUATORS["lra"]) is ACTUATORS["lra"]
     assert actuator_profile({"kind": "lra", "q": 20.0}).q == 20.0

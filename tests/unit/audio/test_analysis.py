@@ -25,14 +25,14 @@ def tone(frequency_hz: float) -> np.ndarray:
 # trimming ------------------------------------------------------------------------------------------------------------
 
 
-def test_trims_both_ends_to_within_a_frame() -> None:
+def test_trim_silence_cuts_both_ends_to_within_a_frame() -> None:
     x = np.concatenate([np.zeros(RATE // 2), tone(100), 1e-4 * WHITE[: RATE // 4]]).astype(np.float32)
     trimmed = analysis.trim_silence(x, RATE)
     assert trimmed.dtype == np.float32
     assert 0 <= len(trimmed) - len(T) <= 2 * 0.010 * RATE
 
 
-def test_keeps_silence_in_the_middle_and_what_is_39_db_down() -> None:
+def test_trim_silence_keeps_inner_silence_and_sound_39_db_below_the_peak() -> None:
     x = np.concatenate([10 ** (-39 / 20) * tone(100), tone(100), np.zeros(RATE), tone(100)])
     np.testing.assert_array_equal(analysis.trim_silence(x, RATE), x.astype(np.float32))
 
@@ -44,7 +44,7 @@ def test_an_offset_is_not_a_sound() -> None:
 
 
 @pytest.mark.parametrize("x", [np.zeros(RATE), 0.5 / 32768 * np.sign(WHITE)])
-def test_nothing_is_left_of_silence_or_of_one_step_of_dither(x: np.ndarray) -> None:
+def test_trim_silence_removes_digital_silence_and_dither(x: np.ndarray) -> None:
     assert analysis.trim_silence(x, RATE).size == 0
 
 
@@ -72,7 +72,7 @@ def test_dynamic_range_of_known_sounds(name: str, x: np.ndarray, expected_db: fl
     assert analysis.dynamic_range_db(x, RATE) == pytest.approx(expected_db, abs=tolerance_db), name
 
 
-def test_clicks_with_digital_silence_between_are_anything_but_steady() -> None:
+def test_clicks_with_digital_silence_between_them_are_not_steady() -> None:
     clicks = np.zeros(len(T))
     clicks[:: RATE // 2] = 1.0
     clicks[RATE // 4 :: RATE // 2] = -1.0
@@ -87,7 +87,7 @@ def test_dynamic_range_does_not_depend_on_level_or_offset() -> None:
 # flatness ------------------------------------------------------------------------------------------------------------
 
 
-def test_white_noise_is_as_flat_as_theory_says_whatever_codec_or_rate_it_went_through() -> None:
+def test_flatness_of_white_noise_is_exp_minus_gamma_at_any_rate_or_codec() -> None:
     # A periodogram's power is exponentially distributed: geometric over arithmetic mean is exp(-Euler's gamma).
     expected = math.exp(-np.euler_gamma)
     lowpassed = sosfiltfilt(butter(8, 7500, fs=RATE, output="sos"), WHITE)
@@ -97,7 +97,7 @@ def test_white_noise_is_as_flat_as_theory_says_whatever_codec_or_rate_it_went_th
         assert analysis.spectral_flatness(x, rate) == pytest.approx(expected, abs=0.02)
 
 
-def test_level_offset_and_silence_do_not_count_as_flat() -> None:
+def test_flatness_does_not_depend_on_level_offset_or_silence() -> None:
     x = tone(100) + 0.01 * WHITE
     plain = analysis.spectral_flatness(x, RATE)
     assert plain < 0.01
@@ -107,7 +107,7 @@ def test_level_offset_and_silence_do_not_count_as_flat() -> None:
     assert analysis.spectral_flatness(with_gap, RATE) < 2 * plain
 
 
-def test_a_band_that_the_rate_does_not_hold_is_refused() -> None:
+def test_band_above_half_the_sample_rate_is_refused() -> None:
     with pytest.raises(AudioError, match="20 to 7000 Hz; a sound of .* at 8000 Hz has no such band"):
         analysis.spectral_flatness(WHITE, 8000)
     assert analysis.spectral_flatness(WHITE, 8000, band_hz=(20, 3600)) == pytest.approx(0.56, abs=0.02)
@@ -118,7 +118,7 @@ def test_a_band_that_the_rate_does_not_hold_is_refused() -> None:
 
 @pytest.mark.parametrize("frequency_hz", [20.5, 59.3, 100.0, 187.13, 499.9, 987.6])
 @pytest.mark.parametrize(("duration_s", "tolerance_hz"), [(0.25, 0.1), (2.5, 0.01)])
-def test_finds_a_tone_in_noise(frequency_hz: float, duration_s: float, tolerance_hz: float) -> None:
+def test_dominant_frequency_finds_a_tone_in_noise(frequency_hz: float, duration_s: float, tolerance_hz: float) -> None:
     n = round(duration_s * RATE)
     x = tone(frequency_hz)[:n] + 0.05 * WHITE[:n] + 3.0
     # A quarter of a second holds five cycles of 20 Hz: there the mirror image at -20 Hz leans on the peak.
@@ -180,7 +180,7 @@ def test_silence_has_neither_level_nor_spectrum(measure: Callable[[np.ndarray, f
         measure(WHITE, 0)
 
 
-def test_ranges_that_a_sound_cannot_answer_are_refused() -> None:
+def test_frequency_ranges_without_resolved_bins_are_refused() -> None:
     with pytest.raises(AudioError, match="range_hz"):
         analysis.dominant_frequency_hz(WHITE, 1000, range_hz=(600, 900))
     with pytest.raises(AudioError, match="does not resolve"):

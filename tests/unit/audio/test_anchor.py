@@ -24,7 +24,7 @@ def tones(**amplitudes: float) -> np.ndarray:
     return np.sum([a * np.sin(2 * np.pi * float(name[1:]) * t) for name, a in amplitudes.items()], axis=0)
 
 
-def test_the_strongest_that_is_felt_stands_for_a_source() -> None:
+def test_anchor_is_the_component_that_is_felt_most() -> None:
     """40 Hz is the strongest, and needs more than full scale to be felt at that level."""
     level_db = sensation_level_db(0.5)
     found = anchor_of(tones(f40=0.5, f150=0.3, f260=0.2), RATE, level_db, actuator_profile("flat"))
@@ -32,7 +32,7 @@ def test_the_strongest_that_is_felt_stands_for_a_source() -> None:
     assert found.frequency_hz == pytest.approx(150.0, abs=0.1)
 
 
-def test_what_is_far_below_the_strongest_is_not_what_a_source_is_known_by() -> None:
+def test_anchor_is_not_a_component_14_db_below_the_strongest() -> None:
     """A hum of 50 Hz stays one, though less is felt of it, where all else is 14 dB and more below."""
     level_db = sensation_level_db(0.5)
     for faint_db, expected_hz in ((-12.0, 250.0), (-16.0, 50.0)):
@@ -46,7 +46,7 @@ def test_what_is_far_below_the_strongest_is_not_what_a_source_is_known_by() -> N
 @pytest.mark.parametrize(
     "name", ["fridge_hum_kitchen.wav", "oven_hum.wav", "washing_machine_rinse.wav", "computer_fan_hum.wav"]
 )
-def test_steady_recordings_keep_what_they_are_known_by(
+def test_anchors_of_recordings_are_within_14_db_of_the_strongest_component(
     sound: Callable[[str], AudioClip], name: str, actuator: str
 ) -> None:
     """Within 14 dB of the strongest that the actuator renders, by a plain spectrum of the whole; it was up to 21."""
@@ -71,7 +71,7 @@ def test_steady_recordings_keep_what_they_are_known_by(
         ({"f12": 0.5, "f150": 0.3}, 150.0, None),  # too slow for roughness
     ],
 )
-def test_what_cannot_be_felt_as_a_tone_is_kept_as_roughness(
+def test_tone_too_low_to_be_felt_is_rendered_as_roughness(
     amplitudes: dict[str, float], felt_hz: float, rough_hz: float | None
 ) -> None:
     found = anchor_of(tones(**amplitudes), RATE, sensation_level_db(0.5), actuator_profile("flat"))
@@ -92,7 +92,7 @@ def test_what_cannot_be_felt_as_a_tone_is_kept_as_roughness(
         ({"f3000": 0.5, "f120": 0.1}, "flat", 120.0, None, None),  # a hum under a whine
     ],
 )
-def test_what_can_neither_be_felt_nor_driven_is_carried_to_where_the_actuator_is_best(
+def test_tone_that_cannot_be_felt_is_moved_to_the_best_frequency_of_the_actuator(
     amplitudes: dict[str, float], actuator: str, own_hz: float, carrier_hz: float | None, rough_hz: float | None
 ) -> None:
     x = tones(**amplitudes) + 1e-4 * np.random.default_rng(0).standard_normal(5 * RATE)
@@ -106,8 +106,8 @@ def test_what_can_neither_be_felt_nor_driven_is_carried_to_where_the_actuator_is
 
 @pytest.mark.parametrize("slope", [0.0, 1.0])
 @pytest.mark.parametrize("seed", range(4))
-def test_a_noise_is_known_by_a_band_that_can_be_felt_as_asked(slope: float, seed: int) -> None:
-    """Its highest peak is an accident: a pink noise was felt 10 dB weaker than asked, and rough by 25 Hz."""
+def test_noise_is_anchored_in_a_band_that_reaches_the_requested_level(slope: float, seed: int) -> None:
+    """The highest peak of a noise is random: a pink noise was felt 10 dB weaker than requested, and rough at 25 Hz."""
     clip = AudioClip(0.1 * coloured_noise(np.random.default_rng(seed), 5 * RATE, slope), RATE)
     (plan,) = plan_scene([SourceClip(clip, 0.3)], CONVERTERS.build("auto"), actuator_profile("flat"))
     assert plan.context.rough_hz is None
@@ -117,8 +117,8 @@ def test_a_noise_is_known_by_a_band_that_can_be_felt_as_asked(slope: float, seed
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_hiss_is_not_known_by_the_rumble_of_its_recording(seed: int) -> None:
-    """A peak at 20 Hz that was 38 dB weaker let a band at 160 Hz stand for it, which nobody feels."""
+def test_anchor_of_a_hiss_is_not_the_rumble_of_its_recording(seed: int) -> None:
+    """In an earlier version a peak at 20 Hz, 38 dB weaker, made a band at 160 Hz the anchor, which is not felt."""
     rng, rate = np.random.default_rng(seed), 32_000
     rumble = 0.01 * coloured_noise(rng, 4 * rate, 2.0)
     found = anchor_of(band_noise(rng, 4 * rate, rate, 2000.0, 8000.0) + rumble, rate, 22.0, actuator_profile("flat"))
@@ -129,7 +129,9 @@ def test_a_hiss_is_not_known_by_the_rumble_of_its_recording(seed: int) -> None:
 
 @pytest.mark.parametrize("actuator", ["flat", "lra", "voice_coil"])
 @pytest.mark.parametrize(("tone_hz", "is_rough"), [(30.0, True), (49.0, True), (2600.0, False)])
-def test_what_is_carried_is_felt_as_asked_and_says_from_where(tone_hz: float, is_rough: bool, actuator: str) -> None:
+def test_moved_tone_reaches_the_requested_level_and_reports_its_origin(
+    tone_hz: float, is_rough: bool, actuator: str
+) -> None:
     rng = np.random.default_rng(1)
     x = 0.4 * np.sin(2 * np.pi * tone_hz * np.arange(4 * RATE) / RATE) + 1e-4 * rng.standard_normal(4 * RATE)
     clip, converter = AudioClip(x.astype(np.float32), RATE), CONVERTERS.build("auto")
@@ -149,10 +151,10 @@ def test_what_is_carried_is_felt_as_asked_and_says_from_where(tone_hz: float, is
 
 
 @pytest.mark.parametrize(("hz", "intensity", "is_moved"), [(330, 1.0, False), (500, 0.1, False), (900, 0.3, True)])
-def test_a_beep_that_nobody_could_feel_is_moved_to_where_touch_is_keenest(
+def test_beep_that_cannot_be_felt_is_moved_to_the_most_sensitive_frequency(
     hz: float, intensity: float, is_moved: bool
 ) -> None:
-    """330 Hz is felt nearly as well as 250, and 500 Hz as strongly as a tenth of the intensity asks for."""
+    """330 Hz is felt nearly as well as 250 Hz; 500 Hz reaches the level of an intensity of 0.1 only."""
     flat = actuator_profile("flat")
     found = anchor_of(tones(**{f"f{hz}": 0.5}), RATE, sensation_level_db(intensity), flat)
     assert found is not None
@@ -161,7 +163,7 @@ def test_a_beep_that_nobody_could_feel_is_moved_to_where_touch_is_keenest(
 
 
 def test_a_melody_of_beeps_keeps_every_note_and_every_pause() -> None:
-    """A band that is moved down would keep what is within an octave of the strongest, and mirror some of the rest."""
+    """Moving one band down would keep only notes within an octave of the strongest, and mirror some others."""
     t, pause = np.arange(RATE // 2) / RATE, np.zeros(RATE // 2)
     notes = [0.5 * np.sin(2 * np.pi * hz * t) for hz in (2600.0, 3500.0, 1800.0, 3000.0, 2200.0)]
     clip = AudioClip(np.concatenate([part for note in notes for part in (note, pause)]).astype(np.float32), RATE)

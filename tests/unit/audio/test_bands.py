@@ -53,7 +53,7 @@ def test_a_tone_on_an_edge_is_shared_equally_by_its_neighbours() -> None:
     np.testing.assert_allclose(parts[0], 0.0, atol=1e-6)
 
 
-def test_nothing_is_lost_below_the_first_edge_or_above_the_last() -> None:
+def test_outer_bands_contain_all_frequencies_beyond_the_edges() -> None:
     bands = Bands.third_octaves(20, 500)
     for frequency_hz, home in ((0.0, 0), (4.0, 0), (1500.0, -1), (3999.0, -1)):
         x = tone(frequency_hz) + (1.0 if frequency_hz == 0.0 else 0.0)
@@ -66,8 +66,8 @@ def test_bands_above_half_the_rate_are_silent() -> None:
     assert level_db(parts[2]) < -100
 
 
-def test_there_is_no_delay_and_the_seam_stays_closed() -> None:
-    """A shift of the loop shifts every band alike: the split knows neither beginning nor end."""
+def test_band_split_has_no_delay_and_keeps_the_loop_seamless() -> None:
+    """A shift of the loop shifts every band equally: the split has no beginning and no end."""
     x = np.random.default_rng(6).uniform(-1, 1, 5000)
     bands = Bands.third_octaves()
     shifted = split_bands(np.roll(x, 1234), RATE, bands)
@@ -75,7 +75,7 @@ def test_there_is_no_delay_and_the_seam_stays_closed() -> None:
 
 
 @pytest.mark.parametrize("n", [8000, 12_345])
-def test_bands_at_gains_are_one_filter_even_across_the_wrap(n: int) -> None:
+def test_weighted_bands_equal_one_circular_filter(n: int) -> None:
     """Independently: the filter's impulse response, convolved around the loop in the time domain."""
     rng = np.random.default_rng(n)
     bands = Bands.third_octaves()
@@ -109,12 +109,12 @@ def test_the_dominant_band_is_the_loop_itself() -> None:
 
 
 @pytest.mark.parametrize("bad", [np.zeros(0), np.zeros((2, 3)), np.array([0.0, np.nan])])
-def test_what_is_no_loop_is_refused(bad: np.ndarray) -> None:
+def test_band_split_refuses_samples_that_are_not_a_loop(bad: np.ndarray) -> None:
     with pytest.raises(AudioError, match="one channel of finite samples"):
         split_bands(bad, RATE, Bands.dominant())
 
 
-def test_the_playing_side_of_this_room_stays_light() -> None:
+def test_playing_side_of_audio_imports_no_design_time_module() -> None:
     code = (
         "import sys, scene2hap.audio.bands, scene2hap.audio.clip, scene2hap.audio.files, scene2hap.audio.haptic_loop;"
         "print([m for m in sys.modules if m.split('.')[0] in ('scipy', 'httpx') or 'audio.sources' in m])"
@@ -123,7 +123,7 @@ def test_the_playing_side_of_this_room_stays_light() -> None:
     assert shown.stdout.strip() == "[]"
 
 
-def test_nothing_else_in_this_room_needs_the_sources() -> None:
+def test_audio_modules_do_not_import_sound_sources() -> None:
     room = Path(audio.__file__).parent
     modules = [path for path in room.rglob("*.py") if "sources" not in path.relative_to(room).parts]
     assert len(modules) > 8

@@ -32,7 +32,7 @@ def test_the_pitch_of_a_hum_in_noise_is_right_to_a_fiftieth_of_a_hertz() -> None
 
 
 @pytest.mark.parametrize("kind", [*by_whom(), "noise", "tone", "beat"])
-def test_the_wrap_of_a_loop_is_a_place_like_any_other_heard_or_felt(kind: str) -> None:
+def test_loop_wrap_is_no_larger_step_than_other_places_of_the_loop(kind: str) -> None:
     real = REAL[kind][0] if kind in REAL else {}
     stands_out = []
     for seed in range(3):
@@ -48,7 +48,7 @@ def test_the_wrap_of_a_loop_is_a_place_like_any_other_heard_or_felt(kind: str) -
     assert len(stands_out) <= 1, stands_out
 
 
-def test_the_judge_notices_tones_and_rumble_chopped_at_random() -> None:
+def test_seam_judge_detects_randomly_cut_tones_and_rumble() -> None:
     """A test of the test: it must be able to fail. By chance a chopped tone of 30 to 500 Hz meets itself within a step
     in 1 to 8 cases of a hundred, and rumble in a fifth of them."""
     noticed = {"tone": 0, "brown": 0}
@@ -62,7 +62,7 @@ def test_the_judge_notices_tones_and_rumble_chopped_at_random() -> None:
     assert noticed["brown"] >= 4
 
 
-def test_the_judge_notices_a_level_that_jumps_in_a_sound_that_varies() -> None:
+def test_seam_judge_detects_a_level_jump_in_a_varying_sound() -> None:
     """The largest jump of 200 places lets it pass."""
     rng, rate = np.random.default_rng(6), RATES[1]
     t = np.arange(12 * rate) / rate
@@ -76,7 +76,7 @@ def test_the_judge_notices_a_level_that_jumps_in_a_sound_that_varies() -> None:
 
 
 @pytest.mark.parametrize("maker", by_whom())
-def test_a_hum_wins_over_whatever_else_a_search_brings_home(maker: str) -> None:
+def test_selection_prefers_a_hum_to_other_search_results(maker: str) -> None:
     lost = []
     for seed in range(1):
         title, candidates = hum_among_decoys(np.random.default_rng([4, seed]), *REAL[maker])

@@ -12,7 +12,7 @@ RANGE = (20.0, 1000.0)
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_noise_has_no_lines_and_a_hum_in_it_has(seed: int) -> None:
+def test_components_marks_a_hum_in_noise_as_a_line(seed: int) -> None:
     rng, t = np.random.default_rng(seed), np.arange(5 * RATE) / RATE
     noise = rng.standard_normal(len(t))
     assert not any(one.is_line for one in components(magnitudes(noise), RATE, RANGE, -14.0))
@@ -22,7 +22,7 @@ def test_noise_has_no_lines_and_a_hum_in_it_has(seed: int) -> None:
     assert strongest.hz == pytest.approx(97.3, abs=0.1)
 
 
-def test_the_strongest_bands_come_first_and_faint_ones_not_at_all() -> None:
+def test_strongest_bands_are_sorted_and_faint_bands_left_out() -> None:
     rng = np.random.default_rng(3)
     spectrum = np.fft.rfft(rng.standard_normal(5 * RATE))
     f = np.fft.rfftfreq(5 * RATE, 1 / RATE)

@@ -35,17 +35,17 @@ def test_a_jnd_of_frequency_is_a_weber_fraction() -> None:
         (felt(100, 20.0, 2.0), felt(100, 20.0, None), False),
     ],
 )
-def test_two_ways_to_be_distinct(one: Feel, other: Feel, is_distinct: bool) -> None:
+def test_sources_are_distinct_by_frequency_level_or_rhythm(one: Feel, other: Feel, is_distinct: bool) -> None:
     assert difference("a", one, "b", other).is_distinct is is_distinct
     assert difference("b", other, "a", one).is_distinct is is_distinct
 
 
-def test_nothing_is_left_far_away_of_what_is_not_felt_there() -> None:
+def test_far_distinctness_is_zero_where_a_source_is_not_felt() -> None:
     assert difference("a", felt(100, 20.0), "b", felt(200, 13.0)).far_away > 3.0
     assert difference("a", felt(100, 20.0), "b", felt(200, 11.0)).far_away == 0.0
 
 
-def test_every_pair_is_told_the_least_distinct_first() -> None:
+def test_distinctness_lists_all_pairs_with_the_least_distinct_first() -> None:
     pairs = distinctness({"a": felt(100), "b": felt(105), "c": felt(300)})
     assert [(pair.first, pair.second) for pair in pairs] == [("a", "b"), ("b", "c"), ("a", "c")]
 
@@ -65,6 +65,6 @@ def test_a_steady_tone_has_no_envelope_rate_and_silence_no_feel() -> None:
         feel_of(np.zeros(RATE), RATE)
 
 
-def test_the_dominant_frequency_is_that_felt_most_and_not_the_largest() -> None:
+def test_dominant_frequency_is_the_one_felt_most() -> None:
     x = 0.3 * np.sin(2 * np.pi * 40 * T) + 0.05 * np.sin(2 * np.pi * 250 * T)
     assert feel_of(x, RATE).frequency_hz == 250.0

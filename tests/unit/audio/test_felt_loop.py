@@ -102,12 +102,12 @@ def test_nothing_is_moved_further_than_a_third_of_an_octave_or_3_db(
         assert abs(level_db(loop) - intended) <= 3.0, name
 
 
-def test_all_of_it_is_still_felt_12_db_further_away(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
+def test_loops_are_still_felt_12_db_further_away(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
     for name, (_, loop) in baked.items():
         assert level_db(loop) > 12.0, name
 
 
-def test_what_dominates_the_loop_dominates_in_touch(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
+def test_strongest_frequency_of_a_loop_is_also_felt_most(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
     for name, (_, loop) in baked.items():
         f, a = spectrum(loop)
         inside = (f >= 10) & (f <= 1000)
@@ -121,14 +121,14 @@ def test_no_peak_exceeds_the_head_room(baked: dict[str, tuple[Plan, HapticLoop]]
         assert np.abs(loop.tactile.samples).max() <= 0.502, name
 
 
-def test_a_converter_that_follows_no_target_is_not_asked_to() -> None:
+def test_plan_sets_no_target_for_a_converter_without_targets() -> None:
     sources = kitchen()
     for plan in plan_scene(list(sources.values()), SvfBandpass(), FLAT):
         assert plan.context.target_hz == plan.context.own_hz
         assert len(plan.context.neighbours_hz) == 6
 
 
-def test_sources_keep_clear_of_loops_that_stand(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
+def test_new_sources_are_placed_apart_from_fixed_loops(baked: dict[str, tuple[Plan, HapticLoop]]) -> None:
     sources = kitchen()
     standing = [(baked["smartphone"][1], "smartphone")]
     (plan,) = plan_scene([sources["washing machine"]], Adaptive(), FLAT, standing=standing)

@@ -30,7 +30,7 @@ def test_equal_samples_give_equal_bytes_and_other_samples_do_not(tmp_path: Path)
 
 
 @pytest.mark.parametrize(("subtype", "bits"), [("PCM_16", 16), ("PCM_24", 24), ("PCM_32", 32)])
-def test_what_was_read_is_written_back_bit_for_bit(tmp_path: Path, subtype: str, bits: int) -> None:
+def test_wav_round_trip_is_bit_exact(tmp_path: Path, subtype: str, bits: int) -> None:
     write_wav(tmp_path / "first.wav", tone(), RATE, subtype)
     clip = read_clip(tmp_path / "first.wav")
     np.testing.assert_allclose(clip.samples, tone(), rtol=0, atol=max(0.5 / 2 ** (bits - 1), 2**-25))
@@ -38,13 +38,13 @@ def test_what_was_read_is_written_back_bit_for_bit(tmp_path: Path, subtype: str,
     np.testing.assert_array_equal(read_clip(tmp_path / "second.wav").samples, clip.samples)
 
 
-def test_full_scale_fits_and_loses_one_step_upwards_only(tmp_path: Path) -> None:
+def test_full_scale_is_written_with_an_error_of_one_step_at_most(tmp_path: Path) -> None:
     write_wav(tmp_path / "full.wav", np.array([1.0, -1.0, 0.0], np.float32), RATE, "PCM_16")
     assert read_clip(tmp_path / "full.wav").samples.tolist() == [32767 / 32768, -1.0, 0.0]
 
 
 @pytest.mark.parametrize("suffix", ["flac", "ogg", "mp3", "wav"])
-def test_reads_the_usual_formats_and_mixes_channels_by_their_mean(tmp_path: Path, suffix: str) -> None:
+def test_read_clip_reads_common_formats_and_averages_channels(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"two.{suffix}"
     soundfile.write(path, np.stack([tone(amplitude=0.6), tone(amplitude=0.2)], axis=1), RATE)
     clip = read_clip(path)
@@ -55,13 +55,13 @@ def test_reads_the_usual_formats_and_mixes_channels_by_their_mean(tmp_path: Path
     assert np.sqrt(2 * np.mean(middle**2)) == pytest.approx(0.4, rel=0.03)
 
 
-def test_keeps_the_credit_it_is_given(tmp_path: Path) -> None:
+def test_read_clip_keeps_the_given_credit(tmp_path: Path) -> None:
     write_wav(tmp_path / "a.wav", tone(), RATE)
     credit = Credit("hum", "someone", "CC0-1.0")
     assert read_clip(str(tmp_path / "a.wav"), credit).credit is credit
 
 
-def test_what_is_no_sound_is_refused_by_name(tmp_path: Path) -> None:
+def test_read_clip_refuses_files_that_are_not_sounds(tmp_path: Path) -> None:
     (tmp_path / "text.wav").write_text("not audio")
     (tmp_path / "nothing.wav").write_bytes(b"")
     (tmp_path / "headerless.raw").write_bytes(bytes(1000))
@@ -79,7 +79,7 @@ def test_a_sound_without_samples_is_refused(tmp_path: Path) -> None:
         read_clip(tmp_path / "empty.wav")
 
 
-def test_a_sample_that_is_not_a_number_is_refused_with_its_place(tmp_path: Path) -> None:
+def test_read_clip_refuses_nan_and_states_its_index(tmp_path: Path) -> None:
     samples = tone()
     samples[123] = np.nan
     soundfile.write(tmp_path / "broken.wav", samples, RATE, subtype="FLOAT")
@@ -87,7 +87,7 @@ def test_a_sample_that_is_not_a_number_is_refused_with_its_place(tmp_path: Path)
         read_clip(tmp_path / "broken.wav")
 
 
-def test_a_file_of_a_quarter_of_an_hour_is_refused_before_it_is_decoded(tmp_path: Path) -> None:
+def test_read_clip_refuses_a_long_file_before_decoding(tmp_path: Path) -> None:
     soundfile.write(tmp_path / "long.wav", np.zeros(15 * 60 * 100, np.int16), 100)
     with pytest.raises(AudioError, match=r"lasts 900 s; it must be at most 600 s"):
         read_clip(tmp_path / "long.wav")
@@ -113,7 +113,7 @@ def test_wrong_shapes_rates_and_subtypes_are_refused(tmp_path: Path) -> None:
         write_wav(tmp_path / "a.wav", tone(), RATE, "FLOAT")  # type: ignore[arg-type]
 
 
-def test_a_failed_write_leaves_the_old_file_and_no_litter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failed_write_keeps_the_old_file_and_no_temporary_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "a.wav"
     write_wav(path, tone(), RATE)
     before = path.read_bytes()
@@ -133,7 +133,7 @@ def test_a_missing_folder_is_named(tmp_path: Path) -> None:
         write_wav(tmp_path / "absent" / "a.wav", tone(), RATE)
 
 
-def test_stereo_is_written_as_it_is(tmp_path: Path) -> None:
+def test_write_wav_keeps_both_channels(tmp_path: Path) -> None:
     both = np.stack([tone(), -tone()], axis=1)
     write_wav(tmp_path / "two.wav", both, RATE)
     read, rate = soundfile.read(tmp_path / "two.wav", dtype="float32")

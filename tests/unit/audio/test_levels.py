@@ -29,12 +29,12 @@ def test_the_threshold_has_the_published_values(frequency_hz: float, expected_db
 
 
 @given(st.floats(0.1, 20_000))
-def test_the_threshold_never_asks_for_more_than_full_scale_and_is_least_at_250_hz(frequency_hz: float) -> None:
+def test_threshold_is_at_most_full_scale_and_lowest_at_250_hz(frequency_hz: float) -> None:
     assert -45.0 <= float(threshold_db(frequency_hz)) <= 0.0
 
 
 @pytest.mark.parametrize("frequency_hz", [40, 100, 250, 500])
-def test_a_sine_is_felt_by_what_it_exceeds_its_threshold(frequency_hz: int) -> None:
+def test_felt_level_of_a_sine_is_its_level_above_the_threshold(frequency_hz: int) -> None:
     expected = 20 * math.log10(0.1) - float(threshold_db(frequency_hz))
     assert felt_level_db(tone(frequency_hz), RATE) == pytest.approx(expected, abs=1e-3)
 
@@ -45,13 +45,13 @@ def test_equally_felt_components_add_their_energy() -> None:
     assert felt_level_db(a + b, RATE) == pytest.approx(10.0 + 10 * math.log10(2), abs=1e-3)
 
 
-def test_what_lies_outside_touch_is_not_felt() -> None:
+def test_frequencies_outside_the_range_of_touch_are_not_felt() -> None:
     assert felt_level_db(tone(5) + tone(1500), RATE) < -40
     assert felt_level_db(np.ones(RATE), RATE) < -120
     assert felt_level_db(np.zeros(RATE), RATE) == -math.inf
 
 
-def test_intensity_is_a_level() -> None:
+def test_intensity_maps_to_a_sensation_level() -> None:
     levels = [sensation_level_db(i) for i in (0.05, 0.1, 0.5, 1.0)]
     assert levels == sorted(levels)
     assert levels[1] > 12.0  # the faintest example of the scale survives 12 dB
@@ -62,14 +62,14 @@ def test_intensity_is_a_level() -> None:
 
 
 @pytest.mark.parametrize("name", list(ACTUATORS))
-def test_a_loop_at_a_level_is_felt_at_that_level_on_its_actuator(name: str) -> None:
+def test_at_level_sets_the_felt_level_on_the_actuator(name: str) -> None:
     actuator = ACTUATORS[name]
     y = at_level(tone(180), RATE, 20.0, actuator, 0.5)
     assert felt_level_db(y, RATE, actuator) == pytest.approx(20.0, abs=1e-3)
     assert 20 * math.log10(np.abs(y).max()) == pytest.approx(float(drive_db(180, 20.0, actuator)), abs=0.1)
 
 
-def test_head_room_goes_before_level() -> None:
+def test_head_room_limits_the_level() -> None:
     y = at_level(tone(30), RATE, 30.0, FLAT, 0.5)
     assert np.abs(y).max() == pytest.approx(0.5)
     assert felt_level_db(y, RATE) < 30.0

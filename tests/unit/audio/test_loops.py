@@ -61,7 +61,7 @@ def test_a_tone_wraps_within_a_degree(frequency_hz: float, rate: int) -> None:
     assert seam.length / rate > 1.5
 
 
-def test_partials_that_share_no_cycle_still_all_wrap() -> None:
+def test_inharmonic_partials_all_wrap_within_tolerance() -> None:
     frequencies = (61.3, 97.9, 143.1)
     seam = find_seam(sum(tone(f) for f in frequencies), RATE)
     for f in frequencies:
@@ -75,7 +75,7 @@ def test_an_offset_does_not_hide_the_cycles() -> None:
     assert (offset.start, offset.length, offset.law) == (plain.start, plain.length, plain.law)
 
 
-def test_level_counts_as_well_as_shape() -> None:
+def test_seam_search_compares_levels_as_well_as_waveforms() -> None:
     """A tone that swells and fades once a second: a loop must hold a whole number of seconds."""
     t = np.arange(5 * RATE) / RATE
     seam = find_seam((1.2 + np.cos(2 * np.pi * t)) * np.sin(2 * np.pi * 100 * t), RATE)
@@ -83,14 +83,14 @@ def test_level_counts_as_well_as_shape() -> None:
 
 
 def jump_db(loop: np.ndarray, rate: int = RATE) -> float:
-    """By how much the 200 ms after the wrap are louder than those before it [dB]."""
+    """Level of the 200 ms after the wrap, relative to the 200 ms before it [dB]."""
     n = round(0.2 * rate)
     return float(10 * np.log10(np.mean(loop[:n].astype(float) ** 2) / np.mean(loop[-n:].astype(float) ** 2)))
 
 
 @pytest.mark.parametrize("falls_db", [-14.0, -6.0, 6.0, 14.0])
-def test_a_sound_that_rises_or_falls_wraps_at_one_level(falls_db: float) -> None:
-    """It stepped by 3 to 10 dB at every return."""
+def test_rising_or_falling_sound_is_levelled_at_the_wrap(falls_db: float) -> None:
+    """In an earlier version the level stepped by 3 to 10 dB at every wrap."""
     rng, t = np.random.default_rng(8), np.arange(4 * RATE) / RATE
     engine = sum(np.sin(2 * np.pi * k * (80 + 3 * np.sin(t)) * t) / k for k in range(1, 8))
     x = 10 ** (-falls_db * t / 4.0 / 20) * (engine + 0.5 * rng.standard_normal(len(t)))
@@ -112,12 +112,12 @@ def test_tones_ticks_and_steady_noise_are_not_tilted(frequency_hz: float) -> Non
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("seconds", [3.5, 6.0])
 def test_a_loop_is_as_long_as_its_clip_allows(seconds: float, seed: int) -> None:
-    """Noises and hums gave 1.5 s of 3.5 s: of many seams that are alike the best was taken, however short."""
+    """In an earlier version noises and hums gave loops of 1.5 s of 3.5 s, the best of many similar seams."""
     x = noise(seconds, seed) + 0.05 * tone(61.3, seconds)
     assert find_seam(x, RATE).length / RATE > 0.6 * seconds
 
 
-def test_a_rhythm_keeps_its_beat() -> None:
+def test_loop_of_a_rhythm_has_a_whole_number_of_beats() -> None:
     t = np.arange(5 * RATE) / RATE
     ticks = np.sin(2 * np.pi * 300 * t) * np.exp(-(t % 0.5) / 0.01) + 0.02 * noise(5.0)
     beats = find_seam(ticks, RATE).length / RATE / 0.5
@@ -126,8 +126,10 @@ def test_a_rhythm_keeps_its_beat() -> None:
 
 @pytest.mark.parametrize(("on_s", "off_s"), [(1.0, 0.5), (0.25, 0.25), (0.4, 0.8)])
 @pytest.mark.parametrize("frequency_hz", [97.0, 187.3])
-def test_a_ringing_phone_keeps_its_pauses(on_s: float, off_s: float, frequency_hz: float) -> None:
-    """A seam amid a ring fits wherever the tone does; that ring lasted longer or shorter than the others."""
+def test_loop_of_a_ringing_phone_keeps_the_length_of_rings_and_pauses(
+    on_s: float, off_s: float, frequency_hz: float
+) -> None:
+    """A seam within a ring fits at any cycle of the tone; that ring was then longer or shorter than the others."""
     t = np.arange(5 * RATE) / RATE
     since_s = t % (on_s + off_s)
     speed = (since_s < on_s) * (1 - np.exp(-since_s / 0.05))
@@ -139,7 +141,7 @@ def test_a_ringing_phone_keeps_its_pauses(on_s: float, off_s: float, frequency_h
     assert np.minimum(np.abs(lasts_s - on_s), np.abs(lasts_s - off_s)).max() < 0.1 * (on_s + off_s)
 
 
-def test_noise_keeps_its_level_through_an_equal_power_fade() -> None:
+def test_equal_power_fade_keeps_the_level_of_noise() -> None:
     levels = []
     for seed in range(6):
         x = noise(seed=seed)
@@ -180,7 +182,7 @@ def test_the_fade_itself_sample_by_sample() -> None:
 
 
 @pytest.mark.parametrize("r", [1.0, 0.8, 0.6, 0.41, 0.3, 0.0, -0.3])
-def test_the_fade_keeps_its_power_whatever_the_correlation(r: float) -> None:
+def test_crossfade_keeps_its_power_for_any_correlation(r: float) -> None:
     """Two stretches of noise of unit power and correlation r: the power of their sum stays 1 all along the fade."""
     n, rng = 1000, np.random.default_rng(9)
     common, ahead, behind = rng.standard_normal((3, 400, n))
@@ -196,7 +198,7 @@ def test_the_fade_keeps_its_power_whatever_the_correlation(r: float) -> None:
         assert 10 * np.log10(part) == pytest.approx(0.0, abs=0.25)
 
 
-def test_a_hum_under_hiss_decides_the_length() -> None:
+def test_loop_length_follows_a_hum_under_hiss() -> None:
     """5 dB of hiss over it; likeness that weighs all frequencies alike follows the chance of the hiss, here 3.6
     degrees off at worst."""
     worst = 0.0
@@ -208,7 +210,7 @@ def test_a_hum_under_hiss_decides_the_length() -> None:
     assert worst < 2.5
 
 
-def test_each_signal_is_faded_by_its_own_law() -> None:
+def test_each_signal_uses_its_own_fade_law() -> None:
     rng = np.random.default_rng(3)
     hum, hiss = tone(100.0), 3.0 * rng.standard_normal(4 * RATE)
     seam = find_seam(hum + hiss, RATE, hum)
@@ -228,7 +230,7 @@ def test_a_long_sound_gives_a_loop_from_its_middle() -> None:
     assert seam.length / RATE <= MAX_LOOP_S
 
 
-def test_silent_stretches_do_not_upset_the_search() -> None:
+def test_seam_search_works_with_silent_stretches() -> None:
     x = tone(100)
     x[RATE : 3 * RATE] = 0.0
     seam = find_seam(x, RATE)
@@ -236,13 +238,13 @@ def test_silent_stretches_do_not_upset_the_search() -> None:
     assert find_seam(np.zeros(RATE), RATE).n_samples_needed <= RATE
 
 
-def test_a_single_knock_is_not_cut_out_for_the_silence_around_it() -> None:
+def test_loop_contains_a_single_knock() -> None:
     x = np.zeros(2 * RATE)
     x[5000:5500] = np.hanning(500)
     assert apply_seam(x, find_seam(x, RATE)).max() > 0.1
 
 
-def test_what_cannot_be_looped_is_refused() -> None:
+def test_find_seam_refuses_sounds_that_are_too_short() -> None:
     with pytest.raises(AudioError, match=r"duration is 0\.05 s; it must be at least 0\.1"):
         find_seam(tone(100, 0.05), RATE)
     with pytest.raises(AudioError, match="duration is 1.5 s"):
@@ -283,7 +285,7 @@ def test_both_loops_share_length_rate_and_seam() -> None:
     )
 
 
-def test_the_seam_is_not_felt_where_a_whine_above_touch_drowns_the_hum() -> None:
+def test_seam_is_not_felt_for_a_hum_below_a_loud_whine() -> None:
     """Aligned by ear alone, the whine would put the hum out of phase, which touch alone would notice."""
     hum_hz = 71.3
     x = 0.05 * tone(hum_hz) + tone(3000.7) + 0.02 * noise()
@@ -292,7 +294,7 @@ def test_the_seam_is_not_felt_where_a_whine_above_touch_drowns_the_hum() -> None
     assert abs(cycles - round(cycles)) * 360 < 30.0
 
 
-def test_peaks_are_headroom_and_intensity() -> None:
+def test_loop_peaks_are_head_room_and_intensity() -> None:
     assert TACTILE_HEADROOM_DB == 6.0
     for intensity in (1.0, 0.3):
         loop = loop_pair(clip(0.01 * tone(60)), SvfBandpass(), ConversionContext(intensity=intensity))
@@ -300,7 +302,7 @@ def test_peaks_are_headroom_and_intensity() -> None:
         assert np.abs(loop.tactile.samples).max() == pytest.approx(intensity * 0.501187, rel=1e-6)
 
 
-def test_frequencies_are_those_before_and_after_the_band_pass() -> None:
+def test_loop_pair_states_frequencies_before_and_after_conversion() -> None:
     # |H(40 Hz)| = (1 + Q^2 (40/250 - 250/40)^2)^(-1/2) = 0.226, so three times as loud becomes 0.68 times as strong.
     x = 3.0 * tone(40.0) + tone(250.0)
     loop = loop_pair(clip(x), SvfBandpass(), ConversionContext())
@@ -337,7 +339,7 @@ class Delay:
         return self._kept[self.loses :]
 
 
-def test_what_a_converter_holds_back_is_fetched() -> None:
+def test_loop_pair_includes_samples_that_a_converter_delays() -> None:
     x = tone(100) + 0.3 * noise()
     loop = loop_pair(clip(x), Delay(held=1000), ConversionContext())
     ratio = np.abs(loop.tactile.samples).max() / np.abs(loop.audible.samples).max()
@@ -355,7 +357,7 @@ def test_converters_that_lose_samples_or_everything_are_refused() -> None:
         loop_pair(clip(tone(100)), SvfBandpass(), ConversionContext(intensity=0.0))
 
 
-def test_a_pair_that_would_drift_apart_cannot_be_made() -> None:
+def test_haptic_loop_refuses_different_lengths_or_rates() -> None:
     a = clip(tone(100))
     for other in (clip(tone(100)[1:]), replace(a, sample_rate_hz=44_100)):
         with pytest.raises(AudioError, match="both must be equal"):
@@ -365,7 +367,7 @@ def test_a_pair_that_would_drift_apart_cannot_be_made() -> None:
 
 
 @pytest.mark.parametrize(("peak_db", "is_noise"), [(-80.0, True), (-61.0, True), (-59.0, False), (-20.0, False)])
-def test_the_noise_of_a_recording_becomes_no_loop(peak_db: float, is_noise: bool) -> None:
+def test_noise_floor_of_a_recording_is_refused_as_a_loop(peak_db: float, is_noise: bool) -> None:
     x = np.random.default_rng(0).standard_normal(3 * 8000)
     clip = AudioClip((x / np.abs(x).max() * 10 ** (peak_db / 20)).astype(np.float32), 8000)
     if is_noise:
@@ -375,7 +377,7 @@ def test_the_noise_of_a_recording_becomes_no_loop(peak_db: float, is_noise: bool
         assert loop_pair(clip, SvfBandpass(), ConversionContext()).tactile.samples.any()
 
 
-def test_what_is_left_of_a_whine_is_not_lifted() -> None:
+def test_remainder_of_a_filtered_whine_is_not_amplified() -> None:
     x = 0.5 * tone(9000.0) + 1e-4 * noise()
     loop = loop_pair(clip(x), Lowpass(), ConversionContext())
     assert np.abs(loop.audible.samples).max() > 0.8

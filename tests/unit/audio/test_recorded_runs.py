@@ -31,7 +31,7 @@ MACHINES: dict[str, dict[str, Any]] = {
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
 @pytest.mark.parametrize("name", MACHINES)
-def test_a_known_machine_is_found(name: str, seed: int) -> None:
+def test_start_and_stop_of_a_synthetic_machine_are_found(name: str, seed: int) -> None:
     told = MACHINES[name]
     take = machine(**told, seed=seed)
     found = recorded_runs(take.samples, RATE_HZ)
@@ -52,7 +52,7 @@ def test_a_known_machine_is_found(name: str, seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
-def test_of_air_the_level_is_found_and_the_pitch_is_not(seed: int) -> None:
+def test_start_of_a_fan_in_noise_gives_a_level_curve_and_no_pitch(seed: int) -> None:
     take = machine(start_s=2.0, n_harmonics=1, hiss_db=20.0, seed=seed)
     curve = recorded_runs(take.samples, RATE_HZ).start_up
     assert curve is not None
@@ -66,13 +66,13 @@ def nothing(found: RecordedRuns, n: int) -> bool:
 
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("name", without_runs(0))
-def test_there_is_no_false_start(name: str, seed: int) -> None:
+def test_sounds_without_runs_give_no_false_start(name: str, seed: int) -> None:
     x = without_runs(seed)[name]
     assert nothing(recorded_runs(x, RATE_HZ), len(x))
 
 
 @pytest.mark.parametrize("name", OWN_SOUNDS)
-def test_machines_that_run_all_along_have_none(name: str) -> None:
+def test_recordings_of_running_machines_have_no_start_or_stop(name: str) -> None:
     clip = own_sound(name)
     assert nothing(recorded_runs(clip.samples, clip.sample_rate_hz), len(clip.samples))
 
@@ -82,7 +82,7 @@ def test_machines_that_run_all_along_have_none(name: str) -> None:
     there(sorted(RECORDINGS.glob("*.*g")) + sorted(RECORDINGS.glob("*.wav")), lambda path: path),
     ids=lambda path: path.name,
 )
-def test_recordings_that_are_cut_from_the_middle_have_none(path: Any) -> None:
+def test_excerpts_have_no_start_or_stop(path: Any) -> None:
     clip = read_clip(path)
     assert nothing(recorded_runs(clip.samples, clip.sample_rate_hz), len(clip.samples))
 
@@ -91,21 +91,19 @@ def test_recordings_that_are_cut_from_the_middle_have_none(path: Any) -> None:
     "x", [[1.0], [0.0] * 50_000, [0.5] * 50_000, [1.0] * 30, [0.0, 1.0]], ids=["one", "silent", "equal", "30", "two"]
 )
 @pytest.mark.parametrize("rate", [1, 40, 16_000, 192_000])
-def test_what_has_nothing_to_find(x: list[float], rate: int) -> None:
+def test_short_silent_or_constant_samples_have_no_start_or_stop(x: list[float], rate: int) -> None:
     assert nothing(recorded_runs(x, rate), len(x))
 
 
 @pytest.mark.parametrize("x", [[], [[1.0, 2.0]], 3.0])
-def test_what_is_no_channel_is_refused(x: Any) -> None:
+def test_recorded_runs_refuses_empty_or_multichannel_samples(x: Any) -> None:
     with pytest.raises(AudioError, match="at least one sample"):
         recorded_runs(x, RATE_HZ)
 
 
 @settings(max_examples=10, deadline=None)
 @given(st.floats(0.5, 4.0), st.sampled_from(["motor", "linear"]), st.floats(1e-3, 1e3), st.integers(0, 99))
-def test_backwards_a_start_is_a_stop_and_loudness_does_not_matter(
-    start_s: float, rise: str, gain: float, seed: int
-) -> None:
+def test_reversed_start_is_a_stop_at_any_loudness(start_s: float, rise: str, gain: float, seed: int) -> None:
     x = machine(start_s=round(start_s, 1), rise=rise, seed=seed).samples
     found = recorded_runs(x, RATE_HZ)
     assert found.start_up is not None
@@ -123,7 +121,7 @@ def test_backwards_a_start_is_a_stop_and_loudness_does_not_matter(
 
 @settings(max_examples=8, deadline=None)
 @given(st.floats(0.6, 5.0), st.floats(60.0, 300.0), st.floats(-40.0, -20.0), st.integers(0, 999))
-def test_a_start_is_found_whatever_its_time_pitch_and_room(
+def test_start_is_found_for_any_duration_pitch_and_reverberation(
     start_s: float, frequency_hz: float, room_db: float, seed: int
 ) -> None:
     take = machine(start_s=start_s, frequency_hz=frequency_hz, room_db=room_db, steady_s=6.0, seed=seed)

@@ -1,4 +1,4 @@
-"""Curves of starts and stops: what they say between their points, and what they cannot be."""
+"""Curves of starts and stops: interpolation between points, and invalid curves."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from scene2hap.errors import AudioError
 CURVE = RunCurve(2.0, (0.0, 0.2, 1.0), (0.0, 0.5, 1.0), inferred_s=4.0)
 
 
-def test_between_its_points_it_goes_along_lines() -> None:
+def test_run_curve_interpolates_linearly() -> None:
     np.testing.assert_allclose(CURVE.amplitude_at([0.0, 0.25, 0.5, 0.75, 1.0]), [0.0, 0.1, 0.2, 0.6, 1.0])
     np.testing.assert_allclose(CURVE.speed_at([0.25, 1.0]), [0.25, 1.0])
     assert RunCurve(1.0, (0.0, 1.0)).speed_at([0.5]) is None
 
 
-def test_it_tells_whether_the_pitch_stays() -> None:
+def test_run_curve_states_whether_the_pitch_is_constant() -> None:
     assert RunCurve(1.0, (0.0, 1.0), (1.0, 1.0)).keeps_pitch
     assert not CURVE.keeps_pitch
     assert not RunCurve(1.0, (0.0, 1.0)).keeps_pitch
 
 
-def test_it_remembers_what_was_inferred_in_its_place() -> None:
+def test_run_curve_keeps_the_inferred_value_that_it_replaces() -> None:
     measured = RunCurve(2.0, CURVE.amplitude, CURVE.speed)
     assert measured.instead_of(4.0, None) == CURVE
     assert measured.instead_of(7.0, CURVE) is CURVE  # the same recording: an edit of the time is none of it
@@ -50,6 +50,6 @@ def test_it_remembers_what_was_inferred_in_its_place() -> None:
         ({"amplitude": (0.0,) * 1001}, "amplitude"),
     ],
 )
-def test_what_cannot_be_is_refused(given: dict[str, Any], said: str) -> None:
+def test_run_curve_refuses_invalid_values(given: dict[str, Any], said: str) -> None:
     with pytest.raises(AudioError, match=said):
         RunCurve(**{"lasts_s": 1.0, "amplitude": (0.0, 1.0), **given})

@@ -59,7 +59,7 @@ def test_a_steady_hum_beats_clicks_decays_noise_and_silence() -> None:
     assert hum.dynamic_range_db < 1.0
 
 
-def test_a_codec_does_not_make_noise_tonal() -> None:
+def test_coded_noise_is_still_noisier_than_a_hum() -> None:
     """Noise that lost its treble, or its upper half by a low rate, is still noisier than a hum with audible hiss."""
     hissing = HUM + 0.5 * WHITE
     lowpassed = sosfiltfilt(butter(8, 7500, fs=RATE, output="sos"), WHITE)
@@ -67,7 +67,7 @@ def test_a_codec_does_not_make_noise_tonal() -> None:
         assert select_clip([rival, clip("hum", hissing)]).credit.title == "hum"
 
 
-def test_the_limit_rises_until_something_is_left() -> None:
+def test_steadiness_limit_is_raised_until_a_candidate_passes() -> None:
     # Straight falls in dB: 85 % of 14, 22 and 40 dB are dynamic ranges of 11.9, 18.7 and 34.
     falls = [clip(f"{db} dB", np.sin(2 * np.pi * 100 * T) * 10 ** (-db * T / 4 / 20)) for db in (40, 22, 14)]
     choice = explain_choice(falls)
@@ -82,11 +82,11 @@ def test_the_winner_is_trimmed_and_peaks_at_exactly_one() -> None:
     assert winner.duration_s == pytest.approx(4.0, abs=0.021)
 
 
-def test_of_equal_candidates_the_first_wins() -> None:
+def test_selection_prefers_the_first_of_equal_candidates() -> None:
     assert select_clip([clip("one", HUM), clip("two", HUM), clip("three", HUM)]).credit.title == "one"
 
 
-def test_two_strokes_in_silence_are_not_steady() -> None:
+def test_clip_of_two_strokes_is_not_steady() -> None:
     """Nearly all frames hold nothing, so that both percentiles would lie in the silence."""
     since = np.maximum(0.0, np.minimum(T - 0.05, 4.0))
     pings = np.sin(2 * np.pi * 440 * since) * np.exp(-since / 0.01)
@@ -97,14 +97,14 @@ def test_two_strokes_in_silence_are_not_steady() -> None:
     assert choice.rows[0].verdict == "not steady: dynamic range above 5 dB"
 
 
-def test_if_all_are_silent_none_is_chosen() -> None:
+def test_selection_refuses_silent_candidates() -> None:
     dither = np.round(np.random.default_rng(8).uniform(-1, 1, len(T))) / 32768
     silent = [AudioClip(np.zeros(len(T)), RATE), AudioClip(dither, RATE), AudioClip(np.full(len(T), 0.3), RATE)]
     with pytest.raises(AudioError, match="none of 3 candidates is long enough"):
         explain_choice(silent)
 
 
-def test_the_choice_tells_where_each_came_from_and_how_it_scored() -> None:
+def test_choice_lists_origin_and_scores_of_each_candidate() -> None:
     found = replace(clip("hum", HUM), credit=Credit("hum", "someone", "CC0-1.0", "https://sounds.test/1"))
     stored = replace(clip("hiss", WHITE), credit=Credit("hiss", "someone", "CC0-1.0", origin="library"))
     short = clip("short", HUM[:RATE])
@@ -118,7 +118,7 @@ def test_the_choice_tells_where_each_came_from_and_how_it_scored() -> None:
     assert choice.flatness_band_hz == (20.0, 7000.0)
 
 
-def test_the_choice_reads_as_a_table() -> None:
+def test_choice_is_printed_as_a_table() -> None:
     lines = str(explain_choice([clip("hiss", WHITE), clip("hum", HUM), clip("short", HUM[:RATE])])).splitlines()
     assert lines[0].split() == [
         "sound",
@@ -141,7 +141,7 @@ def test_the_choice_reads_as_a_table() -> None:
     assert len(verdicts) == 1
 
 
-def test_an_end_that_was_cut_is_faded_and_one_that_was_not_is_left_alone() -> None:
+def test_selection_fades_only_the_ends_that_it_cut() -> None:
     whole = select_clip([clip("whole", HUM)]).samples
     assert whole[0] == pytest.approx(HUM[0] / np.abs(HUM).max(), abs=1e-6)
     cut = select_clip([clip("cut", np.concatenate([np.zeros(RATE), HUM + 1e-3]))]).samples
@@ -151,7 +151,7 @@ def test_an_end_that_was_cut_is_faded_and_one_that_was_not_is_left_alone() -> No
     assert cut[-1] != 0.0
 
 
-def test_without_a_long_enough_candidate_the_error_names_the_longest() -> None:
+def test_error_names_the_longest_of_too_short_candidates() -> None:
     padded = np.concatenate([np.zeros(3 * RATE), HUM[: 2 * RATE]])
     with pytest.raises(AudioError, match=r"none of 2 candidates .* longest, 'padded', lasts 2\.00 s .* above 2\.5 s"):
         select_clip([clip("quiet", np.zeros(5 * RATE)), clip("padded", padded)])
@@ -168,7 +168,7 @@ SAW_CLOCK_FAN_OVEN = {
 
 
 @pytest.mark.parametrize("by_whom", ["own", *there(["recorded"], lambda _: RECORDINGS)])
-def test_among_machines_a_steady_hum_wins(sound: Callable[[str], AudioClip], by_whom: str) -> None:
+def test_selection_prefers_a_steady_hum_among_machines(sound: Callable[[str], AudioClip], by_whom: str) -> None:
     candidates = [sound(name) for name in SAW_CLOCK_FAN_OVEN[by_whom]]
     choice = explain_choice(candidates)
     assert choice.winner.credit.title == candidates[-1].credit.title
@@ -176,7 +176,7 @@ def test_among_machines_a_steady_hum_wins(sound: Callable[[str], AudioClip], by_
     assert all(row.verdict.startswith("not steady") for row in choice.rows[:2])
 
 
-def test_a_start_and_a_stop_are_no_part_of_what_is_judged_and_chosen() -> None:
+def test_selection_cuts_start_and_stop_before_scoring() -> None:
     take = machine(start_s=2.0, stop_s=3.0)
     choice = explain_choice([AudioClip(take.clip.samples, take.clip.sample_rate_hz, Credit("mixer", "", ""))])
     (row,) = choice.rows

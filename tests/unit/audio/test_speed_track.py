@@ -11,7 +11,7 @@ from starting_machines import RATE_HZ, machine
 
 @pytest.mark.parametrize("rise", ["motor", "linear", "half a cosine", "coast"])
 @pytest.mark.parametrize("frequency_hz", [50.0, 120.0, 400.0])
-def test_it_follows_a_machine_within_five_per_cent(rise: str, frequency_hz: float) -> None:
+def test_speed_track_follows_a_machine_within_five_per_cent(rise: str, frequency_hz: float) -> None:
     take = machine(start_s=3.0, rise=rise, frequency_hz=frequency_hz)
     track = track_speed(take.samples, RATE_HZ, (1.0, 4.0), (4.0, 9.0))
     assert track is not None
@@ -22,7 +22,7 @@ def test_it_follows_a_machine_within_five_per_cent(rise: str, frequency_hz: floa
     assert np.abs(track.speed[is_known] / true[is_known] - 1).max() < 0.05
 
 
-def test_a_pitch_that_stays_is_told() -> None:
+def test_speed_track_marks_a_constant_pitch() -> None:
     take = machine(start_s=2.0, spins=False)
     track = track_speed(take.samples, RATE_HZ, (1.0, 3.0), (3.0, 8.0))
     assert track is not None
@@ -30,7 +30,7 @@ def test_a_pitch_that_stays_is_told() -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_of_noise_it_tells_nothing(seed: int) -> None:
+def test_speed_track_of_noise_is_none(seed: int) -> None:
     x = np.random.default_rng(seed).standard_normal(8 * RATE_HZ)
     assert track_speed(x, RATE_HZ, (1.0, 3.0), (3.0, 8.0)) is None
 

@@ -26,21 +26,21 @@ def lacking(places: list[Placement], weber: float = 0.22, jnd_db: float = 2.5) -
     return count
 
 
-def test_two_alike_are_moved_just_apart() -> None:
+def test_spread_moves_equal_voices_to_the_least_distinct_distance() -> None:
     places = spread([Voice(200.0, 20.0, "a"), Voice(200.0, 20.0, "b")])
     low, high = sorted(place.target_hz for place in places)
     assert high / low == pytest.approx(1.25**2, rel=0.01)
     assert [place.level_db for place in places] == [20.0, 20.0]
 
 
-def test_what_is_apart_already_stays() -> None:
+def test_spread_keeps_voices_that_are_distinct() -> None:
     voices = [Voice(100.0, 20.0), Voice(160.0, 20.0), Voice(251.0, 12.0)]
     for voice, place in zip(voices, spread(voices), strict=True):
         assert place.target_hz == pytest.approx(voice.own_hz, rel=1e-6)
         assert place.level_db == pytest.approx(voice.level_db)
 
 
-def test_one_kind_stays_together_and_zero_limits_move_nothing() -> None:
+def test_spread_keeps_groups_together_and_obeys_zero_limits() -> None:
     voices = [Voice(200.0, 20.0, "fan"), Voice(205.0, 20.0, "fan")]
     assert [round(place.target_hz, 6) for place in spread(voices)] == [200.0, 205.0]
     still = spread([Voice(200.0, 20.0, "a"), Voice(200.0, 20.0, "b")], limits=SpreadLimits(octaves=0, level_db=0))
@@ -48,19 +48,19 @@ def test_one_kind_stays_together_and_zero_limits_move_nothing() -> None:
     assert spread([]) == ()
 
 
-def test_equal_voices_of_one_group_get_one_place() -> None:
+def test_spread_gives_equal_voices_of_a_group_one_frequency() -> None:
     one, two, _ = spread([Voice(200.0, 20.0, "fan"), Voice(200.0, 20.0, "fan"), Voice(205.0, 20.0, "pump")])
     assert one == two
 
 
-def test_what_is_placed_stays_and_others_keep_clear_of_it() -> None:
+def test_spread_keeps_placed_voices_and_moves_others_away() -> None:
     placed, free = spread([Voice(200.0, 20.0, "a", is_placed=True), Voice(260.0, 20.0, "b")])
     assert placed == Placement(200.0, 20.0)
     assert free.target_hz / 200.0 >= 1.25**2
 
 
-def test_where_there_is_no_room_voices_of_other_rhythms_share_a_frequency() -> None:
-    """Twelve voices at one frequency have no room; of three the rhythms tell them apart."""
+def test_voices_with_different_rhythms_share_a_frequency_when_space_is_short() -> None:
+    """There is no space for twelve voices at one frequency; three of them are distinct by rhythm."""
     steady = [Voice(200.0, 20.0, str(i)) for i in range(9)]
     lively = [Voice(200.0, 20.0, f"r{i}", rhythm_hz=hz) for i, hz in enumerate((3.0, 10.0, 30.0))]
     places = spread([*steady, *lively])[9:]
@@ -70,7 +70,7 @@ def test_where_there_is_no_room_voices_of_other_rhythms_share_a_frequency() -> N
     assert abs(math.log2(few[0].target_hz / few[1].target_hz)) > math.log2(1.22)
 
 
-def test_nobody_is_moved_to_where_the_actuator_cannot_bring_its_level() -> None:
+def test_spread_moves_no_voice_beyond_the_drive_limit_of_the_actuator() -> None:
     weak_below = ActuatorProfile("lra", 20.0, 1000.0, 220.0, 6.0)
     level_db = 22.0
     voices = [Voice(200.0, level_db, name) for name in "abc"]
@@ -87,7 +87,7 @@ _voices = st.lists(
 
 @settings(max_examples=8, deadline=None)
 @given(_voices)
-def test_limits_and_order_hold_and_no_pair_is_made_worse_in_sum(drawn: list[tuple[float, float]]) -> None:
+def test_spread_keeps_limits_and_the_order_of_levels(drawn: list[tuple[float, float]]) -> None:
     voices = [Voice(own_hz, level_db, str(i)) for i, (own_hz, level_db) in enumerate(drawn)]
     places = spread(voices)
     for voice, place in zip(voices, places, strict=True):
@@ -99,7 +99,7 @@ def test_limits_and_order_hold_and_no_pair_is_made_worse_in_sum(drawn: list[tupl
     assert places == spread(voices)
 
 
-def test_a_crowd_is_relieved_as_far_as_limits_go() -> None:
+def test_spread_of_many_voices_improves_distinctness_within_limits() -> None:
     rng = np.random.default_rng(4)
     voices = [
         Voice(float(f), sensation_level_db(float(i)), str(k))
@@ -114,6 +114,6 @@ def test_a_crowd_is_relieved_as_far_as_limits_go() -> None:
         assert abs(place.level_db - voice.level_db) <= 3.0
 
 
-def test_limits_have_bounds() -> None:
+def test_spread_limits_out_of_bounds_are_refused() -> None:
     with pytest.raises(ConfigError, match="spread setting octaves"):
         SpreadLimits.parse({"octaves": 2.0})

@@ -1,4 +1,4 @@
-"""Baking again makes anew what was made from something else than is said now, and tells it."""
+"""`rebake` rebuilds the loops whose inputs have changed, and reports them."""
 
 import json
 from collections.abc import Mapping
@@ -66,7 +66,7 @@ def remade(bundle: HapticBundle, config: Any = None, **more: Any) -> tuple[Hapti
 
 
 @pytest.mark.parametrize("settings", [{"actuator": "lra"}, {"tactile": "svf_bandpass"}, {"spread": {"octaves": 0.0}}])
-def test_other_settings_make_what_they_change_as_a_bake_would(bundle: HapticBundle, settings: dict[str, Any]) -> None:
+def test_changed_settings_rebuild_the_same_sounds_as_a_bake(bundle: HapticBundle, settings: dict[str, Any]) -> None:
     again, told = remade(bundle, settings)
     assert told
     assert_same_loops(again, bake(ROOM, settings))
@@ -75,7 +75,9 @@ def test_other_settings_make_what_they_change_as_a_bake_would(bundle: HapticBund
 @pytest.mark.parametrize(
     ("settings", "why"), [({"actuator": "lra"}, "actuator"), ({"tactile": "lowpass"}, "converter")]
 )
-def test_every_source_is_made_anew_and_says_why(bundle: HapticBundle, settings: dict[str, Any], why: str) -> None:
+def test_changed_setting_rebuilds_every_source_with_a_reason(
+    bundle: HapticBundle, settings: dict[str, Any], why: str
+) -> None:
     lines: list[str] = []
     tell = lambda stage, what, done, total: lines.append(f"{stage}: {what}")  # noqa: E731
     again, told = remade(bundle.override("desk_fan", clip=own_tone()), settings, progress=tell)
@@ -86,7 +88,7 @@ def test_every_source_is_made_anew_and_says_why(bundle: HapticBundle, settings: 
     assert len({loop.fingerprint[why] for states in again.loops.values() for loop in states.values()}) == 1
 
 
-def test_nothing_is_made_where_nothing_differs(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_unchanged_settings_rebuild_nothing(bundle: HapticBundle, tmp_path: Path) -> None:
     loaded = HapticBundle.load(bundle.save(tmp_path / "b"))
     for before in (bundle, loaded):
         again, told = remade(before)
@@ -95,7 +97,7 @@ def test_nothing_is_made_where_nothing_differs(bundle: HapticBundle, tmp_path: P
     assert all(loop.fingerprint for states in loaded.loops.values() for loop in states.values())
 
 
-def test_what_is_not_given_is_what_the_bundle_was_made_with(tmp_path: Path) -> None:
+def test_missing_settings_default_to_those_of_the_bundle(tmp_path: Path) -> None:
     settings = {"actuator": "lra", "tactile": {"kind": "adaptive", "q": 3.0}, "seed": 4, "spread": {"level_db": 0.0}}
     loaded = HapticBundle.load(bake(ROOM, settings).save(tmp_path / "b"))
     assert loaded.actuator == ACTUATORS["lra"]
@@ -128,7 +130,7 @@ def level_db(bundle: HapticBundle, object_id: str) -> float:
     return felt_level_db(loop.tactile.samples, loop.tactile.sample_rate_hz)
 
 
-def test_edited_words_choose_another_sound(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_edited_keywords_select_another_sound(bundle: HapticBundle, tmp_path: Path) -> None:
     folder = bundle.save(tmp_path / "b")
     objects = json.loads((folder / "objects.json").read_text())
     objects["desk_fan"]["states"][0]["keywords"] = "telephone ringing"
@@ -150,7 +152,7 @@ class Recordings:
         return [self.clip]
 
 
-def test_other_sound_sources_are_asked_only_where_they_are_given(bundle: HapticBundle) -> None:
+def test_sound_sources_are_queried_only_when_given(bundle: HapticBundle) -> None:
     source = Recordings(own_tone(90.0))
     again, told = remade(bundle, {"audio": source})
     assert source.n_asked == len(NAMES) == len(told)
@@ -160,7 +162,7 @@ def test_other_sound_sources_are_asked_only_where_they_are_given(bundle: HapticB
     assert source.n_asked == len(NAMES)
 
 
-def test_ones_own_clip_stays_where_it_is_and_the_others_keep_clear(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_user_clip_keeps_its_pitch_and_others_are_moved_away(bundle: HapticBundle, tmp_path: Path) -> None:
     # The fan's neighbour hums at 100 Hz, so that a recording of 101 Hz would have to give way.
     wished = bundle.override("desk_fan", clip=own_tone(101.0))
     again, told = remade(wished)
@@ -172,7 +174,7 @@ def test_ones_own_clip_stays_where_it_is_and_the_others_keep_clear(bundle: Hapti
     assert felt(bake(ROOM, overrides=kept)) == pytest.approx(felt(again), abs=0.01)
 
 
-def test_ones_own_clip_may_be_moved_if_asked(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_user_clip_can_be_moved_on_request(bundle: HapticBundle, tmp_path: Path) -> None:
     wished = bundle.override("desk_fan", clip=own_tone(101.0), keep=False)
     loaded = HapticBundle.load(wished.save(tmp_path / "b"))
     assert loaded.overrides["desk_fan"].keep is False
@@ -186,7 +188,7 @@ def test_ones_own_clip_may_be_moved_if_asked(bundle: HapticBundle, tmp_path: Pat
     assert felt(kept)["desk_fan"] == pytest.approx(101.0, abs=0.2)
 
 
-def test_an_override_that_is_gone_brings_a_chosen_sound_back(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_removed_override_restores_the_selected_sound(bundle: HapticBundle, tmp_path: Path) -> None:
     folder = rebake(bundle.override("desk_fan", clip=own_tone())).save(tmp_path / "b")
     (folder / "overrides.json").write_text("{}")
     again, told = remade(HapticBundle.load(folder))
@@ -194,7 +196,7 @@ def test_an_override_that_is_gone_brings_a_chosen_sound_back(bundle: HapticBundl
     assert_same_loops(again, bundle)
 
 
-def test_without_the_kept_sound_the_audible_loop_serves(bundle: HapticBundle) -> None:
+def test_audible_loop_replaces_a_missing_source_clip(bundle: HapticBundle) -> None:
     bare = {
         key: {name: replace(loop, source=None) for name, loop in states.items()} for key, states in bundle.loops.items()
     }
@@ -220,7 +222,7 @@ def without_fingerprints(folder: Path) -> Path:
     return folder
 
 
-def test_a_bundle_of_before_stays_until_a_setting_is_named(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_bundle_without_fingerprints_is_kept_until_a_setting_changes(bundle: HapticBundle, tmp_path: Path) -> None:
     old = HapticBundle.load(without_fingerprints(bundle.save(tmp_path / "b")))
     assert old.actuator is None
     with pytest.warns(UserWarning, match="3 sources .* stay as they are"):
@@ -239,7 +241,7 @@ def test_a_bundle_of_before_stays_until_a_setting_is_named(bundle: HapticBundle,
     assert remade(again)[1] == {}
 
 
-def test_loops_that_somebody_made_by_hand_are_long_enough_to_be_made_again(bundle: HapticBundle) -> None:
+def test_handmade_loops_can_be_converted_again(bundle: HapticBundle) -> None:
     by_hand = HapticBundle(
         bundle.snapshot, "room", bundle.objects, {"desk_fan": {"on": tone_loop(120.0, seconds=0.05)}}
     )
@@ -255,7 +257,7 @@ class Guest:
         return Adaptive().stream(sample_rate_hz, context)
 
 
-def test_a_converter_given_ready_made_is_asked_for_again() -> None:
+def test_converter_object_must_be_given_again() -> None:
     baked = bake(room("desk_fan"), {"tactile": Guest()})
     with pytest.raises(ConfigError, match="test_fingerprints:Guest"):
         rebake(baked)
@@ -265,7 +267,7 @@ def test_a_converter_given_ready_made_is_asked_for_again() -> None:
 @pytest.mark.parametrize(
     "damage", [3, [], {"tactile": {}}, {"actuator": {"q": -1}, "tactile": {}, "spread": {}, "seed": 0}]
 )
-def test_settings_of_a_bundle_that_make_no_sense(bundle: HapticBundle, tmp_path: Path, damage: object) -> None:
+def test_invalid_settings_of_a_bundle_are_refused(bundle: HapticBundle, tmp_path: Path, damage: object) -> None:
     folder = bundle.save(tmp_path / "b")
     manifest = json.loads((folder / "bundle.json").read_text())
     (folder / "bundle.json").write_text(json.dumps(manifest | {"made_with": damage}))
@@ -273,7 +275,7 @@ def test_settings_of_a_bundle_that_make_no_sense(bundle: HapticBundle, tmp_path:
         HapticBundle.load(folder)
 
 
-def test_a_scene_without_sources() -> None:
+def test_rebake_of_a_scene_without_sources_works() -> None:
     silent = bake(scene(box("wooden_table", (1.2, 0.05, 0.8), (0.0, 0.7, 0.0))))
     again, told = remade(silent, {"actuator": "lra"})
     assert (again.loops, told) == ({}, {})
@@ -281,7 +283,7 @@ def test_a_scene_without_sources() -> None:
     assert again.actuator.name == "lra"
 
 
-def test_the_synthesizer_is_asked_once_for_copies(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_copies_are_synthesized_once(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[VibrationDescription] = []
     find = Synthesizer.find
     monkeypatch.setattr(Synthesizer, "find", lambda self, wanted: [asked.append(wanted), find(self, wanted)][1])

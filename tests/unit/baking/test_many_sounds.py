@@ -82,7 +82,7 @@ def test_two_sounds_are_converted_at_once() -> None:
         pytest.fail("each sound waited for the one before")
 
 
-def test_they_come_out_as_each_alone_and_are_told_in_order(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_parallel_conversions_equal_single_ones_and_report_in_order(monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[str] = []
     together = loops(6, Through(), told).loops
     assert told == [f"fan_{i} {i + 1} of 6" for i in range(6)]
@@ -96,14 +96,14 @@ def test_they_come_out_as_each_alone_and_are_told_in_order(monkeypatch: pytest.M
         assert states["on"].fingerprint == other.fingerprint
 
 
-def test_of_several_that_fail_the_first_is_told() -> None:
+def test_first_of_several_failures_is_reported() -> None:
     told: list[str] = []
     with pytest.raises(AudioError, match="^no 57 Hz$"):
         loops(6, Through(fails_at_hz=(57, 64, 85)), told)
     assert told == ["fan_0 1 of 6"]
 
 
-def test_guests_are_looked_for_once_and_not_for_every_sound(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_plugins_are_searched_once(monkeypatch: pytest.MonkeyPatch) -> None:
     from scene2hap.baking import fingerprint
 
     asked: list[str] = []

@@ -13,7 +13,7 @@ from scene2hap.errors import ConfigError
 TASKS = {"deadly": os._exit, "harmless": abs, "slow": time.sleep}
 
 
-def test_only_what_kills_its_worker_is_given_up() -> None:
+def test_only_tasks_that_kill_their_worker_fail() -> None:
     """Workers die in several tasks while others run beside them or wait for a turn."""
 
     async def everything() -> list[tuple[str, Any]]:

@@ -1,4 +1,4 @@
-"""Baking again: what a person said stays, what was not asked for stays as it was."""
+"""`rebake`: user corrections are kept, and objects that are not named stay unchanged."""
 
 import json
 from pathlib import Path
@@ -34,7 +34,7 @@ def bundle() -> HapticBundle:
     return bake(SCENE, {"llm": answering()})
 
 
-def test_only_what_is_named_is_asked_again(bundle: HapticBundle) -> None:
+def test_rebake_queries_only_the_named_objects(bundle: HapticBundle) -> None:
     backend = answering()
     again = rebake(bundle, {"llm": backend}, objects=["cup"], user_prompt="the cup is of silver")
     assert subjects(backend) == ["cup"]
@@ -45,7 +45,7 @@ def test_only_what_is_named_is_asked_again(bundle: HapticBundle) -> None:
     assert list(again.objects) == list(bundle.objects)
 
 
-def test_vibration_that_nobody_inferred(bundle: HapticBundle) -> None:
+def test_vibration_can_be_added_by_override(bundle: HapticBundle) -> None:
     wished = bundle.override("cup", vibrates=True)
     assert "cup" not in wished.loops
     backend = answering()
@@ -57,7 +57,7 @@ def test_vibration_that_nobody_inferred(bundle: HapticBundle) -> None:
     assert again.objects["cup"].provenance["vibrates"] == "user"
 
 
-def test_a_sound_of_ones_own(bundle: HapticBundle) -> None:
+def test_user_sound_replaces_the_selected_one(bundle: HapticBundle) -> None:
     rate = 8000
     tone = np.sin(2 * np.pi * 120 * np.arange(3 * rate) / rate).astype(np.float32)
     clip = AudioClip(0.5 * tone, rate, Credit("my tone", "me", "CC0"))
@@ -69,7 +69,7 @@ def test_a_sound_of_ones_own(bundle: HapticBundle) -> None:
         assert loop.frequency_raw_hz == pytest.approx(120, abs=0.5)
 
 
-def test_corrections_outlive_a_new_bake(tmp_path: Path) -> None:
+def test_corrections_are_kept_by_a_new_bake(tmp_path: Path) -> None:
     def baked(**more: Any) -> HapticBundle:
         return bake(SCENE, {"llm": answering()}, **more)
 
@@ -82,7 +82,7 @@ def test_corrections_outlive_a_new_bake(tmp_path: Path) -> None:
     assert not silent.loops
 
 
-def test_a_correction_of_what_is_gone_is_dropped_aloud() -> None:
+def test_correction_of_a_missing_object_is_dropped_with_a_warning() -> None:
     with pytest.warns(UserWarning, match="'chair' is dropped"):
         again = bake(SCENE, {"llm": answering()}, overrides={"chair": Override(gain_db=1.0)})
     assert not again.overrides
@@ -93,7 +93,7 @@ def test_an_object_that_is_not_there(bundle: HapticBundle) -> None:
         rebake(bundle, {"llm": answering()}, objects=["chair"])
 
 
-def test_the_account_is_handed_over() -> None:
+def test_rebake_passes_on_the_inference_report() -> None:
     accounts: list[Any] = []
     bake(SCENE, {"llm": answering()}, on_report=accounts.append)
     (account,) = accounts

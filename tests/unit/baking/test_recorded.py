@@ -39,7 +39,7 @@ def times(found: dict[str, ObjectHaptics]) -> tuple[float, float]:
     return state.start_up_s, state.wind_down_s
 
 
-def test_what_a_recording_shows_stands_in_the_place_of_what_was_inferred() -> None:
+def test_recorded_times_replace_inferred_times() -> None:
     start, stop = shown_runs((START, STOP), STATE, None)
     assert start is not None
     assert stop is not None
@@ -49,13 +49,13 @@ def test_what_a_recording_shows_stands_in_the_place_of_what_was_inferred() -> No
     assert found["fan"].provenance == {"start_up_s": RECORDING, "wind_down_s": RECORDING}
 
 
-def test_where_it_shows_one_of_both_the_other_stays_inferred() -> None:
+def test_missing_recorded_time_keeps_the_inferred_one() -> None:
     found = with_recorded_times({"fan": fan()}, {"fan": {"on": recorded(START, None)}}, {})
     assert times(found) == (2.0, 4.0)
     assert found["fan"].provenance == {"start_up_s": RECORDING}
 
 
-def test_an_edit_stays_until_the_recording_is_another() -> None:
+def test_edited_time_is_kept_until_the_recording_changes() -> None:
     start, _ = shown_runs((START, None), STATE, None)
     before = {"fan": {"on": recorded(start, None)}}
     edited = fan(start_up_s=7.0)
@@ -67,7 +67,7 @@ def test_an_edit_stays_until_the_recording_is_another() -> None:
     assert times(with_recorded_times({"fan": edited}, {"fan": {"on": recorded(other, None)}}, before)) == (5.0, 4.0)
 
 
-def test_the_inferred_time_comes_back_with_a_recording_that_shows_none() -> None:
+def test_recording_without_times_restores_inferred_times() -> None:
     start, _ = shown_runs((START, None), STATE, None)
     before = {"fan": {"on": recorded(start, None)}}
     first = with_recorded_times({"fan": fan()}, before, {})
@@ -76,7 +76,7 @@ def test_the_inferred_time_comes_back_with_a_recording_that_shows_none() -> None
     assert found["fan"].provenance == {}
 
 
-def test_what_spins_and_keeps_its_pitch_was_faded_in_an_editor() -> None:
+def test_spinning_source_with_constant_pitch_counts_as_faded_by_an_editor() -> None:
     faded = RunCurve(2.0, (0.0, 1.0), (1.0, 1.0))
     assert shown_runs((faded, faded), STATE, None) == NO_RUNS
     start, stop = shown_runs((faded, faded), replace(STATE, spins=False), None)
@@ -85,7 +85,7 @@ def test_what_spins_and_keeps_its_pitch_was_faded_in_an_editor() -> None:
 
 
 @scenes_in_the_air
-def test_a_clip_of_ones_own_brings_its_start_and_leaves_with_it(tmp_path: Path) -> None:
+def test_user_clip_brings_and_removes_its_recorded_start(tmp_path: Path) -> None:
     bundle = bake(SCENE, {"llm": {"kind": "lexicon"}})
     plain = {state.name: state.start_up_s for state in bundle.objects["phone"].states}
     name = next(iter(plain))
@@ -115,7 +115,7 @@ def test_a_clip_of_ones_own_brings_its_start_and_leaves_with_it(tmp_path: Path) 
 
 
 @scenes_in_the_air
-def test_bundles_of_before_have_no_curves_and_bad_ones_are_refused(tmp_path: Path) -> None:
+def test_old_bundles_have_no_curves_and_invalid_curves_are_refused(tmp_path: Path) -> None:
     folder = bake(SCENE, {"llm": {"kind": "lexicon"}}).save(tmp_path / "b")
     rows = json.loads((folder / "loops.json").read_text("utf-8"))
     row = next(iter(rows["phone"].values()))

@@ -9,7 +9,7 @@ from scene2hap.bridge.config import is_loopback
 from scene2hap.errors import ConfigError
 
 
-def test_loopback_needs_no_token_and_others_do() -> None:
+def test_only_loopback_needs_no_token() -> None:
     assert BridgeConfig().token is None
     for host in ("0.0.0.0", "192.168.1.7", "::", "haptics.example"):
         with pytest.raises(ConfigError, match="needs a token"):
@@ -17,7 +17,7 @@ def test_loopback_needs_no_token_and_others_do() -> None:
         assert BridgeConfig(host=host, token="a word").host == host
 
 
-def test_an_empty_token_is_none() -> None:
+def test_empty_token_counts_as_no_token() -> None:
     with pytest.raises(ConfigError, match="token is empty"):
         BridgeConfig(token="")
 
@@ -33,7 +33,7 @@ def test_loopback_by_name_and_number() -> None:
     assert not any(map(is_loopback, ("0.0.0.0", "10.0.0.1", "localhost.evil.example", "", "127.0.0.1.evil.example")))
 
 
-def test_a_root_is_a_folder(tmp_path: Path) -> None:
+def test_root_must_be_a_folder(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="must be a folder"):
         BridgeConfig(root=tmp_path / "none")
     assert BridgeConfig(root=tmp_path).root == tmp_path.resolve()

@@ -1,4 +1,4 @@
-"""Binary messages: the page's examples to the byte, and whatever else may arrive."""
+"""Binary messages: the page's examples byte by byte, and arbitrary bytes."""
 
 import contextlib
 import re
@@ -70,19 +70,19 @@ def test_a_frame_without_poses_or_touches() -> None:
         (FRAME[:76] + struct.pack("<f", float("nan")) + FRAME[80:], "not finite"),
     ],
 )
-def test_a_frame_that_cannot_be_is_refused(message: bytes, says: str) -> None:
+def test_invalid_frame_is_refused(message: bytes, says: str) -> None:
     with pytest.raises(BridgeError, match=says):
         decode_frame(message)
 
 
 @given(st.binary(max_size=200) | st.binary(max_size=100).map(lambda tail: FRAME[:40] + tail))
-def test_any_bytes_are_a_frame_or_an_error(message: bytes) -> None:
+def test_arbitrary_bytes_are_decoded_or_refused(message: bytes) -> None:
     for decode in (decode_frame, decode_gains):
         with contextlib.suppress(BridgeError):
             decode(message)
 
 
-def test_a_picture_comes_apart_again() -> None:
+def test_picture_message_round_trips() -> None:
     assert decode_picture(picture_of(b'{"object": "a"}', b"\x89PNG...")) == (b'{"object": "a"}', b"\x89PNG...")
     with pytest.raises(BridgeError, match="its text alone needs"):
         decode_picture(picture_of(b"{}", b"")[:-1])

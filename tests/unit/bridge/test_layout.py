@@ -1,4 +1,4 @@
-"""What numbers in frames stand for, while objects come and go."""
+"""Meaning of numbers in frames while objects are added and removed."""
 
 import pytest
 
@@ -11,7 +11,7 @@ def test_moving_objects_come_first_in_the_client_s_order() -> None:
     assert (layout.number, layout.objects, layout.moving) == (1, ("c", "a", "b", "d"), ("c", "a"))
 
 
-def test_the_last_layouts_are_still_read() -> None:
+def test_frames_of_recent_layouts_are_accepted() -> None:
     layouts = Layouts()
     for k in range(N_KEPT + 2):
         layouts.change(["a"], ["a", *map(str, range(k))], ("left",), ())
@@ -22,7 +22,7 @@ def test_the_last_layouts_are_still_read() -> None:
     assert old.objects == ("a", "0", "1")
 
 
-def test_numbers_go_round_in_sixteen_bits() -> None:
+def test_layout_numbers_wrap_at_sixteen_bits() -> None:
     layouts = Layouts()
     for _ in range(0x10000):
         layouts.change([], ["a"], ("left",), ())
@@ -31,7 +31,7 @@ def test_numbers_go_round_in_sixteen_bits() -> None:
     assert layouts.of(0) is None
 
 
-def test_what_cannot_move_is_refused() -> None:
+def test_unknown_and_duplicate_moving_objects_are_refused() -> None:
     with pytest.raises(UnknownObject, match="did you mean 'phone'|Did you mean 'phone'"):
         Layouts().change(["fone"], ["phone"], ("left",), ())
     with pytest.raises(BridgeError, match="twice"):

@@ -1,4 +1,4 @@
-"""Text messages: what is taken, and what is said of what is not."""
+"""Text messages: valid ones are accepted, and others get an error reply."""
 
 import json
 from pathlib import Path
@@ -33,7 +33,7 @@ PAGE = (DOCS / "bridge-protocol.md").read_text(encoding="utf-8")
         ('{"type": "leave", "id": -1}', "id of leave"),
     ],
 )
-def test_a_wrong_message_is_told_what_is_wrong(text: str, says: str) -> None:
+def test_error_reply_describes_the_wrong_field(text: str, says: str) -> None:
     with pytest.raises(BridgeError, match=says):
         parse_request(read_document(text))
 
@@ -44,7 +44,7 @@ def test_a_request_keeps_its_id() -> None:
     assert parse_request({"type": "leave", "id": 7}).id == 7
 
 
-def test_every_request_stands_on_the_page() -> None:
+def test_every_request_is_documented_on_the_page() -> None:
     table = PAGE.split("## Requests")[1].split("## ")[0]
     for kind, model in MODELS.items():
         assert f"`{kind}`" in table, f"docs/bridge-protocol.md lacks {kind}"

@@ -1,4 +1,4 @@
-"""The bundle folder: what it holds, and what is wrong with one that cannot be read."""
+"""The bundle folder: its content, and errors of unreadable bundles."""
 
 import json
 import shutil
@@ -107,7 +107,7 @@ def test_a_newer_version(folder: Path) -> None:
 @pytest.mark.parametrize(
     "name", ["bundle.json", "scene.json", "objects.json", "loops.json", "sounds/phone.ringing.tactile.wav"]
 )
-def test_half_written_a_file_is_missing(folder: Path, name: str) -> None:
+def test_missing_file_is_reported(folder: Path, name: str) -> None:
     (folder / name).unlink()
     with pytest.raises(BundleIncomplete, match=name):
         HapticBundle.load(folder)
@@ -116,14 +116,14 @@ def test_half_written_a_file_is_missing(folder: Path, name: str) -> None:
 @pytest.mark.parametrize(
     "name", ["bundle.json", "scene.json", "objects.json", "loops.json", "sounds/phone.ringing.tactile.wav"]
 )
-def test_half_written_a_file_is_cut_short(folder: Path, name: str) -> None:
+def test_truncated_file_is_reported(folder: Path, name: str) -> None:
     whole = (folder / name).read_bytes()
     (folder / name).write_bytes(whole[: len(whole) // 2])
     with pytest.raises(BundleIncomplete, match=name):
         HapticBundle.load(folder)
 
 
-def test_half_written_mesh(tmp_path: Path) -> None:
+def test_truncated_mesh_is_reported(tmp_path: Path) -> None:
     folder = with_meshes().save(tmp_path / "b")
     mesh = next((folder / "meshes").iterdir())
     mesh.write_bytes(mesh.read_bytes()[:-7])
@@ -148,7 +148,7 @@ def test_a_value_out_of_bounds_names_file_and_field(folder: Path) -> None:
         HapticBundle.load(folder)
 
 
-def test_a_bundle_reads_its_own_files_only(folder: Path) -> None:
+def test_bundle_reads_only_files_in_its_folder(folder: Path) -> None:
     shutil.copy(folder / "sounds" / "phone.ringing.tactile.wav", folder.parent / "elsewhere.wav")
     path = folder / "loops.json"
     path.write_text(path.read_text().replace("sounds/phone.ringing.tactile.wav", "../elsewhere.wav"))
@@ -156,7 +156,7 @@ def test_a_bundle_reads_its_own_files_only(folder: Path) -> None:
         HapticBundle.load(folder)
 
 
-def test_loops_of_an_object_that_is_not_there() -> None:
+def test_loops_of_a_missing_object_are_refused() -> None:
     snapshot, bundle = table_with_two_phones()
     with pytest.raises(UnknownObject, match="no object 'sofa'"):
         HapticBundle(snapshot, "room", bundle.objects, {"sofa": {"on": tone_loop(50)}})
@@ -174,7 +174,7 @@ def test_credits_are_written_once_each(tmp_path: Path) -> None:
     assert text.count("Buzz, by Ann, CC-BY-4.0, https://example.org/buzz") == 1
 
 
-def test_how_a_loop_is_felt_is_kept(tmp_path: Path) -> None:
+def test_sensation_of_a_loop_round_trips(tmp_path: Path) -> None:
     _, bundle = table_with_two_phones()
     felt = Sensation(14.0, 20.0, 98.0, 80.0)
     loop = replace(bundle.loops["alarm"]["ringing"], felt=felt)

@@ -1,4 +1,4 @@
-"""What a person may not write into objects.json, and what is told."""
+"""Invalid edits of objects.json, and their messages."""
 
 import json
 import warnings
@@ -36,7 +36,7 @@ def edit(folder: Path, object_id: str, **fields: Any) -> None:
         ([1.6, 0.8, 1e-9], "thickness is 1e-09 m"),
     ],
 )
-def test_a_size_that_the_table_cannot_have_is_refused(folder: Path, size_m: list[float], told: str) -> None:
+def test_implausible_size_is_refused(folder: Path, size_m: list[float], told: str) -> None:
     edit(folder, "table", estimated_size_m=size_m)
     with pytest.raises(BundleError, match=rf"objects\.json: table.*{told}"):
         HapticBundle.load(folder)
@@ -53,7 +53,7 @@ def test_an_unknown_sheet_of_an_earlier_version_is_read_and_takes_a_material(fol
     assert bundle.objects["block"].estimated_size_m == (0.4, 0.4, pytest.approx(0.02))
 
 
-def test_a_need_that_nothing_meets_is_told(folder: Path) -> None:
+def test_unmet_contact_need_warns(folder: Path) -> None:
     edit(folder, "phone", needs_contact="stove")
     with pytest.warns(
         BundleWarning, match="'phone': state 'ringing' needs contact with 'stove', which no other"
@@ -63,7 +63,7 @@ def test_a_need_that_nothing_meets_is_told(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("needs", ["", "none", "null", "table", None])
-def test_a_need_that_something_meets_or_that_is_none_is_quiet(folder: Path, needs: str | None) -> None:
+def test_met_or_absent_contact_need_does_not_warn(folder: Path, needs: str | None) -> None:
     edit(folder, "phone", needs_contact=needs)
     with warnings.catch_warnings():
         warnings.simplefilter("error")

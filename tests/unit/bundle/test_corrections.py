@@ -19,7 +19,7 @@ def saved(path: Path, overrides: Any, **changes: Any) -> Path:
     return path
 
 
-def test_corrections_count_as_overrides_do(tmp_path: Path) -> None:
+def test_corrections_have_the_effect_of_overrides(tmp_path: Path) -> None:
     bundle = table_with_two_phones()[1]
     file = saved(tmp_path / "c.json", {"phone": {"gain_db": -6.0, "locked": True}, "table": {"material": "steel"}})
     corrected = bundle.corrected(file)
@@ -55,12 +55,12 @@ def test_rebake_and_the_command_take_them_over(tmp_path: Path, capsys: pytest.Ca
         ('{"format": "scene2hap/overrides", "version": 1, "overrides": {"phone": {"gain_db": "x"}}}', "gain_db is 'x'"),
     ],
 )
-def test_what_is_no_file_of_corrections_is_refused(content: str, told: str, tmp_path: Path) -> None:
+def test_invalid_corrections_file_is_refused(content: str, told: str, tmp_path: Path) -> None:
     (tmp_path / "c.json").write_text(content)
     with pytest.raises(BundleError, match=told):
         table_with_two_phones()[1].corrected(tmp_path / "c.json")
 
 
-def test_an_object_that_is_not_there_is_named(tmp_path: Path) -> None:
+def test_error_names_a_missing_object(tmp_path: Path) -> None:
     with pytest.raises(UnknownObject, match="phon"):
         table_with_two_phones()[1].corrected(saved(tmp_path / "c.json", {"phon": {"gain_db": 1.0}}))

@@ -59,7 +59,7 @@ def places(document: Any) -> list[tuple[Any, Any]]:
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
-def test_every_value_becomes_another_or_goes(folder: Path, name: str) -> None:
+def test_any_changed_or_removed_value_is_read_or_refused(folder: Path, name: str) -> None:
     path = folder / name
     whole = path.read_text(encoding="utf-8")
     for at in range(len(places(json.loads(whole)))):
@@ -74,7 +74,7 @@ def test_every_value_becomes_another_or_goes(folder: Path, name: str) -> None:
             read(folder)
 
 
-def test_what_is_read_can_be_written(folder: Path) -> None:
+def test_any_readable_bundle_can_be_written(folder: Path) -> None:
     """Of texts that no encoding can write, and of numbers at their bounds."""
     path = folder / "overrides.json"
     whole = path.read_text(encoding="utf-8")
@@ -100,7 +100,7 @@ def test_what_is_read_can_be_written(folder: Path) -> None:
     [b"", b"null", b"[]", b"{}", b"NaN", b"[" * 100_000, b'{"a":' * 100_000, b"1" * 9000, b"\xff\xfe{\0}\0", b"\x80"],
     ids=lambda content: repr(content[:6]),
 )
-def test_a_document_becomes_another(folder: Path, name: str, content: bytes) -> None:
+def test_any_replaced_document_is_read_or_refused(folder: Path, name: str, content: bytes) -> None:
     (folder / name).write_bytes(content)
     read(folder)
 
@@ -108,7 +108,7 @@ def test_a_document_becomes_another(folder: Path, name: str, content: bytes) -> 
 @pytest.mark.skipif(os.name != "posix", reason="pipes and links")
 @pytest.mark.parametrize("kind", ["folder", "pipe", "circle", "outside", "device", "dangling", "sparse"])
 @pytest.mark.parametrize("name", [*DOCUMENTS, "sounds/phone.ringing.tactile.wav"])
-def test_something_else_stands_in_a_file_s_place(folder: Path, name: str, kind: str) -> None:
+def test_special_file_in_place_of_a_file_is_refused(folder: Path, name: str, kind: str) -> None:
     path = folder / name
     path.unlink(missing_ok=True)
     path = path if name in DOCUMENTS else sorted((folder / "sounds").glob("*.wav"))[0]
@@ -131,21 +131,21 @@ def test_something_else_stands_in_a_file_s_place(folder: Path, name: str, kind: 
         HapticBundle.load(folder)
 
 
-def test_names_that_are_no_utf_8_come_back(tmp_path: Path) -> None:
+def test_names_that_are_not_utf_8_round_trip(tmp_path: Path) -> None:
     """What a file system calls something; JSON can spell it, UTF-8 cannot."""
     bundle = table_with_two_phones()[1]
     odd = HapticBundle(bundle.snapshot, "caf\udce9", bundle.objects, bundle.loops)
     assert HapticBundle.load(odd.save(tmp_path / "room")).scene_category == "caf\udce9"
 
 
-def test_a_number_beyond_any_bound_is_told(folder: Path) -> None:
+def test_number_beyond_any_bound_is_refused(folder: Path) -> None:
     path = folder / "objects.json"
     path.write_text(path.read_text().replace('"density_kg_m3": 750.0', '"density_kg_m3": 1' + "0" * 400))
     with pytest.raises(BundleError, match=r"objects\.json: table.*(finite|number)"):
         HapticBundle.load(folder)
 
 
-def test_a_source_of_which_nothing_was_inferred(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_source_missing_from_objects_json_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = folder / "objects.json"
     whole = json.loads(path.read_text())
     path.write_text(json.dumps({key: row for key, row in whole.items() if key != "phone"}))

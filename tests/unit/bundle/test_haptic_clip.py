@@ -48,7 +48,7 @@ def test_a_clip_is_looped_whole_and_felt_as_it_is(baked: HapticBundle, clip: Pat
     assert abs(x[0] - x[-1]) <= 1.05 * np.abs(np.diff(x)).max()
 
 
-def test_it_is_kept_on_disk_and_by_rebake(baked: HapticBundle, clip: Path, tmp_path: Path) -> None:
+def test_haptic_clip_is_kept_by_save_and_rebake(baked: HapticBundle, clip: Path, tmp_path: Path) -> None:
     made = rebake(baked.override("kettle", clip=clip))
     made.save(tmp_path / "kept")
     loaded = HapticBundle.load(tmp_path / "kept")
@@ -60,7 +60,7 @@ def test_it_is_kept_on_disk_and_by_rebake(baked: HapticBundle, clip: Path, tmp_p
         np.testing.assert_allclose(new.tactile.samples, old.tactile.samples, atol=2e-7)
 
 
-def test_the_command_line_takes_one(baked: HapticBundle, clip: Path, tmp_path: Path) -> None:
+def test_command_line_accepts_a_haptic_clip(baked: HapticBundle, clip: Path, tmp_path: Path) -> None:
     folder = str(baked.save(tmp_path / "b"))
     assert main(["edit", folder, "sound", "kettle", str(clip), "-q"]) == 0
     (loop,) = HapticBundle.load(folder).loops["kettle"].values()

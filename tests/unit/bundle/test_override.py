@@ -1,4 +1,4 @@
-"""What a person says against inference."""
+"""User overrides of inferred values."""
 
 import json
 from pathlib import Path
@@ -16,7 +16,7 @@ def bundle() -> HapticBundle:
     return table_with_two_phones()[1]
 
 
-def test_silence_counts_at_once(bundle: HapticBundle) -> None:
+def test_silencing_override_removes_the_loops(bundle: HapticBundle) -> None:
     source, other = bundle.loops
     quiet = bundle.override(source, vibrates=False)
     assert list(quiet.loops) == [other]
@@ -25,7 +25,7 @@ def test_silence_counts_at_once(bundle: HapticBundle) -> None:
     assert bundle.objects[source].vibrates
 
 
-def test_material_by_name_or_with_constants_of_ones_own(bundle: HapticBundle) -> None:
+def test_material_override_accepts_a_name_or_constants(bundle: HapticBundle) -> None:
     assert bundle.override("table", material="steel").objects["table"].material == materials.lookup("steel")
     jelly = Material("jelly", 1000.0, 1e5, 0.49, 0.4)
     changed = bundle.override("table", material=jelly).objects["table"]
@@ -33,7 +33,7 @@ def test_material_by_name_or_with_constants_of_ones_own(bundle: HapticBundle) ->
     assert changed.provenance["material"] == "user"
 
 
-def test_level_is_played(bundle: HapticBundle) -> None:
+def test_level_override_changes_the_output(bundle: HapticBundle) -> None:
     source = next(iter(bundle.loops))
     touch = [Touch("left", source, bundle.snapshot.object(source).pose.position_m)]
 
@@ -45,7 +45,7 @@ def test_level_is_played(bundle: HapticBundle) -> None:
     assert peak(bundle.override(source, gain_db=-6.0)) == pytest.approx(10 ** (-6 / 20) * peak(bundle), rel=1e-3)
 
 
-def test_corrections_add_up(bundle: HapticBundle) -> None:
+def test_overrides_accumulate(bundle: HapticBundle) -> None:
     source = next(iter(bundle.loops))
     twice = bundle.override(source, gain_db=-3.0).override(source, material="brass")
     assert twice.gain_db(source) == -3.0
@@ -67,7 +67,7 @@ def test_corrections_are_kept_in_the_folder(bundle: HapticBundle, tmp_path: Path
     np.testing.assert_allclose(kept.samples, clip.samples, atol=2**-15)
 
 
-def test_a_bundle_without_the_file_has_none(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_bundle_without_overrides_file_has_no_overrides(bundle: HapticBundle, tmp_path: Path) -> None:
     folder = bundle.save(tmp_path / "b")
     (folder / "overrides.json").unlink()
     manifest = json.loads((folder / "bundle.json").read_text())
@@ -88,14 +88,14 @@ def test_a_bundle_without_the_file_has_none(bundle: HapticBundle, tmp_path: Path
         ({"clip": 3}, BundleError, "clip is 3"),
     ],
 )
-def test_a_correction_that_cannot_be(
+def test_invalid_override_is_refused(
     bundle: HapticBundle, wish: dict[str, object], error: type[Exception], sentence: str
 ) -> None:
     with pytest.raises(error, match=sentence):
         bundle.override("table", **wish)  # type: ignore[arg-type]
 
 
-def test_of_an_object_that_is_not_there(bundle: HapticBundle) -> None:
+def test_override_of_a_missing_object_is_refused(bundle: HapticBundle) -> None:
     with pytest.raises(UnknownObject):
         bundle.override("chair", vibrates=False)
 
@@ -104,7 +104,7 @@ def test_of_an_object_that_is_not_there(bundle: HapticBundle) -> None:
     "row",
     [{"material": {"name": "x"}}, {"loud": True}, {"material": {**vars(Material("x", 1, 1, 0)), "density_kg_m3": -1}}],
 )
-def test_a_file_that_makes_no_sense(bundle: HapticBundle, tmp_path: Path, row: dict[str, object]) -> None:
+def test_invalid_overrides_file_is_refused(bundle: HapticBundle, tmp_path: Path, row: dict[str, object]) -> None:
     folder = bundle.save(tmp_path / "b")
     (folder / "overrides.json").write_text(json.dumps({"table": row}))
     with pytest.raises(BundleError, match=r"overrides\.json"):

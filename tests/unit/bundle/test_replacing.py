@@ -1,4 +1,4 @@
-"""What a bundle may replace, what stays in its folder, and what earlier saves left beside it."""
+"""Folders that a bundle may replace, files that stay in them, and leftovers of earlier saves."""
 
 import json
 import os
@@ -53,7 +53,7 @@ def both_ways(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -
         '{"format": "scene2hap/bundle", "version": 1e400}',
     ],
 )
-def test_a_folder_with_some_bundle_json_stays(tmp_path: Path, manifest: str) -> None:
+def test_folder_with_a_foreign_bundle_json_is_not_replaced(tmp_path: Path, manifest: str) -> None:
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "bundle.json").write_text(manifest)
     (tmp_path / "mine" / "thesis.txt").write_text("ten years")
@@ -74,12 +74,12 @@ def test_a_newer_bundle_is_neither_replaced_nor_half_read(tmp_path: Path) -> Non
     assert content(tmp_path) == before
 
 
-def test_overrides_of_something_else_are_not_read(tmp_path: Path) -> None:
+def test_overrides_of_a_foreign_folder_are_not_read(tmp_path: Path) -> None:
     (tmp_path / "overrides.json").write_text('{"margin": "10px"}')
     assert read_overrides(tmp_path) == {}
 
 
-def test_a_name_that_we_never_write_is_not_ours_whatever_the_manifest_says(tmp_path: Path) -> None:
+def test_files_with_names_outside_the_format_are_not_deleted(tmp_path: Path) -> None:
     folder = a_bundle().save(tmp_path / "room")
     (folder / "sounds" / "thesis.txt").write_text("ten years")
     (tmp_path / "outside.ply").write_text("not yours")
@@ -91,7 +91,7 @@ def test_a_name_that_we_never_write_is_not_ours_whatever_the_manifest_says(tmp_p
     assert (tmp_path / "outside.ply").read_text() == "not yours"
 
 
-def test_the_folder_one_works_in_is_refused_without_a_trace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_saving_to_the_working_directory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = a_bundle().save(tmp_path / "room")
     (tmp_path / "empty").mkdir()
     for here in (folder, folder / "sounds", tmp_path / "empty"):
@@ -103,7 +103,7 @@ def test_the_folder_one_works_in_is_refused_without_a_trace(tmp_path: Path, monk
 
 
 @pytest.mark.parametrize("name", ["", "a\0b", "x" * 300, "file/below"])
-def test_a_name_that_cannot_be(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_invalid_folder_name_is_refused(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "file").write_text("")
     before = sorted(tmp_path.rglob("*"))
@@ -112,7 +112,7 @@ def test_a_name_that_cannot_be(tmp_path: Path, name: str, monkeypatch: pytest.Mo
     assert sorted(tmp_path.rglob("*")) == before
 
 
-def test_a_long_name_can_be(tmp_path: Path) -> None:
+def test_long_folder_name_is_accepted(tmp_path: Path) -> None:
     for _ in range(2):
         a_bundle().save(tmp_path / ("x" * 250))
     assert len(list(tmp_path.iterdir())) == 1
@@ -122,7 +122,7 @@ def test_a_long_name_can_be(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("both_ways")
-def test_what_is_not_ours_outlives_every_save(tmp_path: Path) -> None:
+def test_foreign_files_are_kept_by_every_save(tmp_path: Path) -> None:
     folder = a_bundle().save(tmp_path / "room")
     theirs = {
         "README.md": b"read me",
@@ -149,7 +149,7 @@ def test_what_is_not_ours_outlives_every_save(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("both_ways")
-def test_where_hard_links_cannot_be_they_are_copied(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_are_copied_where_hard_links_are_unsupported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise OSError(1, "Operation not permitted")
 
@@ -161,7 +161,7 @@ def test_where_hard_links_cannot_be_they_are_copied(tmp_path: Path, monkeypatch:
     assert [path.name for path in tmp_path.iterdir()] == ["room"]
 
 
-def test_somebody_s_file_under_a_name_that_is_now_ours_is_kept_beside(tmp_path: Path) -> None:
+def test_foreign_file_with_a_bundle_file_name_is_renamed(tmp_path: Path) -> None:
     bundle = a_bundle()
     folder = bundle.save(tmp_path / "room")
     manifest = json.loads((folder / "bundle.json").read_text())
@@ -175,7 +175,7 @@ def test_somebody_s_file_under_a_name_that_is_now_ours_is_kept_beside(tmp_path: 
 
 
 @pytest.mark.usefixtures("both_ways")
-def test_what_an_editor_saves_meanwhile_is_not_lost(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_file_saved_by_an_editor_during_a_save_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Editors write beside a file and rename: the name then means another file than the one that was linked."""
     folder = a_bundle().save(tmp_path / "room")
     (folder / "thesis.txt").write_text("ten years")
@@ -242,7 +242,7 @@ def dying(folder: Path, where: str) -> subprocess.Popen[str]:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="folders cannot be locked")
-def test_drafts_of_dead_processes_go_and_those_of_living_ones_stay(tmp_path: Path) -> None:
+def test_drafts_of_dead_processes_are_removed_and_live_drafts_kept(tmp_path: Path) -> None:
     with dying(tmp_path / "room", "writing") as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "writing\n"
@@ -265,7 +265,7 @@ def test_folders_that_only_look_alike_stay(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("look", [HapticBundle.load, read_overrides], ids=["load", "read_overrides"])
-def test_nothing_at_the_place_is_mended_by_whoever_looks(tmp_path: Path, look: object) -> None:
+def test_missing_bundle_is_restored_by_the_next_reader(tmp_path: Path, look: object) -> None:
     folder = a_bundle().save(tmp_path / "room")
     (folder / "thesis.txt").write_text("ten years")
     with dying(folder, "between") as process:
@@ -278,7 +278,7 @@ def test_nothing_at_the_place_is_mended_by_whoever_looks(tmp_path: Path, look: o
     assert [path.name for path in tmp_path.iterdir()] == ["room"]
 
 
-def test_a_bundle_that_somebody_removed_does_not_come_back(tmp_path: Path) -> None:
+def test_removed_bundle_is_not_restored(tmp_path: Path) -> None:
     folder = a_bundle().save(tmp_path / "room")
     with dying(folder, "writing") as process:
         process.communicate("\n")
@@ -287,7 +287,7 @@ def test_a_bundle_that_somebody_removed_does_not_come_back(tmp_path: Path) -> No
         HapticBundle.load(folder)
 
 
-def test_two_renames_of_which_the_second_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failed_second_rename_restores_the_old_bundle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = a_bundle().save(tmp_path / "room")
     monkeypatch.setattr(replacing, "exchange", lambda one, other: False)
     rename = Path.rename
@@ -329,7 +329,7 @@ def test_a_bundle_that_is_replaced_while_it_is_read_is_read_again(
 
 
 @pytest.mark.skipif(not sys.platform.startswith(("linux", "darwin")), reason="this system has no exchange")
-def test_two_folders_swap(tmp_path: Path) -> None:
+def test_exchange_swaps_two_folders(tmp_path: Path) -> None:
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
         (tmp_path / name / name).write_text("")
@@ -339,6 +339,6 @@ def test_two_folders_swap(tmp_path: Path) -> None:
         exchange(tmp_path / "a", tmp_path / "nowhere")
 
 
-def test_a_system_without_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_exchange_returns_false_where_unsupported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "platform", "win32")
     assert not exchange(tmp_path / "a", tmp_path / "b")

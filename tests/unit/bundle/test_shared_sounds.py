@@ -1,4 +1,4 @@
-"""Sounds that are equal are one file; what a person does to one source leaves the others alone."""
+"""Equal sounds are one file; edits of one source leave the others unchanged."""
 
 import json
 from dataclasses import replace
@@ -69,7 +69,7 @@ def test_credits_stay_with_their_source(tmp_path: Path) -> None:
     assert loaded.loops["fan_0"]["on"].audible.samples is loaded.loops["fan_1"]["on"].audible.samples
 
 
-def test_an_edit_of_a_shared_file_is_felt_of_all_that_share_it(tmp_path: Path) -> None:
+def test_edit_of_a_shared_file_affects_all_its_sources(tmp_path: Path) -> None:
     folder = fans().save(tmp_path / "b")
     path = folder / rows(folder)["fan_3"]["on"]["tactile"]
     louder = read_clip(path)
@@ -79,7 +79,7 @@ def test_an_edit_of_a_shared_file_is_felt_of_all_that_share_it(tmp_path: Path) -
     assert peaks == pytest.approx([0.6] * N, abs=1e-6)
 
 
-def test_a_file_of_ones_own_splits_one_source_off(tmp_path: Path) -> None:
+def test_user_file_separates_one_source(tmp_path: Path) -> None:
     folder = fans().save(tmp_path / "b")
     document = rows(folder)
     quiet = read_clip(folder / document["fan_3"]["on"]["tactile"])
@@ -93,7 +93,7 @@ def test_a_file_of_ones_own_splits_one_source_off(tmp_path: Path) -> None:
     assert {name for name in names(again) if "tactile" in name} == {"fan_0.on+3.tactile.wav", "fan_3.on.tactile.wav"}
 
 
-def test_names_that_look_shared_are_not_confused(tmp_path: Path) -> None:
+def test_similar_file_names_are_not_confused(tmp_path: Path) -> None:
     bundle = fans(2)
     humming = haptics("plastic", (0.3, 0.3, 0.3), "on", "on+1")
     loops = {key: {**states, "on+1": tone_loop(90.0)} for key, states in bundle.loops.items()}
@@ -116,7 +116,7 @@ def test_a_sound_of_any_rate_is_kept(tmp_path: Path, rate_hz: int) -> None:
     np.testing.assert_allclose(kept.samples, source.samples, atol=2**-23)
 
 
-def test_a_name_that_no_file_can_have(tmp_path: Path) -> None:
+def test_invalid_file_name_in_loops_json_is_refused(tmp_path: Path) -> None:
     folder = fans(1).save(tmp_path / "b")
     document = rows(folder)
     document["fan_0"]["on"]["source"] = "sounds/\0.flac"
@@ -126,7 +126,7 @@ def test_a_name_that_no_file_can_have(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("fingerprint", [3, "abc", {"sound": 7}])
-def test_a_fingerprint_that_makes_no_sense(tmp_path: Path, fingerprint: object) -> None:
+def test_invalid_fingerprint_is_refused(tmp_path: Path, fingerprint: object) -> None:
     folder = fans(1).save(tmp_path / "b")
     document = json.loads((folder / "loops.json").read_text())
     document["fan_0"]["on"]["fingerprint"] = fingerprint
@@ -135,7 +135,7 @@ def test_a_fingerprint_that_makes_no_sense(tmp_path: Path, fingerprint: object) 
         HapticBundle.load(folder)
 
 
-def test_the_room_that_a_bundle_takes_does_not_grow_with_copies(tmp_path: Path) -> None:
+def test_bundle_size_does_not_grow_with_copies(tmp_path: Path) -> None:
     def size(folder: Path) -> int:
         return sum(path.stat().st_size for path in (folder / "sounds").iterdir())
 

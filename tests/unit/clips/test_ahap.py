@@ -45,7 +45,7 @@ def put(folder: Path, documents: dict[str, Any], stem: str = "x") -> Path:
 
 
 @pytest.mark.parametrize("name", PAIRS)
-def test_published_pairs_come_out_alike_with_relative_times(name: str) -> None:
+def test_published_pairs_give_equal_clips(name: str) -> None:
     ours = compose_ahap(read_haptic(needed(SAMPLES / f"{name}.haptic"), legacy=True))
     theirs = [json.loads((SAMPLES / f"{part}.ahap").read_text()) for part in PAIRS[name]]
     for control in ("HapticIntensityControl", "HapticSharpnessControl"):
@@ -67,7 +67,7 @@ def is_transient(item: dict[str, Any]) -> bool:
 
 
 @pytest.mark.parametrize("name", ["16_points", "2_points", "studio_export", "valid_v1_continuous"])
-def test_what_is_read_is_written_and_read_again_alike(name: str, tmp_path: Path) -> None:
+def test_ahap_round_trip_is_exact(name: str, tmp_path: Path) -> None:
     first = compose_ahap(read_haptic_clip(needed(SAMPLES / f"{name}.ahap")))
     assert compose_ahap(read_ahap(put(tmp_path, first))) == first
 
@@ -125,7 +125,7 @@ def test_events_follow_one_another_pause_and_overlap(tmp_path: Path) -> None:
     np.testing.assert_allclose(np.sqrt(clip.frequency.at([0.5, 2.5])), [0.3, 0.8])
 
 
-def test_curves_act_on_all_events_of_their_file_and_begin_neutral(tmp_path: Path) -> None:
+def test_curves_apply_to_all_events_and_start_neutral(tmp_path: Path) -> None:
     clip = clip_of(
         tmp_path,
         item("Continuous", 0.0, 4.0, Intensity=0.8, Sharpness=0.2),
@@ -148,7 +148,7 @@ def test_times_from_the_beginning_of_the_file_are_recognised(tmp_path: Path) -> 
     np.testing.assert_allclose(absolute.amplitude.at(t), relative.amplitude.at(t))
 
 
-def test_what_is_missing_or_out_of_range_is_as_on_a_phone(tmp_path: Path) -> None:
+def test_missing_and_out_of_range_values_follow_the_phone(tmp_path: Path) -> None:
     clip = clip_of(tmp_path, {"Event": {"EventType": "HapticContinuous", "EventDuration": 1}, "Extra": 1})
     assert clip.frequency is not None
     assert (clip.amplitude.at([0.5])[0], clip.frequency.at([0.5])[0]) == (1.0, 0.25)
@@ -184,7 +184,7 @@ def test_transients_alone_are_a_clip(tmp_path: Path) -> None:
         ({"Pattern": [item("Transient", 0.0)] * 100_001}, "Pattern has 100001 items; it must have at most 100000"),
     ],
 )
-def test_wrong_files_are_told_file_field_and_bound(tmp_path: Path, document: dict[str, Any], told: str) -> None:
+def test_error_names_file_field_and_bound(tmp_path: Path, document: dict[str, Any], told: str) -> None:
     path = put(tmp_path, {"": document})
     with pytest.raises(ClipError, match=told) as caught:
         read_ahap(path)

@@ -16,7 +16,7 @@ RENDERED = SHARED / "formats" / "haptic" / "rendered"
 
 
 @pytest.mark.parametrize("name", ["16_points", "valid_required_v1", "valid_v1", "validation_v1_optionals"])
-def test_signals_are_those_of_the_reference_renderer(name: str) -> None:
+def test_signals_equal_those_of_the_reference_renderer(name: str) -> None:
     expected, rate = soundfile.read(needed(RENDERED / f"{name}.wav"))
     found = synthesize(read_haptic(RENDERED.parent / f"{name}.haptic"), rate)
     assert len(found) == len(expected)

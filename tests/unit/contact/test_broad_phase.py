@@ -13,7 +13,7 @@ def meet(x: Body, y: Body, margin: float) -> bool:
     return max(apart) <= margin
 
 
-def test_a_list_holds_all_whose_zones_meet_and_both_know_it() -> None:
+def test_neighbour_lists_are_complete_and_symmetric() -> None:
     rng = np.random.default_rng(4)
     margin = 0.05
     bodies = {f"b{i}": Body.of(box(f"b{i}", (0.2, 0.1, 0.2), tuple(rng.uniform(0, 2, 3))), 1) for i in range(80)}

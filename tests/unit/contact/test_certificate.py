@@ -133,7 +133,7 @@ def test_a_certificate_holds_to_the_rim(angle: float, looked_at: Looked) -> None
     assert len(on_table) > 0.95 * max(on_table) / 0.005
 
 
-def test_two_that_come_near_share_what_is_free(looked_at: Looked) -> None:
+def test_approaching_bodies_share_the_free_distance(looked_at: Looked) -> None:
     """Two rotated crates approach until they touch: only the last steps need the narrow phase."""
     crate = box("crate", (0.1, 0.1, 0.1), (-0.2, 0.75, 0.0), yaw(0.3))
     objects = [floor(), TABLE, crate, replace(crate, id="other")]
@@ -248,7 +248,7 @@ def test_a_step_in_a_rotated_shelf_needs_no_narrow_phase(angle: float, looked_at
     assert not looked_at(graph)
 
 
-def test_planes_divide_what_is_free_in_halves() -> None:
+def test_planes_divide_the_free_distance_in_halves() -> None:
     """Two cubes 60 mm apart: each may move by half of the free distance, one alone by all of it."""
     one, other = (Body.of(box(x, (0.1, 0.1, 0.1), (at, 0.0, 0.0)), 1) for x, at in (("a", 0.0), ("b", 0.16)))
     room = ((-1.0,) * 3, (1.0,) * 3)

@@ -56,7 +56,7 @@ def meeting(case: Case) -> MeshPair:
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
 @settings(derandomize=True, deadline=None, max_examples=3)
-def test_distances_and_ways_are_those_of_the_triangles(plain: bool, seed: int) -> None:
+def test_distances_and_separations_equal_those_of_triangles(plain: bool, seed: int) -> None:
     several = cases(seed, 30, plain)
     rows, found = gaps(pairs_of(several), 10.0)
     assert rows.tolist() == list(range(30))
@@ -123,7 +123,7 @@ def off_surface(point: Floats, half: Floats) -> float:
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
 @settings(derandomize=True, deadline=None, max_examples=5)
-def test_points_lie_half_way_between_the_surfaces_and_as_wide_as_the_triangles_tell(plain: bool, seed: int) -> None:
+def test_points_lie_midway_between_the_surfaces_as_far_apart_as_by_triangles(plain: bool, seed: int) -> None:
     several = cases(seed, 25, plain)
     pairs = pairs_of(several)
     rows, found = gaps(pairs, 0.1)
@@ -152,7 +152,7 @@ def corners(case: Case, within_m: float = 0.05, slack_m: float = 0.001) -> set[t
     return {tuple((point + 0.0).tolist()) for point in spots.points_m[:, spots.counts[:, 0], 0].T.round(6)}
 
 
-def test_a_box_over_an_edge_touches_where_both_are() -> None:
+def test_box_over_an_edge_touches_in_the_overlap() -> None:
     case = (np.array([2.0, 0.1, 2.0]), np.array([0.4, 0.1, 0.2]), Pose((1.0, 0.102, 0.0)))
     assert corners(case) == {(x, 0.051, z) for x in (0.8, 1.0) for z in (-0.1, 0.1)}
 
@@ -184,7 +184,7 @@ def test_a_cuboid_near_a_side_inside_another_touches_that_side() -> None:
     assert corners(case) == {(0.4995, y, z) for y in (0.0, 0.2) for z in (-0.1, 0.1)}
 
 
-def test_points_are_taken_far_from_each_other_and_only_those_that_count() -> None:
+def test_selected_points_are_far_apart_and_relevant() -> None:
     line = np.zeros((3, 6, 2))
     line[0] = np.array([0.0, 0.001, 0.5, 1.0, 9.0, 0.25])[:, None]
     counts = np.ones((6, 2), dtype=bool)

@@ -138,7 +138,7 @@ def test_poses_alone_decide(path: list[tuple[str, Triple, tuple[float, float, fl
         assert graph.contacts == ContactGraph(scene(*objects.values())).contacts
 
 
-def test_it_goes_along_with_any_motion_of_both() -> None:
+def test_enclosure_is_invariant_under_common_motion() -> None:
     motion = Pose((0.3, -1.2, 0.7), (0.0, 0.6, 0.0, 0.8))
     items = [Body.of(item, 1) for item in (carcass(0.015), drawer())]
     there = [body.at(motion.compose(body.pose)) for body in items]

@@ -112,7 +112,7 @@ TURNS = st.one_of(
 
 @given(one=st.sampled_from(SHAPES), other=st.sampled_from(SHAPES), place=PLACES, turn=TURNS)
 @settings(derandomize=True, deadline=None, max_examples=300)
-def test_distances_and_whether_two_touch_are_those_of_all_features(
+def test_distance_and_touch_equal_those_of_all_features(
     one: Shape, other: Shape, place: tuple[float, float, float], turn: tuple[float, float, float, float]
 ) -> None:
     def pair(of: object) -> MeshPair:
@@ -132,7 +132,7 @@ def extent(ends: Floats) -> Floats:
 
 @given(one=st.sampled_from(SHAPES), other=st.sampled_from(SHAPES), place=PLACES, turn=TURNS)
 @settings(derandomize=True, deadline=None, max_examples=150)
-def test_all_meetings_of_all_features_lie_within_those_of_the_few(
+def test_contacts_of_all_features_lie_within_those_of_the_selected_features(
     one: Shape, other: Shape, place: tuple[float, float, float], turn: tuple[float, float, float, float]
 ) -> None:
     """Where surfaces lie on or cut each other, the outermost points are at corners and edges of the surfaces."""

@@ -174,7 +174,7 @@ MOVES = st.dictionaries(
 
 @given(MOVES, TURNS)
 @settings(derandomize=True, deadline=None, max_examples=150)
-def test_the_contacts_of_a_room_are_those_that_triangles_alone_tell(
+def test_contacts_of_a_room_equal_those_by_triangles_alone(
     moves: dict[str, tuple[tuple[float, float, float], float, float]], turn: float
 ) -> None:
     things: list[SceneObject] = [

@@ -31,7 +31,7 @@ def test_a_cup_on_a_table_touches_at_its_corners_straight_down() -> None:
     assert {c.normal for c in graph.contacts if c.a == "floor"} == {(0.0, 1.0, 0.0)}
 
 
-def test_graph_neighbours_and_poses_tell_the_same() -> None:
+def test_graph_neighbours_and_poses_are_consistent() -> None:
     graph = room(on_floor("alone", (0.1, 0.1, 0.1), 2, 2, gap_m=1.0))
     assert set(graph.graph.nodes) == {"floor", "table", "cup", "alone"}
     assert {tuple(sorted(edge)) for edge in graph.graph.edges} == pairs(graph)
@@ -65,7 +65,7 @@ def test_overlap_is_contact() -> None:
     assert ("sunk", "table") in pairs(room(sunk, tolerance_m=0.0))
 
 
-def test_a_room_shell_does_not_swallow_what_stands_in_it() -> None:
+def test_room_shell_does_not_replace_contacts_of_objects_inside() -> None:
     walls = [((0.1, 3, 6), (x, 1.5, 0)) for x in (-3, 3)] + [((6, 3, 0.1), (0, 1.5, z)) for z in (-3, 3)]
     shell = boxes("shell", *walls)
     beside_wall = on_floor("beside", (0.4, 0.4, 0.4), 2.749, 0)
@@ -94,7 +94,7 @@ def test_a_stated_tolerance_is_used_as_it_is_for_every_pair() -> None:
     assert [pytest.approx(normal) for normal in normals] == [(-1, 0, 0)]
 
 
-def test_tolerance_zero_finds_what_touches_exactly() -> None:
+def test_tolerance_zero_finds_exact_contacts_only() -> None:
     assert found(floor(), TABLE, CUP, tolerance_m=0.0) == {("floor", "table"), ("cup", "table")}
     assert found(floor(), on_floor("up", (1, 1, 1), 0, 0, gap_m=1e-6), tolerance_m=0.0) == set()
 
@@ -205,7 +205,7 @@ def test_a_refused_update_leaves_the_graph_as_it_was(arguments: dict, error: typ
     assert (graph.contacts, dict(graph.poses)) == before
 
 
-def test_neighbours_of_nobody() -> None:
+def test_neighbours_of_an_unknown_object_are_refused() -> None:
     with pytest.raises(UnknownObject, match="tabel"):
         room().neighbours("tabel")
 
@@ -243,7 +243,7 @@ def test_no_contact_given_is_no_contact() -> None:
     assert ContactGraph(scene(floor(), TABLE, CUP, contacts=())).contacts == ()
 
 
-def test_given_contacts_of_what_moves_are_dropped() -> None:
+def test_given_contacts_of_moving_objects_are_dropped() -> None:
     graph = given_room()
     change = graph.update({"floor": Pose((0, -1, 0))})
     assert change == ContactChange(vanished=frozenset({("cup", "floor")}))

@@ -69,7 +69,7 @@ def test_two_blocks_are_apart_as_their_triangles_are(
         assert 2 <= len(told.points) <= 4 or told.way_m[1] != 0.0
 
 
-def test_blocks_face_to_face_touch_at_the_corners_of_what_they_share() -> None:
+def test_blocks_face_to_face_touch_at_the_corners_of_the_shared_area() -> None:
     x, y = block("x", (0.2, 0.2, 0.2), (0, 0.1, 0), 0.0), block("y", (0.2, 0.4, 0.1), (0.203, 0.3, 0), 0.0)
     side = aside(x, y, 0.004, 0.001)
     assert side is not None

@@ -89,7 +89,7 @@ def test_a_box_on_a_table_touches_at_the_corners_of_its_bottom() -> None:
     assert as_set(on_b) == as_set(on_a)
 
 
-def test_a_box_over_an_edge_touches_where_both_are() -> None:
+def test_box_over_an_edge_touches_in_the_overlap() -> None:
     on_a, _ = patch_of(box("box", (0.4, 0.1, 0.2), (1.0, 0.05, 0.0)), box("table", (2, 0.1, 2), (0, -0.05, 0)))
     assert as_set(on_a) == {(0.8, 0.0, -0.1), (0.8, 0.0, 0.1), (1.0, 0.0, -0.1), (1.0, 0.0, 0.1)}
 

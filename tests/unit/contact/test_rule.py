@@ -86,7 +86,7 @@ def test_a_saucer_floats_over_the_table_although_a_cup_stands_on_it() -> None:
     assert found(table, saucer, cup) == {("saucer", "table"), ("cup", "saucer")}
 
 
-def test_a_carpet_hides_the_floor_from_what_stands_wholly_on_it() -> None:
+def test_objects_wholly_on_a_carpet_do_not_touch_the_floor() -> None:
     carpet = box("carpet", (2, 0.003, 2), (0, 0.0015, 0))
     assert found(floor(), carpet, chair((0, 0.011, 0))) == {("carpet", "floor"), ("carpet", "chair")}
 
@@ -212,7 +212,7 @@ def test_a_wall_cabinet_hangs_on_the_tall_one_beside_it_and_on_its_wall(gap_m: f
     assert weights["cabinet", "tall"] == weights["cabinet", "wall"] == 1.0
 
 
-def test_a_wall_cabinet_does_not_hang_on_what_is_much_farther_off_than_its_wall() -> None:
+def test_wall_cabinet_does_not_hang_on_objects_much_farther_than_its_wall() -> None:
     wall = on_floor("wall", (3, 3, 0.2), 0, 0)
     tall = on_floor("tall", (0.6, 2.1, 0.6), -0.62, 0.4)
     cabinet = box("cabinet", (0.6, 0.7, 0.35), (0, 1.75, 0.1 + 0.002 + 0.175))
@@ -239,7 +239,7 @@ def test_a_picture_sunk_into_a_wall_does_not_stand_on_the_walls_triangles(x: flo
     assert {c.normal for c in graph.contacts} == {None}
 
 
-def test_a_floor_of_no_thickness_holds_what_is_sunk_in_a_little() -> None:
+def test_floor_without_thickness_holds_slightly_sunk_objects() -> None:
     sheet = boxes("floor", ((6.0, 1e-9, 6.0), (0, 0, 0)))
     graph = ContactGraph(scene(sheet, chair((0, -0.001, 0))))
     assert weight(graph, "chair", "floor") == 1.0

@@ -42,7 +42,7 @@ def test_a_pose_table_gives_the_same_contacts_as_poses_and_a_new_graph() -> None
     assert not by_table.update(PoseTable(IDS, *heap(1)))
 
 
-def test_arrays_tell_what_contacts_tell() -> None:
+def test_arrays_equal_the_contact_objects() -> None:
     graph = ContactGraph(scene(floor(), chair((0.0, 0.0, 0.0)), *boxes_at(*heap(2))), tolerance_m=0.02)
     graph.update(PoseTable(IDS, *heap(3)))
     arrays = graph.arrays
@@ -102,7 +102,7 @@ def test_a_new_object_may_take_the_column_of_a_removed_one() -> None:
         (["a"], [["x", 0, 0]], [[0, 0, 0, 1]], "not a table of numbers"),
     ],
 )
-def test_a_table_that_is_none_is_refused(ids: list[str], positions: object, rotations: object, words: str) -> None:
+def test_invalid_pose_table_is_refused(ids: list[str], positions: object, rotations: object, words: str) -> None:
     with pytest.raises(SceneError, match=words):
         PoseTable(ids, positions, rotations)  # type: ignore[arg-type]
 

@@ -74,7 +74,7 @@ def test_names_are_those_of_a_kitchen(objects):
     assert all(name == name.lower() and name.replace("_", "").isalnum() for name in objects)
 
 
-def test_sizes_are_those_of_life(objects):
+def test_sizes_are_realistic(objects):
     sizes = {name: mesh.extents for name, mesh in objects.items()}
     assert sizes["worktop"] == pytest.approx([3.0, 0.038, 0.62], abs=TOUCH_M)
     assert objects["dining_table"].bounds[1, 1] == pytest.approx(0.74, abs=TOUCH_M)
@@ -110,7 +110,7 @@ def test_every_part_is_closed_and_faces_outwards(parts):
         ("window", "left_wall", "y", 1.000),
     ],
 )
-def test_things_touch_in_the_plane_of_their_support(objects, thing, support, axis, plane_m):
+def test_objects_touch_in_the_plane_of_their_support(objects, thing, support, axis, plane_m):
     along = "xyz".index(axis)
     one, other = objects[thing], objects[support]
     assert corner_on_face(one, other, along, plane_m) or corner_on_face(other, one, along, plane_m)
@@ -133,7 +133,7 @@ def corner_on_face(corners_of, faces_of, along, plane_m):
     return bool(((areas >= -slack).all(axis=0) | (areas <= slack).all(axis=0)).any())
 
 
-def test_nothing_sinks_into_anything(objects):
+def test_objects_do_not_intersect(objects):
     for one, other in combinations(objects, 2):
         for inner, outer in ((one, other), (other, one)):
             depth = sunk_corners(objects[inner], objects[outer])

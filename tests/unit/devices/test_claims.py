@@ -1,4 +1,4 @@
-"""Nobody takes a sink, a file or a port from somebody else in the same program."""
+"""One session at a time uses a sink, a file or a port in a program."""
 
 import gc
 from pathlib import Path
@@ -41,7 +41,7 @@ def test_two_sessions_cannot_play_on_one_sink() -> None:
         sink.pull(10)
 
 
-def test_nor_on_one_that_another_has_within_a_tee() -> None:
+def test_two_sessions_cannot_share_a_sink_inside_a_tee() -> None:
     inner = MemorySink()
     with session(inner) as first:
         with pytest.raises(DeviceError, match="another session"):
@@ -53,7 +53,7 @@ def test_nor_on_one_that_another_has_within_a_tee() -> None:
         session(shared).start()
 
 
-def test_what_was_refused_holds_nothing() -> None:
+def test_refused_tee_claims_none_of_its_sinks() -> None:
     taken, free = MemorySink(), MemorySink()
     with session(taken):
         with pytest.raises(DeviceError):
@@ -81,7 +81,7 @@ def test_two_sinks_cannot_write_one_file(same: str, tmp_path: Path) -> None:
     assert len(soundfile.read(first.path)[0]) < 1600
 
 
-def test_a_file_is_free_again_after_an_abort_and_once_its_sink_is_gone(tmp_path: Path) -> None:
+def test_file_claim_is_released_by_abort_and_by_deletion_of_the_sink(tmp_path: Path) -> None:
     sink = WavSink(tmp_path / "a.wav")
     sink.open(FORMAT)
     sink.abort()
@@ -93,7 +93,7 @@ def test_a_file_is_free_again_after_an_abort_and_once_its_sink_is_gone(tmp_path:
     sink.close()
 
 
-def test_a_draft_that_was_taken_away_is_told(tmp_path: Path) -> None:
+def test_close_raises_when_the_draft_file_was_deleted(tmp_path: Path) -> None:
     sink = WavSink(tmp_path / "a.wav")
     sink.open(FORMAT)
     (tmp_path / ".a.wav.part").unlink()
@@ -101,7 +101,7 @@ def test_a_draft_that_was_taken_away_is_told(tmp_path: Path) -> None:
         sink.close()
 
 
-def test_one_port_takes_one_sink(tmp_path: Path) -> None:
+def test_second_sink_on_a_serial_port_is_refused(tmp_path: Path) -> None:
     port = tmp_path / "ttyUSB0"
     port.touch()
     (tmp_path / "by-id").symlink_to(port)
@@ -116,7 +116,7 @@ def test_one_port_takes_one_sink(tmp_path: Path) -> None:
     other.close()
 
 
-def test_one_receiver_takes_one_stream_and_any_number_of_messages() -> None:
+def test_udp_receiver_takes_one_stream_and_many_message_senders() -> None:
     first = UdpSink("127.0.0.1", 9123)
     first.open(FORMAT)
     with pytest.raises(DeviceError, match="another sink plays on the UDP receiver"):
@@ -125,7 +125,7 @@ def test_one_receiver_takes_one_stream_and_any_number_of_messages() -> None:
     first.close()
 
 
-def test_a_tee_wants_a_list_of_different_sinks() -> None:
+def test_tee_refuses_duplicate_sinks() -> None:
     sink = MemorySink()
     for wrong in ("memory", {"kind": "memory"}, sink):
         with pytest.raises(ConfigError, match="must be a list of sinks"):

@@ -60,11 +60,11 @@ def test_cobs_round_trip(data: bytes) -> None:
 
 
 @pytest.mark.parametrize("broken", [b"", b"\x00", b"\x02", b"\x03\x11", b"\x02\x11\x00", b"\x01\x05\x11"])
-def test_cobs_refuses_what_it_did_not_make(broken: bytes) -> None:
+def test_cobs_refuses_invalid_encodings(broken: bytes) -> None:
     assert cobs.decode(broken) is None
 
 
-def test_sums() -> None:
+def test_checksums_have_the_published_values() -> None:
     assert with_crc32(b"123456789")[-4:] == bytes.fromhex("2639f4cb")  # CBF43926, the check value of the catalogue
     assert fletcher16(b"abcde", 0) == 0xC8F0
     assert fletcher16(b"abcde") == 0xCDF1
@@ -126,14 +126,14 @@ def test_sixteen_bits_are_exact_and_clipped() -> None:
     np.testing.assert_array_equal(np.frombuffer(to_int16(odd), "<i2"), [32767, -32767, 0, 32767, -32767])
 
 
-def test_too_much_payload() -> None:
+def test_payload_above_the_limit_is_refused() -> None:
     with pytest.raises(DeviceError, match="at most 1024"):
         pcm(np.zeros((300, 2), dtype=np.float32), sequence=0)
     with pytest.raises(DeviceError, match="must be 4"):
         Frame(FrameType.PCM, channels=2, format=SampleFormat.INT16, count=1, payload=b"abc")
 
 
-def test_any_cut_of_the_stream_gives_the_same_frames() -> None:
+def test_parser_returns_the_same_frames_for_any_chunk_sizes() -> None:
     rng = np.random.default_rng(1)
     frames = [message(FrameType.STREAM, rng.bytes(int(rng.integers(60))), sequence=k) for k in range(50)]
     stream = b"".join(map(to_wire, frames))
@@ -148,7 +148,7 @@ def test_any_cut_of_the_stream_gives_the_same_frames() -> None:
     assert parser.damaged == 0
 
 
-def test_a_wire_that_damages_one_byte_in_a_hundred() -> None:
+def test_parser_drops_damaged_frames_and_returns_the_others() -> None:
     rng = np.random.default_rng(2)
     parser = FrameParser()
     recent: list[Frame] = []
@@ -168,14 +168,14 @@ def test_a_wire_that_damages_one_byte_in_a_hundred() -> None:
 
 
 @given(st.binary(max_size=400))
-def test_no_bytes_crash_a_decoder(data: bytes) -> None:
+def test_decoders_accept_arbitrary_bytes_without_raising(data: bytes) -> None:
     cobs.decode(data)
     from_datagram(data)
     from_datagram(with_crc32(data))
     list(FrameParser().feed(b"\0" + data + b"\0"))
 
 
-def test_the_parser_forgets_what_is_too_long() -> None:
+def test_parser_drops_frames_that_are_too_long() -> None:
     parser = FrameParser()
     for _ in range(1000):
         assert list(parser.feed(b"\x55" * 1000)) == []
@@ -184,7 +184,7 @@ def test_the_parser_forgets_what_is_too_long() -> None:
     assert parser.damaged == 1
 
 
-def test_sequences_wrap() -> None:
+def test_sequence_numbers_wrap() -> None:
     assert is_newer(0, 65535)
     assert is_newer(5, 4)
     assert not is_newer(4, 4)

@@ -54,7 +54,7 @@ class ScriptedLine:
 
 
 class Bench:
-    """A sink on a scripted line, with a mix of ones and a list of what it told."""
+    """A sink on a scripted line, with a mix of ones and a list of its events."""
 
     def __init__(self) -> None:
         self.line = ScriptedLine()
@@ -84,7 +84,7 @@ def bench() -> Iterator[Bench]:
     assert not [thread for thread in threading.enumerate() if thread.name == "test device"]
 
 
-def test_it_is_an_actuator_sink(bench: Bench) -> None:
+def test_serial_sink_is_an_actuator_sink(bench: Bench) -> None:
     assert isinstance(bench.sink, ActuatorSink)
     with pytest.raises(DeviceError, match="not open"):
         bench.sink.start(bench.fill)
@@ -107,7 +107,7 @@ def test_the_mix_arrives_faded_in(bench: Bench) -> None:
     assert bench.line.disconnects == 1
 
 
-def test_a_missing_device_is_told_once_and_found_later(bench: Bench) -> None:
+def test_missing_device_is_reported_once_and_connected_later(bench: Bench) -> None:
     bench.line.there = False
     bench.start()
     assert eventually(lambda: bench.asked > 300)  # the session's clock goes on meanwhile
@@ -122,7 +122,7 @@ def test_a_missing_device_is_told_once_and_found_later(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize("error", [DeviceLost("it has gone."), ZeroDivisionError("a driver's bug")])
-def test_a_lost_device_is_taken_up_again_with_a_fade(bench: Bench, error: Exception) -> None:
+def test_lost_device_is_reconnected_with_a_fade(bench: Bench, error: Exception) -> None:
     bench.start()
     assert eventually(lambda: len(bench.line.taken) > 20)
     bench.line.error = error
@@ -149,7 +149,7 @@ def test_a_stalled_device_resumes_with_a_fade(bench: Bench) -> None:
     assert bench.kinds[:3] == ["connected", "stalled", "resumed"]
 
 
-def test_a_device_that_stalls_for_long_is_opened_anew(bench: Bench) -> None:
+def test_device_that_stalls_for_long_is_reopened(bench: Bench) -> None:
     bench.start()
     assert bench.sink.wait_connected(10)
     bench.line.wants = False
@@ -157,7 +157,7 @@ def test_a_device_that_stalls_for_long_is_opened_anew(bench: Bench) -> None:
     assert bench.kinds[:4] == ["connected", "stalled", "lost", "connected"]
 
 
-def test_a_mix_that_fails_is_silence(bench: Bench) -> None:
+def test_failing_mix_is_played_as_silence(bench: Bench) -> None:
     def broken(n_frames: int) -> NDArray[np.float32]:
         raise ValueError("no gains")
 
@@ -171,7 +171,7 @@ def test_a_mix_that_fails_is_silence(bench: Bench) -> None:
     assert "fault" in bench.kinds
 
 
-def test_a_callback_that_fails_silences_nothing(bench: Bench) -> None:
+def test_failing_event_callback_does_not_stop_playback(bench: Bench) -> None:
     def broken(event: SinkEvent) -> None:
         raise RuntimeError("game over")
 
@@ -181,7 +181,7 @@ def test_a_callback_that_fails_silences_nothing(bench: Bench) -> None:
     assert bench.sink.stats.faults == 1
 
 
-def test_it_can_be_started_again(bench: Bench) -> None:
+def test_sink_can_be_started_several_times(bench: Bench) -> None:
     for _ in range(3):
         bench.start()
         assert bench.sink.wait_connected(10)

@@ -48,7 +48,7 @@ def take(*channels: NDArray[np.float64], block: int = 40, burst: int = 1, lost: 
     offset=st.floats(-0.5, 0.5),
     seed=st.integers(0, 2**32 - 1),
 )
-def test_delay_level_and_polarity_of_a_quiet_line(
+def test_sweep_gives_delay_level_and_polarity_of_a_quiet_line(
     frame: int, gain: float, sign: float, offset: float, seed: int
 ) -> None:
     quiet = noise(12000, 0.02 * gain * POWER**0.5, seed)
@@ -60,7 +60,7 @@ def test_delay_level_and_polarity_of_a_quiet_line(
 
 @settings(max_examples=40, deadline=None)
 @given(frame=st.integers(0, 4000), seed=st.integers(0, 2**32 - 1))
-def test_a_sweep_under_louder_noise(frame: int, seed: int) -> None:
+def test_sweep_is_found_under_louder_noise(frame: int, seed: int) -> None:
     """White noise of four times its power: r = 1 / sqrt(1 + 4)."""
     match = find(placed(frame, 1.0, 12000) + noise(12000, 2.0 * POWER**0.5, seed), SWEEP)
     assert abs(match.frame - frame) <= 2
@@ -71,7 +71,7 @@ def test_a_sweep_under_louder_noise(frame: int, seed: int) -> None:
     x=st.lists(st.integers(-9, 9), min_size=1, max_size=30),
     p=st.lists(st.integers(-9, 9), min_size=1, max_size=8).filter(any),
 )
-def test_it_is_the_largest_of_all_correlations(x: list[int], p: list[int]) -> None:
+def test_find_returns_the_largest_of_all_correlations(x: list[int], p: list[int]) -> None:
     match = find(np.array(x, dtype=float), np.array(p, dtype=float))
     assert -1.0 <= match.correlation <= 1.0
     pieces = [np.array(x[k : k + len(p)]) for k in range(len(x) - len(p) + 1)]
@@ -83,18 +83,18 @@ def test_it_is_the_largest_of_all_correlations(x: list[int], p: list[int]) -> No
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_noise_of_its_own_band_is_no_sweep(seed: int) -> None:
+def test_noise_in_the_band_of_the_sweep_is_not_detected(seed: int) -> None:
     band = sosfilt(butter(4, (40, 400), "bandpass", fs=RATE, output="sos"), noise(12000, 1.0, seed))
     assert abs(find(band, SWEEP).correlation) < 0.15 < FOUND_FROM
 
 
 @pytest.mark.parametrize("hz", [50.0, 60.0, 100.0, 120.0])
-def test_hum_is_no_sweep(hz: float) -> None:
+def test_hum_is_not_detected_as_a_sweep(hz: float) -> None:
     hum = np.sin(2 * np.pi * hz * np.arange(12000) / RATE)
     assert abs(find(hum, SWEEP).correlation) < 0.1 < FOUND_FROM
 
 
-def test_silence_and_recordings_that_are_too_short() -> None:
+def test_silence_and_short_recordings_contain_no_sweep() -> None:
     assert find(np.zeros(12000), SWEEP) == find(SWEEP[:-1], SWEEP) == loop_back.Match(0, 0.0, 0.0)
     after_a_click = np.zeros(20000)
     after_a_click[:100] = 1.0
@@ -102,25 +102,25 @@ def test_silence_and_recordings_that_are_too_short() -> None:
 
 
 @pytest.mark.parametrize("burst", [1, 3, 20])
-def test_blocks_that_come_late_do_not_move_the_time(burst: int) -> None:
+def test_late_blocks_do_not_change_the_arrival_time(burst: int) -> None:
     clock = take(np.zeros(16000), burst=burst)
     assert [clock.time_of(frame) for frame in (0, 4001, 15000)] == pytest.approx([99.5, 100.50025, 103.25])
 
 
-def test_lost_frames_only_move_what_comes_after() -> None:
+def test_lost_frames_delay_only_later_frames() -> None:
     clock = take(np.zeros(16000), lost=400)
     assert clock.time_of(2000) == pytest.approx(100.0)
     assert clock.time_of(8000) == pytest.approx(101.5 + 0.1)
 
 
-def test_the_frame_of_a_moment() -> None:
+def test_clock_converts_a_time_to_its_frame() -> None:
     clock = take(np.zeros(16000), burst=7)
     assert [clock.frame_at(at_s) for at_s in (99.0, 99.50513, 102.00013, 1e6)] == [0, 20, 10000, 16000]
 
 
 @settings(max_examples=40, deadline=None)
 @given(delay=st.integers(0, RATE), block=st.integers(1, 150), seed=st.integers(0, 2**32 - 1))
-def test_an_arrival_is_told_on_the_clock_of_the_one_who_asked(delay: int, block: int, seed: int) -> None:
+def test_arrival_is_measured_on_the_clock_of_the_request(delay: int, block: int, seed: int) -> None:
     asked = RATE // 2
     heard = placed(asked + delay, -0.5, 20000) + noise(20000, 1e-4, seed)
     found = arrival(take(noise(20000, 1e-3, seed + 1), heard, block=block, burst=5), ASKED_AT_S, SWEEP)
@@ -133,7 +133,7 @@ def test_an_arrival_is_told_on_the_clock_of_the_one_who_asked(delay: int, block:
     assert found.gain_db == pytest.approx(20 * np.log10(0.5), abs=0.01)
 
 
-def test_sweeps_of_another_time_are_not_this_one() -> None:
+def test_sweeps_outside_the_search_window_are_ignored() -> None:
     early, late = placed(0, 1.0, 40000), placed(2000 + round((LONGEST_S + 0.5) * RATE), 1.0, 40000)
     for other in (early, late, np.zeros(40000)):
         found = arrival(take(other + noise(40000, 1e-6, 3)), ASKED_AT_S, SWEEP)
@@ -142,7 +142,7 @@ def test_sweeps_of_another_time_are_not_this_one() -> None:
         assert abs(found.correlation) < FOUND_FROM
 
 
-def test_each_hand_is_heard_by_itself_on_one_wire() -> None:
+def test_sweeps_of_several_hands_are_distinguished_on_one_wire() -> None:
     both = placed(2000 + 400, 1.0, 40000) + placed(12000 + 480, 1.0, 40000)
     heard = take(both)
     left, right = (arrival(heard, at_s, SWEEP).latency_s for at_s in (ASKED_AT_S, ASKED_AT_S + 2.5))
@@ -166,7 +166,7 @@ def listed(monkeypatch: pytest.MonkeyPatch, *names: str, default: int) -> None:
 
 
 @pytest.mark.parametrize("name", ["Loopback Audio", "loop-back", "Monitor of Speakers", "Stereo Mix (Realtek)"])
-def test_what_is_called_a_loop_back_goes_before_the_default(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+def test_find_input_prefers_a_loop_back_device_to_the_default(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     listed(monkeypatch, "phones", "Microphone", name, default=1)
     assert find_input(None) == Card(2, name, "ALSA", 2, 44100)
     assert find_input("micro").index == find_input(1).index == 1
@@ -175,7 +175,7 @@ def test_what_is_called_a_loop_back_goes_before_the_default(monkeypatch: pytest.
 
 
 @pytest.mark.parametrize(("device", "said"), [(None, "no default input"), (0, "no input 0"), ("x", "no input 'x'")])
-def test_an_input_that_is_not_there(monkeypatch: pytest.MonkeyPatch, device: Any, said: str) -> None:
+def test_missing_input_is_refused(monkeypatch: pytest.MonkeyPatch, device: Any, said: str) -> None:
     listed(monkeypatch, "phones", "Microphone", default=-1)
     with pytest.raises(DeviceNotFound, match=rf"{said} among the sound cards. Known: 1: 'Microphone' \(ALSA, 2 "):
         find_input(device)

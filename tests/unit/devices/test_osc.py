@@ -26,7 +26,7 @@ def test_a_gain_message_by_hand() -> None:
     assert encode("/scene2hap/gain", 0.5, "a.wav", 1) == by_hand
 
 
-def test_gains_are_told_per_hand_and_clip() -> None:
+def test_gain_messages_are_sent_per_hand_and_clip() -> None:
     gains = np.array([[[0.1, 0.5], [0, 0]], [[0.25, 0.2], [1, 0]]], dtype=np.float32)
     assert list(gains_of(Frame(gains), {"radio": "loops/radio.wav"})) == [
         ("loops/radio.wav", 0, 0.5),
@@ -47,7 +47,7 @@ def test_gains_are_told_per_hand_and_clip() -> None:
         ({"block_frames": 0}, "at least 1"),
     ],
 )
-def test_settings_out_of_bounds(settings: dict[str, object], words: str) -> None:
+def test_settings_out_of_bounds_are_refused(settings: dict[str, object], words: str) -> None:
     with pytest.raises(ConfigError, match=words):
         UdpSink(**settings)  # type: ignore[arg-type]
 
@@ -55,7 +55,7 @@ def test_settings_out_of_bounds(settings: dict[str, object], words: str) -> None
 @pytest.mark.parametrize(
     "settings", [{"baud_rate": 300}, {"sample_rate_hz": 1}, {"buffer_s": 0}, {"block_frames": 1000}]
 )
-def test_serial_settings_out_of_bounds(settings: dict[str, object]) -> None:
+def test_serial_settings_out_of_bounds_are_refused(settings: dict[str, object]) -> None:
     with pytest.raises(ConfigError, match=next(iter(settings))):
         SerialAmplifierSink("/dev/none", **settings)  # type: ignore[arg-type]
 

@@ -27,7 +27,7 @@ def played(ring: PlaybackRing, n: int) -> NDArray[np.float32]:
 
 @settings(derandomize=True, deadline=None, max_examples=60)
 @given(st.lists(st.tuples(st.integers(0, 300), st.integers(1, 300)), min_size=1, max_size=60))
-def test_what_was_written_is_played_in_order(steps: list[tuple[int, int]]) -> None:
+def test_ring_plays_written_samples_in_order(steps: list[tuple[int, int]]) -> None:
     ring = PlaybackRing(700, 2, 1)
     written, out = 0, []
     for n_write, n_play in steps:
@@ -46,7 +46,7 @@ def test_what_was_written_is_played_in_order(steps: list[tuple[int, int]]) -> No
     st.lists(st.tuples(st.integers(0, 200), st.integers(1, 200)), min_size=1, max_size=40),
     st.integers(0, 40),
 )
-def test_starving_and_closing_never_jump(steps: list[tuple[int, int]], close_at: int) -> None:
+def test_underrun_and_close_fade_without_a_jump(steps: list[tuple[int, int]], close_at: int) -> None:
     ring = PlaybackRing(1000, 2, N_FADE)
     written, out = 0, [np.zeros((1, 2), dtype=np.float32)]
     for i, (n_write, n_play) in enumerate(steps):
@@ -81,7 +81,7 @@ def test_silence_before_the_first_samples_is_no_gap() -> None:
     assert ring.is_silent
 
 
-def test_closing_is_exact() -> None:
+def test_close_fades_out_and_drops_queued_samples() -> None:
     ring = PlaybackRing(1000, 2, N_FADE)
     ring.write(np.ones((900, 2), dtype=np.float32))
     played(ring, 100)
@@ -95,7 +95,7 @@ def test_closing_is_exact() -> None:
     assert not ring.closing
 
 
-def test_the_callback_makes_no_arrays() -> None:
+def test_callback_allocates_no_arrays() -> None:
     ring = PlaybackRing(4000, 2, N_FADE)
     out = np.empty((500, 2), dtype=np.float32)
     block = tone(500)

@@ -29,7 +29,7 @@ def converted(
 
 @pytest.mark.parametrize(("rate_in", "rate_out"), RATES)
 @pytest.mark.parametrize("hz", [60.0, 500.0])
-def test_the_tactile_band_passes_as_it_is(rate_in: int, rate_out: int, hz: float) -> None:
+def test_rate_converter_passes_the_tactile_band_unchanged(rate_in: int, rate_out: int, hz: float) -> None:
     converter, out = converted(rate_in, rate_out, hz, [1, 7, 16, 64])
     phase = 2 * np.pi * hz * (np.arange(len(out)) / rate_out - converter.latency_s)
     settled = int(2 * converter.latency_s * rate_out) + 1
@@ -47,12 +47,12 @@ def test_block_size_is_irrelevant(rate_in: int, rate_out: int) -> None:
 
 
 @pytest.mark.parametrize("hz", [2100.0, 3900.0, 7900.0, 12000.0])
-def test_what_would_alias_is_gone(hz: float) -> None:
+def test_rate_converter_removes_frequencies_that_would_alias(hz: float) -> None:
     out = converted(48000, 4000, hz, [16])[1]
     assert np.abs(out[100:]).max() < 10 ** (-79 / 20)
 
 
-def test_equal_rates_touch_nothing() -> None:
+def test_equal_rates_leave_samples_unchanged() -> None:
     converter = RateConverter(4000, 4000, 1)
     block = np.random.default_rng(1).uniform(-1, 1, (10, 1)).astype(np.float32)
     assert converter.needed(10) == 10
@@ -60,7 +60,7 @@ def test_equal_rates_touch_nothing() -> None:
     np.testing.assert_array_equal(converter.convert(block, 10), block)
 
 
-def test_the_filter_is_scipys() -> None:
+def test_filter_equals_that_of_scipy() -> None:
     n_taps, beta = kaiserord(80, 1000 / 24000)
     pulse = np.zeros((300, 1), dtype=np.float32)
     answers = []
@@ -74,7 +74,7 @@ def test_the_filter_is_scipys() -> None:
     np.testing.assert_allclose(taps, firwin(n_taps, 1500, window=("kaiser", beta), fs=48000), atol=1e-6)
 
 
-def test_it_runs_for_days() -> None:
+def test_rate_converter_does_not_drift_over_days() -> None:
     converter = RateConverter(44100, 4000, 1)
     taken = 0
     for _ in range(30):
@@ -96,7 +96,7 @@ def test_pace_counts_frames() -> None:
     assert pace.wait_s(10, 10.1) == 0
 
 
-def test_pace_does_not_make_up_for_the_night() -> None:
+def test_pace_drops_a_backlog_above_its_limit() -> None:
     pace = Pace(1000, max_lag_s=0.5)
     pace.restart(0.0)
     assert pace.due(3600.0) == 500

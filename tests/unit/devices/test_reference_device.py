@@ -1,4 +1,4 @@
-"""What a device must do, on a clock turned by hand: docs/serial-protocol.md, "The device"."""
+"""Requirements of a device, with a manual clock: docs/serial-protocol.md, "The device"."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +34,7 @@ class Bench:
 HELLO = to_wire(Hello(0, 2).to_frame())
 
 
-def test_it_answers_hello_and_takes_nothing_before() -> None:
+def test_device_answers_hello_and_refuses_frames_before_it() -> None:
     bench = Bench()
     bench.say(bench.block(1), 0.0)
     assert bench.credits(0.0)[-1].flags == MUTED
@@ -45,7 +45,7 @@ def test_it_answers_hello_and_takes_nothing_before() -> None:
     assert bench.accepted == []
 
 
-def test_it_plays_what_it_took_and_tells_where_it_stands() -> None:
+def test_device_plays_accepted_frames_and_reports_its_queue() -> None:
     bench = Bench()
     bench.say(HELLO + bench.block(9), 0.0)
     (credit,) = bench.credits(0.0)[-1:]
@@ -72,7 +72,7 @@ def test_the_watchdog_mutes_50_ms_after_the_last_frame() -> None:
     assert bench.output[-1, 0] == 32767
 
 
-def test_mute_is_at_once() -> None:
+def test_mute_acts_immediately() -> None:
     bench = Bench()
     bench.say(HELLO + bench.block(1, 80), 0.0)
     bench.credits(0.010)
@@ -81,7 +81,7 @@ def test_mute_is_at_once() -> None:
     assert not bench.output[15:].any()
 
 
-def test_an_old_sequence_is_no_new_samples() -> None:
+def test_old_sequence_numbers_are_ignored() -> None:
     bench = Bench()
     bench.say(HELLO + bench.block(65535) + bench.block(65535) + bench.block(0) + bench.block(65535), 0.0)
     assert bench.device.accepted_frames == 20
@@ -89,21 +89,21 @@ def test_an_old_sequence_is_no_new_samples() -> None:
     assert bench.device.lost == 2
 
 
-def test_an_empty_frame_is_a_question() -> None:
+def test_empty_frame_is_answered_with_a_credit() -> None:
     bench = Bench()
     bench.say(HELLO + bench.block(1, 0), 0.0)
     (credit,) = bench.credits(0.0)[-1:]
     assert credit == Credit(1, GREETED | HEARD | MUTED, 100, 0, 0, 0, 0)
 
 
-def test_more_than_it_can_queue_is_refused() -> None:
+def test_device_refuses_frames_beyond_its_queue() -> None:
     bench = Bench()
     bench.say(HELLO + bench.block(1, 60) + bench.block(2, 60), 0.0)
     assert bench.device.refused == 1
     assert bench.credits(0.0)[-1].free_frames == 40
 
 
-def test_no_bytes_crash_it() -> None:
+def test_arbitrary_bytes_do_not_crash_the_device() -> None:
     rng = np.random.default_rng(3)
     bench = Bench()
     for k in range(300):

@@ -21,13 +21,13 @@ def _installed(monkeypatch: pytest.MonkeyPatch) -> None:
     ("channels", "columns"),
     [(None, [0, 1]), ([3, 4], [2, 3]), ({"right": 1, "left": 2}, [1, 0]), ({"left": 4, "right": 3, "toe": 1}, [3, 2])],
 )
-def test_channel_maps(channels: object, columns: list[int]) -> None:
+def test_channel_maps_route_hands_to_channels(channels: object, columns: list[int]) -> None:
     sink = SoundCardSink(channels=channels)  # type: ignore[arg-type]
     assert sink._card_line.columns(FORMAT) == columns
 
 
 @pytest.mark.parametrize("channels", [[0, 1], [1, 1], [1.5, 2], {"left": True}, ["1"], [1, 300]])
-def test_channels_that_cannot_be(channels: object) -> None:
+def test_invalid_channels_are_refused(channels: object) -> None:
     with pytest.raises(ConfigError, match="channel"):
         SoundCardSink(channels=channels)  # type: ignore[arg-type]
 
@@ -39,24 +39,24 @@ def test_every_hand_needs_a_channel() -> None:
 
 
 @pytest.mark.parametrize("latency", ["medium", 0.0, -1.0, 2.0, float("nan"), None])
-def test_latencies_that_cannot_be(latency: object) -> None:
+def test_invalid_latencies_are_refused(latency: object) -> None:
     with pytest.raises(ConfigError, match="latency"):
         SoundCardSink(latency=latency)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("frames", [0, 8, 10_000, 64.0, True, None])
-def test_blocks_that_cannot_be(frames: object) -> None:
+def test_invalid_block_sizes_are_refused(frames: object) -> None:
     with pytest.raises(ConfigError, match="block_frames is .* 16 to 8192 frames"):
         SoundCardSink(block_frames=frames)  # type: ignore[arg-type]
 
 
-def test_without_sounddevice_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_error_names_the_extra_when_sounddevice_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scene2hap.devices.portaudio.find_spec", lambda name: None)
     with pytest.raises(MissingExtra, match=r"pip install 'scene2hap\[soundcard\]'"):
         SINKS.build("soundcard")
 
 
-def test_it_is_a_sink_with_a_clock() -> None:
+def test_sound_card_is_a_sink_with_a_clock() -> None:
     sink = SINKS.build({"kind": "soundcard", "device": "DualSense", "channels": [3, 4], "latency": "low"})
     assert isinstance(sink, SoundCardSink)
     assert isinstance(sink, ActuatorSink)
@@ -66,7 +66,7 @@ def test_it_is_a_sink_with_a_clock() -> None:
     assert sink.stats.underruns == 0
 
 
-def test_several_sinks_have_a_clock_if_one_has() -> None:
+def test_tee_has_a_clock_if_one_of_its_sinks_has() -> None:
     def tee(*sinks: object) -> object:
         return SINKS.build({"kind": "tee", "sinks": sinks})
 

@@ -62,7 +62,7 @@ class Device:
         return SinkStats(frames=self.frames, connected=False, latency_s=0.01 * self.frames)
 
 
-def test_devices_read_the_same_tape_at_their_own_pace() -> None:
+def test_sinks_read_the_same_samples_at_their_own_pace() -> None:
     a, b, memory = Device(), Device(), MemorySink()
     tee = TeeSink([a, b, memory])
     tee.open(FORMAT)
@@ -77,7 +77,7 @@ def test_devices_read_the_same_tape_at_their_own_pace() -> None:
     tee.close()
 
 
-def test_one_that_fell_behind_jumps_with_a_cross_fade() -> None:
+def test_sink_that_lags_too_far_skips_ahead_with_a_crossfade() -> None:
     a, b = Device(), Device()
     tee = TeeSink([a, b])
     tee.open(FORMAT)
@@ -92,7 +92,7 @@ def test_one_that_fell_behind_jumps_with_a_cross_fade() -> None:
     tee.stop()
 
 
-def test_files_alone_are_pulled(tmp_path: Path) -> None:
+def test_tee_of_files_can_be_pulled(tmp_path: Path) -> None:
     wav, memory = WavSink(tmp_path / "a.wav"), MemorySink()
     tee = TeeSink([wav, memory])
     tee.open(SinkFormat(1000, ("left",)))
@@ -105,7 +105,7 @@ def test_files_alone_are_pulled(tmp_path: Path) -> None:
     assert memory.stats.frames == 30
 
 
-def test_an_aborted_run_leaves_no_file(tmp_path: Path) -> None:
+def test_abort_leaves_no_file(tmp_path: Path) -> None:
     tee = TeeSink([WavSink(tmp_path / "a.wav"), Device()])
     tee.open(FORMAT)
     tee.start(Counting())
@@ -113,7 +113,7 @@ def test_an_aborted_run_leaves_no_file(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_one_that_cannot_open_closes_the_others(tmp_path: Path) -> None:
+def test_failure_to_open_one_sink_closes_the_others(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     tee = TeeSink([WavSink(tmp_path / "a.wav"), WavSink(tmp_path / "file" / "b.wav")])
     with pytest.raises(DeviceError, match="cannot be written"):
@@ -133,7 +133,7 @@ def test_events_and_gains_are_passed_on() -> None:
     assert device.shown == ["frame"]
 
 
-def test_it_is_built_from_settings(tmp_path: Path) -> None:
+def test_tee_is_built_from_settings(tmp_path: Path) -> None:
     tee = SINKS.build({"kind": "tee", "sinks": ["memory", {"kind": "wav", "path": str(tmp_path / "a.wav")}]})
     assert isinstance(tee, TeeSink)
     assert isinstance(tee, ActuatorSink)

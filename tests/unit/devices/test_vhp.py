@@ -19,7 +19,7 @@ def test_slim_frame_by_hand() -> None:
     assert len(vhp.slim_frame(block)) == 100
 
 
-def test_slim_ending_fills_the_boards_buffer_with_rest() -> None:
+def test_slim_ending_fills_the_buffer_of_the_board_with_zero_drive() -> None:
     ending = vhp.slim_ending()
     assert len(ending) == 800
     assert ending == bytes([0xC8, 0xC9, 0x11, 0x80, *[128] * 96]) * 8
@@ -53,21 +53,21 @@ def test_samples_round_trip(levels: list[int]) -> None:
 
 
 @given(st.binary(max_size=140))
-def test_no_bytes_crash_a_decoder(data: bytes) -> None:
+def test_decoders_accept_arbitrary_bytes_without_raising(data: bytes) -> None:
     vhp.from_packet(data)
     vhp.from_packet((b"\xc8" + data).ljust(132, b"\0")[:132])
     vhp.from_wireless(data)
 
 
 @given(st.binary(min_size=1, max_size=60), st.data())
-def test_a_flipped_bit_is_seen_without_wires(payload: bytes, data: st.DataObject) -> None:
+def test_flipped_bit_in_a_wireless_packet_is_detected(payload: bytes, data: st.DataObject) -> None:
     packet = bytearray(vhp.wireless(vhp.Message(17, payload)))
     place = data.draw(st.integers(0, len(packet) - 1))
     packet[place] ^= 1 << data.draw(st.integers(0, 7))
     assert vhp.from_wireless(bytes(packet)) is None
 
 
-def test_what_does_not_fit() -> None:
+def test_blocks_and_messages_of_wrong_size_are_refused() -> None:
     for shape in ((7, 2), (8, 13), (8,)):
         with pytest.raises(DeviceError, match="blocks of"):
             vhp.to_bytes(np.zeros(shape, dtype=np.float32))

@@ -39,7 +39,7 @@ def test_memory_keeps_all_blocks() -> None:
     assert len(sink.samples) == 111
 
 
-def test_wav_holds_what_was_pulled_to_24_bits(tmp_path: Path) -> None:
+def test_wav_file_has_the_pulled_samples_with_24_bits(tmp_path: Path) -> None:
     sink = WavSink(tmp_path / "deep" / "out.wav")
     sink.open(FORMAT)
     sink.start(Ramp())
@@ -56,7 +56,7 @@ def test_wav_holds_what_was_pulled_to_24_bits(tmp_path: Path) -> None:
     assert [path.name for path in sink.path.parent.iterdir()] == ["out.wav"]
 
 
-def test_an_aborted_run_leaves_no_file(tmp_path: Path) -> None:
+def test_abort_leaves_no_file(tmp_path: Path) -> None:
     sink = WavSink(tmp_path / "out.wav")
     sink.open(FORMAT)
     sink.start(Ramp())
@@ -65,7 +65,7 @@ def test_an_aborted_run_leaves_no_file(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_pull_before_start(tmp_path: Path) -> None:
+def test_pull_before_start_is_refused(tmp_path: Path) -> None:
     for sink in (WavSink(tmp_path / "out.wav"), MemorySink()):
         with pytest.raises(DeviceError, match="not started"):
             sink.pull(1)
@@ -73,7 +73,7 @@ def test_pull_before_start(tmp_path: Path) -> None:
             sink.start(Ramp())
 
 
-def test_a_place_that_cannot_be_written(tmp_path: Path) -> None:
+def test_path_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(DeviceError, match="cannot be written"):
         WavSink(tmp_path / "file" / "out.wav").open(FORMAT)

@@ -17,7 +17,7 @@ NTSC = Fraction(60000, 1001)  # 59.94 frames per second
 
 @pytest.mark.parametrize("frame_rate_hz", [90, 72, NTSC, 144, Fraction(11988, 100), 1000])
 @pytest.mark.parametrize("sample_rate_hz", [48000, 44100])
-def test_after_a_minute_every_sample_is_there_once(frame_rate_hz: Fraction, sample_rate_hz: int) -> None:
+def test_frame_sizes_of_a_minute_sum_to_all_samples(frame_rate_hz: Fraction, sample_rate_hz: int) -> None:
     whole = WholeFrames(sample_rate_hz)
     n_frames = round(60 * frame_rate_hz)
     blocks = [whole.of(float(1 / frame_rate_hz)) for _ in range(n_frames)]
@@ -25,28 +25,28 @@ def test_after_a_minute_every_sample_is_there_once(frame_rate_hz: Fraction, samp
     assert max(blocks) - min(blocks) <= 1
 
 
-def test_at_no_moment_it_is_off_by_more_than_half_a_sample() -> None:
+def test_rounding_error_never_exceeds_half_a_sample() -> None:
     whole, total = WholeFrames(48000), 0
     for i in range(1, 90 * 60):
         total += whole.of(1 / 90)
         assert abs(total - Fraction(48000 * i, 90)) <= Fraction(1, 2) + Fraction(1, 10**6)
 
 
-def test_uneven_frames_add_up() -> None:
+def test_frame_sizes_of_uneven_frames_sum_to_all_samples() -> None:
     whole = WholeFrames(48000)
     times_s = [0.011, 0.0, 0.0123, 1e-6, 0.5, 3.3e-5] * 1000
     assert sum(map(whole.of, times_s)) == round(sum(map(Fraction, times_s)) * 48000)
 
 
 @pytest.mark.parametrize("seconds", [-1e-9, float("nan"), float("inf"), 48000, "1", None, True])
-def test_what_is_no_time_is_refused_and_carries_nothing(seconds: Any) -> None:
+def test_invalid_duration_is_refused_and_changes_no_state(seconds: Any) -> None:
     whole = WholeFrames(48000)
     with pytest.raises(SessionError, match="seconds is"):
         whole.of(seconds)
     assert [whole.of(1 / 90) for _ in range(3)] == [533, 534, 533]
 
 
-def test_every_sink_that_is_pulled_is_pulled_by_time(tmp_path: Path) -> None:
+def test_every_pulled_sink_accepts_durations(tmp_path: Path) -> None:
     memory, wav = MemorySink(), WavSink(tmp_path / "touch.wav")
     for sink in (memory, wav, TeeSink([MemorySink(), MemorySink()])):
         with HapticSession(*table_with_two_phones(), {"sample_rate_hz": 8000}, sink=sink) as session:
@@ -58,7 +58,7 @@ def test_every_sink_that_is_pulled_is_pulled_by_time(tmp_path: Path) -> None:
     assert (soundfile.read(wav.path, always_2d=True)[0][:8000] - begun == 0).all()
 
 
-def test_a_sink_that_is_opened_again_begins_anew() -> None:
+def test_reopened_sink_starts_with_no_remainder() -> None:
     sink = MemorySink()
     session = HapticSession(*table_with_two_phones(), {"sample_rate_hz": 8000}, sink=sink)
     for _ in range(2):

@@ -49,7 +49,7 @@ def test_a_glide_is_followed_and_noise_does_not_move_a_hum() -> None:
     assert np.percentile(np.abs(hum.frequency_hz / 100 - 1), 95) < 0.05
 
 
-def test_pulses_are_found_and_roughness_is_none() -> None:
+def test_pulses_are_found_and_roughness_is_not_a_pulse() -> None:
     t = np.arange(3 * RATE) / RATE
     x = 0.05 * np.sin(2 * np.pi * 90 * t)
     for at in (0.7, 1.9):

@@ -145,7 +145,7 @@ def test_parts_of_a_long_export_join_without_a_gap(long: Track) -> None:
         assert found == pytest.approx(clip.frequency.at([middle])[0], abs=1e-5)
 
 
-def test_frames_of_a_stream_last_as_long_as_the_runtime_asks(tour: Track) -> None:
+def test_stream_frames_have_the_duration_requested_by_the_runtime(tour: Track) -> None:
     spec = {"kind": "openxr_parametric", "stream": True, "first_frame_s": 0.1, "frame_s": 0.02}
     document = json.loads(made(spec, tour).files["tour.left.json"])
     assert checker.check_openxr_parametric(document, first_frame_ns=100_000_000) == []

@@ -17,7 +17,7 @@ def test_every_kernel_has_a_twin_in_the_source() -> None:
         assert f"def {kernel}(" in text or f"cdef class {kernel}:" in text, name
 
 
-def test_all_are_compared() -> None:
+def test_every_kernel_is_compared_with_its_twin() -> None:
     contracts = [path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_*_kernels.py")]
     names = [name.removeprefix("scene2hap.") for name in KERNELS]
     assert [name for name in names if not any(f'both("{name}")' in text for text in contracts)] == []

@@ -13,7 +13,7 @@ from scene2hap.llm.prompts import VERSION
 from scripted_backend import SCENE, Scripted, run
 
 
-def test_the_chain_asks_what_it_must_and_no_more() -> None:
+def test_chain_sends_only_the_needed_requests() -> None:
     backend = Scripted()
     found = infer_haptics(SCENE, backend)
     # One scene, three objects, two distinct materials, and a description for each state of what vibrates.
@@ -49,14 +49,14 @@ def test_each_component_builds_on_the_one_before() -> None:
     assert analysed["cup"].facts["relative_height_m"] == 0.0
 
 
-def test_progress_is_told() -> None:
+def test_chain_reports_progress_per_object() -> None:
     told: list[tuple[str, int, int]] = []
     asyncio.run(infer_scene(SCENE, Scripted(), progress=lambda *news: told.append(news)))
     assert [(done, total) for _, done, total in told] == [(1, 3), (2, 3), (3, 3)]
     assert {what for what, _, _ in told} == {"table", "phone", "cup"}
 
 
-def test_concurrency_is_kept() -> None:
+def test_chain_respects_the_concurrency_limit() -> None:
     class Counting(Scripted):
         now = most = 0
 
@@ -81,7 +81,7 @@ def test_damping_ratio_becomes_loss_factor() -> None:
     assert material.loss_factor == pytest.approx(0.06)
 
 
-def test_every_field_says_who_gave_it() -> None:
+def test_provenance_names_the_origin_of_every_field() -> None:
     phone = run(Scripted()).objects["phone"]
     assert set(phone.provenance) == {
         "object_category",

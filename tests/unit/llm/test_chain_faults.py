@@ -12,7 +12,7 @@ from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, Repl
 from scripted_backend import SCENE, Scripted, run
 
 
-def test_a_material_that_nobody_knows_costs_only_itself() -> None:
+def test_unknown_material_leaves_other_answers_valid() -> None:
     backend = Scripted(
         object_analyzer=lambda request, answer: {**answer, "material_category": "unobtainium"},
         material_estimator=lambda request, answer: {**answer, "youngs_modulus_gpa": 70e9},
@@ -24,7 +24,7 @@ def test_a_material_that_nobody_knows_costs_only_itself() -> None:
 
 
 @pytest.mark.parametrize("zeros", [{"density_kg_m3": 0.0}, {"youngs_modulus_gpa": 0.0}, {"poisson_ratio": 0.5}])
-def test_impossible_constants_give_way_to_the_table_with_a_flag(zeros: dict[str, float]) -> None:
+def test_impossible_constants_are_replaced_by_the_table_and_flagged(zeros: dict[str, float]) -> None:
     found = run(Scripted(material_estimator=lambda request, answer: {**answer, **zeros}))
     oak = materials.lookup("oak")
     assert found.objects["table"].material == replace(oak, name="oak")
@@ -33,7 +33,7 @@ def test_impossible_constants_give_way_to_the_table_with_a_flag(zeros: dict[str,
     assert "table" in found.objects["table"].reasons["material"]
 
 
-def test_constants_that_no_such_material_has_are_the_tables_and_flagged() -> None:
+def test_constants_outside_the_material_range_are_replaced_and_flagged() -> None:
     oak = materials.lookup("oak")
     wrong = {"density_kg_m3": 0.75 * 10, "youngs_modulus_gpa": 9000.0 / 10}  # g/cm3 of lead, megapascal
     found = run(Scripted(material_estimator=lambda request, answer: {**answer, **wrong, "damping_ratio": 0.02}))
@@ -48,7 +48,7 @@ def test_constants_that_no_such_material_has_are_the_tables_and_flagged() -> Non
     assert "table of materials" in found.objects["table"].provenance["material"]
 
 
-def test_one_bad_answer_costs_one_object() -> None:
+def test_bad_answer_affects_only_its_object() -> None:
     def change(request: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
         return {**answer, "confidence": 7.0} if request.subject == "cup" else answer
 
@@ -60,7 +60,7 @@ def test_one_bad_answer_costs_one_object() -> None:
     assert list(found.report.errors) == ["cup"]
 
 
-def test_a_describer_that_fails_leaves_the_state() -> None:
+def test_failing_describer_keeps_the_state() -> None:
     found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "keywords": "phone vibrating"}))
     state = found.objects["phone"].states[0]
     assert (state.sentence, state.keywords) == ("phone ringing", "phone ringing")
@@ -72,7 +72,7 @@ def test_a_describer_that_fails_leaves_the_state() -> None:
     [BudgetExceeded("no money left"), ReplayMiss("no answer"), BackendUnavailable("the key is refused")],
     ids=lambda error: type(error).__name__,
 )
-def test_what_would_meet_every_call_ends_the_run_after_the_calls_under_way(refusal: Exception) -> None:
+def test_error_common_to_all_calls_ends_the_run_after_running_calls(refusal: Exception) -> None:
     class Refusing(Scripted):
         answered = 0
 
@@ -91,7 +91,7 @@ def test_what_would_meet_every_call_ends_the_run_after_the_calls_under_way(refus
     assert not [request for request in backend.asked if request.component == "vibration_describer"]
 
 
-def test_a_lost_connection_costs_what_was_asked() -> None:
+def test_lost_connection_affects_only_the_running_request() -> None:
     class Flaky(Scripted):
         async def complete(self, request: LLMRequest) -> LLMReply:
             if request.subject == "cup":
@@ -112,13 +112,13 @@ def test_a_lost_connection_costs_what_was_asked() -> None:
         (lambda request, answer: LLMReply(json.dumps(answer)[:40], "scripted", "length"), "ended by 'length'"),
     ],
 )
-def test_an_answer_that_does_not_fit_is_named(change: object, sentence: str) -> None:
+def test_error_describes_an_invalid_answer(change: object, sentence: str) -> None:
     with pytest.raises(BadAnswer, match=sentence) as caught:
         infer_haptics(SCENE, Scripted(object_analyzer=change))
     assert caught.value.raw_text
 
 
-def test_a_backend_that_is_away() -> None:
+def test_unreachable_backend_raises_connection_error() -> None:
     class Away:
         async def complete(self, request: LLMRequest) -> LLMReply:
             raise BackendUnavailable("the model is away")

@@ -1,4 +1,4 @@
-"""What the chain does not ask, and does not render."""
+"""Requests that the chain does not send, and pictures that it does not render."""
 
 import asyncio
 from dataclasses import replace
@@ -10,14 +10,14 @@ from scenes import box, scene
 from scripted_backend import SCENE, Scripted, run
 
 
-def test_an_unknown_material_is_not_asked_for() -> None:
+def test_unknown_material_is_not_estimated() -> None:
     backend = Scripted(object_analyzer=lambda request, answer: {**answer, "material_category": "unknown"})
     found = infer_haptics(SCENE, backend)
     assert all(haptics.material is None for haptics in found.values())
     assert not [request for request in backend.asked if request.component == "material_estimator"]
 
 
-def test_the_table_may_come_first() -> None:
+def test_table_materials_replace_the_material_estimator() -> None:
     backend = Scripted()
     found = run(backend, {"materials": "table"})
     assert not [request for request in backend.asked if request.component == "material_estimator"]
@@ -25,7 +25,7 @@ def test_the_table_may_come_first() -> None:
     assert found.report.skipped["table_material"] == 2
 
 
-def test_lazy_asks_for_what_a_source_can_reach() -> None:
+def test_lazy_inference_covers_only_objects_reached_by_sources() -> None:
     backend = Scripted(
         object_analyzer=lambda request, answer: {**answer, "material_category": f"{request.subject} stuff"}
     )
@@ -59,7 +59,7 @@ def test_copies_on_the_same_support_are_analysed_once() -> None:
     assert len([request for request in apart.asked if request.component == "object_analyzer"]) == 7
 
 
-def test_only_some_objects_are_asked_about_with_wishes_of_their_own() -> None:
+def test_only_selected_objects_are_inferred_with_user_prompts() -> None:
     backend = Scripted()
     found = asyncio.run(
         infer_scene(SCENE, backend, only=["phone"], scene_category="office", wishes={"phone": "it rings loudly"})
@@ -96,13 +96,13 @@ def pictured(camera: Camera) -> SceneSnapshot:
     return replace(SCENE, objects=tuple(objects), images=shots("scene", None, 4))
 
 
-def test_nothing_is_rendered_for_a_backend_that_does_not_look() -> None:
+def test_no_picture_is_rendered_for_a_text_only_backend() -> None:
     camera = Camera()
     infer_haptics(pictured(camera), Scripted())
     assert camera.taken == 0
 
 
-def test_a_backend_that_looks_sees_the_scene_then_the_object_alone_and_among_others() -> None:
+def test_vision_backend_gets_scene_then_isolated_then_context_pictures() -> None:
     camera, backend = Camera(), Scripted()
     infer_haptics(pictured(camera), backend)
     seen = {(r.component, r.subject): [png.decode() for png in r.images] for r in backend.asked}

@@ -1,4 +1,4 @@
-"""Rooms of equal cubes, as games are prototyped: what is a copy, and what only looks like one."""
+"""Rooms of equal cubes, as in prototypes of games: real copies, and objects that only look equal."""
 
 import asyncio
 from collections import Counter
@@ -75,7 +75,7 @@ def test_every_source_and_material_is_found_among_sixty_equal_cubes() -> None:
         assert word(name).split("_")[-1] in haptics.reasons["category"], "the reason names another object"
 
 
-def test_calls_are_shared_among_true_copies_alone() -> None:
+def test_only_exact_copies_share_calls() -> None:
     backend = Scripted(
         object_analyzer=lambda request, answer: {**answer, "material_category": f"stuff of {request.subject}"}
     )
@@ -86,7 +86,7 @@ def test_calls_are_shared_among_true_copies_alone() -> None:
     assert all(haptics.object_category == f"{word(name)}_1" for name, haptics in found.objects.items())
 
 
-def test_a_wish_for_one_copy_is_asked_and_not_shared() -> None:
+def test_user_prompt_for_one_copy_is_not_shared() -> None:
     room = scene(
         *(replace(box(f"chair_{i}", (0.5, 0.5, 0.5), (2.0 * i, 0.25, 0.0)), instance_key="cube") for i in range(1, 5))
     )
@@ -97,7 +97,7 @@ def test_a_wish_for_one_copy_is_asked_and_not_shared() -> None:
     assert "it is of steel" in analysed["chair_3"]
 
 
-def test_equal_cubes_share_pictures_of_themselves_but_not_of_their_surroundings() -> None:
+def test_copies_share_isolated_pictures_but_not_context_pictures() -> None:
     objects = cubes().objects
     copies = Copies(objects, [None] * len(objects), share=True)
     assert set(copies.isolated.values()) == {"microwave_oven_1"}

@@ -1,4 +1,4 @@
-"""What a run would ask and cost, told beforehand."""
+"""Estimated requests and cost of a run."""
 
 import asyncio
 from collections import Counter
@@ -29,11 +29,11 @@ from scripted_backend import SCENE
         ("llava", 512, "low", None),
     ],
 )
-def test_tokens_of_a_picture(model: str, size_px: int, detail: str, tokens: int | None) -> None:
+def test_picture_tokens_follow_the_published_rules(model: str, size_px: int, detail: str, tokens: int | None) -> None:
     assert image_tokens(model, size_px, detail) == tokens
 
 
-def test_what_the_chain_would_ask() -> None:
+def test_dry_run_counts_the_requests_of_a_real_run() -> None:
     scene = load_scene(kitchen_path())
     told = asyncio.run(dry_run(scene, "gpt-4o"))
     done = asyncio.run(infer_scene(scene, LexiconBackend()))
@@ -49,7 +49,7 @@ class NoCamera:
         raise AssertionError("a dry run takes no picture")
 
 
-def test_pictures_are_counted_and_not_taken() -> None:
+def test_dry_run_counts_pictures_without_rendering() -> None:
     shots = ImageSet(NoCamera(), [Shot("isolated", "x", 45.0 * i, 45.0) for i in range(8)])
     objects = tuple(replace(item, images=ObjectImages(shots, shots)) for item in SCENE.objects)
     pictured = replace(SCENE, objects=objects, images=ImageSet(NoCamera(), shots.shots[:4]))
@@ -66,7 +66,7 @@ def test_cost_is_tokens_times_price() -> None:
     assert told.text_tokens > 150 / 4 * sum(told.calls.values())
 
 
-def test_what_is_unknown_says_so() -> None:
+def test_cost_of_an_unlisted_model_is_unknown() -> None:
     told = asyncio.run(dry_run(SCENE, "nobody-knows"))
     assert told.cost_usd is None
     assert ("cost, about", "unknown") in told.rows()

@@ -1,4 +1,4 @@
-"""FunctionBackend: whatever a function may return."""
+"""FunctionBackend: every result that a function may return."""
 
 import asyncio
 import json
@@ -24,7 +24,7 @@ async def later(_: LLMRequest) -> dict[str, int]:
     ],
     ids=["values", "text", "reply", "async"],
 )
-def test_returns(function: Any, reply: LLMReply) -> None:
+def test_function_results_become_replies(function: Any, reply: LLMReply) -> None:
     backend = FunctionBackend(function, model="m")
     assert asyncio.run(backend.complete(request())) == reply
     assert backend.requests == [request()]

@@ -67,12 +67,12 @@ def test_body_and_headers_of_a_request() -> None:
     assert seen[0].headers["authorization"] == f"Bearer {KEY}"
 
 
-def test_without_a_key_there_is_no_header() -> None:
+def test_request_without_a_key_has_no_authorization_header() -> None:
     assert post(lambda sent: httpx.Response(200, text=str("authorization" in sent.headers)), key=None).text == "False"
 
 
 @pytest.mark.parametrize("body", [{"temperature": float("nan")}, {"fact": object()}])
-def test_what_has_no_json_is_not_sent(body: dict[str, Any]) -> None:
+def test_body_that_is_not_json_is_not_sent(body: dict[str, Any]) -> None:
     def fail(_: httpx.Request) -> httpx.Response:
         raise AssertionError("sent")
 
@@ -80,7 +80,7 @@ def test_what_has_no_json_is_not_sent(body: dict[str, Any]) -> None:
         post(fail, body)
 
 
-def test_a_server_that_trickles_is_a_timeout_too() -> None:
+def test_slow_trickle_of_bytes_is_a_timeout() -> None:
     """httpx bounds each read; the whole answer is bounded here."""
 
     async def trickle(_: httpx.Request) -> httpx.Response:
@@ -94,14 +94,14 @@ def test_a_server_that_trickles_is_a_timeout_too() -> None:
     assert caught.value.retryable
 
 
-def test_backends_hand_their_transport_on() -> None:
+def test_backends_use_the_given_transport() -> None:
     transport = httpx.MockTransport(lambda _: httpx.Response(200, json=said().body))
     reply = asyncio.run(OpenAIBackend(api_key=KEY, transport=transport).complete(request()))
     assert json.loads(reply.text) == GOOD["scene_analyzer"]
 
 
 def test_no_traceback_holds_the_header_in_a_local_variable() -> None:
-    """Reporters of errors show the variables of each frame; those of the HTTP library hold the key."""
+    """Error reporters show the local variables of each frame, and some frames of the HTTP library hold the key."""
 
     def fail(sent: httpx.Request) -> httpx.Response:
         header = sent.headers["authorization"]
@@ -121,7 +121,7 @@ def test_no_traceback_holds_the_header_in_a_local_variable() -> None:
         cause = cause.__cause__ or cause.__context__
 
 
-def test_a_page_is_got_with_the_key_and_in_its_own_time() -> None:
+def test_get_sends_the_key_and_has_its_own_timeout() -> None:
     async def slow(sent: httpx.Request) -> httpx.Response:
         assert (sent.method, sent.headers["authorization"]) == ("GET", f"Bearer {KEY}")
         await asyncio.sleep(0 if sent.url.path == "/v1/models" else 5)
@@ -133,7 +133,7 @@ def test_a_page_is_got_with_the_key_and_in_its_own_time() -> None:
         asyncio.run(endpoint.get("slow", 0.02))
 
 
-def test_a_proxy_that_cannot_be_is_named_without_its_password(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_error_names_an_invalid_proxy_without_its_password(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ALL_PROXY", "nonsense://me:hunter2@127.0.0.1")
     with pytest.raises(ConfigError, match="Check ALL_PROXY") as caught:
         asyncio.run(Endpoint("https://model.example", Secret(), 1.0).post("chat", {}))

@@ -1,4 +1,4 @@
-"""What servers mean by a status, headers and a body."""
+"""Errors from status, headers and body of a reply."""
 
 import pytest
 
@@ -29,13 +29,13 @@ def reply(status: int = 429, text: str = "", **headers: str) -> HttpReply:
     ],
     ids=str,
 )
-def test_when_to_come_back(headers: dict[str, str], wait_s: float | None) -> None:
+def test_retry_delay_is_read_from_headers(headers: dict[str, str], wait_s: float | None) -> None:
     error = failure(reply(**headers), now_s=NOW_S)
     assert error.retry_after_s == wait_s
     assert error.retryable
 
 
-def test_more_than_two_minutes_is_given_up() -> None:
+def test_retry_delay_above_two_minutes_is_not_waited_for() -> None:
     error = failure(reply(retry_after="121"))
     assert (error.retryable, error.retry_after_s) == (False, 121.0)
     assert "It asks to wait 121 s" in str(error)
@@ -60,7 +60,7 @@ def test_x_should_retry_is_obeyed(told: str, retryable: bool) -> None:
         ("", ServerError()),
     ],
 )
-def test_errors_come_in_many_forms(text: str, error: ServerError) -> None:
+def test_error_message_is_read_from_every_body_form(text: str, error: ServerError) -> None:
     assert server_error(reply(text=text)) == error
 
 
@@ -72,7 +72,7 @@ def test_message_gives_address_status_code_and_next_step() -> None:
     )
 
 
-def test_a_page_of_html_is_not_shown_whole() -> None:
+def test_html_page_is_shortened_in_the_message() -> None:
     assert len(str(failure(reply(502, "<p>" * 10_000)))) < 600
 
 
@@ -91,13 +91,11 @@ def test_a_page_of_html_is_not_shown_whole() -> None:
     ],
     ids=str,
 )
-def test_limits_that_are_used_up_tell_when_they_are_full_again(
-    status: int, headers: dict[str, str], wait_s: float | None
-) -> None:
+def test_exhausted_rate_limit_gives_its_reset_time(status: int, headers: dict[str, str], wait_s: float | None) -> None:
     assert failure(reply(status, **headers)).retry_after_s == wait_s
 
 
-def test_of_two_limits_the_later_counts() -> None:
+def test_later_reset_of_two_limits_counts() -> None:
     both = {
         "x_ratelimit_remaining_requests": "0",
         "x_ratelimit_reset_requests": "3s",

@@ -1,4 +1,4 @@
-"""JSON found within what a model writes around it."""
+"""JSON within other text of a model."""
 
 import json
 from typing import Any
@@ -25,7 +25,7 @@ _PROSE = st.text(alphabet="abc \n.,:}[]'`", max_size=30)
     _PROSE,
     st.booleans(),
 )
-def test_answer_is_found_whatever_stands_around_it(
+def test_first_object_finds_json_in_any_surrounding_text(
     answer: dict[str, Any], draft: dict[str, Any], before: str, after: str, fenced: bool
 ) -> None:
     text = json.dumps(answer, indent=1)
@@ -52,11 +52,11 @@ def test_answer_is_found_whatever_stands_around_it(
         ("", None),
     ],
 )
-def test_cases(text: str, found: str | None) -> None:
+def test_first_object_handles_nested_and_broken_json(text: str, found: str | None) -> None:
     assert first_object(text) == found
 
 
-def test_a_model_that_runs_away_costs_no_time_and_no_stack() -> None:
+def test_first_object_handles_endless_nesting_fast() -> None:
     assert first_object('{"a":' * 50_000) is None
     assert first_object("{" * 200_000) is None
     assert first_object('{"a":' * 50_000 + "1" + "}" * 50_000) is not None

@@ -1,4 +1,4 @@
-"""What objects weigh: from the lexicon, a model, the scene and a person, and what it does to a source."""
+"""Masses of objects from the lexicon, a model, the scene and a user, and their effect on a source."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def weighed(scene: SceneSnapshot, backend: object = None) -> tuple[float | None,
     return haptics.mass_kg, haptics.provenance.get("mass_kg", ""), bundle
 
 
-def test_the_lexicon_knows_usual_masses() -> None:
+def test_lexicon_gives_usual_masses() -> None:
     mass, by, bundle = weighed(room())
     assert mass == 14.0
     assert "lexicon" in by
@@ -71,7 +71,7 @@ def test_the_lexicon_knows_usual_masses() -> None:
     assert solid.mass_kg == pytest.approx(1.2 * 0.02 * 0.7 * solid.material.density_kg_m3)
 
 
-def test_every_mass_of_the_table_is_one_of_such_a_thing() -> None:
+def test_masses_of_the_table_are_plausible_for_their_size() -> None:
     """None weighs more than a cube of granite of its longest usual edge; most everyday sources have one."""
     for row in table():
         if row.mass_kg is not None:
@@ -82,7 +82,7 @@ def test_every_mass_of_the_table_is_one_of_such_a_thing() -> None:
     assert sum(row.mass_kg is not None for row in sources) > 0.6 * len(sources)
 
 
-def test_feet_come_from_the_lexicon_and_from_a_person(tmp_path: Path) -> None:
+def test_feet_are_taken_from_lexicon_and_override(tmp_path: Path) -> None:
     _, _, bundle = weighed(room())
     assert bundle.objects["microwave"].feet == materials.lookup("rubber")
     folder = bundle.save(tmp_path / "b")
@@ -98,7 +98,7 @@ def test_every_foot_of_the_table_is_of_a_known_material() -> None:
     assert all(row_of(row.feet) is not None for row in table() if row.feet)
 
 
-def test_a_model_is_asked_and_believed_within_what_can_be() -> None:
+def test_mass_from_a_model_is_used_within_plausible_bounds() -> None:
     assert weighed(room(), answering(11.5))[0] == 11.5
     assert weighed(room(), answering(None))[0] is None
     impossible, _, bundle = weighed(room(), answering(9e4))
@@ -106,7 +106,7 @@ def test_a_model_is_asked_and_believed_within_what_can_be() -> None:
     assert "a box of 0.5 by 0.4 by 0.3 m weighs" in bundle.objects["microwave"].reasons["mass"]
 
 
-def test_answers_of_before_have_no_mass() -> None:
+def test_answers_recorded_without_mass_are_read() -> None:
     before = {key: value for key, value in GOOD["object_analyzer"].items() if key != "estimated_mass_kg"}
     assert ObjectAnswer.model_validate(before).estimated_mass_kg is None
     properties = strict_schema(ObjectAnswer.model_json_schema())
@@ -122,7 +122,9 @@ def test_answers_of_before_have_no_mass() -> None:
         (5, (1, 0, 1), False),
     ],
 )
-def test_masses_are_held_against_the_box(mass_kg: float, whole_m: tuple[float, float, float], is_wrong: bool) -> None:
+def test_masses_are_checked_against_the_bounding_box(
+    mass_kg: float, whole_m: tuple[float, float, float], is_wrong: bool
+) -> None:
     assert bool(mass_fault(mass_kg, whole_m)) == is_wrong
 
 
@@ -133,7 +135,7 @@ def test_a_usual_mass_is_at_most_that_of_a_solid_box() -> None:
     assert bounded_mass_kg(5.0, (1.0, 0.0, 2.0), oak) == 5.0
 
 
-def test_what_the_scene_says_outranks_and_a_person_outranks_that(tmp_path: Path) -> None:
+def test_mass_of_the_scene_outranks_inference_and_override_outranks_both(tmp_path: Path) -> None:
     scene = room(mass_kg=18.0)
     assert SceneSnapshot.from_json(scene.to_json()).object("microwave").mass_kg == 18.0
     mass, by, bundle = weighed(scene)
@@ -146,7 +148,7 @@ def test_what_the_scene_says_outranks_and_a_person_outranks_that(tmp_path: Path)
 
 
 @pytest.mark.parametrize("wrong", [0.0, -1.0, float("nan"), 1e9, "heavy"])
-def test_what_is_no_mass_is_told(wrong: object) -> None:
+def test_invalid_mass_is_refused(wrong: object) -> None:
     scene, bundle = table_with_two_phones()
     with pytest.raises(BundleError, match="mass_kg"):
         bundle.override("table", mass_kg=wrong)  # type: ignore[arg-type]
@@ -157,7 +159,7 @@ def test_what_is_no_mass_is_told(wrong: object) -> None:
             replace(scene.object("table"), mass_kg=wrong)  # type: ignore[arg-type]
 
 
-def test_a_heavy_source_on_a_table_that_yields_pushes_as_its_mass_does() -> None:
+def test_force_of_a_heavy_source_on_a_compliant_table_grows_with_its_mass() -> None:
     """Below all resonances a source of mass m on a soft spring k, at rest on what hardly moves, gives to it what a free
     mass on a spring does: v / v_free = Y_receiver / (1/(i w m) + ...), so heavier ones push harder, in the end as m."""
 
@@ -177,7 +179,7 @@ def test_a_heavy_source_on_a_table_that_yields_pushes_as_its_mass_does() -> None
     assert heavy > 20 * light
 
 
-def test_the_paper_law_knows_no_masses() -> None:
+def test_exponential_law_ignores_masses() -> None:
     scene, bundle = table_with_two_phones()
     touch = [Touch("left", "table", scene.object("table").bounds_m[1])]
     source = next(iter(bundle.loops))
@@ -185,7 +187,7 @@ def test_the_paper_law_knows_no_masses() -> None:
     np.testing.assert_array_equal(gains[0], gains[1])
 
 
-def test_masses_of_an_engine_are_taken_if_asked_for() -> None:
+def test_engine_masses_are_used_on_request() -> None:
     mujoco = pytest.importorskip("mujoco", reason="needs MuJoCo: pip install 'scene2hap[mujoco]'")
     xml = """<mujoco><worldbody><geom name="floor" type="box" size="2 2 .02"/>
     <body name="fan" pos="0 0 .5"><freejoint/><geom type="box" size=".1 .1 .1" mass="3.5"/></body></worldbody>

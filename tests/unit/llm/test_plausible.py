@@ -1,4 +1,4 @@
-"""Numbers that no such object or material has: asked for again by all their names, then replaced and told."""
+"""Implausible numbers: requested again with all their names, then replaced and reported."""
 
 import asyncio
 import json
@@ -47,13 +47,13 @@ def test_every_row_of_the_table_is_plausible() -> None:
         assert constants(constant.name, told) == {}, constant.name
 
 
-def test_steel_in_grams_is_named_with_its_bound_and_unit() -> None:
+def test_error_for_density_in_grams_states_bounds_and_unit() -> None:
     assert "density_kg_m3: 7.85 kg/m3, but steel has 2610 to 23600 kg/m3 (g/cm3? Give kg/m3)" in told_of(
         steel(density_kg_m3=7.85)
     )
 
 
-def test_all_that_is_wrong_is_named_at_once() -> None:
+def test_error_lists_all_implausible_constants() -> None:
     told = told_of(steel(density_kg_m3=7.85, youngs_modulus_gpa=2e11, poisson_ratio="low", damping_ratio=0.9))
     for name in STEEL:
         assert f"{name}: " in told
@@ -63,17 +63,17 @@ def test_all_that_is_wrong_is_named_at_once() -> None:
 
 
 @pytest.mark.parametrize("word", ["brushed stainless steel", "painted steel sheet", "Steel", "steel-plate"])
-def test_words_around_a_material_do_not_hide_it(word: str) -> None:
+def test_material_is_recognised_within_a_longer_phrase(word: str) -> None:
     assert row_of(word) is not None
     assert "density_kg_m3" in told_of(steel(density_kg_m3=7.85), word)
 
 
-def test_an_unknown_material_is_only_held_against_what_any_solid_has() -> None:
+def test_unknown_material_is_checked_against_bounds_of_any_solid() -> None:
     assert told_of(steel(), "unobtainium") == ""
     assert "a solid has" in told_of(steel(density_kg_m3=2.2), "unobtainium")
 
 
-def test_the_repair_names_the_bound_and_a_second_slip_costs_no_answer() -> None:
+def test_repair_request_states_the_bound_and_second_failure_keeps_the_answer() -> None:
     wrong = steel(density_kg_m3=7.85)
     inner = FunctionBackend(lambda _: LLMReply(wrong, "m"))
     asked = request("material_estimator", facts={"material_category": "steel"})
@@ -84,7 +84,7 @@ def test_the_repair_names_the_bound_and_a_second_slip_costs_no_answer() -> None:
 
 
 @pytest.mark.parametrize("edges", [(180.0, 70.0, 5.5), (1.8, 0.7, 0.0), (1.8, 0.7, 2.0), (0.2, 0.7, 0.05), (0, 0, 0)])
-def test_sizes_far_from_the_measured_ones_are_named(edges: tuple[float, float, float]) -> None:
+def test_sizes_far_from_measured_sizes_are_reported(edges: tuple[float, float, float]) -> None:
     assert "but it was measured as" in told_of_size(*edges)
 
 
@@ -93,14 +93,14 @@ def test_sizes_near_the_measured_ones_pass(edges: tuple[float, float, float]) ->
     assert told_of_size(*edges) == ""
 
 
-def test_a_floor_without_thickness_takes_that_of_a_real_one_and_no_other() -> None:
+def test_floor_without_thickness_accepts_only_plausible_thickness() -> None:
     assert told_of_size(5.0, 4.0, 0.2, length_m=5.0, width_m=4.0, thickness_m=0.0) == ""
     for thickness in (0.0, 2.0):
         told = told_of_size(5.0, 4.0, thickness, length_m=5.0, width_m=4.0, thickness_m=0.0)
         assert "give 2e-05 to 0.5 m" in told
 
 
-def test_all_three_edges_are_named_at_once() -> None:
+def test_error_lists_all_three_edges() -> None:
     told = told_of_size(180.0, 70.0, 5.5)
     for edge in ("length", "width", "thickness"):
         assert f"estimated_{edge}_m: " in told
@@ -113,7 +113,7 @@ def sized(**edges: float) -> Any:
     return run(Scripted(object_analyzer=change))
 
 
-def test_a_table_of_180_m_is_as_large_as_it_was_measured_and_told() -> None:
+def test_implausible_size_is_replaced_by_the_measured_size_and_reported() -> None:
     found = sized(estimated_length_m=180.0, estimated_width_m=70.0, estimated_thickness_m=5.5)
     assert found.objects["table"].estimated_size_m == (1.6, 0.8, 0.02)
     told = found.report.doubts["table"]
@@ -122,12 +122,12 @@ def test_a_table_of_180_m_is_as_large_as_it_was_measured_and_told() -> None:
     assert found.report.as_json()["doubts"]["table"] == list(told)
 
 
-def test_a_thickness_alone_is_replaced_alone() -> None:
+def test_implausible_thickness_alone_is_replaced() -> None:
     found = sized(estimated_length_m=1.5, estimated_thickness_m=0.0)
     assert found.objects["table"].estimated_size_m == (1.5, 0.8, 0.02)
 
 
-def test_a_need_that_nothing_meets_is_in_the_account() -> None:
+def test_report_lists_contact_needs_that_no_object_meets() -> None:
     def change(asked: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
         states = [{"name": "ringing", "intensity": 0.5, "needs_contact": "stove"}]
         return {**answer, "states": states} if asked.subject == "phone" else answer
@@ -138,8 +138,8 @@ def test_a_need_that_nothing_meets_is_in_the_account() -> None:
     assert "stove" in found.objects["phone"].reasons["contact"]
 
 
-def test_what_everything_is_gets_listed_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not for each object anew: a scene of thousands would take seconds."""
+def test_categories_are_collected_once_per_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The list is made once, not for each object: a scene of thousands would take seconds."""
     given: list[object] = []
     monkeypatch.setattr(chain, "unmet_needs", lambda key, states, categories: given.append(categories) or ())
     asyncio.run(infer_scene(SCENE, Scripted()))
@@ -147,7 +147,7 @@ def test_what_everything_is_gets_listed_once(monkeypatch: pytest.MonkeyPatch) ->
     assert all(one is given[0] for one in given)
 
 
-def test_the_table_takes_the_place_of_what_steel_cannot_have() -> None:
+def test_implausible_constants_are_replaced_by_the_table() -> None:
     def change(asked: LLMRequest, answer: dict[str, Any]) -> dict[str, Any]:
         return {**answer, "material_category": "steel"}
 

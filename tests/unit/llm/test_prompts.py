@@ -10,7 +10,7 @@ from scene2hap.llm.protocol import COMPONENTS
 from scene2hap.llm.quoting import IS_DATA
 
 
-def test_every_component_has_a_template_where_the_user_outranks_the_rest() -> None:
+def test_every_template_gives_the_user_prompt_priority() -> None:
     prompts = Prompts.load()
     for component in COMPONENTS:
         assert "user_prompt" in placeholders(prompts.templates[component])
@@ -19,7 +19,7 @@ def test_every_component_has_a_template_where_the_user_outranks_the_rest() -> No
     assert filled.endswith("Above all, follow what the scene's author asks: make it {loud}")
 
 
-def test_questions_about_two_objects_begin_alike_so_that_services_read_the_beginning_once() -> None:
+def test_prompts_share_a_long_prefix_for_prompt_caching() -> None:
     template = Prompts.load().templates["object_analyzer"]
     instructions, facts = template.split("Kind of place: ")
     assert not placeholders(instructions)
@@ -49,7 +49,7 @@ def test_one_template_may_be_replaced(tmp_path: Path) -> None:
         ("{material_category}", "lacks {user_prompt}"),
     ],
 )
-def test_a_template_that_cannot_work_is_refused(tmp_path: Path, text: str, sentence: str) -> None:
+def test_invalid_template_is_refused(tmp_path: Path, text: str, sentence: str) -> None:
     (tmp_path / "material_estimator.txt").write_text(text)
     with pytest.raises(ConfigError, match=sentence):
         Prompts.load(tmp_path)

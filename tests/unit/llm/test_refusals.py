@@ -1,4 +1,4 @@
-"""Refusals are told as such and cost one call, whoever answers."""
+"""Refusals of every backend are reported as refusals and cost one call."""
 
 import asyncio
 import json
@@ -41,7 +41,7 @@ def test_a_refusal_is_recognised(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", ANSWERS)
-def test_an_answer_is_no_refusal(text: str) -> None:
+def test_normal_answers_are_not_taken_for_refusals(text: str) -> None:
     assert refusal_in(text) is None
 
 
@@ -78,7 +78,7 @@ def test_a_refusal_is_not_repaired(text: str) -> None:
         ('{"scene_cat', "length", "ended by 'length'"),
     ],
 )
-def test_what_no_repair_can_mend_costs_one_call(text: str, reason: str, sentence: str) -> None:
+def test_answers_beyond_repair_cost_one_call(text: str, reason: str, sentence: str) -> None:
     backend = Says(text, reason)
     with pytest.raises(BadAnswer, match=sentence) as caught:
         ask(RepairBackend(backend))
@@ -104,7 +104,7 @@ def test_a_served_refusal_costs_one_request(build: object, script: object) -> No
         assert len(server.asked) == 1
 
 
-def test_pictures_say_their_detail() -> None:
+def test_requests_state_the_picture_detail() -> None:
     for build, detail in ((openai, "low"), (local, "auto")):
         with serving(said(), said(), said()) as server:
             ask(build(server), request(images=(b"\x89PNG", b"\x89PNG")))
@@ -112,7 +112,7 @@ def test_pictures_say_their_detail() -> None:
         assert [part["image_url"]["detail"] for part in parts] == [detail, detail]
 
 
-def test_one_refused_object_leaves_the_others_and_is_told() -> None:
+def test_refused_object_is_reported_and_others_are_inferred() -> None:
     refusal = LLMReply("I'm sorry, I can't help with that.", "scripted")
     backend = Scripted(object_analyzer=lambda r, a: refusal if r.subject == "cup" else a)
     found = run(backend)

@@ -28,7 +28,7 @@ REQUEST = LLMRequest(
 
 
 class Echo:
-    """Answers with what it was asked about, and counts."""
+    """Echo the subject of each request, and count requests."""
 
     def __init__(self) -> None:
         self.calls = 0
@@ -75,7 +75,7 @@ def test_key_is_the_digest_of_the_canonical_request() -> None:
     ],
     ids=lambda changes: next(iter(changes)),
 )
-def test_key_changes_with_whatever_decides_the_answer(changes: dict[str, Any]) -> None:
+def test_key_changes_with_every_field_that_affects_the_answer(changes: dict[str, Any]) -> None:
     assert request_key(dataclasses.replace(REQUEST, **changes)) != request_key(REQUEST)
 
 
@@ -88,12 +88,12 @@ def test_key_changes_with_whatever_decides_the_answer(changes: dict[str, Any]) -
     ],
     ids=lambda changes: next(iter(changes)),
 )
-def test_key_does_not_change_with_the_rest(changes: dict[str, Any]) -> None:
+def test_key_ignores_fields_that_do_not_affect_the_answer(changes: dict[str, Any]) -> None:
     assert request_key(dataclasses.replace(REQUEST, **changes)) == request_key(REQUEST)
 
 
 @pytest.mark.parametrize("fact", [float("inf"), float("nan"), object(), "\ud800"])
-def test_what_has_no_json_has_no_key(fact: Any) -> None:
+def test_request_that_is_not_json_has_no_key(fact: Any) -> None:
     with pytest.raises(BackendError, match="no JSON"):
         request_key(dataclasses.replace(REQUEST, facts={"fact": fact}))
 
@@ -117,7 +117,7 @@ def test_round_trip(tmp_path_factory: pytest.TempPathFactory, facts: Any, prompt
     assert recorded.key == request_key(request)
 
 
-def test_reply_is_recorded_before_it_is_handed_back(tmp_path: Path) -> None:
+def test_reply_is_recorded_before_it_is_returned(tmp_path: Path) -> None:
     path = tmp_path / "answers.jsonl"
 
     async def complete() -> int:
@@ -127,7 +127,7 @@ def test_reply_is_recorded_before_it_is_handed_back(tmp_path: Path) -> None:
     assert asyncio.run(complete()) == 1
 
 
-def test_many_at_once_keep_their_lines_whole(tmp_path: Path) -> None:
+def test_concurrent_recordings_write_whole_lines(tmp_path: Path) -> None:
     path = tmp_path / "answers.jsonl"
     requests = [dataclasses.replace(REQUEST, prompt="x" * 3000 + str(i)) for i in range(40)]
 
@@ -143,7 +143,7 @@ def test_many_at_once_keep_their_lines_whole(tmp_path: Path) -> None:
     assert replay.unused == ()
 
 
-def test_recording_goes_on_where_it_stopped(tmp_path: Path) -> None:
+def test_recording_appends_to_an_existing_file(tmp_path: Path) -> None:
     other = dataclasses.replace(REQUEST, prompt="another")
     path = record(tmp_path / "answers.jsonl")
     path.write_bytes(path.read_bytes().rstrip(b"\n"))  # as an editor may leave it
@@ -152,14 +152,14 @@ def test_recording_goes_on_where_it_stopped(tmp_path: Path) -> None:
     assert ask(replay, other).text == ask(replay).text
 
 
-def test_last_of_several_answers_counts(tmp_path: Path) -> None:
+def test_replay_uses_the_last_of_several_answers(tmp_path: Path) -> None:
     path = record(tmp_path / "answers.jsonl")
     again = json.loads(path.read_text(encoding="utf-8")) | {"text": "{}"}
     path.write_text(path.read_text(encoding="utf-8") + json.dumps(again) + "\n\n", encoding="utf-8")
     assert ask(ReplayBackend(path)).text == "{}"
 
 
-def test_nothing_but_the_listed_fields_is_written(tmp_path: Path) -> None:
+def test_recording_writes_only_the_listed_fields(tmp_path: Path) -> None:
     line = json.loads(record(tmp_path / "answers.jsonl").read_text(encoding="utf-8"))
     assert set(line) == {
         *("asked_model", "parts"),
@@ -168,7 +168,7 @@ def test_nothing_but_the_listed_fields_is_written(tmp_path: Path) -> None:
     assert "png one" not in json.dumps(line)
 
 
-def test_a_request_that_cannot_be_recorded_is_not_paid_for(tmp_path: Path) -> None:
+def test_request_that_cannot_be_recorded_is_not_sent(tmp_path: Path) -> None:
     inner = Echo()
     with pytest.raises(BackendError, match="no JSON"):
         ask(RecordingBackend(inner, tmp_path / "answers.jsonl"), facts={"length_m": float("nan")})
@@ -178,7 +178,7 @@ def test_a_request_that_cannot_be_recorded_is_not_paid_for(tmp_path: Path) -> No
 # --- misses and broken files ------------------------------------------------------------------------------------------
 
 
-def test_miss_names_the_nearest_entry_and_what_differs(tmp_path: Path) -> None:
+def test_miss_names_the_nearest_entry_and_its_differences(tmp_path: Path) -> None:
     far = dataclasses.replace(REQUEST, subject="far", facts={"object_name": "pan", "length_m": 0.3})
     replay = ReplayBackend(record(tmp_path / "answers.jsonl", far, REQUEST))
     asked = {"object_name": "fridge", "length_m": 1.9, "neighbour_names": ["floor"]}
@@ -202,20 +202,20 @@ def test_miss_names_the_part_that_changed(tmp_path: Path, part: str, value: Any)
         ask(replay, **{part: value})
 
 
-def test_another_model_misses(tmp_path: Path) -> None:
+def test_replay_for_another_model_misses(tmp_path: Path) -> None:
     path = record(tmp_path / "answers.jsonl")
     assert ask(ReplayBackend(path, model="echo")).model == "echo"
     with pytest.raises(ReplayMiss, match=r"model \('echo' recorded, 'gpt-4o' requested\)"):
         ask(ReplayBackend(path, model="gpt-4o"))
 
 
-def test_miss_of_another_prompt_version(tmp_path: Path) -> None:
+def test_miss_names_another_prompt_version(tmp_path: Path) -> None:
     replay = ReplayBackend(record(tmp_path / "answers.jsonl"))
     with pytest.raises(ReplayMiss, match=r"prompt_version \('1' recorded, '2' requested\)"):
         ask(replay, prompt="new words", prompt_version="2")
 
 
-def test_miss_of_a_component_that_was_never_recorded(tmp_path: Path) -> None:
+def test_miss_names_a_component_without_recordings(tmp_path: Path) -> None:
     with pytest.raises(ReplayMiss, match="none for this component"):
         ask(ReplayBackend(record(tmp_path / "answers.jsonl")), component="scene_analyzer")
 
@@ -232,7 +232,7 @@ def test_miss_of_a_component_that_was_never_recorded(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "opened", [ReplayBackend, lambda path: RecordingBackend(Echo(), path)], ids=["replay", "record"]
 )
-def test_broken_line_is_named(tmp_path: Path, line: str, named: str, opened: Any) -> None:
+def test_error_names_a_broken_line(tmp_path: Path, line: str, named: str, opened: Any) -> None:
     path = record(tmp_path / "answers.jsonl")
     path.write_text(path.read_text(encoding="utf-8") + line + "\n", encoding="utf-8")
     with pytest.raises(BadAnswer, match=rf"answers\.jsonl, line 2: .*{named}") as caught:
@@ -252,7 +252,7 @@ def test_extra_and_missing_fields_are_broken_lines(tmp_path: Path) -> None:
             ReplayBackend(path)
 
 
-def test_file_that_cannot_be_read_or_written(tmp_path: Path) -> None:
+def test_unreadable_or_unwritable_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="cannot read the recording"):
         ReplayBackend(tmp_path / "none.jsonl")
     with pytest.raises(ConfigError, match="cannot write the recording"):

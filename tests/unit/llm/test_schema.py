@@ -26,7 +26,7 @@ def nodes(schema: Any) -> Iterator[dict[str, Any]]:
 
 
 @pytest.mark.parametrize("component", SCHEMAS)
-def test_strict_schemas_keep_to_the_subset(component: str) -> None:
+def test_strict_schemas_use_only_the_allowed_subset(component: str) -> None:
     for node in nodes(strict_schema(SCHEMAS[component])):  # type: ignore[index]
         assert not {"title", "default", "minLength", "maxLength", "allOf", "oneOf"} & set(node)
         assert "$ref" not in node or len(node) == 1
@@ -36,7 +36,7 @@ def test_strict_schemas_keep_to_the_subset(component: str) -> None:
 
 
 @pytest.mark.parametrize("component", GOOD)
-def test_strict_schemas_take_good_answers_and_no_others(component: str) -> None:
+def test_strict_schemas_accept_only_valid_answers(component: str) -> None:
     strict = strict_schema(SCHEMAS[component])  # type: ignore[index]
     validator = jsonschema.Draft202012Validator(strict)
     assert validator.is_valid(GOOD[component])
@@ -44,7 +44,7 @@ def test_strict_schemas_take_good_answers_and_no_others(component: str) -> None:
     assert not validator.is_valid(dict(list(GOOD[component].items())[1:]))
 
 
-def test_bounds_stay_and_are_said_in_the_description() -> None:
+def test_bounds_are_kept_and_stated_in_the_description() -> None:
     density = strict_schema(SCHEMAS["material_estimator"])["properties"]["density_kg_m3"]
     assert density == {
         "type": "number",
@@ -54,7 +54,7 @@ def test_bounds_stay_and_are_said_in_the_description() -> None:
     }
 
 
-def test_a_description_keeps_its_words_before_the_bounds() -> None:
+def test_description_text_precedes_the_bounds() -> None:
     schema = {"type": "object", "properties": {"a": {"type": "string", "description": "A word.", "maxLength": 5}}}
     assert strict_schema(schema)["properties"]["a"]["description"] == "A word. Length at most 5."
 
@@ -69,7 +69,7 @@ def test_a_property_may_be_named_like_a_keyword() -> None:
     }
 
 
-def test_a_reference_stands_alone_and_alternatives_are_any_of() -> None:
+def test_references_have_no_siblings_and_alternatives_use_any_of() -> None:
     schema = {
         "type": "object",
         "properties": {"a": {"$ref": "#/$defs/A", "description": "one"}, "b": {"oneOf": [{"type": "null"}]}},
@@ -81,7 +81,7 @@ def test_a_reference_stands_alone_and_alternatives_are_any_of() -> None:
     assert strict["$defs"] == {"A": {"type": "integer"}}
 
 
-def test_same_schema_same_bytes_and_the_original_untouched() -> None:
+def test_conversion_is_repeatable_and_leaves_the_original_unchanged() -> None:
     schema = SCHEMAS["object_analyzer"]
     before = json.dumps(schema)
     assert json.dumps(strict_schema(schema)) == json.dumps(strict_schema(json.loads(before)))
@@ -94,12 +94,12 @@ def test_root_must_be_an_object(schema: dict[str, Any]) -> None:
         strict_schema(schema)
 
 
-def test_keywords_without_a_strict_form_are_named() -> None:
+def test_error_names_keywords_without_a_strict_form() -> None:
     with pytest.raises(ConfigError, match="uses allOf, not"):
         strict_schema({"type": "object", "properties": {"a": {"allOf": [], "not": {}}}})
 
 
-def test_fields_in_words() -> None:
+def test_schema_fields_are_described_in_words() -> None:
     words = fields_in_words(SCHEMAS["object_analyzer"]).splitlines()
     assert words[0] == "Answer with one JSON object and nothing else. It has exactly these fields:"
     assert "- object_category: text (length at least 1, length at most 60)" in words
@@ -115,7 +115,7 @@ def test_fields_in_words() -> None:
 
 
 @pytest.mark.parametrize("pattern", ["(?=a)b", "a(?!b)", "(?<=a)b", "(?<!a)b"])
-def test_patterns_that_look_around_go(pattern: str) -> None:
+def test_patterns_with_lookaround_are_removed(pattern: str) -> None:
     schema = {"type": "object", "properties": {"a": {"type": "string", "pattern": pattern}}}
     assert "pattern" not in strict_schema(schema)["properties"]["a"]
     plain = {"type": "object", "properties": {"a": {"type": "string", "pattern": "(?:a|b)+"}}}
@@ -145,14 +145,16 @@ def choosing(choices: int) -> dict[str, Any]:
     ],
     ids=["levels", "properties", "choices", "characters"],
 )
-def test_limits_of_strict_output(fits: dict[str, Any], breaks: dict[str, Any], named: str) -> None:
+def test_schemas_stay_within_the_limits_of_strict_output(
+    fits: dict[str, Any], breaks: dict[str, Any], named: str
+) -> None:
     strict_schema(fits)
     with pytest.raises(ConfigError, match=f"an answer schema has {named}.*; strict output allows"):
         strict_schema(breaks)
 
 
 @pytest.mark.parametrize("component", GOOD)
-def test_schemas_for_local_servers_say_the_same_without_references(component: str) -> None:
+def test_schemas_for_local_servers_are_equivalent_without_references(component: str) -> None:
     local = local_schema(SCHEMAS[component])  # type: ignore[index]
     assert "$ref" not in json.dumps(local)
     assert "$defs" not in local
@@ -162,17 +164,17 @@ def test_schemas_for_local_servers_say_the_same_without_references(component: st
 
 
 @pytest.mark.parametrize(("pattern", "stays"), [("^a+$", True), ("a+", False), ("^a+", False)])
-def test_grammars_of_llama_cpp_want_anchored_patterns(pattern: str, stays: bool) -> None:
+def test_patterns_for_llama_cpp_are_anchored(pattern: str, stays: bool) -> None:
     schema = {"type": "object", "properties": {"a": {"type": "string", "pattern": pattern}}}
     assert ("pattern" in local_schema(schema)["properties"]["a"]) is stays
 
 
-def test_a_property_called_pattern_stays() -> None:
+def test_property_named_pattern_is_kept() -> None:
     schema = {"type": "object", "properties": {"pattern": {"type": "string"}}}
     assert list(local_schema(schema)["properties"]) == ["pattern"]
 
 
-def test_a_schema_that_refers_to_itself_cannot_be_written_out() -> None:
+def test_recursive_schema_cannot_be_expanded() -> None:
     tree = {"type": "object", "properties": {"child": {"$ref": "#/$defs/Tree"}}}
     with pytest.raises(ConfigError, match="refers to itself"):
         local_schema({**tree, "$defs": {"Tree": tree}})

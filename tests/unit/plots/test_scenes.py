@@ -77,7 +77,7 @@ def test_a_hand_has_its_own_level_and_playing_goes_on_unchanged() -> None:
 
 
 @pytest.mark.parametrize("model", ["exponential_plate", "infinite_plate"])
-def test_would_feel_is_what_updates_report(model: str) -> None:
+def test_would_feel_equals_the_gains_of_update(model: str) -> None:
     s = session(model)
     touches = [Touch("left", "table", (0.3, 0.72, 0.1)), Touch("right", "phone", (0.1, 0.73, 0.4))]
     touches += [Touch("right", "cup", (5.0, 0.1, 5.0))]
@@ -93,7 +93,7 @@ def test_would_feel_is_what_updates_report(model: str) -> None:
         s.would_feel([Touch("left", "tabel", (0.0, 0.0, 0.0))])
 
 
-def test_a_worker_does_not_prepare_what_is_only_drawn() -> None:
+def test_drawing_does_not_start_the_worker() -> None:
     s = session("modal_plate", prepare="background")
     assert s.wait_prepared(60.0)
     s.plot_felt("phone", cells=10)
@@ -112,7 +112,7 @@ def test_units_legend_and_axes_of_ones_own() -> None:
     assert axes.yaxis_inverted()  # from above, z points towards the reader
 
 
-def test_mistakes_are_told() -> None:
+def test_mistakes_raise_helpful_errors() -> None:
     s = session()
     with pytest.raises(UnknownObject, match="phone"):
         s.plot_felt("fone")
@@ -153,7 +153,7 @@ def test_a_bundle_without_sources_and_one_with_many_are_drawn() -> None:
     assert figure.axes[1].get_legend().get_title().get_text() == "sources (6 more not listed)"
 
 
-def test_names_are_data() -> None:
+def test_names_are_drawn_as_plain_text() -> None:
     """One bundle of sources with such names, in a scene, a state and a hand of such names."""
     quarter_turn = (-(0.5**0.5), 0.0, 0.0, 0.5**0.5)
     surface = DominantSurface(Pose((-0.5, 0.0, 0.5), quarter_turn), 1.0, 1.0, 0.02)
@@ -184,7 +184,7 @@ def view_of(*objects: SceneObject, up_to_m: float | None = None, up_axis: str = 
     return TopView.of(SceneSnapshot.build(objects, up_axis=up_axis), cells, up_to_m)  # type: ignore[arg-type]
 
 
-def test_the_view_from_above_has_the_uppermost_surface() -> None:
+def test_view_from_above_shows_the_uppermost_surface() -> None:
     """Against boxes of which it is known."""
     rng = np.random.default_rng(3)
     sizes, places = rng.uniform(0.2, 1.0, (12, 3)), rng.uniform(-1.0, 1.0, (12, 3))

@@ -65,7 +65,7 @@ def test_both_loops_are_drawn_with_their_peaks() -> None:
     assert all("[" in label for label in labels(figure))
 
 
-def test_they_are_drawn_into_part_of_a_figure() -> None:
+def test_plots_can_be_drawn_into_given_axes() -> None:
     whole = figures.Figure(layout="constrained")
     left, right = whole.subfigures(1, 2)
     assert tone(100.0).plot(figure=left) is left
@@ -118,7 +118,7 @@ def test_components_are_amplitudes() -> None:
     assert level_db[np.searchsorted(hertz, 100.0)] == pytest.approx(0.0, abs=1e-4)
 
 
-def test_the_picture_and_the_table_say_what_was_reached_and_from_where() -> None:
+def test_picture_and_table_state_reached_level_and_original_frequency() -> None:
     t = np.arange(4 * 8000) / 8000
     clip = AudioClip((0.5 * np.sin(2 * np.pi * 49 * t)).astype(np.float32), 8000)
     converter = CONVERTERS.build("auto")

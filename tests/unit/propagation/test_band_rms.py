@@ -17,7 +17,7 @@ def test_gains_are_the_mean_square_over_each_band() -> None:
             assert gain == pytest.approx(np.sqrt(square / (high - low)), rel=1e-9)
 
 
-def test_it_agrees_with_the_slow_formula_wherever_anything_is_felt() -> None:
+def test_fast_band_rms_equals_the_slow_formula_above_the_threshold() -> None:
     lengths = np.concatenate([[0.0, np.inf], 10 ** np.random.default_rng(0).uniform(-6, 2, 2000)])
     found, expected = GAINS(lengths.tolist()), band_rms(lengths, BANDS.widths_hz())
     np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-12)

@@ -31,7 +31,7 @@ def problem(kind: str) -> tuple[csr_array, csr_array]:
 
 
 @pytest.mark.parametrize(("kind", "count"), [("row", 5), ("row", 47), ("square", 24), ("few", 4), ("few", 9)])
-def test_as_a_dense_solution(kind: str, count: int) -> None:
+def test_block_lanczos_equals_a_dense_solver(kind: str, count: int) -> None:
     stiffness, masses = problem(kind)
     solve = splu(stiffness.tocsc()).solve
     vectors = largest(solve, masses, count)
@@ -42,13 +42,13 @@ def test_as_a_dense_solution(kind: str, count: int) -> None:
     assert np.allclose(found, expected, rtol=1e-8)
 
 
-def test_it_is_the_same_each_time() -> None:
+def test_block_lanczos_is_deterministic() -> None:
     stiffness, masses = problem("square")
     solve = splu(stiffness.tocsc()).solve
     assert np.array_equal(largest(solve, masses, 12), largest(solve, masses, 12))
 
 
-def test_values_that_hardly_differ_from_each_other() -> None:
+def test_close_eigenvalues_are_separated() -> None:
     """A stiff ground under a soft row: the values are alike to a millionth, and still told apart."""
     stiffness, masses = problem("row")
     shift = 1e6

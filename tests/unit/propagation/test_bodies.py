@@ -57,7 +57,7 @@ def test_the_quick_first_mode_is_the_first_mode(edges: str, size: tuple[float, f
     assert first_bending_hz(plate) == pytest.approx(frequencies[frequencies > 1e-6][0], rel=2e-3)
 
 
-def test_points_of_the_world_on_a_body() -> None:
+def test_world_points_are_mapped_to_the_body() -> None:
     turn = Pose((1.0, 2.0, 3.0), (0.5**0.5, 0.0, 0.0, 0.5**0.5))  # z of the plate points along -y
     network = ContactNetwork({"p": Plate(1.0, 0.5, 0.01, OAK), "r": RigidBody(1.0)}, (), {"p": turn})
     points = turn.to_world([[0.2, 0.3, 0.0], [0.2, 0.3, -0.7], [1.4, -0.2, 0.0]])
@@ -104,7 +104,7 @@ def test_the_cache_computes_once_and_drops_the_least_recently_used() -> None:
     assert asked == [1.0, 2.0, 3.0, 2.0, 1.0]
 
 
-def test_what_is_remembered_is_bounded_in_all(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_caches_share_one_limit_of_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(byte_bounded_lru, "MOST_BYTES", 3 * 8000)
     monkeypatch.setattr(ByteBoundedLru, "_shelf", OrderedDict())
     monkeypatch.setattr(ByteBoundedLru, "_held_bytes", 0)
@@ -123,7 +123,7 @@ def test_what_is_remembered_is_bounded_in_all(monkeypatch: pytest.MonkeyPatch) -
     assert len(ByteBoundedLru._shelf) == 1
 
 
-def test_what_is_remembered_goes_with_its_body(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cached_values_are_released_with_their_body(monkeypatch: pytest.MonkeyPatch) -> None:
     """A value may refer to all that its body is made of, as a plate under forces does to its modes."""
     monkeypatch.setattr(ByteBoundedLru, "_shelf", OrderedDict())
     monkeypatch.setattr(ByteBoundedLru, "_held_bytes", 0)
@@ -168,7 +168,7 @@ def test_a_rigid_body_needs_a_mass_and_a_size() -> None:
         RigidBody(1.0, (0.1, 0.0, 0.1))
 
 
-def test_no_source_no_contact_no_trouble() -> None:
+def test_scene_without_sources_or_contacts_is_accepted() -> None:
     network = ContactNetwork({"t": Plate(1.0, 0.5, 0.02, OAK)}, [Contact("t", "u", (0, 0, 0))])
     for bands in (Bands.dominant(), Bands.third_octaves()):
         assert ModalPlate().prepare(network, [], bands).attenuation("t", [[0, 0, 0]]).shape == (1, 0, bands.n_bands)

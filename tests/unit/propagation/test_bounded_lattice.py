@@ -26,7 +26,7 @@ def small_budget(monkeypatch: pytest.MonkeyPatch) -> float:
     return 3e6
 
 
-def test_a_rug_is_coarsened_within_the_budget_and_says_so(small_budget: float) -> None:
+def test_rug_is_coarsened_within_the_budget_with_a_warning(small_budget: float) -> None:
     with pytest.warns(CoarsenedWarning, match=r"1.5 × 1 m of 10 mm felt has some .* modes up to 1000 Hz"):
         body = MassSpringDamper(resolution=8).elastic_body(RUG, 1000.0)
     assert isinstance(body, SplitBody)
@@ -40,14 +40,14 @@ def test_a_rug_is_coarsened_within_the_budget_and_says_so(small_budget: float) -
     assert (found[:, [0, 1], [0, 1]].imag < 0).all()
 
 
-def test_it_may_be_refused_or_taken_silently(small_budget: float, recwarn: pytest.WarningsRecorder) -> None:
+def test_coarsening_can_be_refused_or_silent(small_budget: float, recwarn: pytest.WarningsRecorder) -> None:
     with pytest.raises(ModelDomainError, match="too many for masses and springs"):
         MassSpringDamper(resolution=8, outside_domain="raise").elastic_body(RUG, 1000.0)
     MassSpringDamper(resolution=8, outside_domain="ignore").elastic_body(RUG, 1000.0)
     assert not recwarn.list
 
 
-def test_what_is_asked_of_a_plate_alone_is_refused_before_it_is_begun(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_excessive_single_plate_request_is_refused_before_solving(monkeypatch: pytest.MonkeyPatch) -> None:
     def never(*_: object) -> None:
         raise AssertionError("it was begun")
 
@@ -59,12 +59,12 @@ def test_what_is_asked_of_a_plate_alone_is_refused_before_it_is_begun(monkeypatc
         fine.natural_frequencies_hz(RUG, 5000)
 
 
-def test_furniture_is_as_it_was() -> None:
+def test_furniture_is_not_coarsened() -> None:
     table = Plate(1.6, 0.8, 0.02, materials.lookup("oak"))
     assert isinstance(MassSpringDamper().elastic_body(table, 1000.0), LatticeBody)
 
 
-def test_the_number_of_modes_is_told_well_enough() -> None:
+def test_number_of_modes_is_estimated_closely() -> None:
     table = Plate(1.6, 0.8, 0.02, materials.lookup("oak"))
     found = lattice_modes.lowest_frequencies_hz(table, 16, 40)
     assert math.isclose(lattice_modes.n_modes_up_to(table, float(found[-1])), 40, rel_tol=0.25)

@@ -42,7 +42,7 @@ PAIRS = {
 
 
 @pytest.mark.parametrize("shape", PAIRS)
-def test_as_lapack(shape: str) -> None:
+def test_elimination_equals_lapack(shape: str) -> None:
     rng = np.random.default_rng(11)
     elements = room(rng, PAIRS[shape])
     n = len(PAIRS[shape])
@@ -119,7 +119,7 @@ def test_sources_that_move_some_rows_only(shape: str) -> None:
 
 
 @pytest.mark.parametrize("n_f", [1, 2, 3, 4, 5])
-def test_answers_do_not_depend_on_how_many_frequencies_are_solved_together(n_f: int) -> None:
+def test_results_do_not_depend_on_frequency_batches(n_f: int) -> None:
     rng = np.random.default_rng(2)
     elements = room(rng, PAIRS["ring"])
     compliance = 4 + rng.normal(size=(9, N_F)) + 1j * rng.normal(size=(9, N_F))

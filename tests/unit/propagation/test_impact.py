@@ -41,7 +41,7 @@ def test_the_lowest_mode_moves_by_the_momentum_over_its_mass() -> None:
 
 
 @pytest.mark.parametrize("factor", [0.1, 3.0])
-def test_an_impact_grows_with_speed_and_with_momentum_alike(factor: float) -> None:
+def test_impact_grows_equally_with_speed_and_momentum(factor: float) -> None:
     once, more = (burst_of(TABLE, (0.3, 0.3), CUP, speed_m_s=v) for v in (0.3, 0.3 * factor))
     np.testing.assert_allclose(more.accelerations_m_s2, factor * once.accelerations_m_s2)
     once, more = (burst_of(TABLE, (0.3, 0.3), CUP, impulse_n_s=j) for j in (0.1, 0.1 * factor))
@@ -56,7 +56,7 @@ def test_light_stiff_plates_ring_higher_and_stronger_than_heavy_ones() -> None:
     assert totals[0] > totals[1] > 20 * totals[2]
 
 
-def test_what_is_soft_strikes_low() -> None:
+def test_soft_objects_excite_low_frequencies() -> None:
     ball = RigidBody(0.3, (0.08, 0.08, 0.08), RUBBER)
     hard, soft = (burst_of(TABLE, (0.3, 0.3), striker, speed_m_s=0.5) for striker in (CUP, ball))
     assert soft.frequencies_hz[0] < hard.frequencies_hz[0]
@@ -70,7 +70,7 @@ def test_what_is_soft_strikes_low() -> None:
 
 
 @pytest.mark.parametrize("struck", [None, CUP, Plate(0.2, 0.2, 0.15, OAK)])
-def test_what_does_not_bend_has_the_contact_alone(struck: RigidBody | Plate | None) -> None:
+def test_rigid_objects_have_only_the_contact_response(struck: RigidBody | Plate | None) -> None:
     burst = burst_of(struck, None, None, speed_m_s=0.5)
     assert len(burst.frequencies_hz) == 1
     assert 30.0 <= burst.frequencies_hz[0] <= 250.0

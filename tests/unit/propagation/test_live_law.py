@@ -39,7 +39,7 @@ def room() -> ContactGraph:
 
 
 @pytest.mark.parametrize("max_hops", [1, 2, 3, None])
-def test_what_is_told_is_what_a_search_of_the_whole_scene_finds(max_hops: int | None) -> None:
+def test_live_law_equals_a_search_of_the_whole_scene(max_hops: int | None) -> None:
     graph = room()
     paths = LivePaths(graph, PRICES, crossing, SOURCES, max_hops)
     rng = np.random.default_rng(1)
@@ -62,7 +62,7 @@ def test_what_is_told_is_what_a_search_of_the_whole_scene_finds(max_hops: int | 
     assert reached > 100
 
 
-def test_an_engines_contacts_serve_as_well() -> None:
+def test_live_law_accepts_engine_contacts() -> None:
     graph = room()
     paths = LivePaths(graph, PRICES, crossing, SOURCES, 2)
     given = [Contact("radio", "table", (0, 0.7, 0), weight=0.5), Contact("floor", "table", (0, 0, 1))]
@@ -72,7 +72,7 @@ def test_an_engines_contacts_serve_as_well() -> None:
         assert paths.costs("floor", (2.0, 0.0, 1.0)) == pytest.approx([price, math.inf, math.inf, math.inf], rel=1e-12)
 
 
-def test_leaving_out_what_leads_nowhere_new_loses_no_way() -> None:
+def test_pruned_search_finds_every_path() -> None:
     rng = np.random.default_rng(3)
     contacts = [
         Contact(f"t{i:03d}", "floor", (*rng.uniform(0, 9, 2).tolist(), 0.0)) for i in range(60) for _ in range(3)
@@ -100,7 +100,7 @@ def test_leaving_out_what_leads_nowhere_new_loses_no_way() -> None:
 
 
 @pytest.mark.parametrize("rigid", [{}, {"x3": 0.0}])
-def test_ways_over_any_number_of_contacts_are_the_same_asked_seldom_and_often(rigid: dict[str, float]) -> None:
+def test_path_costs_do_not_depend_on_query_frequency(rigid: dict[str, float]) -> None:
     rng = np.random.default_rng(8)
     names = [f"x{i}" for i in range(12)]
     graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
@@ -127,7 +127,7 @@ def test_ways_over_any_number_of_contacts_are_the_same_asked_seldom_and_often(ri
 
 
 @pytest.mark.parametrize("max_hops", [1, 2, 3, None])
-def test_up_to_its_limit_a_price_is_what_it_is_and_beyond_it_stays_beyond(max_hops: int | None) -> None:
+def test_path_costs_are_exact_up_to_the_cut_off(max_hops: int | None) -> None:
     graph = room()
     limited, free = (LivePaths(graph, PRICES, crossing, SOURCES, max_hops) for _ in range(2))
     rng = np.random.default_rng(2)
@@ -152,7 +152,7 @@ def test_up_to_its_limit_a_price_is_what_it_is_and_beyond_it_stays_beyond(max_ho
 
 
 @pytest.mark.parametrize("limits", [None, [9.0]])
-def test_no_way_crosses_more_contacts_than_it_may(limits: list[float] | None) -> None:
+def test_no_path_exceeds_max_hops(limits: list[float] | None) -> None:
     names = [f"x{i}" for i in range(5)]
     graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
     graph.update({}, contacts=[Contact(a, b, (0, 0, 0)) for a, b in pairwise(names)])
@@ -193,7 +193,7 @@ def noted(graph: ContactGraph, prices: dict[str, float], max_hops: int | None = 
     return paths
 
 
-def test_a_search_enters_nothing_that_leads_to_no_source_in_time() -> None:
+def test_search_skips_objects_too_far_from_any_source() -> None:
     graph, prices = floor_with_cups()
     paths = noted(graph, prices)
     assert paths.cheapest([("floor", (0, 0, 0))], None, {0})[0] == pytest.approx(0.3)
@@ -204,7 +204,7 @@ def test_a_search_enters_nothing_that_leads_to_no_source_in_time() -> None:
     assert set(paths.left) <= {"floor"}
 
 
-def test_sources_that_are_not_connected_to_a_touch_are_not_looked_for() -> None:
+def test_search_ignores_sources_not_connected_to_a_touch() -> None:
     graph, prices = floor_with_cups()
     paths = noted(graph, prices)
     everywhere = paths.cheapest([("floor", (0, 0, 0))])

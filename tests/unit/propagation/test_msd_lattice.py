@@ -97,7 +97,7 @@ def test_slender_plates_get_longer_cells() -> None:
 
 
 @pytest.mark.parametrize("size", [(1.0, 1.0), (1.0, 0.02)])
-def test_no_mode_is_missed(size: tuple[float, float]) -> None:
+def test_lattice_finds_every_mode(size: tuple[float, float]) -> None:
     """Squares have equal modes in pairs; a dense eigensolver finds them all."""
     plate = Plate(*size, 0.01, MATERIAL)
     resolution = 25 if size[1] == 1.0 else 5

@@ -32,7 +32,7 @@ def test_the_map_is_the_field() -> None:
     np.testing.assert_allclose([loudest[1] / n_x * 0.8, loudest[0] / n_y * 0.4], foot, atol=0.03)
 
 
-def test_it_is_written(tmp_path) -> None:  # type: ignore[no-untyped-def]
+def test_map_is_written_to_a_file(tmp_path) -> None:  # type: ignore[no-untyped-def]
     pytest.importorskip("matplotlib", reason="matplotlib is not installed; run: pip install 'scene2hap[plots]'")
     field = ModalPlate().prepare(NETWORK, [Excitation("phone", 150.0, 150.0, 0.2)], Bands.dominant())
     plot_field(field, NETWORK, "top", path=tmp_path / "map.png")

@@ -53,7 +53,7 @@ def around(source: str) -> Any:
 
 @pytest.mark.parametrize("model", [ModalPlate(), InfinitePlate(), ExponentialPlate(), FullPropagation()], ids=str)
 @pytest.mark.parametrize("bands", [AROUND, Bands.dominant(), Bands.third_octaves(20, 500)], ids=["near", "own", "all"])
-def test_near_its_place_a_source_is_as_strong_as_by_the_law(model: PropagationModel, bands: Bands) -> None:
+def test_source_near_its_place_has_the_gain_of_the_law(model: PropagationModel, bands: Bands) -> None:
     field, plain, law = (
         one.prepare(network(), [PHONE, PUMP], bands) for one in (FeltNear(model), model, ExponentialPlate())
     )
@@ -71,7 +71,7 @@ def test_near_its_place_a_source_is_as_strong_as_by_the_law(model: PropagationMo
         np.testing.assert_array_equal(field.attenuation(source, [[0.0, 0.0, 0.0]])[0, column], 1.0)
 
 
-def test_what_stands_nowhere_or_reaches_nothing_is_left_as_it_is() -> None:
+def test_unconnected_sources_are_unchanged() -> None:
     lonely = ContactNetwork({"table": Plate(1.4, 0.8, 0.02, OAK)})
     for model, scene in ((ModalPlate(), lonely), (NoPropagation(), network())):
         field = FeltNear(model).prepare(scene, [PHONE], Bands.dominant())
@@ -80,7 +80,7 @@ def test_what_stands_nowhere_or_reaches_nothing_is_left_as_it_is() -> None:
     assert FeltNear(ModalPlate()).prepare(ContactNetwork({}), [], Bands.dominant()).source_ids == ()
 
 
-def test_it_offers_what_the_model_offers() -> None:
+def test_wrapper_has_the_optional_methods_of_its_model() -> None:
     field = FeltNear(ModalPlate()).prepare(network(), [PHONE, PUMP], AROUND)
     assert isinstance(field, CarryingField)
     assert [one.by for one in field.carriers("table", "pump", 0)] == ["pump"]
@@ -92,7 +92,7 @@ def test_it_offers_what_the_model_offers() -> None:
     assert FeltNear(ModalPlate()).usual_bands == AROUND
 
 
-def test_sessions_of_different_models_begin_alike() -> None:
+def test_sessions_of_different_models_have_equal_gains_near_the_source() -> None:
     def gain_db(kind: str, reference: str) -> float:
         config = {"sample_rate_hz": RATE, "propagation": kind, "reference": reference, "prepare": "blocking"}
         session = HapticSession(*table_with_two_phones(), {**config, "gain_limit_db": None})

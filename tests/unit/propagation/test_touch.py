@@ -67,7 +67,7 @@ def test_shapes_of_bands_are_the_rms_over_frequencies(name: str) -> None:
     assert (np.abs(found - expected) <= CLOSE * expected.max(axis=1, keepdims=True)).all()
 
 
-def test_a_field_that_expects_to_be_asked_says_the_same() -> None:
+def test_expected_touch_gives_the_same_result() -> None:
     points, bands = [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)], Bands.third_octaves()
     field, expectant = (ModalPlate().prepare(scene(), SOURCES, bands) for _ in range(2))
     assert isinstance(expectant, ExpectantField)
@@ -79,7 +79,7 @@ def test_a_field_that_expects_to_be_asked_says_the_same() -> None:
 
 
 @pytest.mark.parametrize("name", ["steel", "rug"])
-def test_pieces_are_the_receptance(name: str) -> None:
+def test_factored_terms_equal_the_receptance(name: str) -> None:
     body = bodies()[name]
     at, points = np.array([[0.1, 0.2], [0.3, 0.05]]), np.array([[0.2, 0.2], [0.0, 0.4], [0.4, 0.1]])
     expected = body.receptance(points, at, F_HZ)
@@ -138,7 +138,7 @@ SOURCES = [Excitation(f"s{i}", 100.0, 90.0 + 70.0 * i, 0.2) for i in range(3)]
 
 
 @pytest.mark.parametrize("bands", [Bands.dominant(), Bands.third_octaves()])
-def test_a_scene_in_which_one_thing_moved_is_as_if_seen_for_the_first_time(bands: Bands) -> None:
+def test_field_after_one_move_equals_a_new_field(bands: Bands) -> None:
     model, points = ModalPlate(), [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)]
     for shift_m in (0.0, 0.02, 0.04):
         field = model.prepare(scene(shift_m), SOURCES, bands)
@@ -150,7 +150,7 @@ def test_a_scene_in_which_one_thing_moved_is_as_if_seen_for_the_first_time(bands
         )
 
 
-def test_more_sources_than_are_folded_are_summed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_sources_beyond_the_folding_limit_are_summed(monkeypatch: pytest.MonkeyPatch) -> None:
     field, points = ModalPlate().prepare(scene(), SOURCES, Bands.dominant()), [(0.31, 0.22, 0.0), (0.12, 0.4, 0.0)]
     few = field.attenuation("top", points)
     monkeypatch.setattr(solved_object, "MOST_CONTRACTED", 2)

@@ -27,7 +27,7 @@ def test_a_wave_has_a_peak_of_1_and_no_click(frequency_hz: float, decay_s: float
     assert above_1_khz_db(wave) < -60.0
 
 
-def test_a_wave_is_the_sine_that_it_says_and_dies_as_it_says() -> None:
+def test_wave_is_a_decaying_sine_of_stated_frequency_and_decay() -> None:
     wave = wave_of(200.0, 0.05, RATE).astype(float)
     t = np.arange(len(wave)) / RATE
     inside = (t > 0.006) & (t < 0.2)
@@ -59,7 +59,7 @@ def test_a_beat_may_peak_late() -> None:
 
 
 @pytest.mark.parametrize("block", [1, 7, 64, 480, 5000])
-def test_blocks_do_not_matter(block: int) -> None:
+def test_bursts_do_not_depend_on_block_size(block: int) -> None:
     wave, bursts = wave_of(100.0, 0.01, RATE), Bursts()
     bursts.start(PlannedBurst(100, {7: wave}))
     bursts.start(PlannedBurst(300, {7: wave, 8: 2 * wave}))
@@ -73,14 +73,14 @@ def test_blocks_do_not_matter(block: int) -> None:
     assert bursts.are_silent
 
 
-def test_what_comes_late_begins_with_the_next_frame() -> None:
+def test_late_burst_starts_with_the_next_frame() -> None:
     wave, bursts, mix = wave_of(100.0, 0.01, RATE), Bursts(), np.zeros((64, 1), np.float32)
     bursts.start(PlannedBurst(10, {0: wave}))
     bursts.add_to(mix, 1000, (0,))
     np.testing.assert_array_equal(mix[:, 0], wave[:64])
 
 
-def test_no_more_sound_at_once_than_may() -> None:
+def test_number_of_simultaneous_bursts_is_limited() -> None:
     wave, bursts, mix = np.ones(100, np.float32), Bursts(), np.zeros((10, 1), np.float32)
     for _ in range(100):
         bursts.start(PlannedBurst(0, {0: wave}))
@@ -89,7 +89,7 @@ def test_no_more_sound_at_once_than_may() -> None:
     assert bursts.n_playing == MOST_PLAYING
 
 
-def test_a_fade_ends_all_without_a_click() -> None:
+def test_fade_ends_all_bursts_without_a_click() -> None:
     bursts, mix = Bursts(), np.zeros((9600, 1), np.float32)
     bursts.start(PlannedBurst(0, {0: wave_of(100.0, 0.1, RATE)}))
     bursts.fade(1000, 1500)

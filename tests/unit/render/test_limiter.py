@@ -18,13 +18,13 @@ def test_leaves_quiet_samples_untouched() -> None:
     np.testing.assert_array_equal(soft_limit(np.append(x, np.float32(2.0)))[:-1], x)
 
 
-def test_has_no_corner() -> None:
+def test_limiter_curve_is_smooth() -> None:
     x = np.linspace(0.6, 0.9, 30001)
     slope = np.diff(soft_limit(x)) / np.diff(x)  # type: ignore[arg-type]
     assert np.abs(np.diff(slope)).max() < 0.01
 
 
-def test_the_input_is_left_alone() -> None:
+def test_limiter_does_not_modify_its_input() -> None:
     x = np.full((4, 2), 3.0, dtype=np.float32)
     soft_limit(x)
     assert (x == 3.0).all()

@@ -52,7 +52,7 @@ ODD = [(220_501, 44_100), (62_423, 48_000), (8_821, 44_100), (133, 44_100), (55_
 
 @pytest.mark.parametrize(("n", "rate"), ODD)
 @pytest.mark.parametrize("minutes", [0, 1, 10, 600])
-def test_after_any_time_it_is_within_a_sample_of_the_loop_beside_it(n: int, rate: int, minutes: int) -> None:
+def test_tactile_position_stays_within_a_sample_of_the_audible_loop(n: int, rate: int, minutes: int) -> None:
     cycles = max(1, round(100 * n / rate))
     frequency_hz = cycles * rate / n
     bank = LoopBank([tone(cycles, n, rate)], Bands.dominant(), TACTILE)
@@ -63,7 +63,7 @@ def test_after_any_time_it_is_within_a_sample_of_the_loop_beside_it(n: int, rate
 
 
 @pytest.mark.parametrize(("n", "rate"), ODD)
-def test_keeping_step_makes_no_click(n: int, rate: int) -> None:
+def test_position_correction_causes_no_click(n: int, rate: int) -> None:
     """Energy above 1 kHz, where the tone has none, over four seconds with all their slips."""
     from scipy.signal import butter, sosfiltfilt
 
@@ -90,7 +90,7 @@ def test_bands_of_a_loop_are_rows_that_add_up() -> None:
     np.testing.assert_allclose(read(bank, 0, 0, 4000).sum(axis=0), clip.samples, atol=1e-5)
 
 
-def test_memory_of_a_second_per_row() -> None:
+def test_loop_bank_stores_one_second_per_row() -> None:
     clip = AudioClip(np.zeros(44_100, dtype=np.float32), 44_100)
     bank = LoopBank([clip, clip], Bands.third_octaves(), TACTILE)
     assert bank.nbytes == 2 * 20 * (8000 + CELL) * 4

@@ -75,7 +75,7 @@ def test_equals_the_slow_mixer_for_any_blocks(
 
 @settings(derandomize=True, deadline=None, max_examples=30)
 @given(CHANGES, BLOCKS, st.sampled_from([*RATES, 11025, 16001]))
-def test_blocks_of_any_size_give_the_same_bits(
+def test_mixer_output_is_bit_identical_for_any_block_size(
     changes: list[tuple[int, list[float]]], blocks: list[int], rate: int
 ) -> None:
     whole, cut = new_mixer(rate), new_mixer(rate)
@@ -125,7 +125,7 @@ def read(stored: LoopBank, loop: int, start: int, n: int) -> NDArray[np.float32]
     return np.concatenate(cells, axis=1)[:, :n]
 
 
-def test_skipping_silent_loops_changes_nothing_that_counts_and_is_counted() -> None:
+def test_skipped_silent_loops_are_counted_and_change_nothing_felt() -> None:
     def run(skip_silent: bool) -> Mixer:
         mixer = new_mixer(skip_silent=skip_silent)
         for frame, loop in ((0, 0), (3000, 1), (3100, 0), (9000, 4)):
@@ -167,7 +167,7 @@ def test_a_change_begins_with_the_next_tactile_sample(rate: int) -> None:
 
 
 @pytest.mark.parametrize("rate", RATES)
-def test_the_delay_is_what_it_says(rate: int) -> None:
+def test_measured_delay_equals_the_stated_delay(rate: int) -> None:
     mixer = new_mixer(rate, 1)
     gains = np.zeros((1, len(TONES)), dtype=np.float32)
     gains[0, 0] = 1.0
@@ -241,7 +241,7 @@ def test_a_quiet_mix_after_a_loud_one_comes_back_slowly() -> None:
     assert seconds[4] == pytest.approx(np.abs(quiet.render(8000)).max(), rel=0.02)
 
 
-def test_nothing_to_mix() -> None:
+def test_mixer_without_loops_renders_silence() -> None:
     empty = Mixer(LoopBank([], Bands.third_octaves(), TACTILE), 2, sample_rate_hz=48000, ramp_s=RAMP_S)
     empty.set_gains(np.zeros((2, 0), dtype=np.float32), 0)
     assert empty.render(1000).shape == (1000, 2)
@@ -274,7 +274,7 @@ def test_gains_are_copied_when_they_are_set() -> None:
     assert np.isfinite(mixer.render(1000)).all()
 
 
-def test_gains_that_are_set_again_for_a_frame_do_not_pile_up() -> None:
+def test_repeated_gains_for_one_frame_replace_each_other() -> None:
     mixer, direct = new_mixer(), new_mixer()
     gains = [np.full((2, len(TONES)), 0.01 * (i % 50), dtype=np.float32) for i in range(1000)]
     for some in gains:
@@ -297,7 +297,7 @@ def test_some_loops_are_set_and_all_others_fall_silent() -> None:
         mixer.set_loops(np.zeros((2, 2, 1), dtype=np.float32), [1], mixer.position)
 
 
-def test_gains_whose_square_is_no_number_are_played() -> None:
+def test_gains_whose_square_overflows_are_played() -> None:
     mixer = new_mixer()
     mixer.set_gains(np.full((2, len(TONES)), 1e30, dtype=np.float32), 0)
     assert np.isfinite(mixer.render(1000)).all()
@@ -309,14 +309,14 @@ def test_gains_that_cannot_be_played_are_refused_where_they_are_set(bad: NDArray
         new_mixer().set_gains(bad.astype(np.float32), 0)
 
 
-def test_bad_rates() -> None:
+def test_invalid_rates_are_refused() -> None:
     with pytest.raises(ConfigError, match="sample_rate_hz is 4000 Hz; it must be at least 8000"):
         new_mixer(4000)
     with pytest.raises(ConfigError, match="ramp_s is 0 s"):
         Mixer(bank(), 1, sample_rate_hz=8000, ramp_s=0.0)
 
 
-def test_little_is_allocated_and_nothing_kept() -> None:
+def test_rendering_allocates_little_and_keeps_nothing() -> None:
     mixer = new_mixer()
     rng = np.random.default_rng(0)
     gains = [rng.uniform(0, 1, (2, len(TONES))).astype(np.float32) for _ in range(8)]

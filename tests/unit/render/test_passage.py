@@ -37,13 +37,13 @@ def passage(
 
 
 @pytest.mark.parametrize("begin", [0, 7, 8000, 123_456_789])
-def test_a_bank_gives_what_it_plays(begin: int) -> None:
+def test_bank_taken_equals_the_played_samples(begin: int) -> None:
     one = bank(100.0, Bands((50.0, 150.0, 400.0)))
     np.testing.assert_allclose(one.taken(0, begin, 2400), played(one, begin, 2400), atol=1e-6)
 
 
 @pytest.mark.parametrize("spins", [True, False])
-def test_up_it_ends_as_the_loop_itself(spins: bool) -> None:
+def test_start_ends_as_the_loop(spins: bool) -> None:
     up = passage(spins=spins)
     assert up.end == 12_345 + RATE
     after = round(HOLD_S * RATE) - CELL
@@ -52,7 +52,7 @@ def test_up_it_ends_as_the_loop_itself(spins: bool) -> None:
 
 
 @pytest.mark.parametrize("spins", [True, False])
-def test_down_it_begins_as_the_loop_itself_and_ends_in_silence(spins: bool) -> None:
+def test_stop_begins_as_the_loop_and_ends_in_silence(spins: bool) -> None:
     down = passage(goes_up=False, spins=spins)
     lead = round(LEAD_S * RATE)
     np.testing.assert_allclose(played(down, 12_345, lead), played(bank(), 12_345, lead), atol=5e-3)
@@ -64,7 +64,7 @@ def crossings_hz(samples: np.ndarray) -> float:
     return float(np.count_nonzero(signs[1:] != signs[:-1]) / 2 / (len(samples) / RATE))
 
 
-def test_what_spins_comes_up_in_pitch_and_force() -> None:
+def test_spinning_source_rises_in_pitch_and_force() -> None:
     up = played(passage(), 12_345, RATE)
     for x in (0.3, 0.5, 0.8):
         around = up[round((x - 0.05) * RATE) : round((x + 0.05) * RATE)]
@@ -73,7 +73,7 @@ def test_what_spins_comes_up_in_pitch_and_force() -> None:
         assert np.abs(around).max() == pytest.approx(((x + 0.05) * (1.95 - x)) ** 2, rel=0.1)
 
 
-def test_what_does_not_spin_keeps_its_pitch() -> None:
+def test_non_spinning_source_keeps_its_pitch() -> None:
     up = played(passage(spins=False), 12_345, RATE)
     assert crossings_hz(up[2000:6000]) == pytest.approx(100, abs=2)
     assert np.abs(up[3900:4100]).max() == pytest.approx(0.5, rel=0.05)
@@ -81,7 +81,7 @@ def test_what_does_not_spin_keeps_its_pitch() -> None:
 
 @pytest.mark.parametrize("goes_up", [True, False])
 @pytest.mark.parametrize("speed", [0.1, 0.5, 0.9])
-def test_it_may_start_under_way(goes_up: bool, speed: float) -> None:
+def test_passage_can_start_at_an_intermediate_level(goes_up: bool, speed: float) -> None:
     one, whole = passage(goes_up=goes_up, since=Running(speed, speed**2)), passage(goes_up=goes_up)
     assert one.running(12_345) == pytest.approx((speed, speed**2), abs=1e-3)
     assert one.running(one.end) == pytest.approx((float(goes_up), float(goes_up)))
@@ -92,7 +92,7 @@ def test_it_may_start_under_way(goes_up: bool, speed: float) -> None:
 @pytest.mark.parametrize("goes_up", [True, False])
 @pytest.mark.parametrize("spins", [True, False])
 @pytest.mark.parametrize("amplitude", [0.05, 0.5, 0.95])
-def test_under_way_it_goes_on_from_what_is_felt(goes_up: bool, spins: bool, amplitude: float) -> None:
+def test_interrupted_passage_continues_from_the_felt_level(goes_up: bool, spins: bool, amplitude: float) -> None:
     speed = 0.6 if spins else 1.0
     one = passage(goes_up=goes_up, spins=spins, since=Running(speed, amplitude))
     assert one.running(12_345) == pytest.approx((speed, amplitude), abs=1e-3)
@@ -121,12 +121,12 @@ def test_a_recorded_curve_is_followed(goes_up: bool, curve: RunCurve) -> None:
         assert np.sqrt(2 * (around**2).mean()) == pytest.approx(np.sqrt((rms**2).mean()), rel=0.15)
 
 
-def test_what_does_not_spin_keeps_its_pitch_along_a_recorded_curve() -> None:
+def test_non_spinning_source_keeps_its_pitch_along_a_recorded_curve() -> None:
     up = played(passage(spins=False, curve=RunCurve(1.0, STEPPED.amplitude)), 12_345, RATE)
     assert crossings_hz(up[2000:6000]) == pytest.approx(100, abs=2)
 
 
-def test_a_recorded_passage_ends_in_step() -> None:
+def test_recorded_passage_ends_at_the_loop_position() -> None:
     up = passage(curve=STEPPED)
     after = round(HOLD_S * RATE) - CELL
     np.testing.assert_allclose(played(up, up.end, after), played(bank(), up.end, after), atol=5e-3)
@@ -135,7 +135,7 @@ def test_a_recorded_passage_ends_in_step() -> None:
 @pytest.mark.parametrize("goes_up", [True, False])
 @pytest.mark.parametrize("spins", [True, False])
 @pytest.mark.parametrize("curve", [None, STEPPED])
-def test_it_does_not_click(goes_up: bool, spins: bool, curve: RunCurve | None) -> None:
+def test_passage_causes_no_click(goes_up: bool, spins: bool, curve: RunCurve | None) -> None:
     one = passage(goes_up=goes_up, spins=spins, curve=curve if goes_up or curve is None else backwards(curve))
     before = np.zeros((2000, 1)) if goes_up else played(bank(), 10_345, 2000)
     samples = np.concatenate([before, played(one, 12_345, one.end - 12_345 + 2000)])[:, 0]
@@ -144,7 +144,7 @@ def test_it_does_not_click(goes_up: bool, spins: bool, curve: RunCurve | None) -
     assert 10 * np.log10(power[f > 1000].sum() / power.sum()) < -60.0
 
 
-def test_bands_go_together() -> None:
+def test_passage_plays_all_bands() -> None:
     one = Passage(bank(100.0, Bands((50.0, 150.0, 400.0))), 0, 0.5, Course(True, True), STILL)
     assert one.n_bands == 2
     assert np.abs(played(one, one.end, 800)[:, 0]).max() > 0.9

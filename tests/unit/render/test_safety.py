@@ -69,7 +69,7 @@ HOSTILE = {
 
 @pytest.mark.parametrize("budget", BUDGETS.values(), ids=BUDGETS)
 @pytest.mark.parametrize("x", HOSTILE.values(), ids=HOSTILE)
-def test_whatever_comes_in(x: NDArray[np.float32], budget: Budget) -> None:
+def test_any_input_gives_finite_output_within_full_scale(x: NDArray[np.float32], budget: Budget) -> None:
     assert_safe(SafetyLayer(budget, RATE, 1).process(x), budget)
 
 
@@ -151,7 +151,7 @@ def test_a_square_leaves_little_above_the_band() -> None:
     assert 10 * math.log10(power[f > 4000].sum() / power.sum()) < -40
 
 
-def test_a_constant_dies_away() -> None:
+def test_constant_input_decays_to_zero() -> None:
     y = SafetyLayer(ActuatorProfile(), RATE, 1).process(np.ones((2 * RATE, 1), dtype=np.float32))
     assert np.abs(y[round(0.2 * RATE) :]).max() < 10 ** (-40 / 20)
     # Once steady, as well: a tone that turns into a constant.
@@ -169,13 +169,13 @@ def test_silence_stays_silence_and_becomes_exact() -> None:
     assert not layer.process(np.zeros((1000, 1), dtype=np.float32)).any()
 
 
-def test_hands_do_not_meet() -> None:
+def test_hands_are_processed_independently() -> None:
     left = sine(100.0, 0.5, 0.3)
     both = SafetyLayer(WEAK, RATE, 2).process(np.hstack([left, gain_jumps(5, len(left))]))
     np.testing.assert_array_equal(both[:, :1], SafetyLayer(WEAK, RATE, 1).process(left))
 
 
-def test_the_power_guard_settles_and_leaves_what_is_within() -> None:
+def test_power_guard_settles_and_passes_power_within_the_budget() -> None:
     budget = Budget(max_rms=0.2)
     layer = SafetyLayer(budget, RATE, 1)
     y = layer.process(sine(100.0, 6.0))[-RATE:, 0].astype(np.float64)
@@ -216,7 +216,7 @@ def play(layer: SafetyLayer, clock: Clock, seconds: float, alive_at: list[float]
     return np.concatenate(parts)
 
 
-def test_a_dead_game_falls_silent_in_time() -> None:
+def test_output_fades_out_when_updates_stop() -> None:
     for watchdog_s in (0.02, 0.1, 1.0):
         clock = Clock()
         layer = SafetyLayer(ActuatorProfile(), RATE, 1, watchdog_s=watchdog_s, clock=clock)
@@ -264,7 +264,7 @@ def test_release_fades_out_within_ten_milliseconds() -> None:
     assert layer.silent.is_set()
 
 
-def test_a_fill_that_fails_is_faded_out_before_it_is_heard_of() -> None:
+def test_failing_fill_is_faded_out_before_the_error_is_reported() -> None:
     clock = Clock()
     layer = SafetyLayer(ActuatorProfile(), RATE, 1, watchdog_s=0.1, clock=clock)
     tone = sine(100.0, 1.0)

@@ -65,7 +65,7 @@ def test_a_sink_gets_the_mix_through_the_layer_and_a_fade_at_the_end() -> None:
     assert np.abs(np.diff(sink.samples, axis=0)).max() <= steepest
 
 
-def test_the_actuator_decides() -> None:
+def test_actuator_profile_sets_the_safety_limits() -> None:
     sink = MemorySink()
     config = {**CONFIG, "actuator": {"max_frequency_hz": 20.5, "min_frequency_hz": 10.0}}
     with HapticSession(*table_with_two_phones(), config, sink=sink) as session:
@@ -106,7 +106,7 @@ def test_a_sink_without_a_clock_needs_no_updates() -> None:
         assert np.abs(sink.pull(800)).max() > 0.25
 
 
-def test_an_owner_may_close_the_sink_first() -> None:
+def test_sink_can_be_closed_before_the_session() -> None:
     sink = MemorySink()
     with HapticSession(*table_with_two_phones(), CONFIG, sink=sink):
         sink.pull(10)
@@ -115,12 +115,12 @@ def test_an_owner_may_close_the_sink_first() -> None:
 
 
 @pytest.mark.parametrize("watchdog_s", [0.0, 0.019, 1.1, math.nan])
-def test_watchdogs_that_cannot_be(watchdog_s: float) -> None:
+def test_invalid_watchdogs_are_refused(watchdog_s: float) -> None:
     with pytest.raises(ConfigError, match="watchdog_s"):
         SessionConfig.parse({"watchdog_s": watchdog_s})
 
 
-def test_actuators_that_cannot_be() -> None:
+def test_invalid_actuators_are_refused() -> None:
     with pytest.raises(ConfigError, match="actuator"):
         SessionConfig.parse({"actuator": "no such actuator"})
     assert SessionConfig.parse({"actuator": "lra"}).actuator.max_frequency_hz == 230.0

@@ -22,9 +22,7 @@ def convert(x: NDArray[np.float32], rate_in: int, rate_out: int) -> NDArray[np.f
 
 
 @pytest.mark.parametrize(("rate_in", "rate_out"), RATES)
-def test_tones_keep_their_level_and_come_late_by_the_stated_delay_and_leave_no_image(
-    rate_in: int, rate_out: int
-) -> None:
+def test_upsampled_tones_keep_level_have_the_stated_delay_and_no_image(rate_in: int, rate_out: int) -> None:
     delay_s = Upsampler(rate_in, rate_out, 1).delay_s
     for frequency_hz in (30.0, 250.0, 700.0, 1000.0):
         x = np.sin(2 * np.pi * frequency_hz * np.arange(rate_in) / rate_in).astype(np.float32)
@@ -41,7 +39,7 @@ def test_tones_keep_their_level_and_come_late_by_the_stated_delay_and_leave_no_i
         assert 20 * np.log10(spectrum[above].max(initial=1e-12)) < -80
 
 
-def test_images_of_what_lies_above_1_khz_are_stopped_too() -> None:
+def test_images_of_frequencies_above_1_khz_are_stopped() -> None:
     for frequency_hz in (2000.0, 3000.0, 3900.0):
         x = np.sin(2 * np.pi * frequency_hz * np.arange(8000) / 8000).astype(np.float32)
         y = convert(x, 8000, 48000)[4000:]
@@ -56,7 +54,7 @@ def test_equal_rates_pass_untouched() -> None:
 
 
 @pytest.mark.parametrize(("rate_in", "rate_out"), RATES)
-def test_no_output_needs_an_input_of_its_future(rate_in: int, rate_out: int) -> None:
+def test_upsampler_is_causal(rate_in: int, rate_out: int) -> None:
     upsampler = Upsampler(rate_in, rate_out, 1)
     for frame in (*range(50), 10**9 + 7):
         sample = upsampler.input_of(frame)

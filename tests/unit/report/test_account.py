@@ -40,7 +40,7 @@ def told(bundle: HapticBundle, account: object) -> tuple[dict[str, list[str]], l
     return rows, found["problems"]
 
 
-def test_calls_tokens_cost_and_skips_are_told(bundle: HapticBundle) -> None:
+def test_account_lists_calls_tokens_cost_and_skips(bundle: HapticBundle) -> None:
     rows, problems = told(bundle, ACCOUNT)
     assert rows == {
         "calls": ["4: 1 scene analyzer, 3 object analyzer"],
@@ -53,7 +53,7 @@ def test_calls_tokens_cost_and_skips_are_told(bundle: HapticBundle) -> None:
     assert told(bundle, {**ACCOUNT, "cost_usd": None})[0]["cost"] == ["unknown"]
 
 
-def test_the_account_of_an_inference_is_one(bundle: HapticBundle) -> None:
+def test_inference_report_becomes_an_account(bundle: HapticBundle) -> None:
     accounts: list[InferenceReport] = []
     bake(SCENE, {"llm": Scripted()}, on_report=accounts.append)
     rows, _ = told(bundle, accounts[0].as_json())
@@ -65,12 +65,12 @@ def test_the_account_of_an_inference_is_one(bundle: HapticBundle) -> None:
 @pytest.mark.parametrize(
     "wrong", [{}, {**ACCOUNT, "kept": "many"}, {**ACCOUNT, "tokens": [1]}, {**ACCOUNT, "calls": 3}]
 )
-def test_another_shape_is_refused(wrong: dict[str, object], bundle: HapticBundle) -> None:
+def test_invalid_account_is_refused(wrong: dict[str, object], bundle: HapticBundle) -> None:
     with pytest.raises(ConfigError, match="account of the bake has another shape"):
         document(bundle, most_points=50, account=wrong)
 
 
-def test_the_file_stands_beside_the_bundle_and_not_in_it(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_account_file_is_written_beside_the_bundle(bundle: HapticBundle, tmp_path: Path) -> None:
     folder = bundle.save(tmp_path / "room.bundle")
     before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     assert read_account(folder) is None
@@ -85,14 +85,14 @@ def test_the_file_stands_beside_the_bundle_and_not_in_it(bundle: HapticBundle, t
 @pytest.mark.parametrize(
     "content", ["", "[]", "{", json.dumps({**ACCOUNT, "format": "other", "version": 1}), "[" * 9999]
 )
-def test_a_damaged_file_is_told(content: str, bundle: HapticBundle, tmp_path: Path) -> None:
+def test_damaged_account_file_is_reported(content: str, bundle: HapticBundle, tmp_path: Path) -> None:
     folder = bundle.save(tmp_path / "room.bundle")
     account_path(folder).write_text(content)
     with pytest.raises(BundleError, match=r"room\.bundle\.account\.json .*Remove it"):
         report_document(folder, most_points=50)
 
 
-def test_what_is_left_out_has_its_reason() -> None:
+def test_skipped_calls_state_a_reason() -> None:
     def failing(request: object, answer: dict[str, object]) -> dict[str, object]:
         return {"nothing": 1} if answer["object_category"] == "cup" else answer
 

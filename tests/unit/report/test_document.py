@@ -26,7 +26,7 @@ def kitchen() -> HapticBundle:
     return bake(load_scene(kitchen_path()))
 
 
-def test_bands_share_what_is_felt_in_all(kitchen: HapticBundle) -> None:
+def test_band_levels_sum_to_the_total_level(kitchen: HapticBundle) -> None:
     """On the source itself every gain is 1, so that the bands add up to the whole."""
     felt = felt_map(kitchen, most_points=300)
     start = 0
@@ -41,7 +41,7 @@ def test_bands_share_what_is_felt_in_all(kitchen: HapticBundle) -> None:
     )
 
 
-def test_points_lie_on_surfaces_and_are_as_many_as_asked(kitchen: HapticBundle) -> None:
+def test_points_lie_on_surfaces_in_the_requested_number(kitchen: HapticBundle) -> None:
     table = SceneObject("table", pose=Pose((1.0, 2.0, 3.0)), geometry=Box((1.2, 0.04, 0.8)))
     speck = SceneObject("speck", pose=Pose((0.0, 0.0, 0.0)), geometry=Box((0.001, 0.001, 0.001)))
     board, dot = patches_of([table, speck], 2000)

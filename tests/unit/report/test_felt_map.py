@@ -140,7 +140,7 @@ def _table(**names: str) -> SceneSnapshot:
     )
 
 
-def test_a_path_runs_over_what_touches() -> None:
+def test_path_runs_over_touching_objects() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         felt = felt_map(bake(_table()), most_points=400)
@@ -156,7 +156,7 @@ def test_a_path_runs_over_what_touches() -> None:
     }
 
 
-def test_models_that_resonate_have_no_single_path() -> None:
+def test_resonant_models_have_no_single_path() -> None:
     felt = felt_map(bake(_table()), ["modal_plate"], most_points=40)
     assert felt.models == ("modal_plate",)
     assert felt.paths == {}

@@ -38,7 +38,7 @@ def ask(server: ReportServer, path: str, body: bytes | None = None, **headers: s
             return problem.code, problem.read()
 
 
-def test_the_page_is_there_and_nothing_else(server: ReportServer) -> None:
+def test_server_serves_only_the_page(server: ReportServer) -> None:
     assert ask(server, "/") == (200, b"<p>page</p>")
     assert ask(server, "/etc/passwd")[0] == 404
     assert ask(server, "/../../etc/passwd")[0] == 404
@@ -53,7 +53,7 @@ def test_corrections_are_written_whole(server: ReportServer, tmp_path: Path) -> 
 @pytest.mark.parametrize(
     "body", [b"", b"{", b"[]", b"\xff", b'{"format": "scene2hap/overrides"}', b"[" * 100_000, b"1" * 10_000]
 )
-def test_what_is_no_correction_is_refused_and_the_earlier_file_stays(
+def test_invalid_correction_is_refused_and_the_earlier_file_kept(
     body: bytes, server: ReportServer, tmp_path: Path
 ) -> None:
     (tmp_path / "corrections.json").write_text("earlier")
@@ -71,7 +71,7 @@ def test_other_pages_and_names_are_refused(server: ReportServer, tmp_path: Path)
     assert not (tmp_path / "corrections.json").exists()
 
 
-def test_a_port_that_is_taken_is_told(server: ReportServer, tmp_path: Path) -> None:
+def test_port_in_use_is_reported(server: ReportServer, tmp_path: Path) -> None:
     port = int(server.address.rstrip("/").rpartition(":")[2])
     with pytest.raises(ConfigError, match=f"port {port} cannot be used"):
         ReportServer("", tmp_path / "c.json", port)

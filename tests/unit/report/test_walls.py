@@ -49,7 +49,7 @@ def test_four_walls_are_found_and_no_furniture(up_axis: str) -> None:
     assert {key: tuple(map(round, out)) for key, out in y_up.items()} == {key: OUT[key] for key in WALLS}
 
 
-def test_a_turned_house_has_the_same_walls() -> None:
+def test_rotated_house_has_the_same_walls() -> None:
     yaw = math.radians(25.0)
     scene = room({**FLOOR, **WALLS, **FURNITURE}, yaw)
     found = walls(scene)
@@ -59,7 +59,7 @@ def test_a_turned_house_has_the_same_walls() -> None:
         assert out == pytest.approx(tuple(wanted), abs=1e-5)
 
 
-def test_walls_of_pieces_count_together() -> None:
+def test_wall_pieces_are_joined() -> None:
     pieces: Things = {f"wall_{i}": ((-1.5 + i, HEIGHT / 2, -1.95), (1.0, HEIGHT, THICK)) for i in range(4)}
     assert set(walls(room({**FLOOR, **pieces, **FURNITURE}))) == set(pieces)
     fewer = {key: pieces[key] for key in ("wall_0", "wall_1")}

@@ -1,4 +1,4 @@
-"""Looks: what they are named by, and how those of parts become those of a whole."""
+"""Appearances: their names, and how appearances of parts are joined."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def test_a_texture_may_be_pixels_or_a_file() -> None:
     assert [material.has_texture for material in (pixels, file, FaceMaterial())] == [True, True, False]
 
 
-def test_a_decoded_file_is_sent_to_other_processes_encoded() -> None:
+def test_decoded_texture_is_pickled_in_encoded_form() -> None:
     pixels = np.random.default_rng(2).integers(0, 4, (512, 512, 3)).astype(np.uint8)
     materials = [FaceMaterial(RED, texture) for texture in [EncodedTexture.checked(image_file(pixels), "wood")] * 2]
     np.testing.assert_array_equal(materials[0].texture, pixels)
@@ -50,7 +50,7 @@ def test_materials_are_named_by_colour_and_texture() -> None:
     assert FaceMaterial(RED, PIXELS.copy()).digest == materials[2].digest
 
 
-def test_a_tint_multiplies_and_keeps_the_texture() -> None:
+def test_tint_multiplies_the_colour_and_keeps_the_texture() -> None:
     tinted = FaceMaterial((1.0, 0.5, 0.5, 1.0), PIXELS).tinted((0.5, 0.5, 1.0, 0.5))
     assert tinted.color_rgba == (0.5, 0.25, 0.5, 0.5)
     assert tinted.texture is PIXELS

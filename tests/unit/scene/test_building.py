@@ -1,4 +1,4 @@
-"""Scenes made in Python: objects measure themselves, and `check` says what is almost surely wrong."""
+"""Scenes made in Python: objects measure themselves, and `check` reports almost certain mistakes."""
 
 import math
 import tracemalloc
@@ -29,7 +29,7 @@ def moved(item: SceneObject, **changes: object) -> SceneObject:
     return replace(item, **changes)  # type: ignore[arg-type]  # fields by name
 
 
-def test_an_object_measures_itself() -> None:
+def test_object_measures_its_surface() -> None:
     phone = ROOM[2]
     assert phone.name == "phone"
     assert phone.size_m == pytest.approx((0.15, 0.07, 0.008))
@@ -45,7 +45,7 @@ def test_heights_are_above_the_lowest_of_the_scene() -> None:
     assert SceneSnapshot.from_json(scene.to_json()) == scene
 
 
-def test_with_z_up_plates_lie_level() -> None:
+def test_surface_faces_up_with_z_up() -> None:
     cube = SceneObject("cube", geometry=Box((0.5, 0.5, 0.5)))
     assert np.abs(cube.surface.pose.rotation[1, 2]) == pytest.approx(1.0)
     scene = SceneSnapshot.build([cube], up_axis="z")
@@ -56,7 +56,7 @@ def test_with_z_up_plates_lie_level() -> None:
     assert kept.objects[0].surface == given
 
 
-def test_meshes_of_other_packages_are_taken() -> None:
+def test_meshes_of_other_packages_are_accepted() -> None:
     ball = trimesh.creation.icosphere(radius=0.1)
     one, other = SceneObject("ball", geometry=ball), SceneObject("other", geometry=(ball.vertices, ball.faces))
     assert isinstance(one.geometry, TriMesh)
@@ -77,12 +77,12 @@ def test_meshes_of_other_packages_are_taken() -> None:
         (lambda: SceneSnapshot.build([ROOM[0], ROOM[0]]), "used more than once"),
     ],
 )
-def test_what_is_no_scene(make: object, words: str) -> None:
+def test_invalid_scenes_are_refused(make: object, words: str) -> None:
     with pytest.raises(SceneError, match=words):
         make()  # type: ignore[operator]  # a function of the table
 
 
-def test_nothing_is_found_in_a_room_that_is_right() -> None:
+def test_check_finds_nothing_in_a_valid_room() -> None:
     assert SceneSnapshot.build(ROOM).check() == ()
     # A table top alone is taken for a table 20 mm high.
     expected = {"no_contact": ["floating"], "one_silent_object": ["units"]}
@@ -122,7 +122,7 @@ def test_nothing_is_found_in_a_room_that_is_right() -> None:
         ),
     ],
 )
-def test_what_is_wrong_is_found(
+def test_check_finds_each_kind_of_mistake(
     kind: str, object_ids: tuple[str, ...], objects: list[SceneObject], up_axis: str
 ) -> None:
     with pytest.warns(UnitWarning) if kind == "units" else nullcontext():
@@ -142,7 +142,7 @@ def test_what_is_wrong_is_found(
         (-0.15, "sunk", "'floor'"),
     ],
 )
-def test_a_room_that_hangs_over_its_floor_or_is_let_into_it(up_m: float, kind: str | None, words: str) -> None:
+def test_check_finds_a_room_above_or_below_its_floor(up_m: float, kind: str | None, words: str) -> None:
     """As after an export with two origins: everything but the floor is elsewhere."""
     crates = [moved(ROOM[4], id=f"crate {k}", pose=Pose((1.2 - 0.6 * k, 0.2, -1.0))) for k in range(4)]
     things = crates if kind == "sunk" else ROOM[1:]
@@ -157,7 +157,7 @@ def test_a_room_that_hangs_over_its_floor_or_is_let_into_it(up_m: float, kind: s
         assert words in str(found[0])
 
 
-def test_the_room_of_a_scene_by_others_may_not_float() -> None:
+def test_check_finds_real_scene_lifted_off_its_floor() -> None:
     scene = load_scene(needed(SCENES / "composed_kitchen_kaykit/composed_kitchen_kaykit.glb"))
     up = {"y": 1, "z": 2}[scene.up_axis]
     low = np.array([item.bounds_m[0] for item in scene.objects])
@@ -171,7 +171,7 @@ def test_the_room_of_a_scene_by_others_may_not_float() -> None:
     assert "floating" in {one.kind for one in scene.with_poses(lifted).check()}
 
 
-def test_two_things_that_are_both_upside_down_begin_with_w() -> None:
+def test_two_upside_down_objects_suggest_quaternions_with_w_first() -> None:
     flipped = [moved(item, pose=Pose(item.pose.position_m, (1.0, 0.0, 0.0, 0.0))) for item in ROOM[:2]]
     assert [one.kind for one in SceneSnapshot.build(flipped).check()] == ["quaternions"]
     assert SceneSnapshot.build([flipped[1], ROOM[0]]).check() == ()
@@ -197,14 +197,14 @@ def test_a_scene_of_thousands_is_checked_in_bounded_memory() -> None:
         "composed_bathroom_kenney/composed_bathroom_kenney.glb",
     ],
 )
-def test_scenes_by_others_are_right_and_their_other_axis_is_wrong(name: str) -> None:
+def test_real_scenes_pass_the_check_and_fail_with_another_up_axis(name: str) -> None:
     scene = load_scene(needed(SCENES / name))
     assert scene.check() == ()
     other = replace(scene, up_axis="z" if scene.up_axis == "y" else "y")
     assert "up-axis" in {found.kind for found in other.check()}
 
 
-def test_baking_warns_of_what_floats_and_of_silence() -> None:
+def test_bake_warns_of_floating_objects_and_scenes_without_sources() -> None:
     objects = [*ROOM[:3], moved(ROOM[3], pose=Pose((-0.3, 1.9, 0.1))), ROOM[4]]
     with pytest.warns(SceneWarning, match="'mug' floats"):
         bake(SceneSnapshot.build(objects))
@@ -212,7 +212,7 @@ def test_baking_warns_of_what_floats_and_of_silence() -> None:
         bake(SceneSnapshot.build(ROOM[:2]))
 
 
-def test_a_scene_is_checked_alike_in_batches_of_any_size(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_check_does_not_depend_on_batch_size(monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(5)
     boxes = [
         SceneObject(f"box{i}", pose=Pose(tuple(rng.uniform(0, 6, 3))), geometry=Box(tuple(rng.uniform(0.1, 1, 3))))

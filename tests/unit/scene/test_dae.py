@@ -57,7 +57,7 @@ def test_nodes_keep_names_and_transforms(tmp_path: Path) -> None:
 
 
 @needs_pycollada
-def test_axis_and_unit_are_those_of_the_file_unless_told(tmp_path: Path) -> None:
+def test_axis_and_unit_come_from_the_file_or_the_arguments(tmp_path: Path) -> None:
     path = write(tmp_path, dae(f'<node id="n" name="n">{FLAT}</node>', up="Z_UP", unit="0.01"))
     snapshot = load_scene(path)
     assert snapshot.up_axis == "z"
@@ -104,7 +104,7 @@ def test_broken_collada_is_refused(tmp_path: Path, text: str) -> None:
         load_scene(write(tmp_path, text))
 
 
-def test_without_pycollada_the_cure_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_pycollada_error_names_the_install_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "collada", None)
     with pytest.raises(MissingExtra, match="'scene.dae' is COLLADA.*pip install pycollada"):
         load_scene(write(tmp_path, dae("")))
@@ -154,7 +154,7 @@ MAP = '<texture texture="s" texcoord="UV"/>'
 
 
 @needs_pycollada
-def test_a_texture_lies_by_the_set_that_is_bound(tmp_path: Path) -> None:
+def test_texture_uses_the_bound_coordinate_set(tmp_path: Path) -> None:
     (tmp_path / "wood floor.png").write_bytes(image_file())
     painted, bare = load_scene(textured(tmp_path, MAP), unit_m=1.0).objects
     assert shown(painted) == UPRIGHT
@@ -165,7 +165,7 @@ def test_a_texture_lies_by_the_set_that_is_bound(tmp_path: Path) -> None:
 
 
 @needs_pycollada
-def test_a_set_that_is_not_there_is_the_first(tmp_path: Path) -> None:
+def test_missing_coordinate_set_falls_back_to_the_first(tmp_path: Path) -> None:
     (tmp_path / "wood floor.png").write_bytes(image_file())
     painted, _ = load_scene(textured(tmp_path, MAP, bound="7"), unit_m=1.0).objects
     assert set(shown(painted).values()) == {BLUE}
@@ -198,13 +198,13 @@ def test_colour_and_opacity(tmp_path: Path, more: str, opacity: float) -> None:
     ("image", "reason"),
     [("gone.png", "there is no file"), ("../x.png", "lies outside"), ("file:///C:/x.png", "never fetched")],
 )
-def test_a_texture_that_cannot_be_read_is_told(tmp_path: Path, image: str, reason: str) -> None:
+def test_unreadable_texture_warns(tmp_path: Path, image: str, reason: str) -> None:
     scene, message = refused(textured(tmp_path, MAP, image=image))
     assert reason in message
     assert looks(scene.objects[0]).materials[0].texture is None
 
 
 @needs_pycollada
-def test_an_effect_without_colours_is_no_obstacle(tmp_path: Path) -> None:
+def test_effect_without_colours_is_accepted(tmp_path: Path) -> None:
     painted, _ = load_scene(textured(tmp_path, ""), unit_m=1.0).objects
     assert len(looks(painted).materials) == 1

@@ -65,7 +65,7 @@ def test_shapes_made_of_planes_are_exact(mesh: TriMesh, expected: list[float], p
 
 
 @pytest.mark.parametrize("pose", [Pose(), TURN], ids=["straight", "turned"])
-def test_the_plate_lies_where_the_table_top_is(pose: Pose) -> None:
+def test_dominant_surface_of_a_table_is_its_top(pose: Pose) -> None:
     surface = dominant_surface(turned(TABLE, pose), up=pose.rotation[:, 2])
     np.testing.assert_allclose(middle(surface), pose.to_world([[0.0, 0.0, 0.72]])[0], atol=1e-9)
     np.testing.assert_allclose(surface.pose.rotation[:, 2], pose.rotation[:, 2], atol=1e-9)
@@ -73,7 +73,7 @@ def test_the_plate_lies_where_the_table_top_is(pose: Pose) -> None:
     assert np.linalg.det(surface.pose.rotation) == pytest.approx(1.0)
 
 
-def test_a_point_on_the_plate_has_its_own_coordinates() -> None:
+def test_surface_pose_gives_plate_coordinates() -> None:
     surface = dominant_surface(TABLE)
     x, y, z = surface.pose.to_own([[0.3, 0.1, 0.72]])[0]
     assert 0 <= x <= surface.length_m
@@ -82,14 +82,14 @@ def test_a_point_on_the_plate_has_its_own_coordinates() -> None:
     assert {round(x, 9), round(1.6 - x, 9)} == {1.1, 0.5}
 
 
-def test_up_decides_which_side_is_the_top() -> None:
+def test_up_direction_decides_which_board_is_measured() -> None:
     """A rack of two boards is measured from above, whichever way that is."""
     rack = boxes(((1.0, 0.4, 0.02), (0, 0, 1.5)), ((1.0, 0.4, 0.05), (0, 0, 0.5)))
     assert dominant_surface(rack, up=(0, 0, 1)).thickness_m == pytest.approx(0.02)
     assert dominant_surface(rack, up=(0, 0, -1)).thickness_m == pytest.approx(0.05)
 
 
-def test_among_equal_sides_the_upright_normal_wins() -> None:
+def test_upright_normal_is_preferred_among_equal_sides() -> None:
     cube = boxes(((1.0, 1.0, 1.0), (0.0, 0.0, 0.0)))
     for up in np.eye(3):
         np.testing.assert_allclose(dominant_surface(cube, up=up).pose.rotation[:, 2], up, atol=1e-12)
@@ -106,12 +106,12 @@ CHAIR = (
 
 
 @pytest.mark.parametrize("pose", [Pose(), Pose((0.0, 0.0, 0.0), (0.0, 0.0, np.sin(0.3), np.cos(0.3)))])
-def test_a_chair_is_its_seat_though_legs_and_back_hide_more_from_the_front(pose: Pose) -> None:
+def test_dominant_surface_of_a_chair_is_its_seat(pose: Pose) -> None:
     chair = turned(boxes(*CHAIR), pose)
     assert size(dominant_surface(chair, up=(0, 0, 1))) == pytest.approx(list(SEAT[0]), rel=0.01)
 
 
-def test_without_up_no_plate_is_said_to_lie() -> None:
+def test_dominant_surface_works_without_an_up_direction() -> None:
     assert dominant_surface(boxes(*CHAIR)).length_m > 0.5
 
 
@@ -119,12 +119,12 @@ SIDES = tuple(((0.02, 0.6, 0.9), (x, 0.0, 0.45)) for x in (-0.34, 0.34))
 BOARDS = tuple(((0.66, 0.6, 0.02), (0.0, 0.0, z)) for z in (0.01, 0.89))
 
 
-def test_a_cupboard_is_its_back_whose_area_is_larger_than_its_top() -> None:
+def test_dominant_surface_of_a_cupboard_is_its_back() -> None:
     cupboard = boxes(*SIDES, *BOARDS, ((0.7, 0.02, 0.9), (0.0, 0.31, 0.45)))
     assert size(dominant_surface(cupboard, up=(0, 0, 1))) == pytest.approx([0.9, 0.7, 0.02])
 
 
-def test_the_bottom_of_a_bin_is_not_its_plate() -> None:
+def test_dominant_surface_of_a_bin_is_a_wall() -> None:
     walls = [((0.006, 0.3, 0.4), (x, 0.0, 0.2)) for x in (-0.147, 0.147)]
     walls += [((0.288, 0.006, 0.4), (0.0, y, 0.2)) for y in (-0.147, 0.147)]
     bin_ = boxes(*walls, ((0.288, 0.288, 0.006), (0.0, 0.0, 0.003)))
@@ -136,7 +136,7 @@ def test_legs_that_reach_into_the_top_do_not_thicken_it() -> None:
     assert dominant_surface(stuck).thickness_m == pytest.approx(0.04)
 
 
-def test_a_disc_is_its_median_chord() -> None:
+def test_size_of_a_disc_is_its_median_chord() -> None:
     """Half of all chords of a circle are longer than sqrt(3) R."""
     disc = trimesh.creation.cylinder(0.5, 0.03, sections=256)
     surface = dominant_surface(TriMesh(disc.vertices, disc.faces))
@@ -145,7 +145,7 @@ def test_a_disc_is_its_median_chord() -> None:
     assert surface.thickness_m == pytest.approx(0.03)
 
 
-def test_a_bowl_is_its_rim_and_its_wall() -> None:
+def test_size_of_a_bowl_is_its_rim_chord_and_wall_thickness() -> None:
     """Half a sphere of radius R with a wall of R - r, seen from above: thickness is the median over the disc of the
     vertical length of wall, computed here from evenly spread points."""
     big, small = 0.10, 0.09
@@ -181,11 +181,11 @@ def test_a_bowl_is_its_rim_and_its_wall() -> None:
     ],
     ids=["closed", "one-sided sheet", "two-sided sheet", "box without a side", "bent sheet", "needle"],
 )
-def test_flags_tell_what_wants_a_second_look(mesh: TriMesh, flags: tuple[str, ...]) -> None:
+def test_flags_mark_doubtful_surfaces(mesh: TriMesh, flags: tuple[str, ...]) -> None:
     assert dominant_surface(mesh).flags == flags
 
 
-def test_a_box_without_a_bottom_is_as_thick_as_it_is_high() -> None:
+def test_box_without_a_bottom_has_its_height_as_thickness() -> None:
     """Five faces of a worktop: no ray from above meets it twice."""
     outer = Box((3.0, 0.6, 0.04)).mesh
     faces = [face for face in outer.faces if not np.allclose(outer.vertices_m[face, 2], -0.02)]
@@ -194,7 +194,7 @@ def test_a_box_without_a_bottom_is_as_thick_as_it_is_high() -> None:
     assert surface.flags == ("open-mesh", "box-fallback")
 
 
-def test_faces_that_all_look_inwards_change_nothing() -> None:
+def test_inward_facing_meshes_give_the_same_surface() -> None:
     inside_out = TriMesh(TABLE.vertices_m, TABLE.faces[:, ::-1])
     assert size(dominant_surface(inside_out)) == pytest.approx([1.6, 0.8, 0.04])
 
@@ -217,7 +217,7 @@ HANDLE = (
     ],
     ids=["television", "radio"],
 )
-def test_a_stand_and_a_handle_are_no_part_of_the_plate(
+def test_stand_and_handle_are_not_part_of_the_plate(
     parts: tuple[tuple[Size, Size], ...], expected: list[float], at_m: Size, pose: Pose
 ) -> None:
     mesh = turned(boxes(*parts), pose)
@@ -233,7 +233,7 @@ def test_a_lintel_over_windows_is_level_with_its_wall_and_belongs_to_it() -> Non
 
 
 def hob(*on_it: tuple[Size, Size]) -> TriMesh:
-    """A sheet 0.5 m wide with a rim 40 mm down, open below, and what stands on it."""
+    """A sheet 0.5 m wide with a rim 40 mm down, open below, and objects on it."""
     tray = Box((0.5, 0.45, 0.04)).mesh
     closed = tray.vertices_m[tray.faces].mean(axis=1)[:, 2] > -0.019
     tray = TriMesh(tray.vertices_m, tray.faces[closed])
@@ -260,14 +260,14 @@ def test_a_rim_that_stands_above_an_open_sheet_counts() -> None:
     assert size(dominant_surface(hob(*rims), up=(0, 0, 1)))[2] == pytest.approx(0.1)
 
 
-def test_an_l_is_boxed_and_says_so() -> None:
+def test_l_shape_is_measured_by_its_box_and_flagged() -> None:
     sofa = boxes(((2.4, 0.8, 0.4), (0.0, 0.0, 0.2)), ((0.8, 1.6, 0.4), (-0.8, 1.2, 0.2)))
     surface = dominant_surface(sofa)
     assert size(surface) == pytest.approx([2.4, 2.4, 0.4])
     assert surface.flags == ("box-fallback",)
 
 
-def test_a_frame_is_as_large_as_its_outside() -> None:
+def test_size_of_a_frame_is_its_outer_size() -> None:
     frame = boxes(
         ((0.6, 0.04, 0.02), (0.0, 0.38, 0.0)),
         ((0.6, 0.04, 0.02), (0.0, -0.38, 0.0)),
@@ -277,13 +277,13 @@ def test_a_frame_is_as_large_as_its_outside() -> None:
     assert size(dominant_surface(frame)) == pytest.approx([0.8, 0.6, 0.02])
 
 
-def test_vertices_that_no_face_uses_do_not_count() -> None:
+def test_unused_vertices_are_ignored() -> None:
     stray = TriMesh([*TABLE.vertices_m.tolist(), [9.0, 9.0, 9.0]], TABLE.faces)
     assert size(dominant_surface(stray)) == pytest.approx([1.6, 0.8, 0.04])
 
 
 @pytest.mark.parametrize("up", [(0, 1, 0), (0, -1, 0), (0, 0, -1)])
-def test_a_needle_has_a_length_and_no_more(up: Size) -> None:
+def test_needle_has_length_and_zero_width(up: Size) -> None:
     needle = TriMesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
     surface = dominant_surface(needle, up=up)
     assert size(surface) == [2.0, 0.0, 0.0]

@@ -70,7 +70,7 @@ def folder_of(path: Path, rows: Any) -> Path:
     return path
 
 
-def test_a_model_sees_the_given_pictures_alone_first_then_in_context() -> None:
+def test_model_gets_isolated_pictures_before_context_pictures() -> None:
     pictures = GivenPictures(
         {
             ("phone", "context", "front"): file(BLUE),
@@ -86,12 +86,12 @@ def test_a_model_sees_the_given_pictures_alone_first_then_in_context() -> None:
     assert backend.seen["object_analyzer", "table"] == []
 
 
-def test_a_scene_with_pictures_bakes() -> None:
+def test_scene_with_given_pictures_can_be_baked() -> None:
     scene = GivenPictures({("phone", "isolated", "front"): file()}).attach_to(SCENE)
     assert bake(scene).objects == bake(SCENE).objects
 
 
-def test_a_folder_says_the_same_as_bytes(tmp_path: Path) -> None:
+def test_folder_gives_the_same_pictures_as_bytes(tmp_path: Path) -> None:
     (tmp_path / "a b").mkdir()
     (tmp_path / "a b" / "0.png").write_bytes(file(RED))
     (tmp_path / "1").write_bytes(file(BLUE))
@@ -113,7 +113,7 @@ def test_a_folder_says_the_same_as_bytes(tmp_path: Path) -> None:
     assert scene.object("table").images is None
 
 
-def test_a_copy_without_pictures_is_shown_by_the_isolated_ones_of_another() -> None:
+def test_copy_without_pictures_uses_isolated_pictures_of_another_copy() -> None:
     pictures = GivenPictures({("phone", "isolated", "a"): file(RED), ("phone", "context", "a"): file(BLUE)})
     scene = pictures.attach_to(SCENE)
     other = scene.object("phone 2").images
@@ -122,7 +122,7 @@ def test_a_copy_without_pictures_is_shown_by_the_isolated_ones_of_another() -> N
     assert scene.object("table").images is None
 
 
-def test_objects_that_are_not_shown_keep_their_captured_pictures() -> None:
+def test_objects_without_given_pictures_keep_captured_ones() -> None:
     pytest.importorskip("embreex", reason="needs the extra `pictures`")
     captured = capture_images(SCENE)
     scene = GivenPictures({("phone", "isolated", "a"): file(RED)}).attach_to(captured)
@@ -161,7 +161,7 @@ def test_a_large_picture_is_reduced_to_1024_pixels() -> None:
     assert shown(file(size=(4096, 1024))).shape == (256, 1024, 3)
 
 
-def test_the_size_of_a_picture() -> None:
+def test_check_picture_returns_the_size() -> None:
     assert check_picture(file(size=(17, 40))) == (17, 40)
 
 
@@ -180,7 +180,7 @@ def test_the_size_of_a_picture() -> None:
         (file(size=(12_000, 12_000), mode="1"), SceneError, "has 12,000 x 12,000 pixels"),
     ],
 )
-def test_what_is_no_usable_picture_is_refused_at_once(
+def test_unusable_picture_is_refused_immediately(
     given: Any, error: type[SceneError], message: str, recwarn: pytest.WarningsRecorder
 ) -> None:
     with pytest.raises(error, match=message) as caught:
@@ -201,7 +201,7 @@ def test_more_pictures_than_are_allowed_are_refused(monkeypatch: pytest.MonkeyPa
         GivenPictures({("phone", "isolated", str(i)): file() for i in range(3)})
 
 
-def test_broken_pixels_are_found_when_somebody_looks() -> None:
+def test_broken_pixels_raise_at_first_access() -> None:
     noise = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
     out = io.BytesIO()
     Image.fromarray(noise).save(out, "PNG")
@@ -227,7 +227,7 @@ def test_broken_pixels_are_found_when_somebody_looks() -> None:
         (("phone", ["context"], "front"), "kind is"),
     ],
 )
-def test_a_key_that_names_nothing_is_refused(key: Any, message: str) -> None:
+def test_invalid_key_is_refused(key: Any, message: str) -> None:
     class OneItem(dict[Any, bytes]):
         def items(self) -> Any:  # also keys that no dict could have
             return [(key, file())]
@@ -242,7 +242,7 @@ def test_a_picture_of_an_unknown_object_names_the_nearest() -> None:
         pictures.attach_to(SCENE)
 
 
-def test_a_list_is_no_mapping() -> None:
+def test_list_instead_of_mapping_is_refused() -> None:
     with pytest.raises(SceneError, match="it must be a dict of files"):
         GivenPictures([file()])  # type: ignore[arg-type]
 
@@ -266,13 +266,13 @@ ROW = {"object": "phone", "kind": "isolated", "view": "front", "file": "0.png"}
         ([{**ROW, "file": "."}], "cannot be read from"),
     ],
 )
-def test_a_folder_that_cannot_be_used_says_why(tmp_path: Path, rows: Any, message: str) -> None:
+def test_error_states_why_a_folder_is_unusable(tmp_path: Path, rows: Any, message: str) -> None:
     (tmp_path / "0.png").write_bytes(file())
     with pytest.raises(SceneError, match=message):
         GivenPictures.load(folder_of(tmp_path / "in", rows) if "0.png" not in str(rows) else folder_of(tmp_path, rows))
 
 
-def test_a_folder_without_an_index_says_so(tmp_path: Path) -> None:
+def test_error_names_the_missing_index_of_a_folder(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"pictures\.json' cannot be read"):
         GivenPictures.load(tmp_path)
 

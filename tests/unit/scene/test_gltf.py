@@ -1,4 +1,4 @@
-"""glTF and GLB: what a file says is what the snapshot holds, bit for bit and node for node."""
+"""glTF and GLB: a snapshot equals its file bit for bit and node for node."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_a_file_name_in_the_header_may_be_quoted(tmp_path: Path) -> None:
     assert len(load_scene(path).objects) == 1
 
 
-def test_interleaved_vertices_are_told_apart_by_stride(tmp_path: Path) -> None:
+def test_interleaved_vertices_are_read_by_stride(tmp_path: Path) -> None:
     gltf = Gltf()
     interleaved = np.hstack((CUBE, np.full((8, 3), 77.0)))
     view = gltf.view(interleaved, "<f4", byteStride=24)
@@ -84,7 +84,7 @@ def test_quantised_positions_are_scaled_to_one(tmp_path: Path, dtype: str, large
     np.testing.assert_array_equal(read(gltf, tmp_path).pieces[0].vertices, CUBE)
 
 
-def test_integer_positions_that_are_not_normalised_stay_as_they_are(tmp_path: Path) -> None:
+def test_integer_positions_without_normalisation_are_kept(tmp_path: Path) -> None:
     gltf = Gltf()
     positions = gltf.accessor(CUBE * 100, "u2", "VEC3")
     indices = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
@@ -93,7 +93,7 @@ def test_integer_positions_that_are_not_normalised_stay_as_they_are(tmp_path: Pa
 
 
 @pytest.mark.parametrize("has_base", [True, False])
-def test_sparse_values_replace_what_stands_below_them(tmp_path: Path, has_base: bool) -> None:
+def test_sparse_values_replace_base_values(tmp_path: Path, has_base: bool) -> None:
     gltf = Gltf()
     if has_base:
         positions = gltf.accessor(CUBE, "f4", "VEC3")
@@ -136,7 +136,7 @@ def test_lists_strips_and_fans_of_triangles(
     np.testing.assert_array_equal(piece.vertices[piece.faces], points.astype(np.float32)[expected])
 
 
-def test_points_and_lines_are_no_surface(tmp_path: Path) -> None:
+def test_points_and_lines_are_skipped(tmp_path: Path) -> None:
     gltf = one_cube()
     wire = {"attributes": {"POSITION": 0}, "indices": 1, "mode": 1}
     gltf.node("wire", mesh=gltf.mesh(wire, {**wire, "mode": 0}), root=True)
@@ -149,7 +149,7 @@ def test_a_primitive_without_positions_draws_nothing(tmp_path: Path) -> None:
     assert len(read(gltf, tmp_path).pieces) == 1
 
 
-def test_vertices_that_no_face_uses_are_left_out(tmp_path: Path) -> None:
+def test_unused_vertices_are_left_out(tmp_path: Path) -> None:
     """Exporters give every primitive of a mesh the vertices of all; one NaN among the others' must not matter."""
     gltf = Gltf()
     crowded = np.vstack((CUBE, [[np.nan, 900.0, 900.0]]))
@@ -169,7 +169,7 @@ def test_transforms_chain_from_the_root_down(tmp_path: Path) -> None:
     np.testing.assert_allclose(item.bounds_m, [[-4.0, 0.0, -2.0], [-2.0, 2.0, 0.0]], atol=1e-12)
 
 
-def test_a_matrix_is_told_by_columns(tmp_path: Path) -> None:
+def test_node_matrix_is_column_major(tmp_path: Path) -> None:
     columns = [0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 5.0, 6.0, 7.0, 1.0]
     item = load_scene(one_cube(matrix=columns).write(tmp_path / "scene.glb")).objects[0]
     assert item.pose.position_m == (5.0, 6.0, 7.0)
@@ -228,7 +228,7 @@ def test_equal_meshes_that_are_stored_twice_are_one(tmp_path: Path) -> None:
     assert first.instance_key == second.instance_key
 
 
-def test_one_mesh_in_two_materials_is_two_kinds_of_thing(tmp_path: Path) -> None:
+def test_one_mesh_with_two_materials_gets_two_instance_keys(tmp_path: Path) -> None:
     gltf = Gltf()
     gltf.header["materials"] = [{"name": "oak"}, {"name": "steel"}, {"name": "oak"}]
     for i in range(3):
@@ -251,7 +251,7 @@ def test_primitives_of_one_mesh_are_one_object(tmp_path: Path) -> None:
     assert item.surface.flags == ()
 
 
-def test_only_the_default_scene_counts(tmp_path: Path) -> None:
+def test_only_the_default_scene_is_read(tmp_path: Path) -> None:
     gltf = one_cube("here")
     gltf.node("elsewhere", mesh=0)
     gltf.header["scenes"].append({"nodes": [1]})
@@ -261,7 +261,7 @@ def test_only_the_default_scene_counts(tmp_path: Path) -> None:
     assert [item.id for item in load_scene(gltf.write(path)).objects] == ["elsewhere"]
 
 
-def test_without_scenes_every_root_counts(tmp_path: Path) -> None:
+def test_every_root_node_is_read_when_no_scene_is_defined(tmp_path: Path) -> None:
     gltf = one_cube("a")
     gltf.node("b", mesh=0)
     del gltf.header["scenes"], gltf.header["scene"]
@@ -277,7 +277,7 @@ def test_cameras_lights_and_bones_are_not_objects(tmp_path: Path) -> None:
     assert [item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects] == ["cube"]
 
 
-def test_extensions_that_move_nothing_may_be_required(tmp_path: Path) -> None:
+def test_required_extensions_without_effect_on_geometry_are_accepted(tmp_path: Path) -> None:
     gltf = one_cube()
     gltf.header["extensionsRequired"] = ["KHR_materials_unlit", "EXT_texture_webp", "KHR_texture_transform"]
     assert len(load_scene(gltf.write(tmp_path / "scene.glb")).objects) == 1
@@ -301,13 +301,13 @@ def test_names_keep_every_letter(tmp_path: Path) -> None:
     ]
 
 
-def test_a_node_without_a_name_takes_that_of_its_mesh(tmp_path: Path) -> None:
+def test_unnamed_node_takes_the_name_of_its_mesh(tmp_path: Path) -> None:
     gltf = one_cube(None)
     gltf.header["meshes"][0]["name"] = "kettle"
     assert load_scene(gltf.write(tmp_path / "scene.glb")).objects[0].id == "kettle"
 
 
-def test_units_scale_everything_but_turn_nothing(tmp_path: Path) -> None:
+def test_unit_scales_positions_and_keeps_rotations(tmp_path: Path) -> None:
     gltf = one_cube(translation=[200.0, 0.0, 0.0], rotation=[0.0, 0.0, 0.6, 0.8], scale=[50.0, 50.0, 50.0])
     path = gltf.write(tmp_path / "scene.glb")
     item = load_scene(path, unit_m=0.01).objects[0]

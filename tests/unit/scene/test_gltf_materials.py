@@ -1,4 +1,4 @@
-"""glTF looks: what each corner of a face shows, held against pixels written by hand."""
+"""glTF appearances: the colour at each corner of a face, compared with pixels written by hand."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from scene2hap.scene.load import load_scene
 
 
 @pytest.mark.parametrize("kind", ["PNG", "WEBP", "BMP", "TGA", "TIFF"])
-def test_every_corner_shows_its_pixel(tmp_path: Path, kind: str) -> None:
+def test_texture_coordinates_map_corners_to_pixels(tmp_path: Path, kind: str) -> None:
     item = one(embedded(quad(pbr()), image_file(kind=kind)), tmp_path)
     assert shown(item) == UPRIGHT
     assert looks(item).materials[0].color_rgba == (1.0, 1.0, 1.0, 1.0)
@@ -57,13 +57,13 @@ def test_an_image_may_be_a_file_of_any_name(tmp_path: Path, uri: str) -> None:
     assert shown(one(gltf, tmp_path, "scene.gltf")) == UPRIGHT
 
 
-def test_webp_comes_by_its_extension(tmp_path: Path) -> None:
+def test_webp_texture_is_read_through_its_extension(tmp_path: Path) -> None:
     gltf = embedded(embedded(quad(pbr()), b"no image"), image_file(kind="WEBP"))
     gltf.header["textures"] = [{"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}}]
     assert shown(one(gltf, tmp_path)) == UPRIGHT
 
 
-def test_a_folder_beside_is_read_from_a_root_that_holds_both(tmp_path: Path) -> None:
+def test_sibling_folder_is_read_with_a_common_assets_root(tmp_path: Path) -> None:
     path = beside(tmp_path, "../textures/x.png")
     (tmp_path / "textures").mkdir()
     (tmp_path / "textures" / "x.png").write_bytes(image_file())
@@ -81,7 +81,7 @@ def test_colour_factors_are_linear_light() -> None:
 @pytest.mark.parametrize(
     ("mode", "opacity"), [({}, 1.0), ({"alphaMode": "BLEND"}, 0.25), ({"alphaMode": "MASK"}, 0.25)]
 )
-def test_opacity_counts_where_the_material_says_so(tmp_path: Path, mode: dict[str, str], opacity: float) -> None:
+def test_opacity_is_used_only_with_alpha_mode(tmp_path: Path, mode: dict[str, str], opacity: float) -> None:
     material = {"pbrMetallicRoughness": {"baseColorFactor": [0.21404114, 0.0, 1.0, 0.25]}, **mode}
     item = one(quad(material), tmp_path)
     assert looks(item).materials[0].color_rgba == pytest.approx((0.5, 0.0, 1.0, opacity), abs=1e-6)
@@ -89,7 +89,7 @@ def test_opacity_counts_where_the_material_says_so(tmp_path: Path, mode: dict[st
 
 
 @pytest.mark.parametrize(("mode", "channels"), [("OPAQUE", 3), ("BLEND", 4)])
-def test_a_texture_keeps_its_opacity_where_it_counts(tmp_path: Path, mode: str, channels: int) -> None:
+def test_texture_keeps_its_alpha_channel_only_with_alpha_mode(tmp_path: Path, mode: str, channels: int) -> None:
     clear = np.dstack((PIXELS, np.full((2, 2), 0, np.uint8)))
     item = one(embedded(quad({**pbr(), "alphaMode": mode}), image_file(clear)), tmp_path)
     texture = looks(item).materials[0].texture
@@ -105,11 +105,11 @@ def test_older_materials_have_a_diffuse_colour(tmp_path: Path) -> None:
     assert shown(item) == UPRIGHT
 
 
-def test_without_a_material_looks_are_unknown(tmp_path: Path) -> None:
+def test_object_without_material_has_no_appearance(tmp_path: Path) -> None:
     assert one(quad(None), tmp_path).appearance is None
 
 
-def test_vertex_colours_are_told_by_face(tmp_path: Path) -> None:
+def test_vertex_colours_become_face_colours(tmp_path: Path) -> None:
     gltf = quad({"pbrMetallicRoughness": {"baseColorFactor": [1.0, 1.0, 0.0, 1.0]}})
     # The first face has corners 0, 1, 2, the second 0, 2, 3: linear means of (2/3, 1/3, 1/3) and (1/3, 0, 2/3).
     colors = np.array([[1, 0, 1, 1], [1, 1, 0, 1], [0, 0, 0, 1], [0, 0, 1, 1]]) * 255
@@ -121,7 +121,7 @@ def test_vertex_colours_are_told_by_face(tmp_path: Path) -> None:
     np.testing.assert_allclose(rgba, [[0.8325, 0.6120, 0.0, 1.0], [0.6120, 0.0, 0.0, 1.0]], atol=0.003)
 
 
-def test_white_vertices_leave_the_material_as_it_is(tmp_path: Path) -> None:
+def test_white_vertex_colours_keep_the_material(tmp_path: Path) -> None:
     gltf = embedded(quad(pbr()), image_file())
     number = gltf.accessor(np.ones((4, 3)), "f4", "VEC3")
     gltf.header["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = number
@@ -134,13 +134,13 @@ def test_white_vertices_leave_the_material_as_it_is(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("scale", [[-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [-1.0, -1.0, -1.0]])
-def test_on_a_mirrored_node_every_corner_keeps_its_pixel(tmp_path: Path, scale: list[float]) -> None:
+def test_mirrored_node_keeps_texture_coordinates(tmp_path: Path, scale: list[float]) -> None:
     item = one(embedded(quad(pbr()), image_file()), tmp_path, scale=scale)
     expected = {(x * scale[0], y * scale[1]): color for (x, y), color in UPRIGHT.items()}
     assert shown(item) == expected
 
 
-def test_the_set_of_coordinates_is_the_one_that_is_named(tmp_path: Path) -> None:
+def test_texture_uses_the_named_coordinate_set(tmp_path: Path) -> None:
     gltf = embedded(quad(pbr(baseColorTexture={"index": 0, "texCoord": 1}), uv=np.full((4, 2), 0.25)), image_file())
     number = gltf.accessor(np.round(QUAD_UV * 65535), "u2", "VEC2", normalized=True)
     gltf.header["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = number
@@ -160,7 +160,9 @@ def test_the_set_of_coordinates_is_the_one_that_is_named(tmp_path: Path) -> None
         ({"texCoord": 0}, [BLUE, WHITE, GREEN, RED]),
     ],
 )
-def test_transforms_of_coordinates(tmp_path: Path, transform: dict[str, Any], expected: list[tuple[int, ...]]) -> None:
+def test_texture_transform_is_applied(
+    tmp_path: Path, transform: dict[str, Any], expected: list[tuple[int, ...]]
+) -> None:
     info = {"index": 0, "extensions": {"KHR_texture_transform": transform}}
     item = one(embedded(quad(pbr(baseColorTexture=info)), image_file()), tmp_path)
     assert shown(item) == dict(zip(map(tuple, QUAD[:, :2].tolist()), expected, strict=True))
@@ -174,7 +176,7 @@ def test_unused_vertices_do_not_shift_coordinates(tmp_path: Path) -> None:
     assert shown(one(gltf, tmp_path)) == expected
 
 
-def test_draco_keeps_its_coordinates(tmp_path: Path) -> None:
+def test_draco_mesh_keeps_texture_coordinates(tmp_path: Path) -> None:
     draco_py = pytest.importorskip("DracoPy", reason="DracoPy is not installed")
     data = draco_py.encode(
         QUAD.astype(np.float32),
@@ -225,7 +227,7 @@ def two_squares(first: dict[str, Any], second: dict[str, Any], *images: bytes) -
     return gltf
 
 
-def test_keys_tell_colours_and_textures_apart_by_content(tmp_path: Path) -> None:
+def test_instance_keys_differ_by_content_of_colours_and_textures(tmp_path: Path) -> None:
     path = tmp_path / "scene.glb"
     red, green = ({"pbrMetallicRoughness": {"baseColorFactor": color}} for color in ([1, 0, 0, 1], [0, 1, 0, 1]))
     first, second = keys(two_squares(red, green), path)
@@ -238,13 +240,13 @@ def test_keys_tell_colours_and_textures_apart_by_content(tmp_path: Path) -> None
     assert keys(two_squares(pbr(), other, image_file(), image_file()), path) == [first, first]
 
 
-def test_an_image_that_is_stored_twice_is_one_texture(tmp_path: Path) -> None:
+def test_duplicate_images_become_one_texture(tmp_path: Path) -> None:
     gltf = two_squares(pbr(), pbr(baseColorTexture={"index": 1}), image_file(), image_file())
     first, second = load_scene(gltf.write(tmp_path / "scene.glb")).objects
     assert looks(first).materials[0].texture is looks(second).materials[0].texture
 
 
-def test_keys_tell_apart_where_the_image_lies(tmp_path: Path) -> None:
+def test_instance_keys_differ_by_texture_coordinates(tmp_path: Path) -> None:
     """Kits paint everything from one image: equal crates differ by coordinates alone."""
     gltf = two_squares(pbr(), pbr(), image_file())
     elsewhere = gltf.accessor(QUAD_UV + 0.5, "f4", "VEC2")

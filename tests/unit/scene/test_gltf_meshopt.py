@@ -41,7 +41,7 @@ def decoded(row: dict[str, Any], data: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("row", STREAMS, ids=lambda row: f"{row['name']} {row['filter']} {row['stride']}")
-def test_data_is_what_its_author_decodes(row: dict[str, Any]) -> None:
+def test_decoded_data_equals_that_of_the_reference_decoder(row: dict[str, Any]) -> None:
     ours, theirs = decoded(row, base64.b64decode(row["data"])), base64.b64decode(row["decoded"])
     if row["filter"] == "OCTAHEDRAL" and row["stride"] == 8:
         # Theirs rounds in single precision.
@@ -77,12 +77,12 @@ def packed(values: NDArray[Any]) -> bytes:
 
 @pytest.mark.parametrize("n", [1, 16, 255, 257, 5000])
 @pytest.mark.parametrize("stride", [4, 20, 256])
-def test_blocks_follow_each_other(n: int, stride: int) -> None:
+def test_attributes_of_several_blocks_are_decoded(n: int, stride: int) -> None:
     values = np.random.default_rng(n + stride).integers(0, 256, (n, stride), dtype=np.uint8)
     np.testing.assert_array_equal(meshopt_codec.attributes(packed(values), n, stride), values)
 
 
-def test_many_triangles_count_on() -> None:
+def test_vertex_counter_continues_across_triangle_batches() -> None:
     """More than are decoded at once: a strip whose every third vertex is new."""
     n = 70_000
     codes = bytes([0xF0]) + bytes([0x00]) * (n - 1)
@@ -102,7 +102,7 @@ def plain() -> SceneSnapshot:
 
 
 @pytest.mark.parametrize("name", STEP_M)
-def test_a_packed_scene_is_the_scene(name: str) -> None:
+def test_compressed_scene_equals_the_plain_scene(name: str) -> None:
     step_m, before, after = STEP_M[name], plain(), load_scene(DATA / f"{name}.glb")
     assert [item.id for item in after.objects] == IDS
     assert [item.name for item in after.objects] == [item.name for item in before.objects]
@@ -121,7 +121,7 @@ def test_a_packed_scene_is_the_scene(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", STEP_M)
-def test_looks_are_those_that_were_packed(name: str) -> None:
+def test_compressed_scene_keeps_its_appearance(name: str) -> None:
     before, after = plain(), load_scene(DATA / f"{name}.glb")
     for key in IDS:
         old, new = before.object(key).appearance, after.object(key).appearance
@@ -138,7 +138,7 @@ def header_of(name: str) -> tuple[dict[str, Any], bytes]:
     return header_and_buffer(DATA / f"{name}.glb")
 
 
-def test_the_buffer_for_others_is_not_opened(tmp_path: Path) -> None:
+def test_fallback_buffer_is_not_opened(tmp_path: Path) -> None:
     header, binary = header_of("quantised")
     assert header["buffers"][1]["extensions"][EXT] == {"fallback": True}
     header["buffers"][1]["uri"] = "is_not_there.bin"
@@ -146,7 +146,7 @@ def test_the_buffer_for_others_is_not_opened(tmp_path: Path) -> None:
     assert [item.id for item in load_scene(tmp_path / "scene.glb").objects] == IDS
 
 
-def test_other_buffers_are_read_from_files(tmp_path: Path) -> None:
+def test_external_buffers_are_read_from_files(tmp_path: Path) -> None:
     header, binary = header_of("exact")
     header["buffers"][0]["uri"] = "packed.bin"
     (tmp_path / "packed.bin").write_bytes(binary)
@@ -171,7 +171,7 @@ def quantised_cupboard(**node: Any) -> Gltf:
     return gltf
 
 
-def test_a_node_that_only_scales_belongs_to_the_one_above(tmp_path: Path) -> None:
+def test_scale_only_node_is_merged_into_its_parent(tmp_path: Path) -> None:
     (item,) = load_scene(quantised_cupboard().write(tmp_path / "scene.glb")).objects
     assert item.id == "cupboard"
     assert item.pose.position_m == (2.0, 0.0, 0.0)
@@ -179,7 +179,7 @@ def test_a_node_that_only_scales_belongs_to_the_one_above(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("node", [{"name": "body"}, {"rotation": [0.0, 0.6, 0.0, 0.8]}, {"scale": [-0.01, 0.01, 0.01]}])
-def test_a_node_that_does_more_stands_for_itself(tmp_path: Path, node: dict[str, Any]) -> None:
+def test_node_with_name_rotation_or_mirroring_is_not_merged(tmp_path: Path, node: dict[str, Any]) -> None:
     gltf = quantised_cupboard(**node)
     assert "cupboard" not in {item.id for item in load_scene(gltf.write(tmp_path / "scene.glb")).objects[1:]}
     assert len(load_scene(gltf.write(tmp_path / "scene.glb"), group="leaf").objects) == 2
@@ -188,13 +188,13 @@ def test_a_node_that_does_more_stands_for_itself(tmp_path: Path, node: dict[str,
 @pytest.mark.parametrize(
     "broken", [{"mode": 0}, {"mode": 0, "attributes": []}, {"mode": 0, "attributes": {"POSITION": 99}}]
 )
-def test_points_that_nobody_draws_do_not_matter(tmp_path: Path, broken: dict[str, Any]) -> None:
+def test_invalid_undrawn_points_are_ignored(tmp_path: Path, broken: dict[str, Any]) -> None:
     gltf = quantised_cupboard()
     gltf.header["meshes"][0]["primitives"].append(broken)
     assert load_scene(gltf.write(tmp_path / "scene.glb")).objects[0].id == "cupboard"
 
 
-def test_one_mesh_in_thousands_of_scales_is_refused(tmp_path: Path) -> None:
+def test_many_scaled_copies_of_one_mesh_are_refused(tmp_path: Path) -> None:
     gltf = Gltf()
     grid = np.stack(np.meshgrid(*[np.arange(20)] * 3), axis=-1).reshape(-1, 3)
     points = gltf.accessor(grid, "u1", "VEC3")
@@ -242,7 +242,9 @@ def changed(view: int, **fields: Any) -> Callable[[dict[str, Any]], None]:
         (lambda header: header["bufferViews"][1].update(extensions={EXT: 7}), r"names no file"),
     ],
 )
-def test_a_fault_is_told(tmp_path: Path, change: Callable[[dict[str, Any]], None], sentence: str) -> None:
+def test_broken_compression_raises_a_scene_error(
+    tmp_path: Path, change: Callable[[dict[str, Any]], None], sentence: str
+) -> None:
     header, binary = header_of("quantised")
     # gltfpack puts the picture first.
     view = next(i for i, row in enumerate(header["bufferViews"]) if EXT in row.get("extensions", {}))
@@ -277,7 +279,7 @@ def packed_cubes(n_views: int, count: int) -> bytes:
 
 
 @pytest.mark.parametrize(("n_views", "count"), [(1, 2 * 10**6), (1000, 20_480), (40, 65_536)])
-def test_zeros_do_not_unpack_to_all_memory(tmp_path: Path, n_views: int, count: int) -> None:
+def test_decompressed_size_is_limited(tmp_path: Path, n_views: int, count: int) -> None:
     (tmp_path / "scene.glb").write_bytes(packed_cubes(n_views, count))
     with pytest.raises(SceneError, match="packed views to|numbers in its accessors to"):
         load_scene(tmp_path / "scene.glb")
@@ -293,7 +295,7 @@ def outcome(path: Path) -> str:
     return "ok"
 
 
-def test_changed_data_never_leads_to_foreign_errors(tmp_path: Path) -> None:
+def test_changed_data_raises_only_scene_errors(tmp_path: Path) -> None:
     header, binary = header_of("khr")
     path, rng, outcomes = tmp_path / "scene.glb", np.random.default_rng(7), set()
     for _ in range(200):
@@ -305,7 +307,7 @@ def test_changed_data_never_leads_to_foreign_errors(tmp_path: Path) -> None:
     assert {"ok", "SceneFormatError"} <= outcomes <= {"ok", "SceneFormatError", "SceneError"}
 
 
-def test_changed_extensions_never_lead_to_foreign_errors(tmp_path: Path) -> None:
+def test_changed_extensions_raise_only_scene_errors(tmp_path: Path) -> None:
     header, binary = header_of("quantised")
     odd = [None, True, -1, 0, 1, 2.5, 7, 2**31, 2**63, 1e308, "", "TRIANGLES", "INDICES", "COLOR", [], {}]
     path, rng, outcomes = tmp_path / "scene.glb", np.random.default_rng(8), set()
@@ -321,7 +323,7 @@ def test_changed_extensions_never_lead_to_foreign_errors(tmp_path: Path) -> None
     assert {"ok", "SceneFormatError"} <= outcomes <= {"ok", "SceneFormatError", "SceneError"}
 
 
-def test_data_that_points_beyond_its_vertices_is_refused(tmp_path: Path) -> None:
+def test_indices_beyond_the_vertices_are_refused(tmp_path: Path) -> None:
     header, binary = header_of("exact")
     for row in header["accessors"]:
         if row["type"] == "VEC3":

@@ -67,32 +67,32 @@ def test_pieces_without_names_are_one_object() -> None:
     assert list(objects(group("Bed", mesh(""), mesh("")))) == ["Bed"]
 
 
-def test_leaves_with_other_names_are_objects_of_their_own() -> None:
+def test_leaves_with_different_names_are_separate_objects() -> None:
     assert list(objects(group("Set", mesh("Set_base"), mesh("Vase")))) == ["Set", "Vase"]
 
 
 @pytest.mark.parametrize(
     "piece", ["Table_mat_0", "Table.001", "Table 2", "Table(Clone)", "Table", "Table1", "TableTop"]
 )
-def test_a_name_is_continued(piece: str) -> None:
+def test_leaves_that_continue_a_name_are_one_object(piece: str) -> None:
     assert list(objects(group("Table", mesh(piece), mesh("Lamp")))) == ["Table", "Lamp"]
 
 
-def test_a_longer_word_is_another_name() -> None:
+def test_longer_word_is_a_different_name() -> None:
     assert list(objects(group("Table", mesh("Tablet"), mesh("Lamp")))) == ["Tablet", "Lamp"]
 
 
-def test_a_wrapper_names_what_it_wraps() -> None:
+def test_wrapper_node_names_its_content() -> None:
     tree = group("house", group("vanity_sink", group("planforge-root", mesh("bathroomSinkSquare(Clone)"))), mesh("mat"))
     assert list(objects(tree)) == ["vanity_sink", "mat"]
 
 
-def test_a_wrapper_names_the_thing_and_not_the_things_on_it() -> None:
+def test_wrapper_node_names_only_its_main_object() -> None:
     tree = group("washing_machine", mesh("washer(Clone)", mesh("washerDoor", mesh("handle"))))
     assert list(objects(tree)) == ["washing_machine", "washerDoor"]
 
 
-def test_a_wrapper_places_what_it_wraps() -> None:
+def test_wrapper_node_gives_the_object_frame() -> None:
     (item,) = group_objects([group("radio", mesh("radio(Clone)", at=1.0), at=5.0)])
     assert item.frame[0, 3] == 5.0
     assert item.parts[0][0][0, 3] == 6.0
@@ -114,7 +114,7 @@ def test_a_wrapper_places_what_it_wraps() -> None:
         "",
     ],
 )
-def test_names_of_exporters_and_places_are_not_taken(wrapper: str) -> None:
+def test_names_of_exporters_and_places_are_not_object_names(wrapper: str) -> None:
     assert list(objects(group(wrapper, mesh("chair")))) == ["chair"]
     assert list(objects(group(wrapper, mesh(f"{wrapper}_chair"), mesh(f"{wrapper}_table")))) == [
         f"{wrapper}_chair",
@@ -122,16 +122,16 @@ def test_names_of_exporters_and_places_are_not_taken(wrapper: str) -> None:
     ]
 
 
-def test_an_outer_name_reaches_through_an_exporters_node() -> None:
+def test_outer_name_is_used_across_an_exporter_node() -> None:
     assert list(objects(group("kettle", group("RootNode", mesh("Object_3"))))) == ["kettle"]
 
 
-def test_containers_are_looked_through() -> None:
+def test_container_nodes_are_skipped() -> None:
     tree = group("", group("things", mesh("cup"), mesh("pan")), group("more", mesh("lid")))
     assert list(objects(tree)) == ["cup", "pan", "more"]
 
 
-def test_nodes_that_draw_nothing_do_not_count() -> None:
+def test_empty_nodes_are_ignored() -> None:
     tree = group("lamp", group("camera"), mesh("Object_1", group("bone", group("bone_end"))), group("light"))
     assert objects(tree) == {"lamp": ["Object_1"]}
 
@@ -141,7 +141,7 @@ def test_file_order_is_kept() -> None:
     assert list(objects(*tree)) == ["a", "b", "c", "e", "f"]
 
 
-def test_leaves() -> None:
+def test_leaf_grouping_makes_one_object_per_leaf() -> None:
     tree = group("table", mesh("table_top", mesh("table_leg")), mesh("table_cloth"))
     assert objects(tree, how="leaf") == {
         "table_top": ["table_top"],
@@ -162,11 +162,11 @@ DEEP = group("house", group("room", mesh("table", mesh("cup")), mesh("lamp")), m
         (9, {"table": ["table"], "cup": ["cup"], "lamp": ["lamp"], "roof": ["roof"]}),
     ],
 )
-def test_a_depth_merges_all_below_it(depth: int, expected: dict[str, list[object]]) -> None:
+def test_depth_grouping_merges_all_nodes_below_the_depth(depth: int, expected: dict[str, list[object]]) -> None:
     assert objects(DEEP, how=depth) == expected
 
 
-def test_a_mapping_merges_what_it_names_and_leaves_the_rest() -> None:
+def test_mapping_merges_only_the_named_nodes() -> None:
     tree = group("set", mesh("table", mesh("cloth")), mesh("chair"), mesh("lamp", at=3.0))
     assert objects(tree, how={"cloth": "linen", "lamp": "linen"}) == {
         "linen": ["cloth", "lamp"],
@@ -175,7 +175,7 @@ def test_a_mapping_merges_what_it_names_and_leaves_the_rest() -> None:
     }
 
 
-def test_a_mapped_node_brings_all_below_it_but_what_is_mapped_elsewhere() -> None:
+def test_mapped_node_includes_its_unmapped_descendants() -> None:
     assert objects(DEEP, how={"room": "inside", "cup": "cup"}) == {
         "inside": ["table", "lamp"],
         "cup": ["cup"],
@@ -183,29 +183,29 @@ def test_a_mapped_node_brings_all_below_it_but_what_is_mapped_elsewhere() -> Non
     }
 
 
-def test_mapped_pieces_stay_where_they_are() -> None:
+def test_mapped_pieces_keep_their_place() -> None:
     tree = group("set", mesh("lamp", at=3.0), mesh("shade", at=4.0), at=10.0)
     (item,) = group_objects([tree], {"lamp": "light", "shade": "light"})
     assert [matrix[0, 3] for matrix, _ in item.parts] == [13.0, 14.0]
     assert item.frame[0, 3] == 13.0
 
 
-def test_a_mapping_of_an_unknown_node_names_the_nearest() -> None:
+def test_mapping_error_names_the_nearest_node() -> None:
     with pytest.raises(SceneError, match=r"maps the node 'tabel', .*Did you mean 'table'\?"):
         group_objects([mesh("table")], {"tabel": "x"})
 
 
 @pytest.mark.parametrize("how", ["", "auto", 0, -1, True, 1.5, None, ["table"]])
-def test_another_grouping_is_refused(how: Any) -> None:
+def test_unknown_grouping_is_refused(how: Any) -> None:
     with pytest.raises(SceneError, match="must be 'authored', 'leaf', a depth from 1, or a mapping"):
         group_objects([mesh("table")], how)
 
 
-def test_a_scene_of_nothing_has_no_objects() -> None:
+def test_empty_scene_has_no_objects() -> None:
     assert group_objects([group("a", group("b"))]) == []
 
 
-def test_a_group_without_end_of_leaves_is_fast_enough_to_test() -> None:
+def test_large_group_of_leaves_is_grouped_fast() -> None:
     (item,) = group_objects([mesh("floor", *(mesh(f"tile{i}") for i in range(20_000)))])
     assert isinstance(item, Group)
     assert len(item.parts) == 20_001
@@ -246,7 +246,7 @@ def test_a_group_of_a_pot_with_its_lid_and_cups_with_saucers_is_several_objects(
     }
 
 
-def test_what_stands_on_a_mesh_and_apart_from_it_is_its_own_object() -> None:
+def test_distant_child_of_a_mesh_is_a_separate_object() -> None:
     assert objects(mesh("tray", mesh("teapot", at=3.0), mesh("tray_handle", at=0.1))) == {
         "tray": ["tray", "tray_handle"],
         "teapot": ["teapot"],
@@ -257,12 +257,12 @@ def test_what_stands_on_a_mesh_and_apart_from_it_is_its_own_object() -> None:
     "names",
     [["table_top", "table_leg_1", "table_leg_2"], ["table_1", "table_2"], ["table_mat_0", "table_wood"], ["", ""]],
 )
-def test_parts_numbers_and_materials_are_no_items_however_far_apart(names: list[str]) -> None:
+def test_parts_numbers_and_materials_are_not_items_at_any_distance(names: list[str]) -> None:
     tree = group("table", *(mesh(name, at=5.0 * k) for k, name in enumerate(names)))
     assert objects(tree) == {"table": names}
 
 
-def test_items_in_one_place_are_one_object() -> None:
+def test_items_at_one_place_are_one_object() -> None:
     tree = group("lamp", mesh("lampFlex", at=0.0), mesh("lampGlobe", at=0.5))
     assert objects(tree) == {"lamp": ["lampFlex", "lampGlobe"]}
 
@@ -272,17 +272,17 @@ def test_items_in_one_place_are_one_object() -> None:
     [("set_cup", True), ("setTeaCup2", True), ("Tasse", True), ("set_cup_mat_0", True), ("set_cup_handle", False),
      ("set_doors", False), ("set_LEFT", False), ("set.001", False), ("set_XY", False), ("", False)],
 )  # fmt: skip
-def test_an_item_has_a_noun_of_its_own(name: str, is_item: bool) -> None:
+def test_items_are_recognised_by_their_own_noun(name: str, is_item: bool) -> None:
     assert has_own_noun(name, "set") is is_item
 
 
-def test_every_piece_of_a_collection_is_in_one_object() -> None:
+def test_every_piece_of_a_collection_belongs_to_one_object() -> None:
     names = ["set_pot", "set_lid", "", "set_cup", "set_knob", "set_1"]
     tree = group("set", *(mesh(name, at=3.0 * k) for k, name in enumerate(names)))
     assert sorted(key for keys in objects(tree).values() for key in keys) == sorted(names)
 
 
-def test_a_mass_goes_to_the_object_that_the_node_is() -> None:
+def test_mass_is_assigned_only_when_the_node_is_a_whole_object() -> None:
     """Not where others hang below the node, or where the node is one of several parts."""
 
     def masses(*roots: AuthoredNode, how: Any = "authored") -> dict[str, float | None]:

@@ -1,4 +1,4 @@
-"""Habitat scenes: templates, placing by origin or centre of mass, names, masses, and faults that are told."""
+"""Habitat scenes: templates, placement by origin or centre of mass, names, masses, and errors."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def test_instances_share_a_mesh_and_scale_counts(dataset: Dataset) -> None:
     assert low_and_high(large) == [[6.0, 0.0, 0.0], [7.0, 2.0, 1.0]]
 
 
-def test_equal_pieces_of_two_models_are_told_apart(dataset: Dataset) -> None:
+def test_equal_piece_numbers_of_two_models_are_distinguished(dataset: Dataset) -> None:
     """Both are mesh 0, primitive 0 of their files."""
     scene = loaded(dataset.scene(instance(), instance(HASH, [3, 0, 0])))
     chair, washer = scene.objects[-2:]
@@ -115,7 +115,7 @@ def test_hidden_instances_are_left_out(dataset: Dataset) -> None:
 # -- placing ---------------------------------------------------------------------------------------------------------
 
 
-def test_as_the_same_scene_in_one_glb(dataset: Dataset) -> None:
+def test_scene_equals_the_same_scene_in_one_glb(dataset: Dataset) -> None:
     """Sizes, poses and names are those of a file that trimesh writes with the same transforms."""
     rng = np.random.default_rng(5)
     together = trimesh.Scene()
@@ -207,7 +207,7 @@ def test_up_and_front_turn_the_model(dataset: Dataset) -> None:
     assert low_and_high(chair) == [[0.0, 0.0, -1.0], [0.5, 0.5, 0.0]]
 
 
-def test_up_and_front_that_are_not_at_right_angles_count_for_nothing(dataset: Dataset) -> None:
+def test_non_orthogonal_up_and_front_are_ignored(dataset: Dataset) -> None:
     dataset.write(
         f"objects/f/{CHAIR}.object_config.json", {"render_asset": f"{CHAIR}.glb", "up": [0, 1, 0], "front": [0, 1, 0]}
     )
@@ -232,7 +232,7 @@ def test_the_stage_is_scaled_and_not_moved(dataset: Dataset) -> None:
 # -- templates -------------------------------------------------------------------------------------------------------
 
 
-def test_the_structure_of_habitats_own_test_data(tmp_path: Path) -> None:
+def test_dataset_1_of_habitat_sim_is_read(tmp_path: Path) -> None:
     """dataset_tests/dataset_1 of habitat-sim: names that are parts of handles, and templates made of others."""
     folder = tmp_path / "dataset_1"
     for name in ("objects/object_0", "objects/object_1", "stages/stage_0", "scenes/scene_0"):
@@ -295,7 +295,7 @@ def test_the_structure_of_habitats_own_test_data(tmp_path: Path) -> None:
     np.testing.assert_allclose(scene.object("dataset_test_object1").pose.position_m, [0.1, 0.2, 0.3], atol=1e-9)
 
 
-def test_a_dataset_without_a_file_is_searched(tmp_path: Path) -> None:
+def test_folder_is_searched_when_the_dataset_file_is_missing(tmp_path: Path) -> None:
     dataset = Dataset(tmp_path / "home", document=None)
     (dataset.folder / f"objects/0/{HASH}.object_config.json").unlink()
     path = dataset.scene(instance(), instance(HASH, [2, 0, 0]))
@@ -319,7 +319,7 @@ def test_a_template_may_be_named_by_the_end_of_its_path(dataset: Dataset, name: 
     assert loaded(dataset.scene(instance(name))).objects[-1].id == CHAIR
 
 
-def test_of_several_dataset_files_the_one_that_lists_the_scene_counts(dataset: Dataset) -> None:
+def test_dataset_file_that_lists_the_scene_is_used(dataset: Dataset) -> None:
     other = {**DATASET, "objects": {"paths": {}}, "scene_instances": {"paths": {".json": ["scenes-articulated"]}}}
     dataset.write("a.scene_dataset_config.json", {**other, "objects": {"default_attributes": {"scale": [9, 9, 9]}}})
     assert low_and_high(loaded(dataset.scene(instance())).object(CHAIR))[1] == [0.5, 1.0, 0.5]
@@ -333,13 +333,13 @@ def test_a_model_may_be_named_after_its_configuration(dataset: Dataset) -> None:
 
 
 @pytest.mark.parametrize("suffix", [".ply", ".stl", ".obj"])
-def test_models_of_other_kinds_are_read(dataset: Dataset, suffix: str) -> None:
+def test_models_of_other_formats_are_read(dataset: Dataset, suffix: str) -> None:
     trimesh.creation.box((1, 1, 1)).export(dataset.folder / f"objects/f/box{suffix}")
     dataset.write(f"objects/f/{CHAIR}.object_config.json", {"render_asset": f"box{suffix}"})
     assert low_and_high(loaded(dataset.scene(instance())).object(CHAIR)) == [[-0.5] * 3, [0.5] * 3]
 
 
-def test_a_unit_that_habitat_does_not_apply_is_told(dataset: Dataset) -> None:
+def test_ignored_unit_setting_warns(dataset: Dataset) -> None:
     config = {"render_asset": f"{CHAIR}.glb", "units_to_meters": 0.01}
     dataset.write(f"objects/f/{CHAIR}.object_config.json", config)
     with pytest.warns(SceneWarning, match=r"has units_to_meters 0\.01, which Habitat keeps and does not apply"):
@@ -382,7 +382,7 @@ def test_a_broken_table_of_the_dataset_costs_names_alone(dataset: Dataset) -> No
 
 
 @pytest.mark.parametrize("form", ["mapping", "names.json", "names.csv"])
-def test_names_may_be_given(dataset: Dataset, form: str) -> None:
+def test_names_are_read_from_mapping_json_or_csv(dataset: Dataset, form: str) -> None:
     dataset.write("metadata/object_categories_filtered.csv", f"id,clean_category\n{HASH},box\n{CHAIR},seat\n")
     dataset.write("names.json", {HASH: "washing machine"})
     dataset.write("names.csv", f"id,name,price\n{HASH},washing machine,700\n")
@@ -399,12 +399,12 @@ def test_names_may_be_given(dataset: Dataset, form: str) -> None:
         ("gone.csv", "there is no file 'gone.csv'"),
     ],
 )
-def test_names_that_cannot_be_are_refused(dataset: Dataset, names: Any, sentence: str) -> None:
+def test_invalid_names_are_refused(dataset: Dataset, names: Any, sentence: str) -> None:
     with pytest.raises(SceneError, match=sentence):
         loaded(dataset.scene(instance()), names=names)
 
 
-def test_names_are_for_habitat_alone(tmp_path: Path) -> None:
+def test_names_are_refused_for_other_formats(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"names is for Habitat scenes .*, and 'cube\.glb' is none"):
         load_scene(one_cube().write(tmp_path / "cube.glb"), names={"cube": "kettle"})
 
@@ -426,7 +426,7 @@ def test_a_mass_scales_with_the_instance(dataset: Dataset, fields: Json, mass_kg
     assert loaded(dataset.scene(instance(**fields))).object(CHAIR).mass_kg == mass_kg
 
 
-def test_a_mass_that_nobody_wrote_is_unknown(dataset: Dataset) -> None:
+def test_default_mass_of_the_dataset_is_ignored(dataset: Dataset) -> None:
     objects = {"default_attributes": {"mass": 10.0}, **DATASET["objects"]}
     dataset.write("home.scene_dataset_config.json", {**DATASET, "objects": objects})
     assert loaded(dataset.scene(instance(HASH))).object(HASH).mass_kg is None
@@ -462,7 +462,7 @@ def test_an_articulated_object_is_one_object(dataset: Dataset, listed: Json) -> 
     assert {"fridge.urdf", "body.glb"} <= {file.name for file in referenced_files(path, None)}
 
 
-def test_joints_that_begin_turned_are_told(dataset: Dataset) -> None:
+def test_turned_initial_joints_warn(dataset: Dataset) -> None:
     trimesh.creation.box((0.6, 1.8, 0.6)).export(dataset.write("urdf/fridge/body.glb", ""))
     dataset.write("urdf/fridge/fridge.urdf", FRIDGE)
     row = {"template_name": "fridge", "initial_joint_pose": {"joint_00": 0.0, "joint_01": 1.2}}
@@ -470,7 +470,7 @@ def test_joints_that_begin_turned_are_told(dataset: Dataset) -> None:
         loaded(dataset.scene(instance(), articulated_object_instances=[row, {**row, "initial_joint_pose": [0, 0]}]))
 
 
-def test_an_articulated_object_that_is_missing_is_told(dataset: Dataset) -> None:
+def test_missing_articulated_object_is_refused(dataset: Dataset) -> None:
     rows = [{"template_name": "fridge"}]
     with pytest.raises(
         SceneError, match=r"articulated_object_instances\[0\] names the template 'fridge', which .*\.urdf"
@@ -479,13 +479,13 @@ def test_an_articulated_object_that_is_missing_is_told(dataset: Dataset) -> None
 
 
 @pytest.mark.parametrize("name", ["cubeSolid", "uvSphereSolid_rings_16_segments_32_useTexCoords_false"])
-def test_shapes_without_a_file_are_left_out_with_a_word(dataset: Dataset, name: str) -> None:
+def test_shapes_without_a_file_are_left_out_with_a_warning(dataset: Dataset, name: str) -> None:
     dataset.write("objects/f/ball.object_config.json", {"render_asset": name})
     with pytest.warns(SceneWarning, match="without 2 shapes that have no model file"):
         assert named(dataset.scene(instance(), instance(name), instance("ball"))) == [CHAIR]
 
 
-def test_missing_textures_name_the_model(dataset: Dataset) -> None:
+def test_warning_of_missing_textures_names_the_model(dataset: Dataset) -> None:
     gltf = corner_box()
     gltf.header |= {
         "images": [{"uri": "gone.png"}],
@@ -528,7 +528,7 @@ def test_missing_textures_name_the_model(dataset: Dataset) -> None:
         ({"is_instance_visible": "yes"}, r"is_instance_visible is 'yes'; it must be True or False"),
     ],
 )
-def test_a_fault_of_a_row_is_told(dataset: Dataset, fields: Json, sentence: str) -> None:
+def test_invalid_instance_row_is_refused(dataset: Dataset, fields: Json, sentence: str) -> None:
     with pytest.raises(SceneError, match=sentence):
         loaded(dataset.scene({**instance(), **fields}))
 
@@ -554,7 +554,7 @@ def test_a_fault_of_a_row_is_told(dataset: Dataset, fields: Json, sentence: str)
         ("{", r"object_config\.json' is not JSON"),
     ],
 )
-def test_a_fault_of_a_configuration_is_told(dataset: Dataset, config: Any, sentence: str) -> None:
+def test_invalid_configuration_is_refused(dataset: Dataset, config: Any, sentence: str) -> None:
     dataset.write(f"objects/f/{CHAIR}.object_config.json", config)
     with pytest.raises(SceneError, match=sentence):
         loaded(dataset.scene(instance()))
@@ -578,7 +578,7 @@ def test_a_fault_of_a_configuration_is_told(dataset: Dataset, config: Any, sente
         ({"objects": {"paths": {".json": ["../elsewhere/*"]}}}, None),
     ],
 )
-def test_a_fault_of_a_dataset_is_told(dataset: Dataset, document: Any, sentence: str | None) -> None:
+def test_invalid_dataset_file_is_refused(dataset: Dataset, document: Any, sentence: str | None) -> None:
     dataset.write("home.scene_dataset_config.json", document)
     if sentence is None:  # what it lists is not there, and the template is found below the dataset
         loaded(dataset.scene(instance()))
@@ -605,18 +605,18 @@ def test_a_fault_of_a_dataset_is_told(dataset: Dataset, document: Any, sentence:
         ('{"object_instances": [], "articulated_object_instances": 3}', "articulated_object_instances is 3"),
     ],
 )
-def test_a_fault_of_the_file_is_told(dataset: Dataset, text: str, sentence: str) -> None:
+def test_invalid_scene_file_is_refused(dataset: Dataset, text: str, sentence: str) -> None:
     with pytest.raises(SceneError, match=sentence):
         loaded(dataset.write("scenes/flat.scene_instance.json", text))
 
 
-def test_a_habitat_scene_of_another_name_is_told(dataset: Dataset) -> None:
+def test_habitat_scene_with_another_suffix_is_refused_with_a_hint(dataset: Dataset) -> None:
     path = dataset.scene(instance(), name="scenes/flat.json")
     with pytest.raises(SceneError, match=r"looks like a Habitat scene; name its file NAME\.scene_instance\.json"):
         load_scene(path)
 
 
-def test_a_broken_model_names_the_row_that_wants_it(dataset: Dataset) -> None:
+def test_broken_model_error_names_its_row(dataset: Dataset) -> None:
     (dataset.folder / f"objects/f/{CHAIR}.glb").write_bytes(b"version https://git-lfs.github.com/spec/v1\n")
     with pytest.raises(
         SceneFormatError, match=rf"object_instances\[0\]: its model '{CHAIR}\.glb' .*run `git lfs pull`"
@@ -624,7 +624,7 @@ def test_a_broken_model_names_the_row_that_wants_it(dataset: Dataset) -> None:
         loaded(dataset.scene(instance()))
 
 
-def test_links_lead_nowhere_else(dataset: Dataset, tmp_path: Path) -> None:
+def test_symbolic_links_out_of_the_root_are_refused(dataset: Dataset, tmp_path: Path) -> None:
     secret = one_cube().write(tmp_path / "secret.glb")
     model = dataset.folder / f"objects/f/{CHAIR}.glb"
     model.unlink()
@@ -634,7 +634,7 @@ def test_links_lead_nowhere_else(dataset: Dataset, tmp_path: Path) -> None:
     assert loaded(dataset.scene(instance()), assets_root=tmp_path).object(CHAIR)
 
 
-def test_nothing_above_the_root_is_used(dataset: Dataset) -> None:
+def test_files_above_assets_root_are_not_used(dataset: Dataset) -> None:
     """The dataset file lies above `assets_root`, and so do the objects."""
     with pytest.raises(SceneError, match="names the template 'stages/home'"):
         loaded(dataset.scene(instance()), assets_root=dataset.folder / "scenes")
@@ -659,7 +659,7 @@ def test_totals_over_all_instances_are_limited(dataset: Dataset, monkeypatch: py
     loaded(path)
 
 
-def test_patterns_that_match_again_and_again_end(dataset: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_repeated_pattern_matches_are_bounded(dataset: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(limits, "MAX_DATASET_FILES", 20_000)
     for name in "abc":
         os.symlink(dataset.folder, dataset.folder / name)
@@ -669,8 +669,8 @@ def test_patterns_that_match_again_and_again_end(dataset: Dataset, monkeypatch: 
         loaded(dataset.scene(instance()))
 
 
-def test_broken_datasets_raise_our_errors_alone(tmp_path: Path) -> None:
-    """A sample of what `stress/fuzz_scenes.py` reads."""
+def test_broken_datasets_raise_only_scene_errors(tmp_path: Path) -> None:
+    """A sample of the files of `stress/fuzz_scenes.py`."""
     outcomes = set()
     for number in range(60):
         path = mutated_dataset(tmp_path / str(number), random.Random(number))
@@ -689,7 +689,7 @@ def test_broken_datasets_raise_our_errors_alone(tmp_path: Path) -> None:
 # -- the whole -------------------------------------------------------------------------------------------------------
 
 
-def test_the_files_of_a_scene_are_told(dataset: Dataset) -> None:
+def test_referenced_files_of_a_scene_are_listed(dataset: Dataset) -> None:
     dataset.write("semantics/objects.csv", "id,name,main_category\n")
     files = referenced_files(dataset.scene(instance(), instance(at=[1, 0, 0])), None)
     assert {file.name for file in files} == {
@@ -698,7 +698,7 @@ def test_the_files_of_a_scene_are_told(dataset: Dataset) -> None:
     }
 
 
-def test_models_of_others_stand_where_they_are_placed(tmp_path: Path) -> None:
+def test_real_models_have_the_stated_place(tmp_path: Path) -> None:
     """The Kenney furniture kit as a dataset without a file, as HSSD's models are kept."""
     kit = needed(SCENES / "lib_kenney_furniture")
     names = ["washer", "kitchenFridge", "radio"]
@@ -713,12 +713,12 @@ def test_models_of_others_stand_where_they_are_placed(tmp_path: Path) -> None:
         np.testing.assert_allclose(item.bounds_m.mean(axis=0), [3.0 * i, 0.5, 1.0], atol=1e-3)
 
 
-def test_sizes_that_cannot_be_metres_are_told(dataset: Dataset) -> None:
+def test_implausible_sizes_warn(dataset: Dataset) -> None:
     row = instance(uniform_scale=500.0)
     with pytest.warns(UnitWarning):
         load_scene(dataset.scene(row, stage_instance=None))
 
 
-def test_json_of_a_scene_has_its_masses(dataset: Dataset) -> None:
+def test_json_of_a_scene_contains_masses(dataset: Dataset) -> None:
     scene = loaded(dataset.scene(instance()))
     assert json.loads(scene.to_json())["objects"][-1]["mass_kg"] == 6.0

@@ -1,4 +1,4 @@
-"""Scenes as JSON: exact both ways, each geometry told once, and an error that names the field."""
+"""Scenes as JSON: exact in both directions, each geometry stored once, and errors that name the field."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def test_the_round_trip_keeps_every_bit_of_a_mesh() -> None:
     assert not after.vertices_m.flags.writeable
 
 
-def test_instances_share_one_row_of_the_table() -> None:
+def test_instances_share_one_geometry_row() -> None:
     document = json.loads(scene(box("a", (1, 1, 1), (0, 0, 0)), box("b", (1, 1, 1), (5, 0, 0))).to_json())
     assert len(document["geometries"]) == 1
     assert document["objects"][0]["geometry"] == document["objects"][1]["geometry"]
@@ -91,14 +91,14 @@ def test_instances_share_one_row_of_the_table() -> None:
     assert again.object("a").geometry is again.object("b").geometry
 
 
-def test_an_object_may_bring_its_geometry_along() -> None:
+def test_object_can_contain_its_geometry() -> None:
     document = json.loads(scene(box("a", (1, 2, 3), (0, 0, 0))).to_json())
     del document["geometries"]
     document["objects"][0]["geometry"] = {"kind": "box", "size_m": [1, 2, 3]}
     assert SceneSnapshot.from_json(json.dumps(document)).object("a").geometry == Box((1.0, 2.0, 3.0))
 
 
-def test_what_the_format_leaves_open_has_a_default() -> None:
+def test_optional_fields_have_defaults() -> None:
     """The least that an engine must write: name, axis, and objects with pose, geometry and surface."""
     surface = {"pose": {}, "length_m": 1, "width_m": 1, "thickness_m": 0.1}
     row = {"id": "a", "name": "a", "pose": {}, "geometry": {"kind": "box", "size_m": [1, 1, 1]}, "surface": surface}
@@ -133,7 +133,7 @@ def _document() -> dict[str, Any]:
         (("contacts",), [{"a": "a", "b": "c", "point_m": [0, 0, 0]}], "no object 'c'"),
     ],
 )
-def test_an_error_names_what_is_wrong(path: tuple[str | int, ...], value: object, sentence: str) -> None:
+def test_error_names_the_invalid_field(path: tuple[str | int, ...], value: object, sentence: str) -> None:
     document: Any = _document()
     place = document
     for step in path[:-1]:
@@ -144,7 +144,7 @@ def test_an_error_names_what_is_wrong(path: tuple[str | int, ...], value: object
 
 
 @pytest.mark.parametrize("field", ["name", "up_axis", "objects"])
-def test_a_missing_field_is_named(field: str) -> None:
+def test_error_names_the_missing_field(field: str) -> None:
     document = _document()
     del document[field]
     with pytest.raises(SceneError, match=f"scene field {field}"):
@@ -152,6 +152,6 @@ def test_a_missing_field_is_named(field: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100_000, "[]", "7", '"scene"', "null"])
-def test_what_is_no_scene_is_refused(text: str) -> None:
+def test_text_that_is_not_a_scene_is_refused(text: str) -> None:
     with pytest.raises(SceneError, match="not JSON|not a scene"):
         SceneSnapshot.from_json(text)

@@ -1,4 +1,4 @@
-"""Scenes in JSON that leave out what can be measured."""
+"""Scenes in JSON without values that can be measured."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def row(object_id: str, geometry: Any, at_m: tuple[float, float, float] = (0, 0,
     return {"id": object_id, "name": object_id, "pose": {"position_m": at_m}, "geometry": geometry, **more}
 
 
-def test_the_surface_is_measured_where_it_is_left_out() -> None:
+def test_missing_surface_is_measured() -> None:
     scene = read(row("slab", {"kind": "mesh", "vertices_m": SLAB, "faces": FACES}))
     surface = scene.object("slab").surface
     assert (surface.length_m, surface.width_m, surface.thickness_m) == pytest.approx((2.0, 1.0, 0.1))
@@ -36,7 +36,7 @@ def test_the_surface_is_measured_where_it_is_left_out() -> None:
     assert surface.pose.position_m[1] == pytest.approx(0.05)
 
 
-def test_the_surface_faces_up_whatever_up_is() -> None:
+def test_measured_surface_faces_up_for_any_up_axis() -> None:
     board = {"kind": "box", "size_m": [1, 0.1, 0.6]}
     lying = {"rotation_xyzw": [0.5**0.5, 0, 0, 0.5**0.5]}  # a quarter turn about x: own y becomes world z
     scene = read({"id": "a", "name": "a", "pose": lying, "geometry": board}, up_axis="z")
@@ -44,7 +44,7 @@ def test_the_surface_faces_up_whatever_up_is() -> None:
     assert item.pose.compose(item.surface.pose).rotation[:, 2] == pytest.approx((0, 0, 1))
 
 
-def test_heights_are_measured_against_the_lowest() -> None:
+def test_heights_are_measured_from_the_lowest_object() -> None:
     cube = {"kind": "box", "size_m": [1, 1, 1]}
     scene = read(row("a", cube, (0, 5, 0)), row("b", cube, (0, 7, 0)), row("c", cube, (0, 6, 0), relative_height_m=9))
     assert [item.relative_height_m for item in scene.objects] == pytest.approx([0, 2, 9])
@@ -60,7 +60,7 @@ def test_a_given_surface_is_kept() -> None:
     assert scene.object("open").size_m == (1, 1, 1)
 
 
-def test_shared_geometry_is_measured_too_and_all_comes_back_the_same() -> None:
+def test_shared_geometry_is_measured_and_round_trips() -> None:
     cube = {"kind": "box", "size_m": [1, 1, 1]}
     scene = read(row("a", "cube"), row("b", "cube", (0, 1, 0)), geometries={"cube": cube}, contacts=[])
     assert scene.object("a").geometry is scene.object("b").geometry
@@ -69,7 +69,7 @@ def test_shared_geometry_is_measured_too_and_all_comes_back_the_same() -> None:
     assert ContactGraph(scene).contacts == ()
 
 
-def test_a_whole_scene_is_read_without_measuring_anything() -> None:
+def test_scene_with_given_surfaces_is_read_without_measuring() -> None:
     scene = read(row("a", {"kind": "box", "size_m": [1, 1, 1]}))
     code = (
         "import sys\nfrom scene2hap import SceneSnapshot\nSceneSnapshot.from_json(sys.stdin.read())\n"
@@ -82,7 +82,7 @@ def test_a_whole_scene_is_read_without_measuring_anything() -> None:
 
 
 @pytest.mark.parametrize(("thickness_m", "told"), [(0.0, "it must be above"), (2.0, "geometry is 0.1 m thick there")])
-def test_a_stated_thickness_that_no_such_floor_has_is_refused(thickness_m: float, told: str) -> None:
+def test_implausible_stated_thickness_is_refused(thickness_m: float, told: str) -> None:
     turned = {"rotation_xyzw": [-(0.5**0.5), 0, 0, 0.5**0.5], "position_m": [-2.5, 0, 2]}
     surface = {"pose": turned, "length_m": 5, "width_m": 4, "thickness_m": thickness_m}
     floor = {"kind": "box", "size_m": [5, 0.1, 4]}
@@ -91,7 +91,7 @@ def test_a_stated_thickness_that_no_such_floor_has_is_refused(thickness_m: float
     assert read(row("floor", floor, surface={**surface, "thickness_m": 0.3})).object("floor").size_m == (5, 4, 0.3)
 
 
-def test_a_sheet_may_be_stated_as_thick_as_the_real_thing() -> None:
+def test_plausible_thickness_can_be_stated_for_a_sheet() -> None:
     sheet = {
         "kind": "mesh",
         "vertices_m": [[0, 0, 0], [5, 0, 0], [5, 4, 0], [0, 4, 0]],

@@ -1,4 +1,4 @@
-"""What makes two objects copies of one thing."""
+"""Rules for two objects to be copies."""
 
 from dataclasses import replace
 
@@ -29,11 +29,11 @@ CUBE = replace(box("chair_1", (0.4, 0.4, 0.4), (0, 0, 0)), instance_key="cube")
         ("", ()),
     ],
 )
-def test_words_of_a_name_without_its_running_number(name: str, words: tuple[str, ...]) -> None:
+def test_name_words_drop_the_running_number(name: str, words: tuple[str, ...]) -> None:
     assert name_words(name) == words
 
 
-def test_a_very_long_name_is_told_from_another_by_its_end() -> None:
+def test_long_names_that_differ_at_the_end_are_distinct() -> None:
     assert name_words("a" * 200_000 + "b") != name_words("a" * 200_000 + "c")
 
 
@@ -41,7 +41,7 @@ def painted(name: str) -> Appearance:
     return Appearance((FaceMaterial(name=name),), np.zeros(len(CUBE.geometry.mesh.faces), np.int32))
 
 
-def test_running_numbers_and_places_do_not_part_copies() -> None:
+def test_copies_may_differ_in_running_number_and_place() -> None:
     other = replace(CUBE, id="2", name="Chair.002", pose=Pose((3.0, 0.0, 1.0)))
     assert copy_key(other) == copy_key(CUBE)
 
@@ -56,16 +56,16 @@ def test_running_numbers_and_places_do_not_part_copies() -> None:
     ],
     ids=["name", "mesh or look", "size", "material's name"],
 )
-def test_what_parts_copies(change: dict[str, object]) -> None:
+def test_copy_key_changes_with_each_deciding_property(change: dict[str, object]) -> None:
     first = replace(CUBE, appearance=painted("oak"))
     assert copy_key(replace(first, **change)) != copy_key(first)  # type: ignore[arg-type]
 
 
-def test_an_object_without_a_key_has_no_copies() -> None:
+def test_object_without_instance_key_has_no_copies() -> None:
     assert copy_key(replace(CUBE, instance_key="")) != copy_key(replace(CUBE, instance_key="", id="2"))
 
 
-def test_the_whole_size_stays_when_an_object_is_turned_about_its_upright_axis() -> None:
+def test_whole_size_is_invariant_under_yaw() -> None:
     one = box("cupboard", (0.6, 1.8, 1.2), (0, 0, 0))
     assert one.whole_size_m("y") == pytest.approx((1.2, 0.6, 1.8))
     turned = replace(one, pose=Pose((0, 0, 0), (0.0, 0.38, 0.0, 0.92)))

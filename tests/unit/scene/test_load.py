@@ -1,4 +1,4 @@
-"""The door for all scene files: which reader, what it refuses, and that every load is the same."""
+"""`load_scene`: choice of the reader, refused files, and repeatable loads."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def test_the_scene_is_named_after_the_file(tmp_path: Path) -> None:
     assert load_scene(one_cube().write(tmp_path / "my kitchen.glb")).name == "my kitchen"
 
 
-def test_a_path_may_be_text(tmp_path: Path) -> None:
+def test_path_can_be_a_string(tmp_path: Path) -> None:
     assert len(load_scene(str(one_cube().write(tmp_path / "scene.glb"))).objects) == 1
 
 
@@ -31,40 +31,40 @@ def test_json_is_a_scene_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("options", [{"up_axis": "z"}, {"unit_m": 0.01}, {"group": "leaf"}])
-def test_json_tells_its_own_axis_unit_and_objects(tmp_path: Path, options: dict[str, object]) -> None:
+def test_axis_unit_and_grouping_are_refused_for_json(tmp_path: Path, options: dict[str, object]) -> None:
     path = tmp_path / "scene.json"
     path.write_text(scene(box("table", (1, 1, 1), (0, 0, 0))).to_json(), encoding="utf-8")
     with pytest.raises(SceneError, match="leave up_axis, unit_m and group out"):
         load_scene(path, **options)  # type: ignore[arg-type]
 
 
-def test_json_that_is_no_text_is_refused(tmp_path: Path) -> None:
+def test_binary_json_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "scene.json").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(SceneFormatError, match="is not text"):
         load_scene(tmp_path / "scene.json")
 
 
-def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
+def test_unknown_suffix_is_refused(tmp_path: Path) -> None:
     (tmp_path / "scene.blend").write_bytes(b"BLENDER")
     with pytest.raises(SceneFormatError, match=r"'scene\.blend' is of no kind that is read: \.glb, \.gltf"):
         load_scene(tmp_path / "scene.blend")
 
 
 @pytest.mark.parametrize("name", ["none.glb", "none.obj", "none.blend", "none", "no\0ne.glb"])
-def test_a_missing_file_is_told(tmp_path: Path, name: str) -> None:
+def test_missing_file_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(SceneError, match="there is no file|cannot be read"):
         load_scene(tmp_path / name)
 
 
 @pytest.mark.parametrize("name", ["folder", "folder.glb", "folder.obj"])
-def test_a_folder_is_told(tmp_path: Path, name: str) -> None:
+def test_folder_is_refused(tmp_path: Path, name: str) -> None:
     (tmp_path / name).mkdir()
     with pytest.raises(SceneError, match="is not a file; give the path of the scene file itself"):
         load_scene(tmp_path / name)
 
 
 @pytest.mark.parametrize("suffix", ["glb", "gltf", "obj", "dae", "stl", "ply", "json"])
-def test_an_empty_file_is_told(tmp_path: Path, suffix: str) -> None:
+def test_empty_file_is_refused(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"scene.{suffix}"
     path.write_bytes(b"")
     with pytest.raises(SceneFormatError, match=r"is empty \(0 bytes\)"):
@@ -88,13 +88,13 @@ def test_a_text_without_shapes_is_an_empty_scene(tmp_path: Path) -> None:
         ({"group": "auto"}, "group is 'auto'"),
     ],
 )
-def test_options_that_cannot_be_are_refused(tmp_path: Path, options: dict[str, object], sentence: str) -> None:
+def test_invalid_options_are_refused(tmp_path: Path, options: dict[str, object], sentence: str) -> None:
     path = one_cube().write(tmp_path / "scene.glb")
     with pytest.raises(SceneError, match=sentence):
         load_scene(path, **options)  # type: ignore[arg-type]
 
 
-def test_the_axis_only_tells_which_way_is_up(tmp_path: Path) -> None:
+def test_up_axis_changes_heights_but_not_coordinates(tmp_path: Path) -> None:
     gltf = one_cube("low")
     gltf.node("high", mesh=0, translation=[0.0, 0.0, 4.0], root=True)
     path = gltf.write(tmp_path / "scene.glb")
@@ -104,7 +104,7 @@ def test_the_axis_only_tells_which_way_is_up(tmp_path: Path) -> None:
     assert [item.pose for item in by_y.objects] == [item.pose for item in by_z.objects]
 
 
-def test_two_nodes_of_one_name_keep_it_and_get_ids_of_their_own(tmp_path: Path) -> None:
+def test_nodes_with_one_name_keep_the_name_and_get_unique_ids(tmp_path: Path) -> None:
     gltf = one_cube("Hemi")
     gltf.node("Hemi", mesh=0, translation=[3.0, 0.0, 0.0], root=True)
     gltf.node("", mesh=0, translation=[6.0, 0.0, 0.0], root=True)
@@ -112,7 +112,7 @@ def test_two_nodes_of_one_name_keep_it_and_get_ids_of_their_own(tmp_path: Path) 
     assert [(item.id, item.name) for item in objects] == [("Hemi", "Hemi"), ("Hemi#2", "Hemi"), ("object", "")]
 
 
-def test_every_load_is_the_same_to_the_bit(tmp_path: Path) -> None:
+def test_repeated_loads_are_bit_identical(tmp_path: Path) -> None:
     gltf = Gltf()
     for i in range(5):
         gltf.node(f"n{i % 2}", mesh=gltf.cube(), rotation=[0.0, 0.6, 0.0, 0.8], scale=[1.0, 2.0, 0.1 + i], root=True)
@@ -130,7 +130,7 @@ def test_reading_glb_needs_no_trimesh(tmp_path: Path) -> None:
     assert (done.stdout.strip(), done.stderr) == ("False", "")
 
 
-def test_looks_are_no_part_of_json_or_of_equality(tmp_path: Path) -> None:
+def test_appearance_is_left_out_of_json_and_equality(tmp_path: Path) -> None:
     gltf = one_cube()
     gltf.header["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [1.0, 0.0, 0.0, 1.0]}}]
     gltf.header["meshes"][0]["primitives"][0]["material"] = 0
@@ -142,7 +142,7 @@ def test_looks_are_no_part_of_json_or_of_equality(tmp_path: Path) -> None:
     assert again.objects[0].appearance is None
 
 
-def test_a_turned_and_scaled_scene_goes_through_json_to_the_bit(tmp_path: Path) -> None:
+def test_turned_and_scaled_scene_round_trips_through_json_bit_exactly(tmp_path: Path) -> None:
     gltf = one_cube(rotation=[0.1, 0.7, -0.1, 0.7], scale=[0.3, 0.7, 1.1])
     gltf.node("inner", mesh=0, rotation=[0.5, 0.5, 0.5, 0.5], root=True)
     scene = load_scene(gltf.write(tmp_path / "scene.glb"))

@@ -48,7 +48,7 @@ def one(path: Path) -> SceneObject:
         ("", (0.8, 0.8, 0.8, 1.0)),
     ],
 )
-def test_colours(tmp_path: Path, rows: str, rgba: tuple[float, ...]) -> None:
+def test_colours_are_read_from_kd(tmp_path: Path, rows: str, rgba: tuple[float, ...]) -> None:
     item = one(write(tmp_path, f"Kd 1 1 1\nnewmtl other\nKd 0 0 0\nnewmtl wood\n{rows}\n"))
     (material,) = looks(item).materials
     assert material.color_rgba == rgba
@@ -57,20 +57,20 @@ def test_colours(tmp_path: Path, rows: str, rgba: tuple[float, ...]) -> None:
 
 
 @pytest.mark.parametrize("name", ["wood.png", "wood floor.png", "100%25.png"])
-def test_textures_stand_by_their_plain_names(tmp_path: Path, name: str) -> None:
+def test_texture_file_names_may_contain_blanks_and_percent_signs(tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_bytes(image_file())
     item = one(write(tmp_path, f"newmtl wood\nKd 1 1 1\nmap_Kd {name}\n"))
     assert shown(item) == UPRIGHT
 
 
-def test_slashes_run_either_way_and_a_library_may_have_blanks_in_its_name(tmp_path: Path) -> None:
+def test_backslashes_and_blanks_in_paths_are_accepted(tmp_path: Path) -> None:
     (tmp_path / "textures").mkdir()
     (tmp_path / "textures" / "wood.png").write_bytes(image_file())
     path = write(tmp_path, "newmtl wood\nmap_Kd textures\\wood.png\n", library="my scene.mtl")
     assert shown(one(path)) == UPRIGHT
 
 
-def test_one_statement_may_name_several_libraries(tmp_path: Path) -> None:
+def test_one_mtllib_statement_can_name_several_libraries(tmp_path: Path) -> None:
     (tmp_path / "b.mtl").write_text("newmtl wood\nKd 0 0 1\n")
     path = write(tmp_path, "newmtl wood\nKd 1 0 0\n", f"mtllib a.mtl b.mtl\n{SQUARE}usemtl wood\n{FACE}", "a.mtl")
     assert looks(one(path)).materials[0].color_rgba == (0.0, 0.0, 1.0, 1.0)
@@ -88,7 +88,9 @@ def test_one_statement_may_name_several_libraries(tmp_path: Path) -> None:
         ("-mm 0 1 -blendu on -imfchan r", [BLUE, WHITE, GREEN, RED]),
     ],
 )
-def test_options_of_a_texture(tmp_path: Path, options: str, expected: list[tuple[int, ...]]) -> None:
+def test_texture_options_scale_and_shift_coordinates(
+    tmp_path: Path, options: str, expected: list[tuple[int, ...]]
+) -> None:
     (tmp_path / "wood floor.png").write_bytes(image_file())
     item = one(write(tmp_path, f"newmtl wood\nmap_Kd {options} wood floor.png\n"))
     corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
@@ -103,21 +105,21 @@ def test_a_black_colour_does_not_hide_a_texture(tmp_path: Path, kd: str, rgb: fl
 
 
 @pytest.mark.parametrize(("rows", "channels"), [("", 3), ("map_d wood.png", 4)])
-def test_opacity_of_a_texture_counts_where_it_is_asked_for(tmp_path: Path, rows: str, channels: int) -> None:
+def test_texture_opacity_is_used_only_when_requested(tmp_path: Path, rows: str, channels: int) -> None:
     (tmp_path / "wood.png").write_bytes(image_file(np.dstack((PIXELS, np.full((2, 2), 9, np.uint8)))))
     texture = looks(one(write(tmp_path, f"newmtl wood\nmap_Kd wood.png\n{rows}\n"))).materials[0].texture
     assert texture is not None
     assert texture.shape == (2, 2, channels)
 
 
-def test_negative_numbers_count_back_for_coordinates_too(tmp_path: Path) -> None:
+def test_negative_texture_indices_count_back(tmp_path: Path) -> None:
     (tmp_path / "wood.png").write_bytes(image_file())
     obj = f"mtllib scene.mtl\n{SQUARE}usemtl wood\nf -4/-4 -3/-3 -2/-2 -1/-1\nvt 0 0\n"
     assert shown(one(write(tmp_path, "newmtl wood\nmap_Kd wood.png\n", obj))) == UPRIGHT
 
 
 @pytest.mark.parametrize("face", ["f 1 2 3 4", "f 1//1 2//2 3//3 4//4", "f 1/9 2/9 3/9 4/9", "f 1/x 2/x 3/x 4/x"])
-def test_faces_without_coordinates_have_the_plain_colour(tmp_path: Path, face: str) -> None:
+def test_faces_without_coordinates_get_the_plain_colour(tmp_path: Path, face: str) -> None:
     (tmp_path / "wood.png").write_bytes(image_file())
     obj = f"mtllib scene.mtl\n{SQUARE}usemtl wood\n{face}\n"
     item = one(write(tmp_path, "newmtl wood\nKd 1 0 0\nmap_Kd wood.png\n", obj))
@@ -133,7 +135,7 @@ def test_every_face_has_its_own_material(tmp_path: Path) -> None:
     assert colors == [1.0, 0.5, 0.8]
 
 
-def test_without_a_library_looks_are_unknown(tmp_path: Path) -> None:
+def test_object_without_library_has_no_appearance(tmp_path: Path) -> None:
     path = tmp_path / "scene.obj"
     path.write_text(f"{SQUARE}usemtl wood\n{FACE}")
     assert one(path).appearance is None
@@ -150,7 +152,7 @@ def test_without_a_library_looks_are_unknown(tmp_path: Path) -> None:
         ("scene.mtl", "newmtl wood\nKd 1 0 0\nmap_Kd C:\\maps\\wood.png\n", "there is no file '.*wood.png'"),
     ],
 )
-def test_what_cannot_be_read_is_told_once(tmp_path: Path, library: str, mtl: str, reason: str) -> None:
+def test_unreadable_library_or_texture_warns_once(tmp_path: Path, library: str, mtl: str, reason: str) -> None:
     home = tmp_path / "home"
     home.mkdir()
     scene, message = refused(write(home, mtl, f"mtllib {library}\n{SQUARE}usemtl wood\n{FACE}"))
@@ -159,7 +161,7 @@ def test_what_cannot_be_read_is_told_once(tmp_path: Path, library: str, mtl: str
     assert item.appearance is None if not mtl else looks(item).materials[0].color_rgba == (1.0, 0.0, 0.0, 1.0)
 
 
-def test_keys_are_those_of_the_content(tmp_path: Path) -> None:
+def test_instance_keys_follow_material_content(tmp_path: Path) -> None:
     obj = f"mtllib scene.mtl\n{SQUARE}o a\nusemtl wood\n{FACE}o b\nusemtl wood\n{FACE}o c\nusemtl steel\n{FACE}"
     path = write(tmp_path, "newmtl wood\nKd 1 0 0\nnewmtl steel\nKd 0 0 1\n", obj)
     a, b, c = (item.instance_key for item in load_scene(path, unit_m=1.0).objects)

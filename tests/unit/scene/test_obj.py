@@ -24,7 +24,7 @@ def corners(text: str) -> list[list[list[float]]]:
 
 
 @pytest.mark.parametrize("face", ["f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/9/9 2/9/9 3/9/9", "f -4 -3 -2"])
-def test_faces_in_every_spelling(face: str) -> None:
+def test_every_face_syntax_is_read(face: str) -> None:
     assert corners(SQUARE + face) == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
 
 
@@ -32,18 +32,18 @@ def test_polygons_become_fans() -> None:
     assert corners(SQUARE + "f 1 2 3 4") == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]]
 
 
-def test_negative_numbers_count_back_from_where_they_stand() -> None:
+def test_negative_indices_count_back_from_their_line() -> None:
     text = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\no b\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf -3 -2 -1\n"
     heights = [node.pieces[0].vertices[:, 2].tolist() for node in read_obj(text, "file").roots]
     assert heights == [[0, 0, 0], [5, 5, 5]]
 
 
-def test_an_object_is_an_o_in_file_order_even_if_its_name_comes_twice() -> None:
+def test_each_o_statement_is_one_object_in_file_order() -> None:
     text = SQUARE + "o leg\nf 1 2 3\no top\nf 1 3 4\no leg\nf 2 3 4\n"
     assert [node.name for node in read_obj(text, "file").roots] == ["leg", "top", "leg"]
 
 
-def test_groups_count_only_where_there_is_no_o() -> None:
+def test_groups_are_objects_only_without_o_statements() -> None:
     faces = "g one\nf 1 2 3\ng two\nf 1 3 4\ng one\nf 2 3 4\n"
     assert [(node.name, len(node.pieces[0].faces)) for node in read_obj(SQUARE + faces, "file").roots] == [
         ("one", 2),
@@ -54,25 +54,25 @@ def test_groups_count_only_where_there_is_no_o() -> None:
     ]
 
 
-def test_without_either_there_is_one_object_named_after_the_file(tmp_path: Path) -> None:
+def test_file_without_o_or_g_is_one_object_named_after_the_file(tmp_path: Path) -> None:
     path = tmp_path / "chair.obj"
     path.write_text(SQUARE + "f 1 2 3 4\n")
     assert [item.id for item in load_scene(path).objects] == ["chair"]
 
 
-def test_materials_part_an_object_into_pieces_without_parting_the_object() -> None:
+def test_materials_split_an_object_into_pieces() -> None:
     text = SQUARE + "mtllib ../elsewhere.mtl\no a\nusemtl oak\nf 1 2 3\nusemtl steel\nf 1 3 4\nusemtl oak\nf 2 3 4\n"
     (node,) = read_obj(text, "file").roots
     assert [(piece.material, len(piece.faces)) for piece in node.pieces] == [("oak", 2), ("steel", 1)]
 
 
-def test_comments_long_lines_and_colours_are_read_over() -> None:
+def test_comments_continued_lines_and_vertex_colours_are_accepted() -> None:
     vertices = "# a square\r\nv 0 0 0 1 0 0\r\nv 1 0 0 # corner\r\nv 1 1 0 1.0\r\n\r\n"
     text = vertices + "vn 0 0 1\r\ns 1\r\nl 1 2\r\nf 1 \\\r\n 2 3\r\n"
     assert corners(text) == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
 
 
-def test_an_object_holds_only_its_own_vertices(tmp_path: Path) -> None:
+def test_object_contains_only_its_used_vertices(tmp_path: Path) -> None:
     path = tmp_path / "two.obj"
     path.write_text("o a\n" + SQUARE + "f 1 2 3 4\no b\nv 9 9 9\nv 9 8 9\nv 8 8 9\nf 5 6 7\n")
     first, second = load_scene(path).objects
@@ -92,12 +92,12 @@ def test_an_object_holds_only_its_own_vertices(tmp_path: Path) -> None:
         (SQUARE + "f a b c\n", "line 5: 'f a b c' is no face"),
     ],
 )
-def test_a_fault_names_its_line(text: str, sentence: str) -> None:
+def test_error_names_the_line(text: str, sentence: str) -> None:
     with pytest.raises(SceneFormatError, match=sentence):
         read_obj(text, "file")
 
 
-def test_a_vertex_that_is_not_finite_names_its_object() -> None:
+def test_non_finite_vertex_error_names_its_object() -> None:
     with pytest.raises(SceneError, match="object 'cup': vertex 1 is .*finite"):
         read_obj("o cup\nv 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "file")
 

@@ -1,4 +1,4 @@
-"""Outlines: what they cover, their notches, and how they are measured on meshes."""
+"""Outlines: coverage, notches, and measurement on meshes."""
 
 import math
 
@@ -18,7 +18,7 @@ L = ((0.0, 0.0), (1.0, 0.0), (1.0, 0.4), (0.5, 0.4), (0.5, 1.0), (0.0, 1.0))
 HOLE = ((0.1, 0.1), (0.3, 0.1), (0.3, 0.15), (0.1, 0.15))
 
 
-def test_a_hole_is_not_covered() -> None:
+def test_outline_excludes_its_hole() -> None:
     outline = Outline((L, HOLE))
     assert outline.area_m2 == pytest.approx(0.4 + 0.3 - 0.01, rel=1e-3)
     assert outline.holds(np.array([[0.2, 0.12], [0.2, 0.3], [0.7, 0.7], [0.7, 0.2]])).tolist() == [
@@ -32,8 +32,8 @@ def test_a_hole_is_not_covered() -> None:
 
 @settings(derandomize=True, deadline=None, max_examples=50)
 @given(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=12), st.integers(1, 40), st.integers(1, 40), st.booleans())
-def test_pixels_share_the_area(radii: list[float], nx: int, ny: int, backwards: bool) -> None:
-    """Of any star, by the shoelace formula, however it is cut into pixels and whichever way round it is told."""
+def test_pixel_coverage_sums_to_the_area(radii: list[float], nx: int, ny: int, backwards: bool) -> None:
+    """For any star, by the shoelace formula, for any grid of pixels and either direction of the outline."""
     turn = np.arange(len(radii)) * 2 * math.pi / len(radii)
     star = np.array(radii)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
     outline = Outline(((star[::-1] if backwards else star).tolist(),))
@@ -65,7 +65,7 @@ def test_notches_are_corners_that_point_inwards() -> None:
         (("round",), "ring 0"),
     ],
 )
-def test_refusals(rings: object, words: str) -> None:
+def test_invalid_outlines_are_refused(rings: object, words: str) -> None:
     with pytest.raises(SceneError, match=words):
         Outline(rings)  # type: ignore[arg-type]
 
@@ -74,7 +74,7 @@ def mesh_of(mesh: trimesh.Trimesh) -> TriMesh:
     return TriMesh(mesh.vertices, mesh.faces)
 
 
-def test_a_round_top_on_a_leg_has_its_outline() -> None:
+def test_round_table_top_has_a_round_outline() -> None:
     top = trimesh.creation.cylinder(radius=0.45, height=0.03, sections=48)
     top.apply_translation((0.1, -0.2, 0.7))
     leg = trimesh.creation.cylinder(radius=0.04, height=0.66, sections=12)
@@ -89,7 +89,7 @@ def test_a_round_top_on_a_leg_has_its_outline() -> None:
     assert (x1 - x0, y1 - y0) == pytest.approx((0.9, 0.9), rel=0.01)
 
 
-def test_an_l_keeps_its_corner_wherever_it_lies() -> None:
+def test_l_shape_keeps_its_outline_in_any_pose() -> None:
     slabs = [trimesh.creation.box((1.6, 0.6, 0.03)), trimesh.creation.box((0.6, 1.0, 0.03))]
     slabs[1].apply_translation((-0.5, 0.8, 0.0))
     # Two slabs that share a face inside are no closed ring; one L is.
@@ -110,7 +110,7 @@ def test_an_l_keeps_its_corner_wherever_it_lies() -> None:
     assert dominant_surface(mesh_of(slabs[0]), up=(0.0, 0.0, 1.0)).outline is None
 
 
-def test_a_hole_is_seen_and_a_hollow_is_not() -> None:
+def test_outline_contains_holes_but_not_inner_hollows() -> None:
     """Two slabs of one outline, a rounded square: one pierced, one hollow within, which looks whole from above."""
     turn = np.arange(24) * 2 * math.pi / 24
     outer = 0.5 * np.column_stack([np.cos(turn), np.sin(turn)])
@@ -154,7 +154,7 @@ def test_a_hole_is_seen_and_a_hollow_is_not() -> None:
 
 
 @pytest.mark.parametrize("shape", ["box", "ball", "sheet"])
-def test_what_is_no_plate_of_an_odd_outline_has_none(shape: str) -> None:
+def test_box_ball_and_sheet_have_no_outline(shape: str) -> None:
     meshes = {
         "box": trimesh.creation.box((1.0, 0.6, 0.03)).subdivide(),
         "ball": trimesh.creation.icosphere(radius=0.2),

@@ -18,7 +18,7 @@ def test_round_trip_is_exact(vertices: list[tuple[float, float, float]]) -> None
     assert decode_ply(encode_ply(mesh)) == mesh
 
 
-def test_another_reader_sees_the_same_mesh() -> None:
+def test_trimesh_reads_the_same_mesh() -> None:
     box = Box((1.0, 2.0, 0.3)).mesh
     read = trimesh.load(trimesh.util.wrap_as_stream(encode_ply(box)), file_type="ply", process=False)
     np.testing.assert_array_equal(read.vertices, box.vertices_m)
@@ -26,14 +26,14 @@ def test_another_reader_sees_the_same_mesh() -> None:
     assert read.volume == pytest.approx(0.6)
 
 
-def test_a_float_file_of_another_writer_is_read() -> None:
+def test_single_precision_file_of_trimesh_is_read() -> None:
     written = trimesh.creation.icosphere(subdivisions=1).export(file_type="ply")
     mesh = decode_ply(written)
     np.testing.assert_allclose(mesh.vertices_m, trimesh.creation.icosphere(subdivisions=1).vertices, atol=1e-6)
 
 
 @pytest.mark.parametrize("cut", [0, 10, 150, 300, 400])
-def test_a_file_cut_short(cut: int) -> None:
+def test_truncated_file_is_refused(cut: int) -> None:
     whole = encode_ply(Box((1, 1, 1)).mesh)
     assert cut < len(whole)
     with pytest.raises(SceneFormatError, match="binary PLY"):

@@ -22,12 +22,12 @@ point_lists = st.lists(st.tuples(coordinates, coordinates, coordinates), min_siz
 QUARTER_ABOUT_Z = (0.0, 0.0, 0.5**0.5, 0.5**0.5)
 
 
-def test_a_quarter_turn_about_z_takes_x_to_y() -> None:
+def test_quarter_turn_about_z_maps_x_to_y() -> None:
     moved = Pose((1.0, 2.0, 3.0), QUARTER_ABOUT_Z).to_world([[1.0, 0.0, 0.0]])
     np.testing.assert_allclose(moved, [[1.0, 3.0, 3.0]], atol=1e-15)
 
 
-def test_without_arguments_nothing_moves() -> None:
+def test_default_pose_is_the_identity() -> None:
     points = np.array([[1.0, -2.0, 3.5]])
     np.testing.assert_array_equal(Pose().to_world(points), points)
 
@@ -40,32 +40,32 @@ def test_rotation_is_that_of_scipy(pose: Pose) -> None:
 
 @given(poses, point_lists)
 @settings(derandomize=True, deadline=None, max_examples=50)
-def test_to_own_undoes_to_world(pose: Pose, points: list[tuple[float, float, float]]) -> None:
+def test_to_own_inverts_to_world(pose: Pose, points: list[tuple[float, float, float]]) -> None:
     np.testing.assert_allclose(pose.to_own(pose.to_world(points)), points, atol=1e-10)
 
 
 @given(poses, poses, point_lists)
 @settings(derandomize=True, deadline=None, max_examples=50)
-def test_compose_is_one_after_the_other(outer: Pose, inner: Pose, points: list[tuple[float, float, float]]) -> None:
+def test_compose_applies_inner_then_outer(outer: Pose, inner: Pose, points: list[tuple[float, float, float]]) -> None:
     together = outer.compose(inner).to_world(points)
     np.testing.assert_allclose(together, outer.to_world(inner.to_world(points)), atol=1e-9)
 
 
 @given(poses)
 @settings(derandomize=True, deadline=None, max_examples=100)
-def test_from_matrix_finds_the_pose_again(pose: Pose) -> None:
+def test_from_matrix_restores_the_pose(pose: Pose) -> None:
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position_m
     again = Pose.from_matrix(matrix)
     assert again.position_m == pose.position_m
-    # q and -q are one rotation; neither may be far from a unit quaternion of the other.
-    cosine = abs(np.dot(again.rotation_xyzw, pose.rotation_xyzw))
+    # q and -q are one rotation. A pose keeps a quaternion whose length is within 1e-9 of 1, so divide by its length.
+    cosine = abs(np.dot(again.rotation_xyzw, pose.rotation_xyzw)) / math.hypot(*pose.rotation_xyzw)
     assert cosine == pytest.approx(1.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("axis", ["x", "y", "z"])
 @pytest.mark.parametrize("angle_deg", [0, 90, 179.999, 180, 270])
-def test_from_matrix_holds_at_half_turns(axis: str, angle_deg: float) -> None:
+def test_from_matrix_is_exact_at_half_turns(axis: str, angle_deg: float) -> None:
     matrix = np.eye(4)
     matrix[:3, :3] = Rotation.from_euler(axis, angle_deg, degrees=True).as_matrix()
     np.testing.assert_allclose(Pose.from_matrix(matrix).rotation, matrix[:3, :3], atol=1e-12)
@@ -75,7 +75,7 @@ def test_a_long_quaternion_is_normalised() -> None:
     assert Pose(rotation_xyzw=(0.0, 0.0, 0.0, 2.0)).rotation_xyzw == (0.0, 0.0, 0.0, 1.0)
 
 
-def test_a_unit_quaternion_keeps_its_last_bit() -> None:
+def test_unit_quaternion_is_kept_bit_exactly() -> None:
     quaternion = (0.1, 0.2, 0.3, math.sqrt(1 - 0.14))
     assert Pose(rotation_xyzw=quaternion).rotation_xyzw == quaternion
 
@@ -90,7 +90,7 @@ def test_a_unit_quaternion_keeps_its_last_bit() -> None:
         ({"rotation_xyzw": ("a", 0.0, 0.0, 1.0)}, r"rotation_xyzw\[0\] is 'a'; it must be a number"),
     ],
 )
-def test_what_is_no_pose_is_refused(arguments: dict[str, object], sentence: str) -> None:
+def test_invalid_pose_is_refused(arguments: dict[str, object], sentence: str) -> None:
     with pytest.raises(SceneError, match=sentence):
         Pose(**arguments)  # type: ignore[arg-type]
 
@@ -102,7 +102,9 @@ def test_a_matrix_that_is_not_rigid_is_refused(matrix: np.ndarray[tuple[int, int
 
 
 @pytest.mark.parametrize("rotation", [(0.0, 90.0, 0.0, 0.0), (0.0, 0.0, 0.0, 2.0), (0.1, 0.2, 0.1, 0.3)])
-def test_a_quaternion_far_from_unit_length_is_told_and_normalised(rotation: tuple[float, float, float, float]) -> None:
+def test_quaternion_far_from_unit_length_is_normalised_with_a_warning(
+    rotation: tuple[float, float, float, float],
+) -> None:
     with pytest.warns(SceneWarning, match=r"of length .*from_euler.*from_wxyz") as caught:
         pose = Pose((0.0, 0.0, 0.0), rotation)
     assert caught[0].filename == __file__
@@ -110,7 +112,7 @@ def test_a_quaternion_far_from_unit_length_is_told_and_normalised(rotation: tupl
 
 
 @pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
-def test_one_that_was_rounded_is_normalised_in_silence() -> None:
+def test_rounded_quaternion_is_normalised_without_a_warning() -> None:
     assert math.hypot(*Pose(rotation_xyzw=(0.7, 0.0, 0.0, 0.7)).rotation_xyzw) == pytest.approx(1.0)
 
 
@@ -122,13 +124,13 @@ def test_one_that_was_rounded_is_normalised_in_silence() -> None:
         lambda: Pose.from_euler((0, 0, 0), (0, 0, 360)),
     ],
 )
-def test_angles_that_are_degrees_are_told(make: Callable[[], Pose]) -> None:
+def test_angles_that_look_like_degrees_warn(make: Callable[[], Pose]) -> None:
     with pytest.warns(SceneWarning, match=r"rad, .* turns, and looks like degrees; for degrees write math.radians"):
         make()
 
 
 @pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
-def test_angles_in_radians_are_not() -> None:
+def test_angles_in_radians_do_not_warn() -> None:
     for k in range(-20, 21):
         Pose.from_yaw((0, 0, 0), k * math.pi / 12)
 

@@ -1,4 +1,4 @@
-"""Poses from what engines and people have: quaternions w first, angles, matrices, targets."""
+"""Poses from the forms that engines and users have: quaternions with w first, angles, matrices, targets."""
 
 import math
 
@@ -15,7 +15,7 @@ AT = (0.1, 0.2, 0.3)
 angles = st.floats(-10, 10)
 
 
-def test_w_first() -> None:
+def test_from_wxyz_takes_w_first() -> None:
     pose = Pose.from_wxyz(AT, (0.5, 0.1, -0.7, 0.5))
     expected = Rotation.from_quat([0.1, -0.7, 0.5, 0.5]).as_matrix()
     np.testing.assert_allclose(pose.rotation, expected, atol=1e-12)
@@ -34,14 +34,14 @@ def test_a_quarter_turn_about_the_vertical(up_axis: str, front: tuple[float, flo
     order=st.sampled_from(["xyz", "ZYX", "zxz", "YXZ", "XZX", "zy", "X"]),
     values=st.lists(angles, min_size=3, max_size=3),
 )
-def test_angles_as_scipy_has_them(order: str, values: list[float]) -> None:
+def test_from_euler_equals_scipy(order: str, values: list[float]) -> None:
     given_rad = values[: len(order)]
     expected = Rotation.from_euler(order, given_rad if len(order) > 1 else given_rad[0]).as_matrix()
     np.testing.assert_allclose(Pose.from_euler(AT, given_rad, order=order).rotation, expected, atol=1e-9)
 
 
 @given(target=st.tuples(*[st.floats(-5, 5)] * 3), up_axis=st.sampled_from(["y", "z"]))
-def test_the_front_points_at_the_target_and_no_side_hangs(target: tuple[float, float, float], up_axis: str) -> None:
+def test_look_at_points_the_front_at_the_target_without_roll(target: tuple[float, float, float], up_axis: str) -> None:
     up = {"y": 1, "z": 2}[up_axis]
     way = np.array(target) - AT
     if np.linalg.norm(np.delete(way, up)) < 1e-3:
@@ -67,6 +67,6 @@ def test_the_front_points_at_the_target_and_no_side_hangs(target: tuple[float, f
         (lambda: Pose.look_at(AT, AT), "is at or straight above"),
     ],
 )
-def test_what_is_no_rotation(make: object, words: str) -> None:
+def test_invalid_rotations_are_refused(make: object, words: str) -> None:
     with pytest.raises(SceneError, match=words):
         make()  # type: ignore[operator]  # a function of the table

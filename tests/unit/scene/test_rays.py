@@ -29,7 +29,7 @@ def along_one_ray(*crossings: tuple[float, int]) -> Hits:
 UNIT = soup(((1.0, 1.0, 1.0), (0.0, 0.0, 0.0)))
 
 
-def test_every_ray_through_a_cube_enters_and_leaves_once() -> None:
+def test_rays_through_a_cube_enter_and_leave_once() -> None:
     hits = cast_grid(UNIT, 16)
     assert len(hits.starts) == 256
     np.testing.assert_array_equal(hits.ray, np.repeat(np.arange(256), 2))
@@ -37,13 +37,13 @@ def test_every_ray_through_a_cube_enters_and_leaves_once() -> None:
     np.testing.assert_array_equal(hits.side.reshape(-1, 2), np.tile([1, -1], (256, 1)))
 
 
-def test_edge_on_triangles_and_flat_meshes_meet_no_ray() -> None:
+def test_edge_on_triangles_have_no_hits() -> None:
     wall = np.array([[[0.0], [1.0], [1.0]], [[0.0], [0.0], [0.0]], [[0.0], [0.0], [1.0]]])
     assert len(cast_grid(wall, 8).ray) == 0
     assert len(cast_grid(wall[[0, 2, 1]], 8).ray) > 0
 
 
-def test_hits_are_those_of_a_brute_force_caster() -> None:
+def test_hits_equal_those_of_a_brute_force_caster() -> None:
     """Each ray against each triangle by signed volumes; rays taken from where the grid's own hits are single-valued."""
     rng = np.random.default_rng(4)
     triangles = rng.uniform(-1, 1, size=(3, 3, 60))
@@ -105,7 +105,9 @@ def _doubled(p: Floats, q: Floats, at: tuple[float, float]) -> float:
         "sheet before a solid",
     ],
 )
-def test_the_first_solid_of_a_ray(crossings: list[tuple[float, int]], top: float, bottom: float | None) -> None:
+def test_first_solids_returns_the_first_closed_interval_of_each_ray(
+    crossings: list[tuple[float, int]], top: float, bottom: float | None
+) -> None:
     solids = first_solids(along_one_ray(*crossings), 1e-6)
     assert solids.top.tolist() == [top]
     if bottom is None:
@@ -114,7 +116,7 @@ def test_the_first_solid_of_a_ray(crossings: list[tuple[float, int]], top: float
         assert solids.bottom.tolist() == [bottom]
 
 
-def test_rays_do_not_run_into_each_other() -> None:
+def test_first_solids_separates_consecutive_rays() -> None:
     """An open ray before a closed one, and a closed one that starts where the other ended."""
     hits = Hits(np.array([3, 7, 7, 9]), np.array([0.0, 0.0, -1.0, -1.0]), np.array([1, 1, -1, 1]))
     solids = first_solids(hits, 1e-6)
@@ -123,13 +125,13 @@ def test_rays_do_not_run_into_each_other() -> None:
     assert share_open(hits) == pytest.approx(2 / 3)
 
 
-def test_no_hits_are_no_solids() -> None:
+def test_first_solids_of_no_hits_is_empty() -> None:
     none = Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
     assert len(first_solids(none, 1e-6).top) == 0
     assert share_open(none) == 0.0
 
 
-def test_a_cut_through_a_cube_is_its_outline() -> None:
+def test_cut_through_a_cube_is_its_square_outline() -> None:
     segments = cut(UNIT, 0.2)
     lengths = np.hypot(*(segments[:, 0] - segments[:, 1]))
     assert lengths.sum() == pytest.approx(4.0)
@@ -148,17 +150,17 @@ def test_the_outline_of_a_cube_is_as_wide_as_the_cube() -> None:
     assert median_span(outline(UNIT), 0, 32) == pytest.approx((1.0, 0.0))
 
 
-def test_what_has_no_width_has_no_span() -> None:
+def test_median_span_of_zero_width_is_none() -> None:
     assert median_span(np.empty((2, 2, 0)), 0, 32) is None
     assert median_span(np.array([[[0.0], [1.0]], [[2.0], [2.0]]]), 0, 32) is None
 
 
-def test_what_lies_between_the_rays_has_no_span() -> None:
+def test_median_span_of_crumbs_between_rays_is_none() -> None:
     crumbs = np.array([[[0.0, 0.0], [1.0, 1.0]], [[0.0, 0.999], [0.001, 1.0]]])
     assert median_span(crumbs, 0, 32) is None
 
 
-def test_many_large_triangles_are_drawn_in_parts() -> None:
+def test_large_triangles_are_cast_in_batches() -> None:
     """More pairs than are tested at once give the hits that fewer give."""
     sheet = soup(*(((1.0, 1.0, 0.01), (0.0, 0.0, 0.05 * i)) for i in range(70)))
     hits = cast_grid(sheet, 64)

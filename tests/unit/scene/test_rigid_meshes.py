@@ -47,7 +47,7 @@ def test_the_rigid_part_is_the_polar_rotation(seed: int) -> None:
 
 @given(seeds)
 @settings(derandomize=True, deadline=None, max_examples=60)
-def test_pose_and_mesh_together_are_the_transform(seed: int) -> None:
+def test_pose_and_mesh_reproduce_the_transform(seed: int) -> None:
     rng = np.random.default_rng(seed)
     matrix = affine(rng.normal(size=(3, 3)), tuple(rng.normal(size=3)))
     placed = MeshPool(1.0).place(group(matrix))
@@ -57,12 +57,12 @@ def test_pose_and_mesh_together_are_the_transform(seed: int) -> None:
     np.testing.assert_array_equal(turned, CUBE_FACES)
 
 
-def test_a_flattened_node_has_a_pose_all_the_same() -> None:
+def test_flattened_node_has_a_rigid_pose() -> None:
     placed = MeshPool(1.0).place(group(affine(np.diag([2.0, 0.0, 3.0]))))
     np.testing.assert_allclose(np.ptp(placed.mesh.bounds_m, axis=0), [2.0, 0.0, 3.0], atol=1e-12)
 
 
-def test_copies_that_went_through_single_precision_are_one() -> None:
+def test_copies_rounded_to_single_precision_share_a_mesh() -> None:
     pool = MeshPool(1.0)
     turns = Rotation.from_quat(np.random.default_rng(5).normal(size=(40, 4))).as_matrix()
     exact = [affine(0.37 * turn, (i, 0.0, 0.0)) for i, turn in enumerate(turns)]
@@ -73,27 +73,27 @@ def test_copies_that_went_through_single_precision_are_one() -> None:
         np.testing.assert_allclose(points, CUBE @ matrix[:3, :3].T + matrix[:3, 3], atol=5e-6)
 
 
-def test_copies_that_differ_by_a_thousandth_are_not() -> None:
+def test_copies_that_differ_by_a_thousandth_have_separate_meshes() -> None:
     pool = MeshPool(1.0)
     meshes = [pool.place(group(affine(scale * np.eye(3)))).mesh for scale in (1.0, 1.001, 1.0)]
     assert meshes[0] is meshes[2]
     assert meshes[0] is not meshes[1]
 
 
-def test_a_mirrored_copy_is_another_mesh() -> None:
+def test_mirrored_copy_has_a_separate_mesh() -> None:
     pool = MeshPool(1.0)
     plain, mirrored = (pool.place(group(affine(np.diag([sign, 1.0, 1.0])))) for sign in (1.0, -1.0))
     assert plain.instance_key != mirrored.instance_key
 
 
-def test_the_key_tells_material_apart_but_not_place() -> None:
+def test_instance_key_depends_on_material_but_not_on_place() -> None:
     pool = MeshPool(1.0)
     steel = Piece("other", CUBE, PIECE.faces, "steel")
     oak = [pool.place(group(affine(np.eye(3), (x, 0.0, 0.0)))).instance_key for x in (0.0, 9.0)]
     assert oak[0] == oak[1] != pool.place(group(np.eye(4), steel)).instance_key
 
 
-def test_pieces_become_one_mesh_in_their_order() -> None:
+def test_pieces_are_joined_in_order() -> None:
     lifted = affine(np.eye(3), (0.0, 5.0, 0.0))
     placed = MeshPool(1.0).place(Group("thing", np.eye(4), ((np.eye(4), PIECE), (lifted, PIECE))))
     np.testing.assert_array_equal(placed.mesh.vertices_m, np.vstack((CUBE, CUBE + np.array([0.0, 5.0, 0.0]))))
@@ -107,12 +107,12 @@ def test_the_unit_scales_place_and_mesh() -> None:
 
 
 @pytest.mark.parametrize("scale", [0.0, 1e-12])
-def test_an_object_that_is_a_point_is_refused_by_name(scale: float) -> None:
+def test_object_without_extent_is_refused_by_name(scale: float) -> None:
     with pytest.raises(SceneError, match="object 'thing' has no size"):
         MeshPool(1.0).place(group(affine(scale * np.eye(3))))
 
 
-def test_a_copy_is_found_among_many_of_other_sizes() -> None:
+def test_copy_is_found_among_many_sizes() -> None:
     pool = MeshPool(1.0)
     scales = np.random.default_rng(3).permutation(np.linspace(0.5, 2.0, 300))
     first = [pool.place(group(affine(scale * np.eye(3)))).mesh for scale in scales]
@@ -121,7 +121,7 @@ def test_a_copy_is_found_among_many_of_other_sizes() -> None:
     assert all(a is b for a, b in zip(first, again, strict=True))
 
 
-def test_copies_that_are_stored_apart_under_any_turn_are_one() -> None:
+def test_copies_stored_separately_at_any_rotation_share_a_mesh() -> None:
     """Turning to and fro leaves some 1e-14 m, which must not show in the key."""
     pool = MeshPool(1.0)
     points = np.random.default_rng(7).normal(size=(4000, 3))
@@ -136,7 +136,7 @@ def test_copies_that_are_stored_apart_under_any_turn_are_one() -> None:
     np.testing.assert_allclose(placed[0].mesh.vertices_m, points[:3999], atol=0.6e-9)
 
 
-def test_meshes_of_equal_faces_that_differ_by_a_micrometre_are_two() -> None:
+def test_meshes_that_differ_by_a_micrometre_are_separate() -> None:
     pool = MeshPool(1.0)
     keys = [
         pool.place(group(np.eye(4), Piece(i, CUBE * [1.0, 1.0, 1.0 + 1e-6 * i], PIECE.faces, "oak"))).instance_key
@@ -151,7 +151,7 @@ def painted(color: float, key: str = "cube") -> Piece:
     return replace(PIECE, key=key, appearance=Appearance.plain(material, 12, uv))
 
 
-def test_one_mesh_in_other_colours_is_shared_but_has_another_key() -> None:
+def test_mesh_in_two_colours_is_shared_with_two_keys() -> None:
     """The same piece drawn in two materials, as COLLADA and engines do."""
     pool = MeshPool(1.0)
     red, dark, again = (pool.place(group(np.eye(4), painted(color))) for color in (1.0, 0.5, 1.0))
@@ -162,7 +162,7 @@ def test_one_mesh_in_other_colours_is_shared_but_has_another_key() -> None:
     assert red.appearance.materials[0].color_rgba == (1.0, 0.0, 0.0, 1.0)
 
 
-def test_mirrored_parts_turn_their_coordinates_with_their_corners() -> None:
+def test_mirrored_parts_reorder_texture_coordinates_with_corners() -> None:
     piece = painted(1.0)
     mirror = affine(np.diag([1.0, -1.0, 1.0]), (5.0, 0.0, 0.0))
     placed = MeshPool(1.0).place(Group("thing", np.eye(4), ((np.eye(4), piece), (mirror, piece), (np.eye(4), PIECE))))

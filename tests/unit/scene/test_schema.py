@@ -35,7 +35,7 @@ def test_the_published_file_is_current() -> None:
     )
 
 
-def test_it_is_a_schema_and_speaks_of_json_alone() -> None:
+def test_published_schema_is_valid_and_mentions_only_json() -> None:
     schema = scene_schema()
     jsonschema.Draft202012Validator.check_schema(schema)
     told = json.dumps(schema)
@@ -57,7 +57,7 @@ def everything() -> SceneSnapshot:
     return SceneSnapshot("s", "z", (shard, *boxes), contacts)
 
 
-def test_what_is_written_is_valid() -> None:
+def test_written_scenes_are_valid_by_the_schema() -> None:
     for snapshot in (everything(), load_scene(kitchen_path())):
         document = json.loads(snapshot.to_json())
         assert list(validator().iter_errors(document)) == []
@@ -88,7 +88,7 @@ def test_what_is_written_is_valid() -> None:
         (("geometries",), []),
     ],
 )
-def test_what_it_refuses_the_reader_refuses_too(path: tuple[Any, ...], value: object) -> None:
+def test_reader_refuses_values_that_the_schema_refuses(path: tuple[Any, ...], value: object) -> None:
     document = json.loads(everything().to_json())
     assert validator().is_valid(document)
     place = document
@@ -101,7 +101,7 @@ def test_what_it_refuses_the_reader_refuses_too(path: tuple[Any, ...], value: ob
 
 
 @pytest.mark.parametrize("missing", ["pose", "geometry", "id", "name"])
-def test_what_it_demands_the_reader_demands_too(missing: str) -> None:
+def test_reader_requires_fields_that_the_schema_requires(missing: str) -> None:
     document = json.loads(scene(box("a", (1, 1, 1), (0, 0, 0))).to_json())
     del document["objects"][0][missing]
     assert not validator().is_valid(document)
@@ -110,7 +110,7 @@ def test_what_it_demands_the_reader_demands_too(missing: str) -> None:
 
 
 @pytest.mark.parametrize("absent", [{}, {"surface": None, "relative_height_m": None, "instance_key": ""}])
-def test_what_it_leaves_open_the_reader_fills_in(absent: dict[str, Any]) -> None:
+def test_reader_fills_optional_fields(absent: dict[str, Any]) -> None:
     row = {"id": "a", "name": "a", "pose": {}, "geometry": {"kind": "box", "size_m": [1, 1, 1]}, **absent}
     document = {"format": "scene2hap/scene", "version": 1, "name": "s", "up_axis": "y", "objects": [row], "mine": 7}
     assert list(validator().iter_errors(document)) == []

@@ -1,4 +1,4 @@
-"""Typed scenes: what they hold, what they refuse, and what they say."""
+"""Typed scenes: content, invalid input, and messages."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_a_box_has_twelve_triangles_that_enclose_its_volume() -> None:
     np.testing.assert_array_equal(mesh.bounds_m, [[-1.0, -1.5, -2.0], [1.0, 1.5, 2.0]])
 
 
-def test_bounds_leave_out_vertices_that_no_face_uses() -> None:
+def test_bounds_exclude_unused_vertices() -> None:
     mesh = TriMesh([*TRIANGLE, [9.0, 9.0, 9.0]], [[0, 1, 2]])
     np.testing.assert_array_equal(mesh.bounds_m, [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]])
 
@@ -38,7 +38,7 @@ def test_meshes_are_equal_by_content() -> None:
     assert len({TriMesh(TRIANGLE, [[0, 1, 2]]), TriMesh(TRIANGLE, [[0, 1, 2]])}) == 1
 
 
-def test_a_mesh_is_its_own_copy_and_cannot_be_changed() -> None:
+def test_mesh_copies_its_arrays_and_is_read_only() -> None:
     vertices = np.array(TRIANGLE)
     mesh = TriMesh(vertices, [[0, 1, 2]])
     vertices[0] = 5.0
@@ -74,7 +74,7 @@ def test_a_mesh_is_its_own_copy_and_cannot_be_changed() -> None:
         ),
     ],
 )
-def test_what_makes_no_sense_is_refused(make: Callable[[], object], sentence: str) -> None:
+def test_invalid_snapshots_are_refused(make: Callable[[], object], sentence: str) -> None:
     with pytest.raises(SceneError, match=sentence):
         make()
 
@@ -85,7 +85,7 @@ def test_a_contact_must_join_objects_of_the_scene() -> None:
         SceneSnapshot("s", "y", objects, (Contact("lamp", "tabel", (0.0, 0.0, 0.0)),))
 
 
-def test_an_object_is_found_by_id_and_a_miss_names_the_nearest() -> None:
+def test_object_lookup_by_id_names_the_nearest_id_on_failure() -> None:
     snapshot = scene(box("kettle", (1, 1, 1), (0, 0, 0)))
     assert snapshot.object("kettle").name == "kettle"
     with pytest.raises(UnknownObject, match="'kettle'"):
@@ -106,7 +106,7 @@ def test_heights_follow_the_up_axis() -> None:
     assert [thing.relative_height_m for thing in upright.objects] == pytest.approx([0.0, 2.0])
 
 
-def test_with_poses_moves_only_what_is_named_and_drops_given_contacts() -> None:
+def test_with_poses_moves_only_named_objects_and_drops_given_contacts() -> None:
     before = SceneSnapshot(
         "s",
         "y",

@@ -46,7 +46,7 @@ def ascii_ply(faces: bool = True) -> bytes:
 @pytest.mark.parametrize(
     ("name", "content"), [("cup.stl", binary_stl()), ("cup.STL", ascii_stl("solid one")), ("cup.ply", ascii_ply())]
 )
-def test_a_file_is_one_object_of_its_name(tmp_path: Path, name: str, content: bytes) -> None:
+def test_file_is_one_object_with_its_name(tmp_path: Path, name: str, content: bytes) -> None:
     path = tmp_path / name
     path.write_bytes(content)
     (item,) = load_scene(path).objects
@@ -62,7 +62,7 @@ def test_solids_of_one_file_are_one_object(tmp_path: Path) -> None:
     np.testing.assert_array_equal(item.bounds_m, [[0.0, 0.0, 0.0], [3.0, 1.0, 1.0]])
 
 
-def test_corners_alone_are_no_surface(tmp_path: Path) -> None:
+def test_points_without_faces_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "cloud.ply"
     path.write_bytes(ascii_ply(faces=False))
     with pytest.raises(SceneError, match="holds no triangles"):
@@ -71,14 +71,14 @@ def test_corners_alone_are_no_surface(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("suffix", ["stl", "ply"])
 @pytest.mark.parametrize("content", [b"a shopping list", b"\x89PNG\r\n\x1a\n" + bytes(200), b"\0" * 100])
-def test_what_is_neither_is_refused(tmp_path: Path, suffix: str, content: bytes) -> None:
+def test_files_that_are_neither_stl_nor_ply_are_refused(tmp_path: Path, suffix: str, content: bytes) -> None:
     path = tmp_path / f"thing.{suffix}"
     path.write_bytes(content)
     with pytest.raises(SceneError, match="cannot be read as|holds no triangles"):
         load_scene(path)
 
 
-def test_a_lying_count_is_refused(tmp_path: Path) -> None:
+def test_wrong_element_count_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "cup.stl"
     path.write_bytes(binary_stl()[:80] + struct.pack("<I", 10**9) + binary_stl()[84:])
     with pytest.raises(SceneFormatError, match="'cup' cannot be read as STL"):
@@ -92,7 +92,7 @@ def test_a_text_ply_that_was_cut_short_is_refused(tmp_path: Path) -> None:
         load_scene(path)
 
 
-def test_trimesh_keeps_silent_and_stays_as_it_was(
+def test_trimesh_logs_nothing_and_keeps_its_logger(
     tmp_path: Path, caplog: pytest.LogCaptureFixture, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "cup.stl"
@@ -129,7 +129,7 @@ def colored_ply(*, of_faces: bool) -> bytes:
         (False, [[1 / 3, 1 / 3, 1 / 3, 1.0], [1 / 3, 0.0, 1 / 3, 1.0]]),
     ],
 )
-def test_colours_are_told_by_face(tmp_path: Path, of_faces: bool, expected: list[list[float]]) -> None:
+def test_vertex_colours_become_face_colours(tmp_path: Path, of_faces: bool, expected: list[list[float]]) -> None:
     path = tmp_path / "scan.ply"
     path.write_bytes(colored_ply(of_faces=of_faces))
     (item,) = load_scene(path).objects
@@ -139,13 +139,13 @@ def test_colours_are_told_by_face(tmp_path: Path, of_faces: bool, expected: list
 
 
 @pytest.mark.parametrize(("name", "content"), [("cup.stl", binary_stl()), ("cup.ply", ascii_ply())])
-def test_without_colours_looks_are_unknown(tmp_path: Path, name: str, content: bytes) -> None:
+def test_file_without_colours_has_no_appearance(tmp_path: Path, name: str, content: bytes) -> None:
     path = tmp_path / name
     path.write_bytes(content)
     assert load_scene(path).objects[0].appearance is None
 
 
-def test_a_scan_of_many_colours_has_few_materials(tmp_path: Path) -> None:
+def test_scan_with_many_colours_gets_few_materials(tmp_path: Path) -> None:
     """A fan of 3000 triangles whose corners run through 3000 hues of red and green."""
     n = 3000
     angle = np.linspace(0.0, 6.0, n + 1)

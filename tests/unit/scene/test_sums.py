@@ -1,4 +1,4 @@
-"""What many small rows ask for together is bounded, what they share is done once, and honest files are read."""
+"""Totals of many small rows are bounded, shared work is done once, and valid files are read."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def shuffled(mesh: TriMesh, seed: int) -> TriMesh:
 
 @pytest.mark.parametrize("up", [None, (0, 1, 0), (0, 0, 1), (0.6, 0.8, 0), (0.1, -0.9, 0.3)])
 @pytest.mark.parametrize("size_m", [(1, 2, 3), (1, 1, 1), (0.3, 0.01, 5), (2, 2, 0.1), (1, 1.005, 1.001)])
-def test_boxes_are_measured_as_by_rays(
+def test_boxes_have_the_same_surface_as_by_rays(
     size_m: tuple[float, float, float], up: tuple[float, float, float] | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     mesh = shuffled(TriMesh(np.add(Box(size_m).mesh.vertices_m, (0.5, -2, 3)), Box(size_m).mesh.faces), seed=1)
@@ -53,7 +53,7 @@ def test_boxes_are_measured_as_by_rays(
     np.testing.assert_allclose(quick.pose.position_m, by_rays.pose.position_m, atol=1e-9)
 
 
-def test_only_whole_boxes_are_boxes() -> None:
+def test_only_complete_cuboids_are_recognised() -> None:
     mesh = Box((1, 2, 3)).mesh
     assert cuboid_bounds_m(mesh) is not None
     assert cuboid_bounds_m(TriMesh(mesh.vertices_m, mesh.faces[:, ::-1])) is not None
@@ -81,14 +81,14 @@ def tetrahedra(folder: Path, n: int) -> Path:
     return folder / "a.obj"
 
 
-def test_shapes_that_are_all_different_have_a_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_distinct_shapes_are_limited_by_a_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(surfaces, "_FREE", 50_000)
     assert len(load_scene(tetrahedra(tmp_path, 1)).objects) == 1
     with pytest.raises(SceneError, match="object 't[1-3]' brings the rays that measure its shapes.*copies of fewer"):
         load_scene(tetrahedra(tmp_path, 5))
 
 
-def test_copies_and_boxes_cost_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_copies_and_boxes_use_no_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(surfaces, "_FREE", 0)
     monkeypatch.setattr(surfaces, "_PER_VERTEX", 0.0)
     objects = [
@@ -138,13 +138,13 @@ def test_items_of_a_group_are_compared_by_table(monkeypatch: pytest.MonkeyPatch)
     assert len(calls) <= 22
 
 
-def test_items_of_a_group_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_number_of_group_items_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(limits, "MAX_OBJECTS", 5)
     with pytest.raises(SceneError, match="items in the group 'tea' is 6"):
         split("tea", [member("tea_spoon", 9.0 * i) for i in range(6)])
 
 
-def test_libraries_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_number_of_libraries_is_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mtl, "MAX_LIBRARIES", 3)
     names = " ".join(f"a{i}.mtl" for i in range(4))
     (tmp_path / "a.obj").write_text(f"{TRIANGLE}mtllib {names}\nf 1 2 3\n")
@@ -159,14 +159,14 @@ def test_solids_of_a_text_stl_are_read_as_one() -> None:
     assert sorted(node.pieces[0].vertices[:, 2])[-1] == 299
 
 
-def test_solids_within_lines_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_solids_within_long_lines_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stl_ply, "MAX_SOLIDS", 3)
     text = "".join(f"solid a {FACET.format(i)} endsolid a " for i in range(4))
     with pytest.raises(SceneError, match="4 solids"):
         read_stl_ply(text.encode(), "stl", "a")
 
 
-def test_a_binary_stl_that_speaks_of_solids_is_left_as_it_is() -> None:
+def test_binary_stl_with_the_word_solid_is_read_as_binary() -> None:
     data = bytearray(84 + 50 * 2)
     data[80] = 2
     data[:20] = b"solid a\nendsolid\nsol"
@@ -204,7 +204,9 @@ def packed_plane(DracoPy: Any, edge: int, **how: Any) -> bytes:
 
 
 @pytest.mark.parametrize("level", [0, 10])
-def test_draco_is_counted_before_and_unpacked_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, level: int) -> None:
+def test_draco_mesh_is_counted_before_decoding_and_decoded_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, level: int
+) -> None:
     DracoPy = pytest.importorskip("DracoPy")
     data, decode, calls = packed_plane(DracoPy, 20, compression_level=level), DracoPy.decode, []
     monkeypatch.setattr(DracoPy, "decode", lambda data: calls.append(1) or decode(data))
@@ -222,7 +224,7 @@ def refuse_packed(budget: limits.Budget, amount: int, place: str) -> None:
         raise SceneError(f"{amount} packed")
 
 
-def test_draco_drawn_again_and_again(tmp_path: Path) -> None:
+def test_repeated_draco_primitives_are_limited(tmp_path: Path) -> None:
     DracoPy = pytest.importorskip("DracoPy")
     with pytest.raises(SceneError, match="its triangles to"):
         load_scene(draco_scene(tmp_path, packed_plane(DracoPy, 60), 200))
@@ -237,7 +239,7 @@ def test_draco_drawn_again_and_again(tmp_path: Path) -> None:
         b"DRACO\2\2\1\0\0\x80" + b"\1\5" + b"\1\2ab\3xyz" + b"\1\1c\0\0" + b"\0\0" + b"\xff\xff\xff\xff\x0f" * 2,
     ],
 )
-def test_a_draco_header_that_promises_too_much(tmp_path: Path, header: bytes) -> None:
+def test_draco_header_with_too_many_points_is_refused(tmp_path: Path, header: bytes) -> None:
     pytest.importorskip("DracoPy")
     with pytest.raises(SceneError, match="packed triangles to 4,294,967,295"):
         load_scene(draco_scene(tmp_path, header + bytes(100), 1))
@@ -246,7 +248,7 @@ def test_a_draco_header_that_promises_too_much(tmp_path: Path, header: bytes) ->
 @pytest.mark.parametrize(
     "data", [b"DRACO\2\1\1\1\0\0" + bytes(50), b"DRACO\2\2\0\0\0\0" + bytes(50), b"DRACO\2\2\1\1\0"]
 )
-def test_a_draco_header_that_is_none(tmp_path: Path, data: bytes) -> None:
+def test_invalid_draco_header_is_refused(tmp_path: Path, data: bytes) -> None:
     pytest.importorskip("DracoPy")
     with pytest.raises(SceneError, match="Draco data cannot be decoded, by its header"):
         load_scene(draco_scene(tmp_path, data, 1))
@@ -262,7 +264,7 @@ def mjcf(folder: Path, inside: str, assets: str = "") -> Path:
     return folder / "a.xml"
 
 
-def test_a_mesh_file_counts_as_often_as_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_mesh_file_counts_once_per_reference(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     rows = "".join(f'<mesh name="m{i}" file="m.obj"/>' for i in range(3))
     check_files(mjcf(tmp_path, "", rows), tmp_path)
     monkeypatch.setattr(mjcf_files, "FREE_MESH_BYTES", 0)
@@ -289,13 +291,13 @@ def test_built_in_meshes_count_together(tmp_path: Path) -> None:
         '<flexcomp count="2 3 1"/>',
     ],
 )
-def test_bodies_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, inside: str) -> None:
+def test_number_of_bodies_is_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, inside: str) -> None:
     monkeypatch.setattr(limits, "MAX_OBJECTS", 5)
     with pytest.raises(SceneError, match="the number of bodies is 6"):
         check_files(mjcf(tmp_path, inside), tmp_path)
 
 
-def test_geoms_of_the_world_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_number_of_world_geoms_is_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("mujoco")
     monkeypatch.setattr(limits, "MAX_OBJECTS", 5)
     with pytest.raises(SceneError, match="the number of objects is 6"):
@@ -336,7 +338,7 @@ def test_triangles_are_counted_before_geoms_are_drawn(
         load_scene(path, unit_m=1.0)
 
 
-def test_made_shapes_store_no_vertices(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_generated_shapes_do_not_raise_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Else a few bytes of MJCF would bring a budget along with each sphere."""
     pytest.importorskip("mujoco")
     monkeypatch.setattr(surfaces, "_FREE", 100_000)

@@ -21,7 +21,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.load import TextureWarning, load_scene
 
 
-def test_a_texture_outside_the_root_costs_only_itself_and_the_root_is_told(tmp_path: Path) -> None:
+def test_texture_outside_the_root_is_skipped_with_the_needed_root(tmp_path: Path) -> None:
     path = beside(tmp_path, "../textures/x.png")
     (tmp_path / "textures").mkdir()
     (tmp_path / "textures" / "x.png").write_bytes(image_file())
@@ -42,7 +42,7 @@ def test_a_texture_outside_the_root_costs_only_itself_and_the_root_is_told(tmp_p
         ("data:image/png;base64,!!", "its data: URI cannot be decoded"),
     ],
 )
-def test_a_texture_that_cannot_be_read_is_told_once(tmp_path: Path, uri: str, reason: str) -> None:
+def test_unreadable_texture_warns_once(tmp_path: Path, uri: str, reason: str) -> None:
     path = beside(tmp_path, uri)
     scene, message = refused(path)
     assert "is read without 1 of its textures" in message
@@ -51,13 +51,13 @@ def test_a_texture_that_cannot_be_read_is_told_once(tmp_path: Path, uri: str, re
     assert looks(scene.objects[0]).uv is None
 
 
-def test_the_warning_points_at_the_line_that_loads(tmp_path: Path) -> None:
+def test_warning_has_the_line_of_the_load_call(tmp_path: Path) -> None:
     with pytest.warns(TextureWarning) as caught:
         load_scene(beside(tmp_path, "gone.png"))
     assert [warning.filename for warning in caught] == [__file__]
 
 
-def test_many_bad_textures_are_one_warning(tmp_path: Path) -> None:
+def test_many_bad_textures_give_one_warning(tmp_path: Path) -> None:
     gltf = Gltf()
     gltf.header["images"] = [{"uri": f"gone{i}.png"} for i in range(7)]
     gltf.header["textures"] = [{"source": i} for i in range(7)]
@@ -94,7 +94,7 @@ def test_textures_too_large_are_refused_before_they_are_decoded(
     assert "images[0]" in message
 
 
-def test_the_limit_may_be_raised(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_texture_limit_can_be_raised(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     gltf = embedded(quad(pbr()), image_file())
     gltf.node("square", mesh=0, root=True)
     path = gltf.write(tmp_path / "scene.glb")
@@ -103,7 +103,7 @@ def test_the_limit_may_be_raised(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert "at most 1 are read (scene2hap.scene.limits.MAX_TEXTURE_PX)" in message
 
 
-def test_pixels_that_are_broken_are_told_when_they_are_wanted(tmp_path: Path) -> None:
+def test_broken_pixels_warn_at_first_access(tmp_path: Path) -> None:
     item = one(embedded(quad(pbr()), huge_png(8, 8)), tmp_path)
     (material,) = looks(item).materials
     with pytest.warns(TextureWarning, match=r"images\[0\]' is left out, its colour stays"):
@@ -129,7 +129,7 @@ def test_pixels_that_are_broken_are_told_when_they_are_wanted(tmp_path: Path) ->
         {"materials": [pbr(baseColorTexture={"index": 0, "extensions": {"KHR_texture_transform": {"scale": 2}}})]},
     ],
 )
-def test_whatever_is_wrong_with_looks_never_fails_the_scene(tmp_path: Path, change: dict[str, Any]) -> None:
+def test_invalid_appearance_never_fails_the_load(tmp_path: Path, change: dict[str, Any]) -> None:
     gltf = embedded(quad(pbr()), image_file())
     gltf.header.update(change)
     gltf.node("square", mesh=0, root=True)
@@ -138,7 +138,7 @@ def test_whatever_is_wrong_with_looks_never_fails_the_scene(tmp_path: Path, chan
     assert (material.color_rgba, material.texture) == ((1.0, 1.0, 1.0, 1.0), None)
 
 
-def test_coordinates_that_do_not_fit_the_vertices_are_told(tmp_path: Path) -> None:
+def test_coordinates_of_wrong_count_warn(tmp_path: Path) -> None:
     gltf = embedded(quad(pbr(), uv=QUAD_UV[:3]), image_file())
     gltf.node("square", mesh=0, root=True)
     _, message = refused(gltf.write(tmp_path / "scene.glb"))
@@ -148,7 +148,7 @@ def test_coordinates_that_do_not_fit_the_vertices_are_told(tmp_path: Path) -> No
 # -- decoding ---------------------------------------------------------------------------------------------------------
 
 
-def test_large_images_are_decoded_small(tmp_path: Path) -> None:
+def test_large_images_are_decoded_at_reduced_size(tmp_path: Path) -> None:
     wide = np.zeros((4, 4096, 3), np.uint8)
     wide[:, 2048:] = WHITE
     item = one(embedded(quad(pbr()), image_file(wide)), tmp_path)
@@ -189,7 +189,7 @@ def test_pillow_is_imported_only_for_textures(tmp_path: Path) -> None:
     assert imports_pillow(textured) == "True"
 
 
-def test_nothing_is_decoded_by_loading(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_loading_decodes_no_image(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     gltf = embedded(quad(pbr()), huge_png(8, 8))
     gltf.node("square", mesh=0, root=True)
     with warnings.catch_warnings():

@@ -41,7 +41,7 @@ def vec3(count: int, **more: Any) -> dict[str, Any]:
     return {"type": "VEC3", "componentType": 5126, "count": count, **more}
 
 
-def test_a_budget_grows_with_what_is_stored() -> None:
+def test_budget_grows_with_stored_bytes() -> None:
     budget = limits.Budget("the numbers", 10, 2.0)
     budget.spend(10, "a")
     with pytest.raises(SceneError, match="a brings the numbers to 11; at most 10"):
@@ -50,13 +50,13 @@ def test_a_budget_grows_with_what_is_stored() -> None:
     budget.spend(9, "a")
 
 
-def test_zeros_that_no_byte_stands_for(tmp_path: Path) -> None:
+def test_accessors_without_bytes_are_limited(tmp_path: Path) -> None:
     many = [{"attributes": {"POSITION": i}} for i in range(50)]
     with pytest.raises(SceneError, match="the numbers in its accessors"):
         load_scene(gltf(tmp_path, accessors=[vec3(10**7)] * 50, primitives=many))
 
 
-def test_one_table_of_bytes_under_many_accessors(tmp_path: Path) -> None:
+def test_accessors_that_share_one_buffer_are_limited(tmp_path: Path) -> None:
     data = np.random.default_rng(0).normal(size=(3000, 3)).astype("<f4").tobytes()
     many = [{"attributes": {"POSITION": i}} for i in range(400)]
     with pytest.raises(SceneError, match="the numbers in its accessors|its triangles"):
@@ -79,7 +79,7 @@ def test_primitives_that_share_an_accessor_are_read(tmp_path: Path) -> None:
     assert len(load_scene(path).objects[0].geometry.mesh.faces) == m
 
 
-def test_instances_within_one_object(tmp_path: Path) -> None:
+def test_instances_within_one_object_are_limited(tmp_path: Path) -> None:
     data = np.random.default_rng(0).normal(size=(3000, 3)).astype("<f4").tobytes()
     n = 1000
     nodes: list[dict[str, Any]] = [{"mesh": 0, "translation": [i, 0, 0]} for i in range(n)]
@@ -96,7 +96,7 @@ def test_instances_within_one_object(tmp_path: Path) -> None:
         load_scene(path)
 
 
-def test_a_piece_takes_only_what_it_uses() -> None:
+def test_piece_keeps_only_its_used_vertices() -> None:
     points = np.full((1000, 3), np.nan)
     points[[7, 500, 999]] = np.eye(3)
     piece = Piece.checked(0, points, [[999, 7, 500]], "", "a")
@@ -106,7 +106,7 @@ def test_a_piece_takes_only_what_it_uses() -> None:
         Piece.checked(0, points, [[999, 8, 500]], "", "a")
 
 
-def test_a_heap_of_triangles_is_a_box() -> None:
+def test_excessive_triangles_fall_back_to_the_box_surface() -> None:
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
     heap = TriMesh(points, np.tile([[0, 1, 2], [1, 2, 3]], (100_000, 1)))
     assert "box-fallback" in dominant_surface(heap, up=np.array([0.0, 1.0, 0.0])).flags
@@ -120,7 +120,7 @@ def test_continued_lines_are_joined_once() -> None:
     assert len(scene.roots[0].pieces[0].faces) == 1
 
 
-def test_options_of_a_texture() -> None:
+def test_texture_options_are_parsed_in_any_number() -> None:
     assert mtl._texture("-s 2 3 -o 0.5 -clamp on a b.png")[0] == "a b.png"
     file, lies = mtl._texture("-s 2 " * 100_000 + "-s 3 4 5 wood.png")
     assert (file, lies.scale) == ("wood.png", (3.0, 4.0))
@@ -159,7 +159,7 @@ def test_textures_of_a_model_count_together(tmp_path: Path) -> None:
         mjcf_files.check_files(tmp_path / "a.xml", tmp_path)
 
 
-def test_a_picture_that_unpacks_to_all_memory(tmp_path: Path) -> None:
+def test_picture_that_decodes_to_too_much_is_refused(tmp_path: Path) -> None:
     header = b"IHDR" + struct.pack(">IIBBBBB", 30_000, 30_000, 8, 2, 0, 0, 0)
     png = b"\x89PNG\r\n\x1a\n" + struct.pack(">I", 13) + header + struct.pack(">I", zlib.crc32(header))
     (tmp_path / "a.png").write_bytes(png)
@@ -169,7 +169,7 @@ def test_a_picture_that_unpacks_to_all_memory(tmp_path: Path) -> None:
         mjcf_files.check_files(tmp_path / "a.xml", tmp_path)
 
 
-def test_models_within_models_count(tmp_path: Path) -> None:
+def test_nested_models_count_towards_the_limit(tmp_path: Path) -> None:
     for i in range(19):
         rows = "".join(f'<model name="{name}" file="m{i + 1}.xml"/>' for name in "ab")
         (tmp_path / f"m{i}.xml").write_text(f"<mujoco><asset>{rows}</asset></mujoco>")

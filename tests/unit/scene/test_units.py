@@ -1,4 +1,4 @@
-"""Warnings about units: silent where sizes are plausible, and a factor that mends what is not."""
+"""Warnings about units: none for plausible sizes, else with a factor that corrects them."""
 
 from __future__ import annotations
 
@@ -39,45 +39,45 @@ def suggestion(snapshot: SceneSnapshot, unit_m: float = 1.0) -> float | None:
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.8, 1.3])
-def test_a_plausible_room_is_silent(scale: float) -> None:
+def test_plausible_room_gets_no_suggestion(scale: float) -> None:
     assert suggestion(room(scale, FURNITURE)) is None
 
 
 @pytest.mark.parametrize(
     ("scale", "unit_m"), [(100.0, 0.01), (1000.0, 0.001), (39.37, 0.0254), (10.0, 0.1), (3.281, 0.3048)]
 )
-def test_furniture_gives_the_unit_away(scale: float, unit_m: float) -> None:
+def test_unit_is_suggested_from_furniture_sizes(scale: float, unit_m: float) -> None:
     assert suggestion(room(scale, FURNITURE)) == unit_m
 
 
 @pytest.mark.parametrize("scale", [1.8, 0.5])
-def test_a_toy_scale_is_told_as_a_plain_ratio(scale: float) -> None:
+def test_toy_scale_is_suggested_as_a_ratio(scale: float) -> None:
     assert suggestion(room(scale, FURNITURE)) == pytest.approx(1 / scale, rel=0.15)
 
 
-def test_one_odd_thing_among_many_is_not_enough() -> None:
+def test_one_odd_object_among_many_gives_no_suggestion() -> None:
     assert suggestion(room(1.0, [*FURNITURE, ("table", 0.3, 0.2)])) is None
 
 
-def test_one_name_alone_must_be_far_off() -> None:
+def test_single_named_object_must_be_far_off_for_a_suggestion() -> None:
     assert suggestion(room(1.0, [("table", 1.4, 0.4)])) is None
     assert suggestion(room(1.0, [("table", 1.4, 7.4)])) == 0.1
 
 
 @pytest.mark.parametrize("name", ["doormat", "Cupboard_Door_R", "Tablet", "chair_leg_cover", "table lamp", "Куб", "7"])
-def test_names_of_other_things_say_nothing(name: str) -> None:
+def test_unrelated_names_give_no_suggestion(name: str) -> None:
     assert suggestion(room(1.0, [(name, 0.3, 0.02)])) is None
 
 
-def test_a_scene_far_too_wide_is_doubted_without_any_name() -> None:
+def test_extremely_wide_scene_gets_a_suggestion_without_names() -> None:
     assert suggestion(scene(box("Object_1", (360.0, 207.0, 60.0), (0, 0, 0)))) == 0.01
 
 
-def test_a_room_far_too_high_is_doubted_without_any_name() -> None:
+def test_extremely_high_room_gets_a_suggestion_without_names() -> None:
     assert suggestion(scene(box("Object_1", (28.0, 27.0, 26.0), (0, 0, 0)))) == 0.1
 
 
-def test_many_things_within_a_hand_are_doubted_and_one_is_not() -> None:
+def test_many_objects_within_a_hand_get_a_suggestion_and_one_does_not() -> None:
     def tiny(n: int) -> SceneSnapshot:
         return scene(*(box(f"o{i}", (0.004, 0.003, 0.004), (0.005 * i, 0.0, 0.0)) for i in range(n)))
 
@@ -85,7 +85,7 @@ def test_many_things_within_a_hand_are_doubted_and_one_is_not() -> None:
     assert suggestion(tiny(8)) == pytest.approx(100.0)
 
 
-def test_the_suggestion_counts_from_the_unit_in_use() -> None:
+def test_suggestion_is_relative_to_the_current_unit() -> None:
     assert suggestion(room(100.0, FURNITURE), unit_m=0.001) == pytest.approx(1e-5)
 
 
@@ -96,14 +96,14 @@ def metre_cube_in_centimetres(tmp_path: Path) -> Path:
     return gltf.write(tmp_path / "room.glb")
 
 
-def test_loading_warns_at_the_callers_line(tmp_path: Path) -> None:
+def test_unit_warning_has_the_line_of_the_caller(tmp_path: Path) -> None:
     with pytest.warns(UnitWarning, match=r"'room' are implausible.*unit_m=0\.01 .*centimetres") as caught:
         load_scene(metre_cube_in_centimetres(tmp_path))
     assert caught[0].filename == __file__
 
 
 @pytest.mark.parametrize("unit_m", [0.01, 1.0])
-def test_a_unit_that_is_given_is_believed(tmp_path: Path, unit_m: float) -> None:
+def test_given_unit_is_not_questioned(tmp_path: Path, unit_m: float) -> None:
     assert len(load_scene(metre_cube_in_centimetres(tmp_path), unit_m=unit_m).objects) == 3
 
 
@@ -120,26 +120,26 @@ def park(scale: float = 1.0, *, named: bool = True) -> SceneSnapshot:
 
 
 @pytest.mark.parametrize("named", [True, False])
-def test_a_park_in_metres_is_silent(named: bool) -> None:
+def test_park_in_metres_gets_no_suggestion(named: bool) -> None:
     assert suggestion(park(named=named)) is None
 
 
-def test_a_park_in_centimetres_is_told_so() -> None:
+def test_park_in_centimetres_gets_a_suggestion() -> None:
     assert suggestion(park(100.0)) == 0.01
 
 
 @pytest.mark.parametrize("n", [1, 4])
-def test_keyboards_of_157_cm_are_doubted(n: int) -> None:
+def test_keyboards_of_157_cm_get_a_suggestion(n: int) -> None:
     keyboards = [(f"Keyboard_{i}", 1.57, 0.07) for i in range(n)]
     assert suggestion(room(1.0, keyboards)) == pytest.approx(0.22, rel=0.1)
     assert suggestion(room(1.0, [("Keyboard_1", 0.44, 0.03)])) is None
 
 
-def test_a_dozen_of_one_kind_does_not_outvote_all_others() -> None:
+def test_many_copies_of_one_object_do_not_decide_the_unit() -> None:
     assert suggestion(room(1.0, [*FURNITURE, *((f"Keyboard_{i}", 1.57, 0.07) for i in range(12))])) is None
 
 
-def test_a_lone_door_may_be_a_dishwashers() -> None:
+def test_single_small_door_gives_no_suggestion() -> None:
     assert (
         suggestion(scene(box("door", (0.6, 0.75, 0.02), (0.0, 0.4, 0.0)), box("rack", (0.5, 0.1, 0.5), (0, 0, 0))))
         is None
@@ -147,7 +147,7 @@ def test_a_lone_door_may_be_a_dishwashers() -> None:
 
 
 @pytest.mark.parametrize("edge", [0.5, 1.0, 2.0])
-def test_cubes_that_stand_in_for_things_say_nothing(edge: float) -> None:
+def test_placeholder_cubes_give_no_suggestion(edge: float) -> None:
     names = ["microwave_oven_2", "Keyboard_1", "cup", "wooden_table_1", "fridge", "kettle"]
     assert suggestion(scene(*(box(name, (edge,) * 3, (3 * i, edge / 2, 0)) for i, name in enumerate(names)))) is None
     assert suggestion(scene(box("cup", (edge,) * 3, (0.0, 0.0, 0.0)))) is None

@@ -1,4 +1,4 @@
-"""URDF: every link is an object where yourdfpy and MuJoCo put it; files outside stay closed; broken files are told."""
+"""URDF: every link is an object at the place of yourdfpy and MuJoCo; files outside and broken files are refused."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def laundry() -> SceneSnapshot:
     return load_scene(LAUNDRY / "laundry.urdf")
 
 
-def test_links_are_the_nodes_of_the_glb() -> None:
+def test_links_equal_the_nodes_of_the_glb() -> None:
     ours, theirs = laundry(), load_scene(LAUNDRY / "laundry.glb", up_axis="z")
     assert ours.up_axis == "z"
     assert [item.id for item in ours.objects] == [item.id for item in theirs.objects] == list(MASSES_KG)
@@ -73,7 +73,7 @@ def test_links_are_the_nodes_of_the_glb() -> None:
             assert getattr(a.surface, size) == pytest.approx(getattr(b.surface, size), abs=1e-6)
 
 
-def test_masses_are_those_of_the_author() -> None:
+def test_masses_are_read_from_the_file() -> None:
     assert {item.id: item.mass_kg for item in laundry().objects} == MASSES_KG
 
 
@@ -95,7 +95,7 @@ def test_mujoco_puts_every_link_in_the_same_place() -> None:
             assert model.body(item.id).mass[0] == pytest.approx(item.mass_kg)
 
 
-def test_a_running_mujoco_model_is_followed(home: Path) -> None:
+def test_poses_follow_a_running_mujoco_model(home: Path) -> None:
     """As docs/urdf.md says."""
     mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
     keep = "<mujoco><compiler fusestatic='false' discardvisual='false'/></mujoco>"
@@ -131,7 +131,7 @@ def test_links_without_shape_are_frames(home: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ["fixed", "revolute", "continuous", "prismatic", "floating", "planar"])
-def test_joints_stand_at_zero(home: Path, kind: str) -> None:
+def test_joints_are_placed_at_zero(home: Path, kind: str) -> None:
     joint = hangs("b", "a", "xyz='1 2 3' rpy='0 0 1.5707963267948966'", kind)
     item = loaded(home, f"<link name='a'/><link name='b'>{BOX}</link>{joint}").object("b")
     assert item.pose.position_m == (1.0, 2.0, 3.0)
@@ -165,13 +165,13 @@ def test_solids_have_their_sizes(home: Path, shape: str, half_m: tuple[float, fl
     np.testing.assert_allclose(scene.object("a").bounds_m, [-np.array(half_m), half_m], atol=1e-9)
 
 
-def test_looks_are_drawn_and_hulls_only_without_them(home: Path) -> None:
+def test_visuals_are_used_and_collision_shapes_only_without_visuals(home: Path) -> None:
     hull = "<collision><geometry><box size='9 9 9'/></geometry></collision>"
     scene = loaded(home, f"<link name='a'>{BOX}{hull}</link><link name='b'>{hull}</link>")
     assert [np.ptp(item.bounds_m, axis=0).tolist() for item in scene.objects] == [[1.0] * 3, [9.0] * 3]
 
 
-def test_several_shapes_are_one_object_in_its_frame(home: Path) -> None:
+def test_shapes_of_one_link_are_one_object_in_the_link_frame(home: Path) -> None:
     far = "<visual><origin xyz='2 0 0'/><geometry><box size='1 1 1'/></geometry></visual>"
     scene = loaded(home, f"<link name='r'/><link name='a'>{BOX}{far}</link>" + hangs("a", "r", "xyz='0 5 0'"))
     (item,) = scene.objects
@@ -199,7 +199,7 @@ def colour(scene: SceneSnapshot, key: str = "a") -> list[tuple[float, ...]]:
     return [] if looks is None else [material.color_rgba for material in looks.materials]
 
 
-def test_colours_are_given_here_or_by_name(home: Path) -> None:
+def test_colours_are_read_inline_or_by_name(home: Path) -> None:
     red = "<material name='red'><color rgba='1 0 0 1'/></material>"
     named = BOX.replace("</visual>", "<material name='red'/></visual>")
     own = BOX.replace("</visual>", "<material name='x'><color rgba='0 1 0 0.5'/></material></visual>")
@@ -217,7 +217,7 @@ def test_a_mesh_keeps_its_own_materials(home: Path) -> None:
     assert colour(scene)[0][2] == 1.0
 
 
-def test_a_texture_gives_its_mean_colour(home: Path) -> None:
+def test_texture_becomes_its_mean_colour(home: Path) -> None:
     (home / "t.png").write_bytes(image_file(np.full((4, 4, 3), (255, 0, 51), np.uint8)))
     textured = "<material name='m'><texture filename='t.png'/></material></visual>"
     scene = loaded(home, f"<link name='a'>{BOX.replace('</visual>', textured)}</link>")
@@ -225,14 +225,14 @@ def test_a_texture_gives_its_mean_colour(home: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["gone.png", "../other/t.png", "robot.urdf"])
-def test_without_its_texture_a_scene_is_read_all_the_same(home: Path, name: str) -> None:
+def test_missing_texture_warns_and_keeps_the_colour(home: Path, name: str) -> None:
     textured = f"<material name='m'><color rgba='1 0 0 1'/><texture filename='{name}'/></material></visual>"
     with pytest.warns(TextureWarning, match="read without 1 of its textures"):
         scene = loaded(home, f"<link name='a'>{BOX.replace('</visual>', textured)}</link>")
     assert colour(scene) == [(1.0, 0.0, 0.0, 1.0)]
 
 
-def test_units_of_collada_count_and_its_axis_does_not(home: Path) -> None:
+def test_collada_unit_is_applied_and_its_axis_is_ignored(home: Path) -> None:
     pytest.importorskip("collada", reason="needs the extra dae")
     text = (LAUNDRY / "meshes" / "drum.dae").read_text(encoding="utf-8")
     plain = load_scene(LAUNDRY / "meshes" / "drum.dae", unit_m=1.0).objects[0].bounds_m
@@ -243,7 +243,7 @@ def test_units_of_collada_count_and_its_axis_does_not(home: Path) -> None:
     np.testing.assert_allclose(loaded(home, mesh("d.dae")).object("a").bounds_m, plain / 100, atol=1e-9)
 
 
-def test_without_its_reader_collada_is_refused_and_the_cure_is_told(
+def test_collada_without_reader_is_refused_with_the_install_command(
     home: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shutil.copy(LAUNDRY / "meshes" / "drum.dae", home / "d.dae")
@@ -259,7 +259,7 @@ def test_without_its_reader_collada_is_refused_and_the_cure_is_told(
     "name",
     ["meshes/t.obj", r"meshes\t.obj", "package://robot/meshes/t.obj", "model://robot/meshes/t.obj", "./meshes/./t.obj"],
 )
-def test_meshes_are_found(home: Path, name: str) -> None:
+def test_mesh_paths_are_resolved(home: Path, name: str) -> None:
     assert len(loaded(home, mesh(name)).objects) == 1
 
 
@@ -271,7 +271,7 @@ def test_a_package_around_the_file_is_found(home: Path) -> None:
     assert len(load_scene(path, assets_root=home.parent).objects) == 1
 
 
-def test_files_may_be_named_in_full(home: Path) -> None:
+def test_absolute_paths_inside_the_root_are_read(home: Path) -> None:
     assert len(loaded(home, mesh(f"file://{home}/meshes/t.obj")).objects) == 1
     assert len(loaded(home, mesh(f"{home}/meshes/t.obj")).objects) == 1
 
@@ -284,14 +284,14 @@ def test_files_may_be_named_in_full(home: Path) -> None:
         ("strippath='false' meshdir='.'", "meshes/t.obj"),
     ],
 )
-def test_the_folder_that_mujoco_is_told_counts(home: Path, compiler: str, name: str) -> None:
+def test_mujoco_meshdir_is_used(home: Path, compiler: str, name: str) -> None:
     assert len(loaded(home, f"<mujoco><compiler {compiler}/></mujoco>{mesh(name)}").objects) == 1
 
 
 @pytest.mark.parametrize(
     "name", ["../other/meshes/t.obj", r"..\other\meshes\t.obj", "package://robot/../other/meshes/t.obj", "linked/t.obj"]
 )
-def test_what_lies_outside_is_refused_and_the_root_it_needs_is_told(home: Path, name: str) -> None:
+def test_file_outside_the_root_is_refused_with_the_needed_assets_root(home: Path, name: str) -> None:
     os.symlink(home.parent / "other" / "meshes", home / "linked")
     with pytest.raises(SceneError, match="link 'a', <visual>, <mesh> wants .* lies outside") as caught:
         loaded(home, mesh(name))
@@ -299,7 +299,7 @@ def test_what_lies_outside_is_refused_and_the_root_it_needs_is_told(home: Path, 
     assert len(load_scene(write(home, mesh(name)), assets_root=home.parent).objects) == 1
 
 
-def test_the_package_of_a_file_in_its_folder_is_told(home: Path) -> None:
+def test_error_suggests_the_package_folder_as_assets_root(home: Path) -> None:
     (home / "urdf").mkdir()
     with pytest.raises(SceneError, match="lies outside") as caught:
         load_scene(write(home / "urdf", mesh("package://robot/meshes/t.obj")))
@@ -326,12 +326,12 @@ def test_nothing_outside_is_opened(home: Path, monkeypatch: pytest.MonkeyPatch) 
         ("meshes", "there is no such file"),
     ],
 )
-def test_a_mesh_that_cannot_be_read_is_named(home: Path, name: str, sentence: str) -> None:
+def test_error_names_an_unreadable_mesh(home: Path, name: str, sentence: str) -> None:
     with pytest.raises(SceneError, match=f"link 'a', <visual>.*{sentence}"):
         loaded(home, mesh(name))
 
 
-def test_a_broken_mesh_names_its_link(home: Path) -> None:
+def test_broken_mesh_error_names_its_link(home: Path) -> None:
     (home / "short.stl").write_bytes(b"\0" * 80 + b"\xff\0\0\0")
     with pytest.raises(SceneFormatError, match=r"link 'a', <visual>, mesh 'short\.stl': "):
         loaded(home, mesh("short.stl"))
@@ -372,7 +372,7 @@ def test_a_broken_mesh_names_its_link(home: Path) -> None:
         ("<link name='a'>", "is not well-formed XML"),
     ],
 )
-def test_a_fault_is_told(home: Path, inside: str, sentence: str) -> None:
+def test_invalid_urdf_is_refused(home: Path, inside: str, sentence: str) -> None:
     with pytest.raises(SceneError, match=sentence):
         loaded(home, inside)
 
@@ -390,18 +390,18 @@ def test_a_fault_is_told(home: Path, inside: str, sentence: str) -> None:
         ("<robot>" + "<link>" * 300 + "</link>" * 300 + "</robot>", "MAX_DEPTH"),
     ],
 )
-def test_what_is_no_urdf_is_refused(tmp_path: Path, text: str, sentence: str) -> None:
+def test_text_that_is_not_urdf_is_refused(tmp_path: Path, text: str, sentence: str) -> None:
     (tmp_path / "r.urdf").write_text(text, encoding="utf-8")
     with pytest.raises(SceneError, match=sentence):
         load_scene(tmp_path / "r.urdf")
 
 
-def test_a_urdf_called_xml_is_told(home: Path) -> None:
+def test_urdf_with_xml_suffix_is_refused_with_a_hint(home: Path) -> None:
     with pytest.raises(SceneFormatError, match=r"begins with <robot>.*A URDF file has the suffix \.urdf"):
         load_scene(write(home, f"<link name='a'>{BOX}</link>", "robot.xml"))
 
 
-def test_limits_are_named(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_error_names_the_exceeded_limit(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write(home, mesh("meshes/t.obj") + mesh("meshes/t.obj").replace("'a'", "'b'"))
     for owner, limit, value, what in (
         (urdf, "MAX_XML_BYTES", 10, "URDF of up to 10 is read"),
@@ -421,7 +421,7 @@ def test_a_long_chain_of_links_is_read(home: Path) -> None:
     assert scene.object("end").pose.position_m[2] == pytest.approx(19.99)
 
 
-def test_changed_files_never_lead_to_foreign_errors(tmp_path: Path) -> None:
+def test_changed_files_raise_only_scene_errors(tmp_path: Path) -> None:
     pytest.importorskip("collada", reason="needs the extra dae")
     shutil.copytree(LAUNDRY, tmp_path / "laundry")
     path = tmp_path / "laundry" / "laundry.urdf"
@@ -442,7 +442,7 @@ def test_changed_files_never_lead_to_foreign_errors(tmp_path: Path) -> None:
     assert {"ok", "SceneFormatError"} <= outcomes <= {"ok", "SceneFormatError", "SceneError", "MissingExtra"}
 
 
-def test_files_are_sought_in_few_places(home: Path) -> None:
+def test_files_are_searched_in_few_folders(home: Path) -> None:
     finder = urdf_files.UrdfFiles(home / "robot.urdf", home, None)
     assert finder.find("package://robot/meshes/t.obj", "x") == (home / "meshes" / "t.obj").resolve()
     with pytest.raises(SceneError, match="no such file"):

@@ -100,7 +100,7 @@ def test_a_reset_transform_starts_from_the_world(tmp_path: Path) -> None:
     np.testing.assert_allclose(box.bounds_m, [[0, 3, 0], [1, 4, 1]], atol=1e-9)
 
 
-def test_what_has_time_samples_alone_is_read_at_the_first(tmp_path: Path) -> None:
+def test_time_sampled_values_are_read_at_the_first_sample(tmp_path: Path) -> None:
     def fill(stage: Any) -> None:
         moved = mesh(stage, "/moved").AddTranslateOp()
         moved.Set((1, 0, 0), 5)
@@ -115,7 +115,7 @@ def test_what_has_time_samples_alone_is_read_at_the_first(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(("up", "expected"), [("Y", "y"), ("Z", "z"), (None, "y")])
-def test_the_up_axis_is_that_of_the_stage(tmp_path: Path, up: str | None, expected: str) -> None:
+def test_up_axis_comes_from_the_stage(tmp_path: Path, up: str | None, expected: str) -> None:
     stage = new_stage(tmp_path / "a.usda", up=up)
     mesh(stage, "/box")
     stage.Save()
@@ -123,7 +123,7 @@ def test_the_up_axis_is_that_of_the_stage(tmp_path: Path, up: str | None, expect
 
 
 @pytest.mark.parametrize(("unit_m", "edge_m"), [(1.0, 1.0), (0.5, 0.5), (None, 0.01)])
-def test_the_unit_is_that_of_the_stage_and_centimetres_without(
+def test_unit_comes_from_the_stage_and_defaults_to_centimetres(
     tmp_path: Path, unit_m: float | None, edge_m: float
 ) -> None:
     path = tmp_path / "a.usda"
@@ -137,13 +137,13 @@ def test_the_unit_is_that_of_the_stage_and_centimetres_without(
 
 
 @pytest.mark.parametrize("unit", ["0", "-1", "nan"])
-def test_a_unit_that_is_none_is_refused(tmp_path: Path, unit: str) -> None:
+def test_invalid_unit_is_refused(tmp_path: Path, unit: str) -> None:
     path = text_file(tmp_path, f'(\n metersPerUnit = {unit}\n)\ndef Cube "a" {{}}\n')
     with pytest.raises(SceneFormatError, match="metersPerUnit"):
         load_scene(path)
 
 
-def test_what_is_not_drawn_is_left_out(tmp_path: Path) -> None:
+def test_invisible_prims_are_left_out(tmp_path: Path) -> None:
     def fill(stage: Any) -> None:
         geom = usd("UsdGeom")
         mesh(stage, "/shown")
@@ -208,7 +208,7 @@ def test_a_point_instancer_draws_one_object_for_each_point(tmp_path: Path) -> No
     np.testing.assert_allclose(scene.objects[2].bounds_m, [[4, 7, 0], [6, 9, 2]], atol=1e-9)
 
 
-def test_points_that_are_invisible_are_left_out(tmp_path: Path) -> None:
+def test_invisible_points_are_left_out(tmp_path: Path) -> None:
     scene = scene_of(lambda stage: instancer(stage).CreateInvisibleIdsAttr([1]), tmp_path)
     assert [item.bounds_m[0, 0] for item in scene.objects] == pytest.approx([0, 4])
 
@@ -221,7 +221,7 @@ def test_a_point_without_a_prototype_or_place_is_refused(tmp_path: Path) -> None
         scene_of(lambda stage: instancer(stage).CreatePositionsAttr([(0, 0, 0)]), tmp_path)
 
 
-def test_a_component_is_one_object_unless_it_holds_all(tmp_path: Path) -> None:
+def test_component_is_one_object_unless_it_contains_the_whole_scene(tmp_path: Path) -> None:
     def fill(stage: Any) -> None:
         geom, models = usd("UsdGeom"), usd("Usd").ModelAPI
         models(geom.Xform.Define(stage, "/kitchen").GetPrim()).SetKind("component")
@@ -258,7 +258,7 @@ def test_quadrilaterals_become_triangles_that_face_outwards(tmp_path: Path) -> N
     assert volume(box) == pytest.approx(1.0)
 
 
-def test_left_handed_faces_are_turned(tmp_path: Path) -> None:
+def test_left_handed_faces_are_reversed(tmp_path: Path) -> None:
     (box,) = scene_of(lambda stage: mesh(stage, "/box").CreateOrientationAttr("leftHanded"), tmp_path).objects
     assert volume(box) == pytest.approx(-1.0)
 
@@ -367,7 +367,7 @@ def painted_square(stage: Any, file: str = "./floor.png", interpolation: str = "
 
 @pytest.mark.parametrize("interpolation", ["vertex", "varying", "faceVarying"])
 @pytest.mark.parametrize("suffix", [".usda", ".usdc"])
-def test_textures_lie_as_the_file_says(tmp_path: Path, interpolation: str, suffix: str) -> None:
+def test_texture_coordinates_are_read(tmp_path: Path, interpolation: str, suffix: str) -> None:
     (tmp_path / "floor.png").write_bytes(image_file())
     scene = scene_of(lambda stage: painted_square(stage, interpolation=interpolation), tmp_path, suffix=suffix)
     assert shown(scene.objects[0]) == UPRIGHT
@@ -394,7 +394,7 @@ def test_indexed_coordinates_and_their_transform_are_read(tmp_path: Path) -> Non
     assert colors[(0.0, 1.0)] == GREEN
 
 
-def test_a_texture_that_is_missing_costs_no_scene(tmp_path: Path) -> None:
+def test_missing_texture_does_not_fail_the_load(tmp_path: Path) -> None:
     stage = new_stage(tmp_path / "a.usda")
     painted_square(stage)
     stage.Save()
@@ -405,7 +405,7 @@ def test_a_texture_that_is_missing_costs_no_scene(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("file", ["../floor.png", "https://example.org/floor.png", "/etc/hostname"])
-def test_textures_outside_are_not_read(tmp_path: Path, file: str) -> None:
+def test_textures_outside_the_root_are_not_read(tmp_path: Path, file: str) -> None:
     (tmp_path / "floor.png").write_bytes(image_file())
     (tmp_path / "scenes").mkdir()
     path = tmp_path / "scenes" / "a.usda"
@@ -418,7 +418,7 @@ def test_textures_outside_are_not_read(tmp_path: Path, file: str) -> None:
         assert shown(load_scene(path, assets_root=tmp_path, unit_m=1.0).objects[0]) == UPRIGHT
 
 
-def test_colours_of_the_mesh_count_without_a_material(tmp_path: Path) -> None:
+def test_display_colour_is_used_without_a_material(tmp_path: Path) -> None:
     def fill(stage: Any) -> None:
         mesh(stage, "/plain").CreateDisplayColorAttr([(0.5, 0.25, 0.125)])
         faces = usd("UsdGeom").PrimvarsAPI(mesh(stage, "/faces"))
@@ -434,7 +434,7 @@ def test_colours_of_the_mesh_count_without_a_material(tmp_path: Path) -> None:
     assert bare.appearance is None
 
 
-def test_coordinates_that_do_not_fit_cost_the_texture(tmp_path: Path) -> None:
+def test_texture_is_dropped_when_coordinates_do_not_fit(tmp_path: Path) -> None:
     (tmp_path / "floor.png").write_bytes(image_file())
     stage = new_stage(tmp_path / "a.usda")
     painted_square(stage)
@@ -445,7 +445,7 @@ def test_coordinates_that_do_not_fit_cost_the_texture(tmp_path: Path) -> None:
     assert looks(scene.objects[0]).uv is None
 
 
-def test_a_material_of_another_renderer_is_known_by_its_name(tmp_path: Path) -> None:
+def test_material_of_another_renderer_keeps_its_name(tmp_path: Path) -> None:
     def fill(stage: Any) -> None:
         shade = usd("UsdShade")
         box = mesh(stage, "/box")
@@ -512,7 +512,7 @@ def test_masses_are_in_the_units_of_the_stage(tmp_path: Path) -> None:
         assert dense.mass_kg == pytest.approx(2000.0)
 
 
-def test_parts_sum_up_only_if_all_are_known(tmp_path: Path) -> None:
+def test_mass_is_the_sum_of_parts_only_if_all_are_known(tmp_path: Path) -> None:
     def fill(stage: Any) -> None:
         for table, parts in (("known", ("known_leg", "known_top")), ("partly", ("partly_leg", "partly_top"))):
             usd("UsdGeom").Xform.Define(stage, f"/{table}")
@@ -522,7 +522,7 @@ def test_parts_sum_up_only_if_all_are_known(tmp_path: Path) -> None:
     assert [(item.id, item.mass_kg) for item in scene_of(fill, tmp_path).objects] == [("known", 4.0), ("partly", None)]
 
 
-def test_copies_weigh_what_their_scale_makes_of_them(tmp_path: Path) -> None:
+def test_mass_of_a_copy_scales_with_its_volume(tmp_path: Path) -> None:
     def fill(stage: Any) -> None:
         instancer(stage).CreateScalesAttr([(1, 1, 1), (1, 1, 1), (2, 2, 2)])
         weigh(stage.GetPrimAtPath("/World/cups/prototypes/cup"), density=5.0)
@@ -586,7 +586,7 @@ def test_a_layer_outside_needs_another_root(tmp_path: Path, arc: str) -> None:
     ],
 )
 @pytest.mark.parametrize("arc", ["references", "payload", "subLayers"])
-def test_layers_that_are_not_read_are_named(tmp_path: Path, name: str, sentence: str, arc: str) -> None:
+def test_error_names_unread_layers(tmp_path: Path, name: str, sentence: str, arc: str) -> None:
     text = f"(\n subLayers = [@{name}@]\n)\n" if arc == "subLayers" else f'def Xform "box" ({arc} = @{name}@)\n{{\n}}\n'
     with pytest.raises(SceneError, match=sentence):
         load_scene(text_file(tmp_path, text + 'def Cube "cube" {\n}\n'), unit_m=1.0)
@@ -624,13 +624,13 @@ def test_files_of_materials_alone_may_be_missing(tmp_path: Path) -> None:
     assert "'wood.mtlx', a file of materials" in told
 
 
-def test_layers_that_name_each_other_end(tmp_path: Path) -> None:
+def test_cyclic_references_are_resolved_once(tmp_path: Path) -> None:
     text_file(tmp_path, 'def Xform "b" (references = @scene.usda@</a>)\n{\n def Cube "cube" {\n }\n}\n', "b.usda")
     path = text_file(tmp_path, 'def Xform "a" (references = @b.usda@</b>)\n{\n}\n')
     assert len(load_scene(path, unit_m=1.0).objects) == 1
 
 
-def test_value_clips_open_no_file(tmp_path: Path) -> None:
+def test_value_clips_are_not_opened(tmp_path: Path) -> None:
     text_file(tmp_path, 'def Cube "box" {\n double size.timeSamples = { 0: 9 }\n}\n', "clip.usda")
     path = text_file(
         tmp_path,
@@ -771,7 +771,7 @@ def test_broken_binaries_are_refused(tmp_path: Path, content: bytes, suffix: str
         load_scene(path)
 
 
-def test_a_missing_file_is_told(tmp_path: Path) -> None:
+def test_missing_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="there is no file"):
         load_scene(tmp_path / "scene.usdc")
 
@@ -786,13 +786,13 @@ def doubling(*, arc: str) -> str:
 
 
 @pytest.mark.parametrize("arc", ["references", "payload", "inherits", "specializes"])
-def test_what_composes_to_too_much_is_refused_before(tmp_path: Path, arc: str) -> None:
+def test_excessive_composition_is_refused_before_reading(tmp_path: Path, arc: str) -> None:
     with pytest.raises(SceneError, match="brings the opinions to compose to"):
         load_scene(text_file(tmp_path, doubling(arc=arc)))
 
 
 @pytest.mark.usefixtures("child")
-def test_limits_are_those_of_the_caller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reader_process_uses_the_limits_of_the_caller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     stage = new_stage(tmp_path / "a.usda")
     instancer(stage, n=100)
     stage.Save()
@@ -817,7 +817,9 @@ def test_a_reader_that_takes_too_long_is_ended(tmp_path: Path, monkeypatch: pyte
 
 
 @pytest.mark.usefixtures("child")
-def test_nothing_is_printed(tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reader_prints_nothing(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = text_file(tmp_path, 'def Cube "a" (references = </gone>)\n{\n}\n')
     for can_start in (True, False):
         monkeypatch.setattr(process, "can_start_python", lambda can_start=can_start: can_start)
@@ -828,7 +830,7 @@ def test_nothing_is_printed(tmp_path: Path, capfd: pytest.CaptureFixture[str], m
 
 
 @pytest.mark.usefixtures("child")
-def test_a_program_that_is_no_python_reads_in_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_non_python_executable_reads_in_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = archive(tmp_path)
     expected = load_scene(path)
     monkeypatch.setattr(sys, "executable", str(tmp_path / "game.exe"))
@@ -841,7 +843,7 @@ def test_a_program_that_is_no_python_reads_in_process(tmp_path: Path, monkeypatc
 
 
 @pytest.mark.usefixtures("child")
-def test_a_program_that_cannot_be_started_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reader_that_cannot_be_started_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "executable", str(tmp_path / "python-that-is-gone"))
     with pytest.raises(SceneError, match="'scene.usda' is not read, since no process can be started"):
         load_scene(text_file(tmp_path, 'def Cube "a" {\n}\n'))
@@ -857,7 +859,7 @@ def test_every_load_is_the_same(tmp_path: Path) -> None:
     assert all(load_scene(tmp_path / "scene.usda", unit_m=1.0) == first for _ in range(2))
 
 
-def test_without_usd_core_the_cure_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_usd_core_error_names_the_install_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pxr", None)
     with pytest.raises(MissingExtra, match=r"'scene.usdz' is USD.*pip install 'scene2hap\[usd\]'"):
         load_scene(tmp_path / "scene.usdz")

@@ -26,7 +26,7 @@ def made_for(bundle: HapticBundle, actuator: ActuatorProfile | None) -> HapticBu
     return bundle
 
 
-def test_another_actuator_is_warned_of() -> None:
+def test_session_warns_of_a_different_actuator() -> None:
     scene, bundle = table_with_two_phones()
     with pytest.warns(OtherActuatorWarning, match="for the actuator .lra., and this session plays on .flat") as told:
         HapticSession(scene, made_for(bundle, ACTUATORS["lra"]), {"sample_rate_hz": RATE})
@@ -34,7 +34,7 @@ def test_another_actuator_is_warned_of() -> None:
     assert told[0].filename == __file__
 
 
-def test_the_same_or_an_unknown_one_is_not() -> None:
+def test_session_does_not_warn_of_the_same_or_an_unknown_actuator() -> None:
     scene, bundle = table_with_two_phones()
     lra = ACTUATORS["lra"]
     spared = replace(lra, name="my LRA", max_amplitude=0.5, max_rms=0.2)

@@ -27,7 +27,7 @@ def steepest(*frequencies_hz: float, amplitude: float = 0.3) -> float:
     return 1.1 * sum(2 * np.pi * f * amplitude / RATE for f in frequencies_hz)
 
 
-def test_a_source_that_is_added_is_felt_like_one_that_was_there() -> None:
+def test_added_source_has_the_gains_of_an_initial_source() -> None:
     item, told, loop = fan()
     snapshot, bundle = table_with_two_phones()
     from dataclasses import replace
@@ -89,7 +89,7 @@ def test_a_removed_source_fades_instead_of_stopping() -> None:
         s.set_source("phone", on=True)
 
 
-def test_what_was_removed_comes_back_as_the_bundle_has_it() -> None:
+def test_readded_object_has_its_state_in_the_bundle() -> None:
     s = session()
     s.render(RATE // 3)
     gains = dict(zip(s.source_ids, s.update(touches=[ON_TABLE]).gains[0], strict=True))
@@ -103,7 +103,7 @@ def test_what_was_removed_comes_back_as_the_bundle_has_it() -> None:
     assert s.position_s("phone") == pytest.approx((RATE // 3) / RATE % 0.5)
 
 
-def test_a_thing_that_only_carries_comes_and_goes() -> None:
+def test_passive_objects_can_be_added_and_removed() -> None:
     s = session()
     s.add(box("tray", (0.4, 0.01, 0.3), (0.8, 0.725, 0.4)), haptics("steel", (0.4, 0.3, 0.01)))
     on_tray = [Touch("left", "tray", (0.8, 0.73, 0.4))]
@@ -114,7 +114,7 @@ def test_a_thing_that_only_carries_comes_and_goes() -> None:
     assert "tray" not in {item.id for item in s.snapshot.objects}
 
 
-def test_a_held_source_shakes_the_hand_and_what_it_touches() -> None:
+def test_held_source_vibrates_the_hand_and_touched_objects() -> None:
     snapshot, bundle = table_with_two_phones()
     s = HapticSession(snapshot, bundle, CONFIG)
     # The alarm is held against the phone's side: the hand on it feels both.
@@ -128,7 +128,7 @@ def test_a_held_source_shakes_the_hand_and_what_it_touches() -> None:
     assert far.gain("left", "phone") == 0.0
 
 
-def test_more_sources_than_a_bank_has_slots_for() -> None:
+def test_loop_bank_grows_with_the_number_of_sources() -> None:
     s = session()
     on_last = [Touch("left", "s39", (8.0 + 39, 0.0, 0.0))]
     for i in range(40):
@@ -143,7 +143,7 @@ def test_more_sources_than_a_bank_has_slots_for() -> None:
     assert spectrum.max() == pytest.approx(0.3 * RATE / 2, rel=1e-3)
 
 
-def test_slots_are_used_again() -> None:
+def test_slots_of_removed_sources_are_reused() -> None:
     s = session()
     item, told, loop = fan()
     for _ in range(200):
@@ -154,7 +154,7 @@ def test_slots_are_used_again() -> None:
     assert len(s._playback._mixers) == 1
 
 
-def test_a_hand_that_is_added_feels_what_the_first_ones_feel() -> None:
+def test_added_hand_has_the_gains_of_initial_hands() -> None:
     s = session()
     s.update(touches=[ON_TABLE])
     s.render(1001)
@@ -175,7 +175,7 @@ def test_a_hand_that_is_added_feels_what_the_first_ones_feel() -> None:
     np.testing.assert_allclose(s.render(RATE)[:, 0], out[:, 2], atol=1e-6)
 
 
-def test_hands_that_play_on_hear_nothing_of_a_new_one() -> None:
+def test_adding_a_hand_does_not_change_other_hands() -> None:
     changing, still = session(sample_rate_hz=44100), session(sample_rate_hz=44100)
     for s in (changing, still):
         s.update(touches=[ON_TABLE, RIGHT_TOO])
@@ -212,7 +212,7 @@ class Device(MemorySink):
         return super().__getattribute__(name)
 
 
-def test_a_device_is_opened_anew_for_other_hands() -> None:
+def test_device_is_reopened_for_a_new_set_of_hands() -> None:
     device = Device()
     with HapticSession(*table_with_two_phones(), CONFIG, sink=device) as s:
         s.add_hand("foot")
@@ -220,7 +220,7 @@ def test_a_device_is_opened_anew_for_other_hands() -> None:
     assert device.opened == [("left", "right"), ("left", "right", "foot"), ("right", "foot")]
 
 
-def test_a_pause_fades_out_stands_still_and_goes_on_where_it_was() -> None:
+def test_pause_fades_out_and_resumes_at_the_same_position() -> None:
     s, never = session(), session()
     on_phone = [Touch("left", "phone", (0.1, 0.73, 0.4))]
     for x in (s, never):
@@ -245,7 +245,7 @@ def test_a_pause_fades_out_stands_still_and_goes_on_where_it_was() -> None:
     np.testing.assert_allclose(s.render(500), never.render(500), atol=1e-6)
 
 
-def test_block_size_does_not_matter_to_a_pause() -> None:
+def test_pause_does_not_depend_on_block_size() -> None:
     def play(block: int) -> np.ndarray:
         s = session()
         s.update(touches=[ON_TABLE])
@@ -259,7 +259,7 @@ def test_block_size_does_not_matter_to_a_pause() -> None:
     np.testing.assert_allclose(play(1), play(2400), atol=1e-7)
 
 
-def test_moves_in_a_pause_count() -> None:
+def test_moves_during_a_pause_are_applied() -> None:
     s = session()
     s.update(touches=[ON_TABLE])
     s.pause()
@@ -268,7 +268,7 @@ def test_moves_in_a_pause_count() -> None:
     assert s.update(touches=[ON_TABLE]).gain("left", "phone") == 0.0
 
 
-def test_mistakes() -> None:
+def test_invalid_changes_are_refused() -> None:
     s = session()
     with pytest.raises(SceneError, match="'phone' is already in the scene"):
         s.add(s.snapshot.object("phone"))
@@ -289,7 +289,7 @@ def test_mistakes() -> None:
     assert not s.render(100).any()
 
 
-def test_sessions_leave_nothing_behind() -> None:
+def test_deleted_sessions_release_memory_and_workers() -> None:
     import threading
     import time
     import weakref

@@ -42,7 +42,7 @@ def felt_at(field: Any, audibility: Audibility, prices: list[float], levels: np.
 
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
 @pytest.mark.parametrize("levels", [np.ones(2), LEVELS])
-def test_beyond_the_horizon_nothing_is_felt_and_a_little_nearer_something_is(bands: Bands, levels: np.ndarray) -> None:
+def test_sources_are_felt_within_the_audible_distance_only(bands: Bands, levels: np.ndarray) -> None:
     field, audibility, cutoff = ears(bands)
     edge = cutoff.felt(levels)
     assert (felt_at(field, audibility, edge, levels) < 1).all()
@@ -51,7 +51,7 @@ def test_beyond_the_horizon_nothing_is_felt_and_a_little_nearer_something_is(ban
 
 
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
-def test_what_is_told_beyond_the_horizon_ends_where_it_comes_to_nothing(bands: Bands) -> None:
+def test_reported_gains_beyond_the_audible_distance_end_at_zero(bands: Bands) -> None:
     field, _, cutoff = ears(bands)
     edge = cutoff.arrives(LEVELS)
     gains = field.at([edge, [0.94 * price for price in edge]]).max(axis=2) * LEVELS
@@ -61,7 +61,7 @@ def test_what_is_told_beyond_the_horizon_ends_where_it_comes_to_nothing(bands: B
 
 
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
-def test_copies_have_the_cut_off_of_their_original(bands: Bands) -> None:
+def test_copies_have_the_cut_off_distance_of_their_original(bands: Bands) -> None:
     """Three copies of each phone, in any order, against each phone alone."""
     snapshot, bundle = table_with_two_phones()
     sources, originals = Sources(), list(bundle.loops)
@@ -86,14 +86,14 @@ def test_copies_have_the_cut_off_of_their_original(bands: Bands) -> None:
     assert len(set(together)) > 2
 
 
-def test_a_source_that_is_off_has_no_horizon_and_one_with_a_loud_floor_has_no_end() -> None:
+def test_audible_distance_is_zero_when_off_and_infinite_with_a_high_floor() -> None:
     _, _, cutoff = ears(Bands.dominant(), floor_db=-20.0)
     off, loud = cutoff.felt(np.array([0.0, 1.0]))
     assert off < 0
     assert loud == math.inf
 
 
-def test_a_frame_tells_all_while_contacts_are_as_they_were_and_later_what_is_felt() -> None:
+def test_frame_reports_all_gains_until_contacts_change_and_felt_gains_later() -> None:
     touch = [Touch("left", "table", (0.15, 0.72, 0.4))]
 
     def told(*, later: bool) -> np.ndarray:
@@ -130,7 +130,7 @@ class Shown:
         self.frames.append(frame)
 
 
-def test_a_sink_may_read_a_frame_whenever_it_likes() -> None:
+def test_frame_can_be_read_at_any_time() -> None:
     sink = Shown()
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink)
     s.set_source("alarm", gain_db=-40.0)

@@ -61,14 +61,14 @@ def live(session: HapticSession) -> None:
 
 @pytest.mark.parametrize("kind", MODELS.kinds())
 @pytest.mark.parametrize("name", EDGE_SCENES)
-def test_a_session_lives_through_everything_that_a_game_may_do(name: str, kind: str) -> None:
+def test_edge_scenes_survive_every_session_call(name: str, kind: str) -> None:
     live(session_of(name, propagation=kind, prepare="blocking"))
 
 
 @pytest.mark.parametrize("prepare", ["background", "blocking"])
 @pytest.mark.parametrize("skip", [True, False])
 @pytest.mark.parametrize("name", EDGE_SCENES)
-def test_whatever_is_left_out_and_whoever_prepares(name: str, skip: bool, prepare: str) -> None:
+def test_edge_scenes_work_with_every_skip_and_prepare_setting(name: str, skip: bool, prepare: str) -> None:
     live(session_of(name, propagation="infinite_plate", skip=skip, prepare=prepare, bands="third-octaves"))
 
 
@@ -81,14 +81,14 @@ def test_every_source_is_felt_on_itself_in_full(name: str) -> None:
         assert session.update(touches=[Touch("left", source_id, at)]).gain("left", source_id) == float(not is_waiting)
 
 
-def test_what_needs_a_contact_sounds_once_it_has_it_in_a_scene_without_any() -> None:
+def test_source_that_needs_contact_starts_with_its_first_contact() -> None:
     session = session_of("no_contact")
     session.update({"pan": Pose((1.0, 0.725, 0.4))}, [Touch("left", "pan", (1.0, 0.73, 0.4))])
     assert session.update(touches=[Touch("left", "table", (1.2, 0.72, 0.4))]).gain("left", "pan") > 0.0
 
 
 @pytest.mark.parametrize("name", ["no_source", "all_unknown", "one_silent_object"])
-def test_a_silent_scene_is_silent_and_says_so(name: str) -> None:
+def test_silent_scene_renders_silence_and_warns(name: str) -> None:
     session = session_of(name)
     item = session.snapshot.objects[0]
     frame = session.update(touches=[Touch("left", item.id, on_top_of(item))])
@@ -99,14 +99,14 @@ def test_a_silent_scene_is_silent_and_says_so(name: str) -> None:
         session.set_source("radio", on=True)
 
 
-def test_the_last_object_cannot_go() -> None:
+def test_last_object_cannot_be_removed() -> None:
     for name in ("one_object", "one_silent_object"):
         session = session_of(name)
         with pytest.raises(SessionError, match="last object"):
             session.remove(session.snapshot.objects[0].id)
 
 
-def test_a_bundle_may_have_states_without_loops() -> None:
+def test_bundle_with_states_without_loops_is_played() -> None:
     snapshot, bundle = EDGE_SCENES["one_object"]()
     session = HapticSession(snapshot, dataclasses.replace(bundle, loops={"phone": {}}), {"sample_rate_hz": RATE})
     assert session.source_ids == ()

@@ -29,7 +29,7 @@ def config(request: pytest.FixtureRequest) -> dict[str, Any]:
 
 
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
-def test_a_session_lives_on_it(config: dict[str, Any]) -> None:
+def test_session_works_with_every_model(config: dict[str, Any]) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ThinPlateWarning)
         s = HapticSession(*table_with_two_phones(), config)
@@ -70,7 +70,7 @@ def test_a_session_lives_on_it(config: dict[str, Any]) -> None:
         assert s.stats.fields_failed == 0
 
 
-def test_a_model_that_resonates_has_a_band_around_each_source() -> None:
+def test_resonant_models_use_a_band_around_each_source() -> None:
     around = Bands.dominant(octaves=0.5)
     assert SessionConfig().bands == Bands.dominant()
     given = SessionConfig(propagation="modal_plate")
@@ -85,11 +85,11 @@ def test_a_model_that_resonates_has_a_band_around_each_source() -> None:
 
 
 @pytest.mark.parametrize("octaves", [-0.1, 2.1, math.nan, "wide", None])
-def test_a_width_is_0_to_2_octaves(octaves: Any) -> None:
+def test_band_width_outside_0_to_2_octaves_is_refused(octaves: Any) -> None:
     with pytest.raises(ConfigError, match="octaves"):
         Bands.dominant(octaves)
 
 
-def test_edges_have_no_other_width() -> None:
+def test_band_width_is_refused_with_fixed_edges() -> None:
     with pytest.raises(ConfigError, match=r"only Bands\.dominant"):
         Bands((40.0, 80.0), octaves=0.5)

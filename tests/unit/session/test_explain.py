@@ -44,7 +44,7 @@ def shelf_on_table(weight: float = 1.0) -> tuple[SceneSnapshot, HapticBundle]:
 ON_TABLE = Touch("left", "table", (0.2, 0.74, 0.7))
 
 
-def test_the_way_over_two_objects() -> None:
+def test_explanation_lists_the_path_over_two_objects() -> None:
     s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE})
     frame = s.update(touches=[ON_TABLE])
     (felt,) = s.explain("left").felt
@@ -60,7 +60,7 @@ def test_the_way_over_two_objects() -> None:
     assert (felt.source_id, felt.state, felt.on, felt.band) == ("phone", "ringing", "table", 0)
 
 
-def test_as_text_and_as_data() -> None:
+def test_explanation_is_available_as_text_and_data() -> None:
     s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE})
     s.set_source("phone", gain_db=-3.0)
     s.update(touches=[ON_TABLE])
@@ -76,7 +76,7 @@ def test_as_text_and_as_data() -> None:
     assert data["text"] == told.text
 
 
-def test_a_weak_contact_counts_to_what_is_behind_it() -> None:
+def test_loss_of_a_weak_contact_is_added_to_the_path_behind_it() -> None:
     whole, weak = (
         HapticSession(*shelf_on_table(weight), {"sample_rate_hz": RATE, "skip": False}) for weight in (1.0, 0.5)
     )
@@ -88,7 +88,7 @@ def test_a_weak_contact_counts_to_what_is_behind_it() -> None:
     assert changes[1] == pytest.approx([changes[0][0], changes[0][1] + lost, changes[0][2]], abs=1e-6)
 
 
-def test_only_what_is_felt_right_now() -> None:
+def test_explanation_lists_only_sources_felt_now() -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
     assert s.explain("left").text == "left touches nothing and feels nothing."
     s.update(touches=[Touch("left", "table", (0.3, 0.72, 0.4))])
@@ -105,7 +105,7 @@ def test_only_what_is_felt_right_now() -> None:
         s.explain("foot")
 
 
-def test_a_source_in_the_hand_is_its_own_way() -> None:
+def test_touched_source_has_a_path_of_itself() -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
     s.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))])
     phone = s.explain("left").felt[0]
@@ -113,7 +113,7 @@ def test_a_source_in_the_hand_is_its_own_way() -> None:
     assert [(step.object_id, step.length_m, step.change_db) for step in phone.steps] == [("phone", 0.0, 0.0)]
 
 
-def test_hops_are_counted_as_the_law_counts_them() -> None:
+def test_explanation_counts_hops_like_the_law() -> None:
     law = {"kind": "exponential_plate", "max_hops": 1}
     s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE, "propagation": law})
     s.update(touches=[Touch("left", "shelf", (0.5, 0.74, 0.4)), Touch("right", "table", (0.2, 0.74, 0.7))])
@@ -122,7 +122,7 @@ def test_hops_are_counted_as_the_law_counts_them() -> None:
 
 
 @pytest.mark.parametrize("kind", ["exponential_plate", "full_propagation"])
-def test_steps_add_up_to_the_gain_for_models_of_ways(kind: str) -> None:
+def test_path_steps_multiply_to_the_gain(kind: str) -> None:
     s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE, "propagation": kind, "bands": "third-octaves"})
     assert s.wait_prepared(60.0)
     frame = s.update(touches=[ON_TABLE])
@@ -135,7 +135,7 @@ def test_steps_add_up_to_the_gain_for_models_of_ways(kind: str) -> None:
 @pytest.mark.parametrize("bands", ["dominant", "third-octaves"])
 @pytest.mark.parametrize("kind", ["infinite_plate", "modal_plate", "auto", "mass_spring_damper"])
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
-def test_physical_models_tell_the_total_and_which_contacts_carry_how_much(kind: str, bands: str) -> None:
+def test_physical_models_report_total_gain_and_share_of_each_contact(kind: str, bands: str) -> None:
     config = {"sample_rate_hz": RATE, "propagation": kind, "bands": bands, "prepare": "blocking"}
     s = HapticSession(*shelf_on_table(), config)
     frame = s.update(touches=[ON_TABLE])
@@ -156,7 +156,7 @@ def test_physical_models_tell_the_total_and_which_contacts_carry_how_much(kind: 
 
 
 @pytest.mark.parametrize("weak", [1, 2])
-def test_a_contact_that_hardly_touches_carries_hardly_anything(weak: int) -> None:
+def test_contact_of_low_weight_has_a_low_share(weak: int) -> None:
     snapshot, bundle = shelf_on_table()
     contacts = list(snapshot.contacts or ())
     contacts[weak] = dataclasses.replace(contacts[weak], weight=1e-9)
@@ -189,7 +189,7 @@ def bar_on_a_rug() -> tuple[SceneSnapshot, HapticBundle]:
     return snapshot, HapticBundle(snapshot, "room", inferred, {"phone": {"ringing": tone_loop(40)}})
 
 
-def test_a_short_cut_over_another_object_is_one_step() -> None:
+def test_shortcut_over_another_object_is_one_step() -> None:
     s = HapticSession(*bar_on_a_rug(), {"sample_rate_hz": RATE})
     frame = s.update(touches=[Touch("left", "mat", (1.9, 0.01, 0.4))])
     (felt,) = s.explain("left").felt
@@ -203,7 +203,7 @@ def test_a_short_cut_over_another_object_is_one_step() -> None:
 
 @pytest.mark.parametrize("kind", MODELS.kinds())
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
-def test_gains_are_0_below_140_db_whatever_the_model(kind: str) -> None:
+def test_gains_below_140_db_are_zero_for_every_model(kind: str) -> None:
     config = {"sample_rate_hz": RATE, "propagation": kind, "prepare": "blocking", "bands": "third-octaves"}
     snapshot, bundle = shelf_on_table()
     for gain_db in (-139.0, -141.0, -220.0):

@@ -78,7 +78,7 @@ def shifted(x: float) -> dict[str, Pose]:
     return {"phone": Pose((x, 0.725, 0.4))}
 
 
-def test_update_does_not_wait_and_the_last_field_plays_on() -> None:
+def test_update_does_not_block_and_uses_the_last_field() -> None:
     s, model = gated()
     first = s.update(touches=[ON_TABLE]).gains
     s.update(shifted(0.2), [ON_TABLE])
@@ -96,7 +96,7 @@ def test_update_does_not_wait_and_the_last_field_plays_on() -> None:
     assert threading.get_ident() not in model.threads
 
 
-def test_no_field_is_prepared_in_the_constructor_and_until_then_sources_are_felt_on_themselves() -> None:
+def test_sources_are_felt_on_themselves_before_the_first_field() -> None:
     may_go, threads = threading.Event(), list[int]()
 
     class Model:
@@ -116,7 +116,7 @@ def test_no_field_is_prepared_in_the_constructor_and_until_then_sources_are_felt
     assert threads != [threading.get_ident()]
 
 
-def test_a_first_field_that_fails_is_told() -> None:
+def test_failure_of_the_first_field_is_reported() -> None:
     class Model:
         def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
             raise ModelDomainError("the table is too thick")
@@ -130,7 +130,7 @@ def test_a_first_field_that_fails_is_told() -> None:
         HapticSession(*table_with_two_phones(), {**settings, "prepare": "blocking"})
 
 
-def test_only_the_newest_situation_is_prepared() -> None:
+def test_only_the_newest_scene_state_is_prepared() -> None:
     s, model = gated()
     s.update(shifted(0.2))
     assert model.entered.acquire(timeout=SECONDS)
@@ -142,7 +142,7 @@ def test_only_the_newest_situation_is_prepared() -> None:
     assert s.stats.fields_prepared <= 3
 
 
-def test_what_hands_touch_is_prepared_first_and_then_everything() -> None:
+def test_touched_objects_are_prepared_before_all_others() -> None:
     s, model = gated()
     model.gate.set()
     s.add(box("shelf", (1.0, 0.02, 0.4), (9.0, 1.0, 0.4)), haptics("oak", (1.0, 0.4, 0.02)))
@@ -177,7 +177,7 @@ class Expectant(Field):
         self.has_been_told.release()
 
 
-def test_who_waits_waits_until_what_is_touched_is_expected() -> None:
+def test_wait_prepared_includes_the_expect_call_of_touched_objects() -> None:
     may_go = threading.Event()
 
     class Slow(Field):
@@ -196,7 +196,7 @@ def test_who_waits_waits_until_what_is_touched_is_expected() -> None:
     assert s.wait_prepared(SECONDS)
 
 
-def test_a_field_is_told_once_what_to_expect_and_not_by_the_game() -> None:
+def test_expect_is_called_once_and_not_on_the_game_thread() -> None:
     field = Expectant(("phone", "other phone"), 1)
 
     class Model:
@@ -220,7 +220,7 @@ def test_a_field_is_told_once_what_to_expect_and_not_by_the_game() -> None:
     assert field.has_been_told.acquire(timeout=SECONDS)
 
 
-def test_blocking_waits_in_update() -> None:
+def test_blocking_mode_prepares_in_update() -> None:
     s, model = gated(prepare="blocking")
     model.gate.set()
     s.update(shifted(0.2))
@@ -228,14 +228,14 @@ def test_blocking_waits_in_update() -> None:
     assert set(model.threads) == {threading.get_ident()}
 
 
-def test_exponential_plate_follows_at_once() -> None:
+def test_exponential_plate_follows_changes_immediately() -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
     before = s.update(touches=[ON_TABLE]).gain("left", "phone")
     assert s.update(shifted(0.3), [ON_TABLE]).gain("left", "phone") > before
     assert s.stats.field_age_s == 0
 
 
-def test_gains_over_a_vanished_contact_fade_in_20_ms_whatever_the_worker_does() -> None:
+def test_gains_over_a_lost_contact_fade_out_in_20_ms() -> None:
     s, model = gated()
     s.update(touches=[ON_TABLE])
     s.render(RATE)
@@ -256,7 +256,7 @@ def test_gains_over_a_vanished_contact_fade_in_20_ms_whatever_the_worker_does() 
     assert s.update(touches=[ON_TABLE]).gain("left", "phone") > 0.0
 
 
-def test_a_stale_field_is_asked_where_the_object_was() -> None:
+def test_stale_field_is_queried_at_the_pose_that_it_was_prepared_for() -> None:
     s, model = gated()
     turned = Pose((3.0, 0.725, 0.4), (0.0, 0.5**0.5, 0.0, 0.5**0.5))
     everything = {item.id: turned.compose(Pose((-0.1, -0.725, -0.4))).compose(item.pose) for item in s.snapshot.objects}
@@ -266,7 +266,7 @@ def test_a_stale_field_is_asked_where_the_object_was() -> None:
     model.gate.set()
 
 
-def test_sources_come_and_go_under_a_stale_field() -> None:
+def test_sources_can_change_while_a_field_is_stale() -> None:
     s, model = gated()
     gain = s.update(touches=[ON_TABLE]).gain("left", "alarm")
     s.add(
@@ -283,7 +283,7 @@ def test_sources_come_and_go_under_a_stale_field() -> None:
     assert s.update(touches=[ON_TABLE]).gain("left", "fan") > 0.0
 
 
-def test_a_model_that_fails_leaves_the_last_field() -> None:
+def test_failing_model_keeps_the_last_field() -> None:
     s, model = gated()
     gains = s.update(touches=[ON_TABLE]).gains
     model.problem = ModelDomainError("the phone is too thick")
@@ -301,7 +301,7 @@ def test_a_model_that_fails_leaves_the_last_field() -> None:
     assert s.stats.field_age_s == 0
 
 
-def test_a_model_that_fails_in_place_is_heard_at_once() -> None:
+def test_failing_model_without_worker_raises_in_update() -> None:
     s, model = gated(prepare="blocking")
     model.problem = ModelDomainError("the phone is too thick")
     model.gate.set()
@@ -310,7 +310,7 @@ def test_a_model_that_fails_in_place_is_heard_at_once() -> None:
 
 
 @pytest.mark.parametrize("shape", [(1, 2, 2), (1, 3, 1), (2, 2, 1), (1, 2)])
-def test_an_answer_of_another_shape_is_an_error_of_ours(shape: tuple[int, ...]) -> None:
+def test_field_result_of_wrong_shape_raises_a_session_error(shape: tuple[int, ...]) -> None:
     class Wrong(Field):
         def attenuation(self, object_id: str, points_m: Any) -> np.ndarray:
             return np.ones(shape)
@@ -324,7 +324,7 @@ def test_an_answer_of_another_shape_is_an_error_of_ours(shape: tuple[int, ...]) 
         s.update(touches=[ON_TABLE])
 
 
-def test_the_worker_begins_once_the_update_that_asks_for_it_is_over() -> None:
+def test_worker_starts_after_the_requesting_update_has_returned() -> None:
     class Model(Gated):
         def prepare(self, network: Any, excitations: Any, bands: Bands) -> Field:
             self.threads.append(threading.get_ident())
@@ -369,7 +369,7 @@ print("the game ends", flush=True)
 """
 
 
-def test_python_ends_when_the_worker_has_finished() -> None:
+def test_interpreter_exit_waits_for_the_worker() -> None:
     """Cut off within a solver, it would leave errors that nobody raised."""
     tests = Path(__file__).parents[2]
     game = [sys.executable, "-W", "ignore", "-c", A_GAME_THAT_ENDS]

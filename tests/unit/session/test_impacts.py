@@ -68,7 +68,7 @@ def burst_at(made: HapticSession, point_m: tuple[float, float, float]) -> Any:
     )
 
 
-def test_by_the_papers_law_an_impact_falls_with_distance_as_the_law_says() -> None:
+def test_impact_gain_falls_with_distance_by_the_papers_law() -> None:
     made = session(propagation=ExponentialPlate())
     made.update(touches=touches())
     made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
@@ -81,7 +81,7 @@ def test_by_the_papers_law_an_impact_falls_with_distance_as_the_law_says() -> No
 
 
 @pytest.mark.parametrize("model", [ModalPlate(), InfinitePlate()])
-def test_by_a_physical_model_it_follows_that_model(model: ModalPlate | InfinitePlate) -> None:
+def test_impact_gain_follows_the_physical_model(model: ModalPlate | InfinitePlate) -> None:
     scene, bundle = table_with_two_phones()
     alone = HapticSession(scene, bundle, {"propagation": model, "prepare": "blocking"})
     # On a table that nothing touches, the model's own answer for a plate is what arrives.
@@ -104,7 +104,7 @@ def test_by_a_physical_model_it_follows_that_model(model: ModalPlate | InfiniteP
 
 
 @pytest.mark.parametrize("model", [ModalPlate(), InfinitePlate()])
-def test_a_touched_object_that_was_prepared_feels_an_impact_with_the_next_block_as_the_model_says(
+def test_prepared_touched_object_feels_an_impact_with_the_next_block(
     model: ModalPlate | InfinitePlate,
 ) -> None:
     scene, bundle = table_with_two_phones()
@@ -129,7 +129,7 @@ def test_a_touched_object_that_was_prepared_feels_an_impact_with_the_next_block_
         assert 20 * abs(math.log10(found[1, k] / found[0, k] * one / other)) < 1.0
 
 
-def test_what_was_prepared_is_what_the_model_prepares_for_the_impact_alone() -> None:
+def test_prepared_impact_equals_the_field_of_the_impact_alone() -> None:
     """On a table on a block, with two phones on it."""
     for model in (ModalPlate(), InfinitePlate(), MassSpringDamper(), AutoFidelity()):
         scene, bundle = table_with_two_phones()
@@ -147,7 +147,7 @@ def test_what_was_prepared_is_what_the_model_prepares_for_the_impact_alone() -> 
         assert (found[1] > 0.999).all()  # this hand is where it is struck
 
 
-def test_after_a_contact_changed_the_last_answer_plays_on_until_there_is_a_new_one() -> None:
+def test_last_prepared_impact_is_used_until_a_new_one_is_ready() -> None:
     made = session(propagation="modal_plate")
     made.update(touches=touches())
     assert made.wait_prepared(30.0)
@@ -185,7 +185,7 @@ def test_it_sounds_with_the_next_block_and_ends() -> None:
     assert not made.render(480).any()
 
 
-def test_every_sample_counts_from_the_strike() -> None:
+def test_rendered_peak_of_a_burst_equals_the_reported_level() -> None:
     made, blocks = session(), []
     made.update(touches=touches())
     impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0)
@@ -197,7 +197,7 @@ def test_every_sample_counts_from_the_strike() -> None:
     assert 10 * math.log10(power[above].sum() / power.sum()) < -60.0
 
 
-def test_harder_is_felt_more_and_the_hardest_within_bounds() -> None:
+def test_harder_strikes_are_felt_more_within_full_scale() -> None:
     felt = []
     for speed in (0.01, 0.1, 10.0, 1e4):
         made = session()
@@ -207,7 +207,7 @@ def test_harder_is_felt_more_and_the_hardest_within_bounds() -> None:
     assert 20 * math.log10(felt[1] / felt[0]) == pytest.approx(10.0, abs=0.1)  # 2:1
 
 
-def test_a_finger_knocks_and_an_impulse_will_do() -> None:
+def test_strike_accepts_a_finger_or_an_impulse() -> None:
     made = session()
     made.update(touches=touches())
     knock = made.strike("table", STRUCK)
@@ -218,7 +218,7 @@ def test_a_finger_knocks_and_an_impulse_will_do() -> None:
     assert made.strike("table", STRUCK, impulse_n_s=1.0).felt["left"] > knock.felt["left"]
 
 
-def test_nobody_feels_what_nobody_touches() -> None:
+def test_impact_on_an_untouched_object_is_not_felt() -> None:
     made = session()
     made.update()
     assert made.strike("table", STRUCK).felt == {}
@@ -229,13 +229,13 @@ def test_nobody_feels_what_nobody_touches() -> None:
 
 
 @pytest.mark.parametrize("propagation", ["exponential_plate", "no_propagation", "modal_plate"])
-def test_what_carries_nothing_is_felt_itself(propagation: str) -> None:
+def test_struck_object_of_unknown_material_is_felt_on_itself(propagation: str) -> None:
     made = session(propagation=propagation, prepare="blocking")
     made.update(touches=[Touch("left", "block", (0.8, 0.5, 0.6))])  # of unknown material
     assert made.strike("block", (0.8, 0.5, 0.6)).felt["left"] > 0.005
 
 
-def test_a_worker_prepares_what_models_without_a_live_field_need() -> None:
+def test_worker_prepares_impacts_for_models_without_a_live_field() -> None:
     made = session(propagation="modal_plate")
     made.update(touches=touches())
     impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
@@ -271,7 +271,7 @@ def test_levels_of_the_user_hold_for_impacts() -> None:
     assert 20 * math.log10(felt["right"] / plain) == pytest.approx(-12.0)
 
 
-def test_impacts_that_come_too_fast_are_one() -> None:
+def test_impacts_in_fast_succession_are_merged() -> None:
     made = session()
     made.update(touches=touches())
     made.strike("table", STRUCK)
@@ -284,7 +284,7 @@ def test_impacts_that_come_too_fast_are_one() -> None:
     assert (stats.impacts, stats.impacts_felt, stats.impacts_left_out) == (4, 3, 1)
 
 
-def test_a_storm_of_impacts_stays_within_full_scale() -> None:
+def test_many_impacts_stay_within_full_scale() -> None:
     made, blocks = session(), []
     rng = np.random.default_rng(3)
     for _ in range(100):
@@ -297,7 +297,7 @@ def test_a_storm_of_impacts_stays_within_full_scale() -> None:
     assert 0.05 < np.abs(mix).max() <= 1.0
 
 
-def test_what_lands_is_felt_and_explained_and_may_be_switched_off() -> None:
+def test_landings_are_felt_explained_and_can_be_disabled() -> None:
     def drop(**settings: Any) -> tuple[HapticSession, list[Impact]]:
         made, told = session(**settings), []
         for step in range(60):
@@ -319,7 +319,7 @@ def test_what_lands_is_felt_and_explained_and_may_be_switched_off() -> None:
     assert made.stats.impacts == 0
 
 
-def test_hands_come_and_go_under_a_burst() -> None:
+def test_hands_can_change_during_a_burst() -> None:
     made = session()
     made.update(touches=touches())
     made.strike("table", STRUCK, speed_m_s=2.0)
@@ -338,12 +338,12 @@ def test_hands_come_and_go_under_a_burst() -> None:
         ({"speed_m_s": 1.0, "impulse_n_s": 1.0}, "one of them"),
     ],
 )
-def test_a_strike_that_cannot_be_is_refused(given: dict[str, float], said: str) -> None:
+def test_invalid_strike_is_refused(given: dict[str, float], said: str) -> None:
     with pytest.raises(SessionError, match=said):
         session().strike("table", STRUCK, **given)
 
 
-def test_what_is_not_there_cannot_be_struck() -> None:
+def test_strike_on_a_missing_object_is_refused() -> None:
     made = session()
     with pytest.raises(UnknownObject, match="tabel"):
         made.strike("tabel", STRUCK)

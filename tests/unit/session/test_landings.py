@@ -62,7 +62,7 @@ def fall(height_m: float, period_s: float, onto_m: float = RESTS_M) -> Path:
 
 @pytest.mark.parametrize("period_s", [1 / 200, 1 / 90, 1 / 60, 1 / 30])
 @pytest.mark.parametrize("height_m", [0.02, 0.05, 0.13, 0.4, 1.0])
-def test_what_is_dropped_lands_once(height_m: float, period_s: float) -> None:
+def test_dropped_object_lands_once(height_m: float, period_s: float) -> None:
     found = landings_of(fall(height_m, period_s), period_s=period_s)
     assert [(one.object_id, one.onto) for one in found] == [("cup", "table")]
     fell_at = math.sqrt(2 * 9.81 * height_m)
@@ -70,7 +70,7 @@ def test_what_is_dropped_lands_once(height_m: float, period_s: float) -> None:
     assert found[0].point_m[1] == pytest.approx(0.7, abs=1e-3)
 
 
-def test_it_lands_with_the_first_frame_that_finds_it_stopped() -> None:
+def test_object_lands_with_the_first_frame_at_rest() -> None:
     graph = room()
     landings = Landings(graph, _middle, PERIOD_S)
     when = []
@@ -85,12 +85,12 @@ def test_it_lands_with_the_first_frame_that_finds_it_stopped() -> None:
     assert step in (came_to_rest, came_to_rest + 1)
 
 
-def test_a_clock_that_stands_still_is_taken_for_the_usual_time() -> None:
+def test_stopped_clock_counts_as_the_usual_frame_time() -> None:
     (landing,) = landings_of(fall(0.4, PERIOD_S), clock=False)
     assert landing.speed_m_s == pytest.approx(math.sqrt(2 * 9.81 * 0.4), rel=0.3)
 
 
-def test_what_the_game_puts_elsewhere_does_not_land() -> None:
+def test_teleported_object_does_not_land() -> None:
     assert landings_of(iter([(0.0, 2.0, 0.0), (0.0, RESTS_M, 0.0)])) == []
 
 
@@ -107,18 +107,18 @@ def test_each_bounce_lands() -> None:
     assert [one.onto for one in landings_of(bouncing())] == ["table", "table"]
 
 
-def test_physics_at_half_the_rate_of_updates_land_once() -> None:
+def test_physics_at_half_the_update_rate_gives_one_landing() -> None:
     every_second = [position for position in fall(0.4, 2 * PERIOD_S) for _ in range(2)]
     found = landings_of(iter(every_second))
     assert [one.onto for one in found] == ["table"]
 
 
-def test_what_is_thrown_at_a_wall_lands_on_it() -> None:
+def test_object_thrown_at_a_wall_lands_on_the_wall() -> None:
     thrown = [(0.2 + min(0.42, 0.03 * step), RESTS_M + 0.3, 0.0) for step in range(25)]
     assert [one.onto for one in landings_of(iter(thrown))] == ["wall"]
 
 
-def test_what_is_put_down_gently_does_not_land() -> None:
+def test_object_put_down_gently_does_not_land() -> None:
     def lowered() -> Path:  # as hands move: least jerk over 0.6 s (Flash and Hogan 1985)
         for step in range(60):
             s = min(1.0, step * PERIOD_S / 0.6)
@@ -150,12 +150,12 @@ def slides(rng: np.random.Generator) -> Path:
 
 
 @pytest.mark.parametrize("kind", [rests, jitters, slides])
-def test_what_rests_slides_or_jitters_does_not_land(kind: Callable[[np.random.Generator], Path]) -> None:
+def test_resting_sliding_or_jittering_object_does_not_land(kind: Callable[[np.random.Generator], Path]) -> None:
     rng = np.random.default_rng(7)
     assert [landings_of(kind(rng)) for _ in range(335)] == [[]] * 335
 
 
-def test_what_is_carried_together_does_not_land() -> None:
+def test_objects_carried_together_do_not_land() -> None:
     graph = room()
     landings = Landings(graph, _middle, PERIOD_S)
     graph.update({"cup": Pose((-0.4, 0.79, 0.2))})
@@ -169,7 +169,7 @@ def test_what_is_carried_together_does_not_land() -> None:
     assert found == []
 
 
-def test_a_stack_that_is_dropped_lands_with_its_lowest() -> None:
+def test_dropped_stack_lands_with_its_lowest_object() -> None:
     graph = room()
     landings = Landings(graph, _middle, PERIOD_S)
     found = []
@@ -182,7 +182,7 @@ def test_a_stack_that_is_dropped_lands_with_its_lowest() -> None:
     assert [(one.object_id, one.onto) for one in found] == [("book", "table")]
 
 
-def test_what_is_removed_on_its_way_is_forgotten() -> None:
+def test_object_removed_while_falling_does_not_land() -> None:
     graph = room()
     landings = Landings(graph, _middle, PERIOD_S)
     for step in range(3):

@@ -28,7 +28,7 @@ class OnlyPrepared:
 
 @pytest.mark.parametrize("settings", [{}, {"max_hops": 1}, {"max_hops": 2, "interface_loss_db": 3.0, "floor_db": -60}])
 @pytest.mark.parametrize("bands", [Bands.dominant(), Bands.third_octaves(10, 1000)], ids=["dominant", "octaves"])
-def test_a_live_field_says_what_a_prepared_one_does(settings: dict[str, Any], bands: Bands) -> None:
+def test_live_field_gives_the_gains_of_a_prepared_field(settings: dict[str, Any], bands: Bands) -> None:
     rng = np.random.default_rng(4)
     models = (ExponentialPlate(**settings), OnlyPrepared(**settings))
     both = [
@@ -71,7 +71,7 @@ def test_a_live_field_says_what_a_prepared_one_does(settings: dict[str, Any], ba
     assert replace(ours.skipped, **others) == theirs.skipped
 
 
-def test_what_is_added_without_a_contact_carries_once_it_has_one() -> None:
+def test_object_added_without_contact_carries_after_its_first_contact() -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
     s.update(touches=[ON_TABLE])
     s.add(box("tray", (0.3, 0.02, 0.3), (0.8, 2.0, 0.4)), haptics("steel", (0.3, 0.3, 0.02)))
@@ -102,7 +102,7 @@ class Guest:
         return np.full((len(hands), len(self.source_ids), self.n_bands), self.answer)
 
 
-def test_a_guest_may_offer_one() -> None:
+def test_plugin_can_provide_a_live_field() -> None:
     model = Guest(0.25)
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model})
     frame = s.update({"phone": Pose((0.3, 0.725, 0.4))}, [ON_TABLE, Touch("left", "alarm", (1.5, 0.73, 0.4))])
@@ -121,7 +121,7 @@ def test_a_guest_may_offer_one() -> None:
 
 
 @pytest.mark.parametrize(("answer", "told"), [(3.0, 1.0), (math.nan, 0.0), (-1.0, 0.0)])
-def test_a_guests_nonsense_reaches_no_hand(answer: float, told: float) -> None:
+def test_invalid_gains_of_a_plugin_are_not_rendered(answer: float, told: float) -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Guest(answer)})
     assert s.update(touches=[ON_TABLE]).gain("left", "phone") == told
     assert s.stats.gains_capped == (2 if answer > 1 else 0)
@@ -148,7 +148,7 @@ class Priced(Guest):
         return np.full((len(prices), n_columns, self.n_bands + self.bands_more), self.answer)
 
 
-def test_answers_of_another_shape_are_errors_of_ours() -> None:
+def test_plugin_results_of_wrong_shape_raise_session_errors() -> None:
     class Wide(Guest):
         def strongest(self, hands: Sequence[Sequence[Any]]) -> np.ndarray:
             return super().strongest(hands).repeat(2, axis=1)

@@ -31,7 +31,7 @@ def test_a_minute_without_an_exception_or_drift(stress: ModuleType) -> None:
 
 
 @pytest.mark.parametrize("name", EDGE_SCENES)
-def test_the_edges_live_too(stress: ModuleType, name: str) -> None:
+def test_edge_scenes_run_without_exceptions(stress: ModuleType, name: str) -> None:
     found = stress.live(0.1, bundled=EDGE_SCENES[name]())
     assert found.n_events > 50
     assert found.worst_level <= 1.0

@@ -23,21 +23,21 @@ def kitchen(category: str, needs: str | None, *, hob_is_source: bool = False) ->
 
 
 @pytest.mark.parametrize("category", ["stove", "cooktop", "hob", "gas hob", "hot plate", "kitchen range"])
-def test_a_stove_by_any_name_heats_the_pan(category: str) -> None:
+def test_stove_is_recognised_by_any_synonym(category: str) -> None:
     assert kitchen(category, "stove").update(touches=ON_PAN).gain("left", "pan") == 1.0
 
 
 @pytest.mark.parametrize("needs", ["", "none", "null", None])
-def test_no_need_is_no_need(needs: str | None) -> None:
+def test_source_without_needs_always_plays(needs: str | None) -> None:
     assert kitchen("table", needs).update(touches=ON_PAN).gain("left", "pan") == 1.0
 
 
 @pytest.mark.parametrize("category", ["table", "toy stove", "cooker hood", ""])
-def test_what_is_no_stove_leaves_it_cold(category: str) -> None:
+def test_pan_is_silent_on_other_objects(category: str) -> None:
     assert kitchen(category, "stove").update(touches=ON_PAN).gain("left", "pan") == 0.0
 
 
-def test_a_stove_that_is_switched_off_leaves_it_cold() -> None:
+def test_pan_is_silent_on_a_stove_that_is_off() -> None:
     session = kitchen("hob", "stove", hob_is_source=True)
     assert session.update(touches=ON_PAN).gain("left", "pan") == 1.0
     session.set_source("thing", on=False)
@@ -46,7 +46,7 @@ def test_a_stove_that_is_switched_off_leaves_it_cold() -> None:
     assert session.update(touches=ON_PAN).gain("left", "pan") == 1.0
 
 
-def test_a_stove_that_is_only_muted_still_heats() -> None:
+def test_pan_plays_on_a_muted_stove() -> None:
     session = kitchen("hob", "stove", hob_is_source=True)
     session.set_source("thing", mute=True)
     assert session.update(touches=ON_PAN).gain("left", "pan") == 1.0

@@ -16,7 +16,7 @@ from scenes import table_with_two_phones
     ("category", "loss"),
     [("dining table", 0.04), ("night stand", 0.04), ("mug", None), ("table tennis ball", None), ("unknown", None)],
 )
-def test_furniture_loses_in_its_joints(category: str, loss: float | None) -> None:
+def test_furniture_has_additional_joint_loss(category: str, loss: float | None) -> None:
     steel = materials.lookup("steel")
     table = replace(table_with_two_phones()[1].objects["table"], object_category=category, material=steel)
     body = body_of(table)
@@ -25,7 +25,7 @@ def test_furniture_loses_in_its_joints(category: str, loss: float | None) -> Non
     assert replace(body.material, loss_factor=steel.loss_factor) == steel
 
 
-def test_a_lossy_material_and_one_that_a_person_chose_stay() -> None:
+def test_lossy_and_overridden_materials_keep_their_loss() -> None:
     _, bundle = table_with_two_phones()
     rubber = materials.lookup("rubber")
     table = replace(bundle.objects["table"], object_category="table", material=rubber)
@@ -39,7 +39,7 @@ def test_a_lossy_material_and_one_that_a_person_chose_stay() -> None:
     assert chosen.material == materials.lookup("steel")
 
 
-def test_the_paper_law_knows_no_loss() -> None:
+def test_exponential_law_ignores_loss_factors() -> None:
     scene, bundle = table_with_two_phones()
     named = [replace(bundle.objects["table"], object_category=one) for one in ("table", "slab")]
     touch = [Touch("left", "table", scene.object("table").bounds_m[1])]

@@ -47,7 +47,7 @@ def test_models_that_follow_outlines_get_them(propagation: str, follows: bool) -
     assert session._state.bodies["table"] == as_session
 
 
-def test_an_outline_lies_where_it_was_measured() -> None:
+def test_outline_has_the_place_at_which_it_was_measured() -> None:
     """Its middle is that of the surface, also where a person corrected the size."""
     scene, bundle = round_table()
     table = scene.object("table")
@@ -66,6 +66,6 @@ def test_an_outline_lies_where_it_was_measured() -> None:
         assert found == pytest.approx(middle, abs=1e-3)
 
 
-def test_an_outline_survives_a_file() -> None:
+def test_outline_round_trips_through_a_bundle() -> None:
     scene, _ = round_table()
     assert SceneSnapshot.from_json(scene.to_json()).object("table").surface == scene.object("table").surface

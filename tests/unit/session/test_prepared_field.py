@@ -47,20 +47,20 @@ def gains(field: FieldInUse, *hands: Sequence[str]) -> list[float]:
     return field.strongest([[(name, HERE) for name in hand] for hand in hands])[:, 0, 0].tolist()
 
 
-def test_what_the_newest_does_not_cover_is_asked_of_the_whole() -> None:
+def test_objects_outside_the_newest_field_use_the_whole_field() -> None:
     field = FieldInUse(SOURCES, as_now, lambda touched: None)
     field.use(prepared(0.5, {"table"}), prepared(0.25))
     assert gains(field, ["table"], ["shelf"], [], ["shelf", "table"]) == [0.5, 0.25, 0.0, 0.5]
 
 
 @pytest.mark.parametrize("covers", [None, {"table", "shelf"}])
-def test_the_newest_alone_is_asked_where_it_covers_everything(covers: set[str] | None) -> None:
+def test_newest_field_is_used_alone_when_it_covers_all_objects(covers: set[str] | None) -> None:
     field = FieldInUse(SOURCES, as_now, lambda touched: None)
     field.use(prepared(0.5, covers), prepared(0.25))
     assert gains(field, ["table"], ["shelf"]) == [0.5, 0.5]
 
 
-def test_it_goes_on_with_other_fields() -> None:
+def test_fields_can_be_replaced() -> None:
     field, whole, newest = FieldInUse(SOURCES, as_now, lambda touched: None), prepared(0.25), prepared(0.75)
     field.use(prepared(0.5, {"table"}), whole)
     field.use(prepared(0.6, {"shelf"}), whole)
@@ -71,7 +71,7 @@ def test_it_goes_on_with_other_fields() -> None:
     assert gains(field, ["table"], ["shelf"]) == [0.5, 0.75]
 
 
-def test_what_is_touched_is_noted() -> None:
+def test_touched_points_are_recorded() -> None:
     noted: list[Sequence[TouchedPoint]] = []
     field, whole = FieldInUse(SOURCES, as_now, noted.append), prepared(0.25)
     field.use(whole, whole)

@@ -57,7 +57,7 @@ def add_fan(s: HapticSession, frequency_hz: float, name: str = "fan", x: float =
 
 @pytest.mark.parametrize("skip", [True, False])
 @pytest.mark.parametrize("bands", ["dominant", "third-octaves"])
-def test_the_game_prepares_nothing_and_feels_it_later(notes: Notes, bands: str, skip: bool) -> None:
+def test_loops_are_prepared_on_the_worker_and_played_later(notes: Notes, bands: str, skip: bool) -> None:
     s = session(bands=bands, skip=skip)
     here = threading.get_ident()
     before = len(notes.threads)
@@ -80,7 +80,7 @@ def test_the_game_prepares_nothing_and_feels_it_later(notes: Notes, bands: str, 
     assert here not in notes.threads[before:]
 
 
-def test_what_is_to_block_is_prepared_at_once(notes: Notes) -> None:
+def test_blocking_mode_prepares_loops_in_update(notes: Notes) -> None:
     s = session(prepare="blocking")
     add_fan(s, 133.0)
     s.update(touches=[ON_FAN])
@@ -88,7 +88,7 @@ def test_what_is_to_block_is_prepared_at_once(notes: Notes) -> None:
     assert set(notes.threads) == {threading.get_ident()}
 
 
-def test_a_content_is_prepared_once(notes: Notes) -> None:
+def test_loops_of_equal_content_are_prepared_once(notes: Notes) -> None:
     s = session()
     for n in range(5):
         add_fan(s, 137.0, f"fan {n}", 0.3 + 0.2 * n)  # copies, each with samples of its own
@@ -105,7 +105,7 @@ def test_a_content_is_prepared_once(notes: Notes) -> None:
     assert len(notes.contents) > len(set(notes.contents))
 
 
-def test_what_is_known_is_felt_at_once(notes: Notes) -> None:
+def test_loop_with_known_content_plays_immediately(notes: Notes) -> None:
     s = session()
     loop = tone_loop(139.0)
     item, told = box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6)), haptics("plastic", (0.2, 0.1, 0.1), "on")
@@ -119,7 +119,7 @@ def test_what_is_known_is_felt_at_once(notes: Notes) -> None:
     assert np.abs(s.render(RATE // 4)[:, 0]).max() > 0.2
 
 
-def test_one_that_goes_before_it_came_is_forgotten(notes: Notes) -> None:
+def test_source_removed_before_its_loop_is_ready_is_dropped(notes: Notes) -> None:
     s = session()
     notes.gate.clear()
     add_fan(s, 149.0)
@@ -132,7 +132,7 @@ def test_one_that_goes_before_it_came_is_forgotten(notes: Notes) -> None:
     assert not s.render(RATE).any()
 
 
-def test_it_comes_without_a_click(notes: Notes) -> None:
+def test_late_loop_starts_without_a_click(notes: Notes) -> None:
     s = session()
     notes.gate.clear()
     add_fan(s, 151.0)
@@ -149,7 +149,7 @@ def test_it_comes_without_a_click(notes: Notes) -> None:
     assert np.abs(np.diff(x)).max() <= 1.2 * 2 * np.pi * 0.3 * 151.0 / RATE + 0.01
 
 
-def test_loops_that_nobody_keeps_do_not_pile_up() -> None:
+def test_unused_prepared_loops_are_released() -> None:
     for n in range(400):
         samples = np.full(RATE * 8, n / 500, dtype=np.float32)
         clip = AudioClip(samples, RATE)

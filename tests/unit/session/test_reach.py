@@ -60,7 +60,7 @@ def test_groups_follow_contacts(n_pairs: int) -> None:
         check(reach, pairs)
 
 
-def test_a_change_concerns_who_hangs_together_with_a_source() -> None:
+def test_change_affects_only_groups_that_contain_a_source() -> None:
     pairs = {("x00", "x01"), ("x01", "x02"), ("x03", "x04")}
     reach = Reach(beside_of(pairs), CARRIERS, SOURCES)
     assert reach.concerns(ContactChange(shifted=frozenset({("x01", "x02")})))

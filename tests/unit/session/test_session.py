@@ -36,7 +36,7 @@ def gamma(distance_m: float, frequency_hz: float) -> float:
     return math.exp(-k * distance_m)
 
 
-def test_the_source_itself_is_1_and_each_hand_is_independent() -> None:
+def test_gain_on_the_source_is_1_and_hands_are_independent() -> None:
     frame = session().update(touches=[Touch("right", "phone", (0.1, 0.73, 0.4))])
     assert frame.gain("right", "phone") == 1.0
     assert frame.gain("left", "phone") == 0.0
@@ -44,7 +44,7 @@ def test_the_source_itself_is_1_and_each_hand_is_independent() -> None:
     assert frame.gains.dtype == np.float32
 
 
-def test_the_table_carries_both_phones_by_the_distance_to_their_nearest_contact() -> None:
+def test_gain_on_the_table_depends_on_distance_to_the_nearest_contact() -> None:
     frame = session().update(touches=[ON_TABLE])
     # The phones' edges are at x = 0.15 and x = 1.45; the nearest contact points are corners of their footprints.
     corner = math.hypot(0.65, 0.05)
@@ -63,7 +63,7 @@ def test_an_object_that_touches_nothing_feels_nothing() -> None:
     assert not frame.gains.any()
 
 
-def test_lifting_the_hand_ends_it() -> None:
+def test_lifting_the_hand_ends_the_vibration() -> None:
     s = session()
     s.update(touches=[ON_TABLE])
     s.render(RATE)
@@ -72,7 +72,7 @@ def test_lifting_the_hand_ends_it() -> None:
     assert not s.render(RATE).any()
 
 
-def test_lifting_the_phone_off_the_table_ends_its_way_and_putting_it_back_restores_it() -> None:
+def test_lifting_the_phone_removes_its_gain_and_putting_it_back_restores_it() -> None:
     s = session()
     before = s.update(touches=[ON_TABLE]).gains
     home = s.snapshot.object("phone").pose
@@ -170,7 +170,7 @@ def test_the_model_is_one_line_of_configuration(model: object, expected: list[fl
 
 
 @pytest.mark.parametrize("bands", [Bands.third_octaves(), "third-octaves"])
-def test_true_bands(bands: object) -> None:
+def test_true_bands_give_one_gain_per_band(bands: object) -> None:
     s = session(bands=bands, propagation="exponential_plate")
     frame = s.update(touches=[ON_TABLE])
     assert frame.gains.shape == (2, 2, 20)
@@ -281,12 +281,12 @@ def test_unknown_state_and_gain_out_of_bounds() -> None:
         ({"propagation": {"kind": "exponential_plate", "max_hops": 0}}, "max_hops is 0"),
     ],
 )
-def test_bad_settings(config: dict[str, object], sentence: str) -> None:
+def test_invalid_settings_are_refused(config: dict[str, object], sentence: str) -> None:
     with pytest.raises(ConfigError, match=sentence):
         HapticSession(*table_with_two_phones(), config)
 
 
-def test_hands_are_named_once() -> None:
+def test_duplicate_hand_names_are_refused() -> None:
     with pytest.raises(ConfigError, match="hands is"):
         HapticSession(*table_with_two_phones(), hands=("left", "left"))
 
@@ -297,7 +297,7 @@ def test_start_without_a_sink() -> None:
 
 
 @pytest.mark.parametrize("hands", ["left", "", (), ("left", "left"), ("left", ""), ("left", 1), 3, None])
-def test_hands_are_names_and_not_one_string(hands: Any) -> None:
+def test_hands_given_as_one_string_are_refused(hands: Any) -> None:
     with pytest.raises(ConfigError, match="hands is"):
         HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, hands=hands)
     with pytest.raises(ConfigError, match=r"as \['left'\]"):
@@ -306,7 +306,7 @@ def test_hands_are_names_and_not_one_string(hands: Any) -> None:
 
 
 @pytest.mark.parametrize("touches", ["left", [("left", "table")], 3])
-def test_touches_are_a_list_of_touches(touches: Any) -> None:
+def test_touches_of_other_types_are_refused(touches: Any) -> None:
     session = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE})
     with pytest.raises(SessionError, match="must be a list of Touch"):
         session.update(touches=touches)

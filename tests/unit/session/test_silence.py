@@ -36,7 +36,7 @@ def silent() -> HapticBundle:
     return bake_object(TABLE)
 
 
-def test_a_session_in_which_nothing_vibrates_says_so_once(silent: HapticBundle) -> None:
+def test_session_without_sources_warns_once(silent: HapticBundle) -> None:
     with pytest.warns(SceneWarning, match="of 1 objects none vibrates.*override") as caught:
         HapticSession(silent, sink=MemorySink()).start()
     assert caught[0].filename == __file__
@@ -49,31 +49,31 @@ def test_a_session_in_which_nothing_vibrates_says_so_once(silent: HapticBundle) 
 
 
 @pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
-def test_a_session_that_is_filled_before_it_starts_does_not(silent: HapticBundle, bundle: HapticBundle) -> None:
+def test_session_filled_before_start_does_not_warn(silent: HapticBundle, bundle: HapticBundle) -> None:
     session = HapticSession(silent, sink=MemorySink())
     session.add(PHONE, bundle.objects["phone"], bundle.loops["phone"])
     with session:
         session.update(touches=ON_TABLE)
 
 
-def test_an_added_object_of_which_nothing_is_known(bundle: HapticBundle) -> None:
+def test_adding_an_object_without_data_warns(bundle: HapticBundle) -> None:
     with pytest.warns(SceneWarning, match="'vase', of which nothing is known, is added without") as caught:
         HapticSession(bundle).add(VASE)
     assert caught[0].filename == __file__
 
 
-def test_an_added_object_that_should_vibrate_and_has_no_loops(bundle: HapticBundle) -> None:
+def test_adding_a_source_without_loops_warns(bundle: HapticBundle) -> None:
     with pytest.warns(SceneWarning, match="'vase', of which the haptics say.*stays silent.*loops="):
         HapticSession(bundle).add(VASE, bundle.objects["phone"])
 
 
-def test_an_added_object_of_unknown_material(bundle: HapticBundle) -> None:
+def test_adding_an_object_of_unknown_material_warns(bundle: HapticBundle) -> None:
     unknown: ObjectHaptics = replace(bundle.objects["table"], material=None)
     with pytest.warns(SceneWarning, match="of unknown material, is added without loops: it neither"):
         HapticSession(bundle).add(VASE, unknown)
 
 
-def test_a_crowd_of_silent_objects_is_named_in_part(bundle: HapticBundle) -> None:
+def test_warning_names_a_few_of_many_silent_objects(bundle: HapticBundle) -> None:
     session = HapticSession(bundle)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -84,7 +84,7 @@ def test_a_crowd_of_silent_objects_is_named_in_part(bundle: HapticBundle) -> Non
 
 
 @pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
-def test_what_carries_or_vibrates_is_welcome(bundle: HapticBundle) -> None:
+def test_adding_a_carrier_or_a_source_does_not_warn(bundle: HapticBundle) -> None:
     session = HapticSession(bundle)
     session.add(VASE, bundle.objects["table"])
     session.remove("phone")

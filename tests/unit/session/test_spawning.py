@@ -29,7 +29,7 @@ def fan(frequency_hz: float = 130.0) -> HapticBundle:
     )
 
 
-def test_a_copy_is_felt_like_an_object_that_was_there() -> None:
+def test_copy_has_the_gains_of_an_initial_object() -> None:
     prefab, (snapshot, bundle) = fan().override("fan", gain_db=-6.0), table_with_two_phones()
     item = replace(prefab.snapshot.objects[0], id="fan_17", pose=AT)
     whole = replace(snapshot, objects=(*snapshot.objects, item))
@@ -66,7 +66,7 @@ def test_a_prefab_is_baked_saved_and_loaded_as_any_bundle(tmp_path: Path) -> Non
         bake_object("fan.glb")  # type: ignore[arg-type]
 
 
-def test_one_that_only_carries_is_no_source() -> None:
+def test_copy_of_a_passive_prefab_is_no_source() -> None:
     s = session()
     tray = SceneSnapshot("tray", "y", (box("tray", (0.4, 0.01, 0.3), (0.0, 0.0, 0.0)),))
     prefab = HapticBundle(tray, "", {"tray": haptics("steel", (0.4, 0.3, 0.01))}, {})
@@ -75,7 +75,7 @@ def test_one_that_only_carries_is_no_source() -> None:
     assert s.update(touches=[Touch("left", "tray_1", (0.8, 0.73, 0.4))]).gain("left", "phone") > 0
 
 
-def test_an_id_that_is_taken_and_what_is_no_prefab_change_nothing() -> None:
+def test_used_id_and_invalid_prefab_are_refused_without_change() -> None:
     s, prefab = session(), fan()
     s.spawn(prefab, "fan_1", AT)
     before = s.snapshot
@@ -91,7 +91,7 @@ def test_an_id_that_is_taken_and_what_is_no_prefab_change_nothing() -> None:
 
 
 @pytest.mark.parametrize("n_between", [1, 7])
-def test_copies_that_come_and_go_between_two_frames_are_those_of_a_new_session(n_between: int) -> None:
+def test_session_after_many_copies_equals_a_new_session(n_between: int) -> None:
     """What many changes leave is what a session is that begins with it, to the last bit, passive objects included."""
     s, prefabs = session(), (fan(), fan(171.0), bake_object(box("oak tray", (0.2, 0.02, 0.2), (0.0, 0.0, 0.0))))
     rng = np.random.default_rng(3)
@@ -115,7 +115,7 @@ def test_copies_that_come_and_go_between_two_frames_are_those_of_a_new_session(n
             np.testing.assert_array_equal(s.update(touches=ON_TABLE).gains, new.update(touches=ON_TABLE).gains)
 
 
-def test_a_thousand_copies_leave_nothing_behind() -> None:
+def test_a_thousand_copies_leak_no_memory() -> None:
     s, prefab = session(), fan(171.0)
     copies: list[weakref.ref[object]] = []
     for n in range(1000):
@@ -148,7 +148,7 @@ def test_copies_leave_nothing_to_the_garbage_collector() -> None:
         gc.enable()
 
 
-def test_two_sessions_share_a_prefab_whose_copy_goes_while_it_is_prepared() -> None:
+def test_two_sessions_share_a_prefab_while_its_copy_is_removed() -> None:
     prefab, first, second = fan(181.0), session(), session()
     first.spawn(prefab, "fan_1", AT)
     first.remove("fan_1")

@@ -35,7 +35,7 @@ def envelope(made: HapticSession, seconds: float, step_s: float = 0.05) -> np.nd
     return np.sqrt((x.reshape(-1, round(step_s * RATE)) ** 2).mean(axis=1))
 
 
-def test_without_times_it_is_off_and_on_at_once() -> None:
+def test_source_without_times_switches_immediately() -> None:
     made = session()
     steady = envelope(made, 0.5)[-1]
     made.set_source("phone", on=False)
@@ -46,7 +46,7 @@ def test_without_times_it_is_off_and_on_at_once() -> None:
 
 @pytest.mark.parametrize("spins", [True, False])
 @pytest.mark.parametrize("bands", ["dominant", "third-octaves"])
-def test_it_comes_up_and_dies_away(spins: bool, bands: str) -> None:
+def test_source_starts_and_stops_over_its_times(spins: bool, bands: str) -> None:
     made = session({"start_up_s": 1.0, "wind_down_s": 2.0, "spins": spins}, bands=bands)
     steady = envelope(made, 1.0)[-1]
     made.set_source("phone", on=False)
@@ -62,7 +62,7 @@ def test_it_comes_up_and_dies_away(spins: bool, bands: str) -> None:
     assert up[-1] == pytest.approx(steady, rel=0.02)
 
 
-def test_it_is_in_step_with_its_position_afterwards() -> None:
+def test_loop_is_at_its_position_after_a_start() -> None:
     made, plain = session({"start_up_s": 0.5, "wind_down_s": 0.5, "spins": True}), session()
     for one in (made, plain):
         one.set_source("alarm", on=False)
@@ -75,7 +75,7 @@ def test_it_is_in_step_with_its_position_afterwards() -> None:
     np.testing.assert_allclose(made.render(4800), plain.render(4800), atol=1e-4)
 
 
-def test_cut_short_it_goes_on_from_where_it_is() -> None:
+def test_interrupted_start_continues_from_its_level() -> None:
     made = session({"start_up_s": 2.0, "wind_down_s": 2.0, "spins": True})
     steady = envelope(made, 0.5)[-1]
     made.set_source("phone", on=False)
@@ -88,7 +88,7 @@ def test_cut_short_it_goes_on_from_where_it_is() -> None:
     assert after[-1] == pytest.approx(steady, rel=0.05)
 
 
-def test_nothing_clicks_on_the_way() -> None:
+def test_switching_causes_no_click() -> None:
     made = session({"start_up_s": 0.3, "wind_down_s": 0.6, "spins": True})
     blocks = []
     for step in range(300):
@@ -101,7 +101,7 @@ def test_nothing_clicks_on_the_way() -> None:
     assert 10 * np.log10(power[np.fft.rfftfreq(len(x), 1 / RATE) > 1000].sum() / power.sum()) < -60.0
 
 
-def test_turns_of_its_own() -> None:
+def test_source_switches_by_its_duty_cycle() -> None:
     made = session({"on_s": 1.0, "off_s": 0.5})
     e = envelope(made, 8.0)
     running = e > 0.5 * e.max()
@@ -116,7 +116,7 @@ def test_turns_of_its_own() -> None:
     assert (envelope(made, 0.8)[2:] > 0.5 * e.max()).all()
 
 
-def test_a_pause_lets_turns_stand_still() -> None:
+def test_pause_stops_the_duty_cycle() -> None:
     made = session({"on_s": 1.0, "off_s": 100.0})
     envelope(made, 0.1)
     made.pause()
@@ -128,7 +128,7 @@ def test_a_pause_lets_turns_stand_still() -> None:
     assert made._sources["phone"].is_running
 
 
-def test_sources_go_while_they_die_away() -> None:
+def test_sources_can_be_removed_during_wind_down() -> None:
     made = session({"wind_down_s": 2.0})
     envelope(made, 0.2)
     made.set_source("phone", on=False)
@@ -140,7 +140,7 @@ def test_sources_go_while_they_die_away() -> None:
     assert not made.render(RATE // 2).any()
 
 
-def test_another_state_ends_a_passage() -> None:
+def test_state_change_ends_a_wind_down() -> None:
     made = session({"wind_down_s": 5.0})
     envelope(made, 0.2)
     made.set_source("phone", on=False)
@@ -149,7 +149,7 @@ def test_another_state_ends_a_passage() -> None:
     assert envelope(made, 0.3)[-1] == 0.0
 
 
-def test_a_long_life_leaves_nothing_behind() -> None:
+def test_repeated_switching_leaks_no_memory() -> None:
     made = session({"start_up_s": 0.05, "wind_down_s": 0.05})
     for step in range(200):
         made.set_source("phone", on=step % 2 == 1)
@@ -170,6 +170,6 @@ def test_a_long_life_leaves_nothing_behind() -> None:
         ({"spins": 2}, "spins"),
     ],
 )
-def test_times_that_cannot_be_are_refused(given: dict[str, Any], said: str) -> None:
+def test_invalid_times_are_refused(given: dict[str, Any], said: str) -> None:
     with pytest.raises(ConfigError, match=said):
         SourceState("on", 0.5, "fan whirring", "fan whirring", **given)

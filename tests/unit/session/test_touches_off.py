@@ -49,7 +49,7 @@ def test_a_touch_more_than_5_cm_from_the_surface_is_counted(
         assert str(caught[0].message).startswith("hand 'left' touches 'table' at (")
 
 
-def test_each_hand_is_told_once_and_every_touch_counted(session: HapticSession) -> None:
+def test_warning_appears_once_per_hand_and_all_touches_are_counted(session: HapticSession) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         for k in range(10):
@@ -61,7 +61,7 @@ def test_each_hand_is_told_once_and_every_touch_counted(session: HapticSession) 
 
 
 @pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
-def test_an_object_that_leaves_under_a_resting_hand_is_followed(session: HapticSession) -> None:
+def test_resting_hand_on_a_leaving_object_is_detected(session: HapticSession) -> None:
     on_phone = [Touch("left", "phone", (0.5, 0.73, 0.2))]
     session.update(touches=on_phone)
     assert session.stats.touches_off_surface == 0
@@ -71,7 +71,7 @@ def test_an_object_that_leaves_under_a_resting_hand_is_followed(session: HapticS
     assert session.stats.touches_off_surface == 1
 
 
-def test_a_thing_that_comes_back_in_another_shape_is_measured_anew(session: HapticSession) -> None:
+def test_object_readded_with_another_shape_is_measured_again(session: HapticSession) -> None:
     touches = [Touch("left", "table", (0.3, 0.72, 0.1))]
     session.update(touches=touches)
     session.remove("table")
@@ -81,7 +81,7 @@ def test_a_thing_that_comes_back_in_another_shape_is_measured_anew(session: Hapt
         session.update(touches=touches)
 
 
-def test_a_slow_walk_off_the_surface_is_noticed_at_5_cm(session: HapticSession) -> None:
+def test_slow_motion_off_the_surface_is_detected_at_5_cm(session: HapticSession) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         for k in range(100):
@@ -89,7 +89,7 @@ def test_a_slow_walk_off_the_surface_is_noticed_at_5_cm(session: HapticSession) 
     assert session.stats.touches_off_surface == 50  # 50.5 to 99.5 mm
 
 
-def test_meshes_too_large_to_sort_in_a_frame_are_not_judged(bundle: object) -> None:
+def test_very_large_meshes_are_not_checked(bundle: object) -> None:
     n = 230
     grid = np.stack(np.meshgrid(np.linspace(0, 1, n), [0.0], np.linspace(0, 1, n), indexing="ij"), axis=-1)
     corner = np.arange(n * n).reshape(n, n)[:-1, :-1].ravel()

@@ -38,7 +38,7 @@ def felt(session: HapticSession, source: str) -> float:
     return float(np.abs(session.render(9600)[:, 0]).max())
 
 
-def test_other_loops_are_played_and_the_rest_stays(bundle: HapticBundle) -> None:
+def test_use_bundle_replaces_changed_loops_only(bundle: HapticBundle) -> None:
     source, other = bundle.loops
     session = HapticSession(bundle)
     place = Pose((*session.poses[source].position_m[:2], session.poses[source].position_m[2] + 0.001))
@@ -51,7 +51,7 @@ def test_other_loops_are_played_and_the_rest_stays(bundle: HapticBundle) -> None
     assert felt(session, other) < 0.4 * 10 ** (-60 / 20) or not session._sources[other].is_on
 
 
-def test_a_state_of_the_game_is_kept_and_a_new_first_state_is_taken(bundle: HapticBundle) -> None:
+def test_use_bundle_keeps_states_set_by_the_game(bundle: HapticBundle) -> None:
     source = next(iter(bundle.loops))
     both = with_loops(bundle, source, low=buzz(60.0), high=buzz(90.0))
     session = HapticSession(both)
@@ -66,7 +66,7 @@ def test_a_state_of_the_game_is_kept_and_a_new_first_state_is_taken(bundle: Hapt
     assert session._sources[source].state == "off_peak"
 
 
-def test_levels_mutes_and_silence_are_felt(bundle: HapticBundle) -> None:
+def test_use_bundle_applies_levels_mutes_and_silence(bundle: HapticBundle) -> None:
     source, other = bundle.loops
     session = HapticSession(bundle)
     before = felt(session, source)
@@ -80,7 +80,7 @@ def test_levels_mutes_and_silence_are_felt(bundle: HapticBundle) -> None:
     assert felt(session, source) == pytest.approx(before, rel=1e-3)
 
 
-def test_what_was_removed_stays_away_until_it_is_added_again(bundle: HapticBundle) -> None:
+def test_use_bundle_keeps_removed_objects_removed(bundle: HapticBundle) -> None:
     source = next(iter(bundle.loops))
     session = HapticSession(bundle)
     session.remove(source)
@@ -148,6 +148,6 @@ def test_a_saved_bundle_and_one_edited_by_hand_are_followed(bundle: HapticBundle
     watch.close()
 
 
-def test_there_must_be_a_folder(bundle: HapticBundle, tmp_path: Path) -> None:
+def test_following_a_bundle_needs_a_folder(bundle: HapticBundle, tmp_path: Path) -> None:
     with pytest.raises(BundleError, match="no folder"):
         BundleWatch(HapticSession(bundle), tmp_path / "none")

@@ -46,7 +46,7 @@ def test_levels_of_person_hand_and_device_add_up(bundle: HapticBundle) -> None:
     assert gains(bundle, user)[1] == pytest.approx(plain[1] * db(-3.0), rel=1e-5)  # on another device
 
 
-def test_the_curve_is_read_at_the_frequency_that_is_felt(bundle: HapticBundle) -> None:
+def test_profile_curve_is_read_at_the_felt_frequency(bundle: HapticBundle) -> None:
     source = next(iter(bundle.loops))
     loop = next(iter(bundle.loops[source].values()))
     felt_hz = loop.frequency_tactile_hz
@@ -67,7 +67,7 @@ def test_the_curve_acts_band_by_band(bundle: HapticBundle) -> None:
     assert (ours[:, 0] / plain[:, 0])[0] == pytest.approx(expected, rel=1e-4)
 
 
-def test_sources_that_a_person_turns_up_are_not_left_out(bundle: HapticBundle) -> None:
+def test_sources_amplified_by_a_profile_are_mixed(bundle: HapticBundle) -> None:
     """A source 10 dB below what is felt is left out of the mix; for someone 40 dB up it is mixed."""
     source, other = bundle.loops
     bundle = bundle.override(other, muted=True)
@@ -110,7 +110,7 @@ def test_no_sample_exceeds_the_smallest_limit(limit: float, left: float, gain: f
         assert peaks[1] <= limit * (1 + 1e-6)
 
 
-def test_another_person_comes_without_a_click(bundle: HapticBundle) -> None:
+def test_profile_change_causes_no_click(bundle: HapticBundle) -> None:
     sink = MemorySink()
     with HapticSession(bundle, sink=sink, hands=("left",)) as session:
         for k in range(60):
@@ -123,14 +123,14 @@ def test_another_person_comes_without_a_click(bundle: HapticBundle) -> None:
     assert high[frequency > 3000].max() < 1e-3 * high.max()
 
 
-def test_what_a_profile_says_is_part_of_the_explanation(bundle: HapticBundle) -> None:
+def test_explanation_includes_the_profile_level(bundle: HapticBundle) -> None:
     session = HapticSession(bundle, user={"hands": {"left": {"gain_db": -7.0}}})
     session.update(touches=touches(bundle, "left", "right"))
     assert session.explain("left").felt[0].level_db == pytest.approx(-7.0, abs=1e-4)
     assert session.explain("right").felt[0].level_db == pytest.approx(0.0, abs=1e-4)
 
 
-def test_it_is_saved_and_read(tmp_path: Path) -> None:
+def test_profile_round_trips_through_a_file(tmp_path: Path) -> None:
     user = UserProfile(
         gain_db=-3, curve_db=[(60, 1.0), (100, 0)], hands={"left": {"gain_db": 2}}, devices={"lra": {"gain_db": 6}}
     )
@@ -159,7 +159,7 @@ def test_it_is_saved_and_read(tmp_path: Path) -> None:
         (3, "mapping"),
     ],
 )
-def test_what_cannot_be_is_told(bundle: HapticBundle, wrong: object, says: str) -> None:
+def test_invalid_profile_is_refused(bundle: HapticBundle, wrong: object, says: str) -> None:
     with pytest.raises(ConfigError, match=re.escape(says)):
         HapticSession(bundle, user=wrong)  # type: ignore[arg-type]
     session = HapticSession(bundle)
@@ -168,12 +168,12 @@ def test_what_cannot_be_is_told(bundle: HapticBundle, wrong: object, says: str) 
     assert session._sources.user.factor == 1.0  # nothing of a refused call counts
 
 
-def test_a_profile_for_other_hands_is_told(bundle: HapticBundle) -> None:
+def test_profile_for_other_hands_is_refused(bundle: HapticBundle) -> None:
     with pytest.warns(SceneWarning, match="'lefft'; this session has 'left', 'right'"):
         HapticSession(bundle, user={"hands": {"lefft": {"gain_db": 3.0}}})
 
 
-def test_hands_that_come_and_go_have_their_levels(bundle: HapticBundle) -> None:
+def test_added_hands_get_their_profile_levels(bundle: HapticBundle) -> None:
     session = HapticSession(bundle, hands=("left",), user={"hands": {"left": {}, "foot": {"gain_db": -9.0}}})
     session.add_hand("foot")
     both = session.update(touches=touches(bundle, "left", "foot")).gains
@@ -183,7 +183,7 @@ def test_hands_that_come_and_go_have_their_levels(bundle: HapticBundle) -> None:
     session.render(100)
 
 
-def test_the_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bundle: HapticBundle) -> None:
+def test_code_of_the_profile_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, bundle: HapticBundle) -> None:
     monkeypatch.chdir(tmp_path)
     bundle.save(tmp_path / "scene2hap-demo" / "bundle")
     (code,) = re.findall(r"```python\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)

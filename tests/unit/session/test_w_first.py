@@ -22,7 +22,7 @@ def with_w_first(pose: Pose) -> Pose:
     return Pose(pose.position_m, (w, x, y, z))
 
 
-def test_poses_that_begin_with_w_are_told_once(bundle: HapticBundle) -> None:
+def test_poses_with_w_first_warn_once(bundle: HapticBundle) -> None:
     session = HapticSession(bundle)
     poses = {
         "table": with_w_first(TABLE.pose),
@@ -45,10 +45,10 @@ def test_poses_that_begin_with_w_are_told_once(bundle: HapticBundle) -> None:
         Pose.from_euler((0.5, 0.725, 0.2), (math.pi / 2, 0.4, 0.0)),
     ],
 )
-def test_other_first_moves_are_not(bundle: HapticBundle, pose: Pose) -> None:
+def test_other_first_moves_do_not_warn(bundle: HapticBundle, pose: Pose) -> None:
     HapticSession(bundle).update({"phone": pose})
 
 
 @pytest.mark.filterwarnings("error::scene2hap.SceneWarning")
-def test_one_thing_that_falls_over_among_others_is_not(bundle: HapticBundle) -> None:
+def test_one_falling_object_does_not_warn(bundle: HapticBundle) -> None:
     HapticSession(bundle).update({"table": TABLE.pose, "phone": with_w_first(PHONE.pose)})

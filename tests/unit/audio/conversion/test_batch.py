@@ -20,7 +20,7 @@ def write(path: Path) -> Path:
     return path
 
 
-def test_folders_keep_their_shape_and_what_fails_does_not_stop_the_rest(tmp_path: Path) -> None:
+def test_batch_keeps_folder_structure_and_goes_on_after_a_failure(tmp_path: Path) -> None:
     write(tmp_path / "in" / "a.wav")
     write(tmp_path / "in" / "deep" / "b.flac")
     (tmp_path / "in" / "notes.txt").write_text("not a sound, and not asked for")
@@ -42,7 +42,7 @@ def test_folders_keep_their_shape_and_what_fails_does_not_stop_the_rest(tmp_path
     assert told == [(i, 5) for i in range(1, 6)]
 
 
-def test_several_processes_make_the_same_as_one(tmp_path: Path) -> None:
+def test_several_worker_processes_write_the_same_bytes_as_one(tmp_path: Path) -> None:
     sources = [write(tmp_path / name) for name in ("a.wav", "b.wav", "c.wav")]
     sources[1].write_text("not a sound")
     for workers in (1, 2):
@@ -52,14 +52,14 @@ def test_several_processes_make_the_same_as_one(tmp_path: Path) -> None:
         assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes()
 
 
-def test_a_second_run_does_not_convert_what_the_first_one_made(tmp_path: Path) -> None:
+def test_second_run_skips_outputs_of_the_first_run(tmp_path: Path) -> None:
     write(tmp_path / "a.wav")
     for _ in range(2):
         outcomes = audio.convert_files([tmp_path], tmp_path / "felt", workers=1, overwrite=True)
         assert [outcome.source.name for outcome in outcomes] == ["a.wav"]
 
 
-def test_two_sounds_of_one_name_do_not_overwrite_each_other(tmp_path: Path) -> None:
+def test_batch_refuses_second_source_with_the_same_output_name(tmp_path: Path) -> None:
     one, other = write(tmp_path / "1" / "a.wav"), write(tmp_path / "2" / "a.flac")
     first, second = audio.convert_files([one, other], tmp_path / "out", workers=1)
     assert isinstance(first, Conversion)
@@ -67,7 +67,7 @@ def test_two_sounds_of_one_name_do_not_overwrite_each_other(tmp_path: Path) -> N
     assert "Rename one" in second.reason
 
 
-def test_outputs_that_cannot_be_are_refused_before_anything_is_done(tmp_path: Path) -> None:
+def test_batch_refuses_invalid_arguments_before_writing_any_file(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav")
     with pytest.raises(AudioError, match="one file, and there is more than one to make"):
         audio.convert_files([source, source], tmp_path / "out.wav")

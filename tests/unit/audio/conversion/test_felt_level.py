@@ -26,9 +26,7 @@ def level_db(samples: np.ndarray, block: int) -> float:
     block=st.integers(37, 9000),
 )
 @settings(derandomize=True, deadline=None, max_examples=40)
-def test_a_tone_counts_alike_wherever_it_stands_and_however_long_the_file(
-    start: int, n: int, rest: int, block: int
-) -> None:
+def test_felt_level_of_a_tone_depends_on_its_share_of_the_file_only(start: int, n: int, rest: int, block: int) -> None:
     samples = np.zeros((start + n + rest, 1))
     samples[start : start + n, 0] = 0.3 * np.sin(2 * np.pi * 250 * np.arange(n) / RATE)
     share_db = 10 * np.log10(n / len(samples))
@@ -36,7 +34,7 @@ def test_a_tone_counts_alike_wherever_it_stands_and_however_long_the_file(
     assert level_db(samples, block) == pytest.approx(expected_db, abs=0.3)
 
 
-def test_the_channel_that_is_felt_most_counts_and_silence_is_not_felt() -> None:
+def test_felt_level_is_that_of_the_strongest_channel() -> None:
     t = np.arange(RATE) / RATE
     samples = np.stack([0.01 * np.sin(2 * np.pi * 250 * t), 0.3 * np.sin(2 * np.pi * 250 * t)], axis=1)
     assert level_db(samples, 1000) == pytest.approx(level_db(samples[:, 1:], 1000), abs=1e-4)
@@ -44,7 +42,7 @@ def test_the_channel_that_is_felt_most_counts_and_silence_is_not_felt() -> None:
     assert level_db(np.zeros((0, 1)), 1000) == -np.inf
 
 
-def test_a_level_may_be_asked_for_at_any_time() -> None:
+def test_felt_level_can_be_read_while_blocks_are_added() -> None:
     rng = np.random.default_rng(0)
     heard, parts = FeltLevel(RATE, 1, ActuatorProfile()), rng.normal(size=(5, 3000, 1)).astype(np.float32)
     for n, part in enumerate(parts, 1):

@@ -57,9 +57,7 @@ class Held:
         return self.kept[self.lost :]
 
 
-def test_each_channel_goes_through_the_converter_whatever_the_blocks(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_stream_converts_each_channel_for_any_block_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     source = write(tmp_path / "a.wav", sound(), subtype="FLOAT")
     heard, _ = soundfile.read(source, dtype="float32")
     whole = [SvfBandpass().stream(RATE, ConversionContext()).process(heard[:, i].copy()) for i in range(2)]
@@ -72,7 +70,7 @@ def test_each_channel_goes_through_the_converter_whatever_the_blocks(
         np.testing.assert_allclose(felt, np.stack(whole, axis=1), rtol=0, atol=0.51 / 2**23)
 
 
-def test_tells_peaks_and_frequencies_and_length(tmp_path: Path) -> None:
+def test_conversion_reports_peaks_frequencies_and_length(tmp_path: Path) -> None:
     samples = np.where(np.arange(2) == 0, sound(12.0, frequency_hz=93.7), 0.5 * sound(12.0, frequency_hz=310.2))
     samples[777, 1] = -0.9
     made = audio.convert(write(tmp_path / "a.flac", samples, subtype="PCM_24"), tmp_path / "b.wav", raw=True)
@@ -109,7 +107,7 @@ def test_every_format_is_read_and_written(tmp_path: Path, suffix: str) -> None:
     assert np.sqrt(2) * felt[4000:12_000, 0].std() == pytest.approx(expected, rel=0.03)
 
 
-def test_what_a_converter_holds_back_comes_at_the_end(tmp_path: Path) -> None:
+def test_stream_writes_the_samples_that_a_converter_delays(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", sound(), subtype="PCM_24")
     made = audio.convert(source, tmp_path / "b.wav", converter=Held(held=5000), raw=True)
     np.testing.assert_array_equal(soundfile.read(made.output)[0], soundfile.read(source)[0])
@@ -122,7 +120,7 @@ def test_mono_is_the_mean_of_the_channels(tmp_path: Path) -> None:
     np.testing.assert_allclose(soundfile.read(made.output)[0], soundfile.read(source)[0].mean(axis=1), atol=2**-22)
 
 
-def test_what_our_own_streams_cut_is_counted(tmp_path: Path) -> None:
+def test_conversion_counts_samples_clipped_inside_the_converter(tmp_path: Path) -> None:
     """A tone of amplitude 2 through a low-pass that lets it pass, against scipy's own filter."""
     t = np.arange(2 * RATE) / RATE
     loud = (2.0 * np.sin(2 * np.pi * 93.7 * t)).astype(np.float32)
@@ -134,7 +132,7 @@ def test_what_our_own_streams_cut_is_counted(tmp_path: Path) -> None:
     assert made.peak_out == 1.0
 
 
-def test_what_is_beyond_full_scale_is_cut_and_counted(tmp_path: Path) -> None:
+def test_conversion_clips_at_full_scale_and_counts_clipped_samples(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", np.array([0.1, 0.6, -0.7, 0.4]), subtype="PCM_24")
     made = audio.convert(source, tmp_path / "b.wav", converter=Held(gain=2.0), raw=True)
     assert made.n_clipped == 2
@@ -161,7 +159,7 @@ def broken_sources(folder: Path) -> dict[Path, str]:
     }
 
 
-def test_a_broken_source_leaves_no_output_and_keeps_the_old_one(tmp_path: Path) -> None:
+def test_broken_source_keeps_the_existing_output(tmp_path: Path) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / "b.wav").write_bytes(b"old")
@@ -179,7 +177,7 @@ def test_a_converter_that_loses_samples_leaves_no_output(tmp_path: Path) -> None
     assert [path.name for path in tmp_path.iterdir()] == ["a.wav"]
 
 
-def test_outputs_are_only_overwritten_on_request(tmp_path: Path) -> None:
+def test_existing_output_is_overwritten_only_on_request(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", sound())
     (tmp_path / "b.wav").write_bytes(b"old")
     with pytest.raises(AudioError, match="exists. Choose another name, or allow"):
@@ -196,7 +194,7 @@ def test_outputs_are_only_overwritten_on_request(tmp_path: Path) -> None:
         audio.convert(source, tmp_path / "folder.wav", overwrite=True)
 
 
-def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+def test_error_names_an_output_path_that_cannot_be_written(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", sound())
     with pytest.raises(AudioError, match="Choose a folder that exists"):
         audio.convert(source, tmp_path / "absent" / "b.wav")
@@ -214,7 +212,7 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
         ({"intensity": 1.5}, "intensity is 1.5"),
     ],
 )
-def test_settings_that_cannot_work_are_refused(tmp_path: Path, settings: dict[str, object], reason: str) -> None:
+def test_invalid_settings_are_refused(tmp_path: Path, settings: dict[str, object], reason: str) -> None:
     source = write(tmp_path / "a.wav", sound())
     with pytest.raises(ConfigError, match=reason):
         audio.convert(source, tmp_path / "b.wav", **settings)  # type: ignore[arg-type]
@@ -244,7 +242,7 @@ def test_the_picture_shows_both_sounds(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.ogg", "b.png", "b.wav"]
 
 
-def test_the_picture_tells_what_is_felt(tmp_path: Path) -> None:
+def test_picture_shows_the_threshold_of_touch(tmp_path: Path) -> None:
     """A line where the least drive lies that is felt at the touch's frequency, and both sounds on one scale."""
     source = write(tmp_path / "a.wav", sound(2.0, 1, 150.0), subtype="FLOAT")
     made = audio.convert(source, tmp_path / "b.wav", intensity=0.1, picture=tmp_path / "b.png")
@@ -261,7 +259,7 @@ def test_the_picture_tells_what_is_felt(tmp_path: Path) -> None:
     assert brightest[louder] > brightest[1 - louder]
 
 
-def test_hours_of_silence_in_a_small_file_are_refused_before_they_are_converted(tmp_path: Path) -> None:
+def test_file_with_hours_of_silence_is_refused_before_conversion(tmp_path: Path) -> None:
     source = tmp_path / "hours.flac"
     with soundfile.SoundFile(source, "w", 1000, 8, "PCM_16", format="FLAC") as file:
         for _ in range(9):
@@ -274,7 +272,7 @@ def test_hours_of_silence_in_a_small_file_are_refused_before_they_are_converted(
 def felt_of(
     tmp_path: Path, samples: np.ndarray, name: str = "felt.wav", **settings: object
 ) -> tuple[np.ndarray, float]:
-    """What a file becomes, and how far over the threshold a loop of it is felt on its actuator [dB]."""
+    """Convert a file. Returns its samples, and the level of its loop over the threshold on the actuator [dB]."""
     source = write(tmp_path / "a.wav", samples, subtype="FLOAT")
     made = audio.convert(source, tmp_path / name, overwrite=True, **settings)  # type: ignore[arg-type]
     felt, rate = soundfile.read(made.output)
@@ -304,7 +302,7 @@ def test_a_file_is_felt_at_the_level_of_its_source(tmp_path: Path, converter: st
     assert reached[0.05] <= reached[0.5]
 
 
-def test_an_actuator_is_made_up_for(tmp_path: Path) -> None:
+def test_conversion_compensates_the_actuator_response(tmp_path: Path) -> None:
     """Two tones, one at the resonance and one where it answers 10 dB less: as far apart on the actuator as before."""
     t = np.arange(10 * RATE) / RATE
     tones = (0.2 * (np.sin(2 * np.pi * 175.0 * t) + np.sin(2 * np.pi * 200.0 * t))).astype(np.float32)
@@ -323,7 +321,7 @@ def test_an_actuator_is_made_up_for(tmp_path: Path) -> None:
     assert ratios["lra"] - ratios["flat"] == pytest.approx(answers[0] - answers[1], abs=0.3)
 
 
-def test_blocks_do_not_matter_to_an_equalized_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_equalized_output_does_not_depend_on_block_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made = {}
     for block in (65_536, 777):
         monkeypatch.setattr(stream_module, "BLOCK_FRAMES", block)
@@ -331,7 +329,7 @@ def test_blocks_do_not_matter_to_an_equalized_file(tmp_path: Path, monkeypatch: 
     np.testing.assert_allclose(made[777], made[65_536], atol=2**-22)
 
 
-def test_an_offset_is_no_thump(tmp_path: Path) -> None:
+def test_constant_offset_causes_no_thump_at_the_start(tmp_path: Path) -> None:
     """A recording with an offset of 0.5 begins as calmly as one without."""
     hum = sound(6.0, 1, 150.0)[:, 0] * 0.3
     levelled = [felt_of(tmp_path, hum + offset, converter="svf_bandpass")[0] for offset in (0.0, 0.5)]
@@ -339,7 +337,7 @@ def test_an_offset_is_no_thump(tmp_path: Path) -> None:
     np.testing.assert_allclose(levelled[1], levelled[0], atol=0.01)
 
 
-def test_level_and_bound_are_told(tmp_path: Path) -> None:
+def test_conversion_reports_the_reached_level_and_its_limit(tmp_path: Path) -> None:
     source = write(tmp_path / "a.wav", sound(4.0, 1, 150.0))
     made = audio.convert(source, tmp_path / "b.wav", converter="svf_bandpass", intensity=0.3)
     assert made.asked_level_db == pytest.approx(sensation_level_db(0.3))
@@ -358,7 +356,7 @@ def test_level_and_bound_are_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("peak_db", "is_noise"), [(-80.0, True), (-59.0, False)])
-def test_the_noise_of_a_recording_is_not_lifted(tmp_path: Path, peak_db: float, is_noise: bool) -> None:
+def test_noise_floor_of_a_recording_is_not_amplified(tmp_path: Path, peak_db: float, is_noise: bool) -> None:
     x = np.random.default_rng(0).standard_normal((RATE, 1))
     source = write(tmp_path / "a.wav", x / np.abs(x).max() * 10 ** (peak_db / 20), subtype="FLOAT")
     made = audio.convert(source, tmp_path / "b.wav")
@@ -367,7 +365,7 @@ def test_the_noise_of_a_recording_is_not_lifted(tmp_path: Path, peak_db: float, 
 
 
 @pytest.mark.parametrize("kind", ["lowpass", "envelope", "auto"])
-def test_what_a_converter_leaves_of_a_whine_is_noise_and_not_lifted(tmp_path: Path, kind: str) -> None:
+def test_remainder_of_a_filtered_whine_is_not_amplified(tmp_path: Path, kind: str) -> None:
     """Noise at -80 dB re full scale became -21."""
     t, rng = np.arange(2 * 32_000) / 32_000, np.random.default_rng(0)
     source = tmp_path / "a.wav"

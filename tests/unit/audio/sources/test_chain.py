@@ -41,27 +41,27 @@ def titles(*sources: Shelf, enough: int = 1) -> list[str]:
     return [found.credit.title for found in gather("fan_01", DESCRIPTION, sources, enough=enough)]
 
 
-def test_the_first_that_has_one_is_enough() -> None:
+def test_chain_stops_at_the_first_source_with_enough_clips() -> None:
     empty, first, second = Shelf(), Shelf(clip("a"), clip("b")), Shelf(clip("c"))
     assert titles(empty, first, second) == ["a", "b"]
     assert (empty.asked, second.asked) == (1, 0)
 
 
-def test_the_next_is_asked_until_enough_remain() -> None:
+def test_chain_queries_sources_until_enough_clips_are_usable() -> None:
     first, second, third = Shelf(clip("a")), Shelf(clip("b"), clip("c")), Shelf(clip("d"))
     assert titles(first, second, third, enough=3) == ["a", "b", "c"]
     assert third.asked == 0
     assert titles(first, second, third, enough=5) == ["a", "b", "c", "d"]
 
 
-def test_what_the_selection_will_drop_does_not_remain() -> None:
+def test_chain_does_not_count_clips_that_selection_would_drop() -> None:
     short = Shelf(clip("short", 2.5), clip("padded", 2.0, silent_s=3.0))
     assert titles(short, Shelf(clip("long", 2.6))) == ["short", "padded", "long"]
     assert titles(short) == ["short", "padded"], "the selection tells best what is wrong with them"
 
 
 @pytest.mark.parametrize("error", [BackendUnavailable("freesound is away."), ZeroDivisionError("by a guest")], ids=repr)
-def test_a_source_that_fails_is_passed_over_aloud(error: Exception, caplog: pytest.LogCaptureFixture) -> None:
+def test_chain_skips_a_failing_source_with_a_warning(error: Exception, caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level(logging.INFO)
     with pytest.warns(SourceWarning, match=f"fan_01: no sound from Broken: .*{error}"):
         assert titles(Broken(error), Shelf(clip("a"))) == ["a"]
@@ -69,7 +69,7 @@ def test_a_source_that_fails_is_passed_over_aloud(error: Exception, caplog: pyte
     assert [record.levelno for record in caplog.records] == [logging.INFO]
 
 
-def test_only_when_none_has_any_is_it_an_error() -> None:
+def test_chain_raises_when_no_source_has_a_clip() -> None:
     with (
         pytest.warns(SourceWarning),
         pytest.raises(AudioError, match=r"'fan_01' \('fan humming'\) in any of 2 sources: Broken failed: away; Shelf"),

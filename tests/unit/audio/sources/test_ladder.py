@@ -37,9 +37,9 @@ def rungs(category: str, keywords: str) -> tuple[str, ...]:
         ("", "boiling water", ("boiling water",)),
     ],
 )
-def test_fewer_words_from_rung_to_rung(category: str, keywords: str, expected: tuple[str, ...]) -> None:
+def test_each_query_of_the_ladder_has_fewer_words(category: str, keywords: str, expected: tuple[str, ...]) -> None:
     assert rungs(category, keywords) == expected
 
 
-def test_rungs_stay_within_their_length() -> None:
+def test_queries_of_the_ladder_stay_within_the_length_limit() -> None:
     assert all(0 < len(rung) <= LONGEST_QUERY for rung in rungs("pneumatic " * 30 + "drill", "drill " * 50))

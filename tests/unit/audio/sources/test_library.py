@@ -31,23 +31,23 @@ def titles(folder: Path, category: str, keywords: str) -> list[str]:
     return [clip.credit.title for clip in FolderLibrary(folder).find(describe(category, keywords))]
 
 
-def test_finds_by_name_what_shares_most_words_first(tmp_path: Path) -> None:
+def test_library_orders_files_by_shared_words(tmp_path: Path) -> None:
     fill(tmp_path, "fan_1.wav", "computer-fan-hum.wav", "sub/Computer_Fans.WAV", "fridge_hum.wav", "notes.txt.wav")
     assert titles(tmp_path, "computer fan", "computer fan humming") == ["computer-fan-hum", "Computer_Fans", "fan_1"]
 
 
-def test_a_shared_verb_is_not_enough_nor_a_shared_modifier(tmp_path: Path) -> None:
+def test_library_ignores_files_that_share_only_a_verb_or_a_modifier(tmp_path: Path) -> None:
     fill(tmp_path, "fridge_humming.wav", "electric_toothbrush.wav")
     assert titles(tmp_path, "electric fan", "electric fan humming") == []
     assert titles(tmp_path, "refrigerators", "refrigerator hums") == ["fridge_humming"]
 
 
-def test_returns_five_at_most_in_an_order_that_does_not_depend_on_the_disk(tmp_path: Path) -> None:
+def test_library_returns_at_most_five_clips_in_a_fixed_order(tmp_path: Path) -> None:
     fill(tmp_path, *(f"pump_{letter}.wav" for letter in "gecafbd"))
     assert titles(tmp_path, "pump", "pump pumping") == [f"pump_{letter}" for letter in "abcde"]
 
 
-def test_an_index_says_what_sounds_are_and_whose(tmp_path: Path) -> None:
+def test_library_reads_keywords_and_credits_from_its_index(tmp_path: Path) -> None:
     fill(tmp_path, "a.wav", "b.wav", "pump.wav")
     (tmp_path / "sounds.csv").write_text(
         "\ufefffile,keywords,title,author,licence,address\n"
@@ -64,7 +64,7 @@ def test_an_index_says_what_sounds_are_and_whose(tmp_path: Path) -> None:
     ]
 
 
-def test_an_index_that_is_no_table_is_refused(tmp_path: Path) -> None:
+def test_malformed_index_is_refused(tmp_path: Path) -> None:
     (tmp_path / "sounds.csv").write_text("name;keywords\n")
     with pytest.raises(ConfigError, match=r"sounds\.csv: the first line is .*at least 'file'"):
         FolderLibrary(tmp_path).find(describe("pump", "pump"))
@@ -73,7 +73,7 @@ def test_an_index_that_is_no_table_is_refused(tmp_path: Path) -> None:
         FolderLibrary(tmp_path).find(describe("pump", "pump"))
 
 
-def test_unreadable_files_are_skipped_aloud(tmp_path: Path) -> None:
+def test_library_skips_unreadable_files_with_a_warning(tmp_path: Path) -> None:
     fill(tmp_path, "pump_b.wav")
     (tmp_path / "pump_a.wav").write_text("no sound")
     with pytest.warns(UnreadableSound, match=r"skipped: .*pump_a\.wav"):
@@ -83,14 +83,14 @@ def test_unreadable_files_are_skipped_aloud(tmp_path: Path) -> None:
         assert titles(tmp_path, "fan", "fan") == []
 
 
-def test_files_that_do_not_match_are_never_opened(tmp_path: Path) -> None:
+def test_library_opens_matching_files_only(tmp_path: Path) -> None:
     (tmp_path / "fan.wav").write_text("no sound")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert titles(tmp_path, "pump", "pump") == []
 
 
-def test_a_missing_folder_is_refused_at_once_and_when_it_goes(tmp_path: Path) -> None:
+def test_missing_folder_is_refused_at_construction_and_at_each_search(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="absent is not a folder"):
         FolderLibrary(tmp_path / "absent")
     folder = tmp_path / "there"
@@ -101,18 +101,18 @@ def test_a_missing_folder_is_refused_at_once_and_when_it_goes(tmp_path: Path) ->
         library.find(describe("pump", "pump"))
 
 
-def test_nameless_things_match_nothing(tmp_path: Path) -> None:
+def test_empty_query_matches_nothing(tmp_path: Path) -> None:
     fill(tmp_path, "pump.wav")
     assert titles(tmp_path, "", "") == []
 
 
-def test_is_known_by_its_kind(tmp_path: Path) -> None:
+def test_library_is_registered_by_its_kind(tmp_path: Path) -> None:
     assert SOURCES.load("library") is FolderLibrary
     assert {"library", "synth"} <= set(SOURCES.kinds())
     assert isinstance(FolderLibrary(tmp_path), AudioSource)
 
 
-def test_a_table_with_a_field_of_a_megabyte_is_refused_with_a_sentence(tmp_path: Path) -> None:
+def test_index_with_a_field_of_a_megabyte_is_refused(tmp_path: Path) -> None:
     (tmp_path / "sounds.csv").write_text(f"file,keywords\na.wav,{'x' * 200_000}\n", encoding="utf-8")
     with pytest.raises(ConfigError, match="cannot be read as CSV"):
         FolderLibrary(tmp_path).find(describe("pump", "pump"))

@@ -20,7 +20,7 @@ class Time:
 
 
 @given(gaps=st.lists(st.floats(0.0, 30.0), max_size=60), per_minute=st.integers(1, 8))
-def test_no_minute_ever_holds_more_than_allowed(gaps: list[float], per_minute: int) -> None:
+def test_rate_limit_holds_for_any_minute(gaps: list[float], per_minute: int) -> None:
     time, sent = Time(), []
     limit = RateLimit(time.clock, time.sleep, per_minute=per_minute)
     for gap in gaps:
@@ -41,7 +41,7 @@ def test_requests_within_the_limit_do_not_wait() -> None:
     assert time.now_s == 110.0
 
 
-def test_the_day_s_requests_end() -> None:
+def test_rate_limit_raises_when_the_requests_of_a_day_are_used_up() -> None:
     time = Time()
     limit = RateLimit(time.clock, time.sleep, per_minute=5, per_day=7)
     for _ in range(7):
@@ -52,7 +52,7 @@ def test_the_day_s_requests_end() -> None:
     limit.take()
 
 
-def test_a_block_holds_everything_back() -> None:
+def test_block_of_the_service_delays_all_requests() -> None:
     time = Time()
     limit = RateLimit(time.clock, time.sleep)
     limit.block(12.5)

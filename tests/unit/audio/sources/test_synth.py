@@ -74,13 +74,13 @@ every_patch = pytest.mark.parametrize("patch", patches(), ids=name_of)
 
 
 @every_patch
-def test_its_strongest_frequency_lies_where_it_says(patch: Patch) -> None:
+def test_strongest_frequency_lies_in_the_stated_range_of_the_patch(patch: Patch) -> None:
     low, high = patch.dominant_hz
     assert low <= strongest_hz(played(patch)) <= high
 
 
 @every_patch
-def test_most_of_it_lies_where_touch_is(patch: Patch) -> None:
+def test_most_power_of_a_patch_lies_between_40_and_400_hz(patch: Patch) -> None:
     power = np.abs(np.fft.rfft(played(patch))) ** 2
     frequencies = np.fft.rfftfreq(len(played(patch)), 1 / SAMPLE_RATE_HZ)
     felt = (frequencies >= 40) & (frequencies <= 400)
@@ -88,7 +88,7 @@ def test_most_of_it_lies_where_touch_is(patch: Patch) -> None:
 
 
 @every_patch
-def test_steady_voices_pass_the_selection_and_only_they_say_so(patch: Patch) -> None:
+def test_is_steady_of_a_patch_agrees_with_its_dynamic_range(patch: Patch) -> None:
     assert (dynamic_range_db(played(patch), SAMPLE_RATE_HZ) <= 5.0) == patch.is_steady
 
 
@@ -96,9 +96,7 @@ def test_steady_voices_pass_the_selection_and_only_they_say_so(patch: Patch) -> 
 
 
 @pytest.mark.parametrize(("words", "bounds_hz"), EVERYDAY.items(), ids=lambda value: str(value[0]))
-def test_everyday_things_sound_at_the_pitch_of_real_ones(
-    words: tuple[str, str], bounds_hz: tuple[float, float]
-) -> None:
+def test_machines_have_the_pitch_of_real_machines(words: tuple[str, str], bounds_hz: tuple[float, float]) -> None:
     clip = make(*words)
     assert clip.sample_rate_hz == 48_000
     assert clip.samples.shape == (240_000,)
@@ -147,7 +145,7 @@ def test_larger_machines_are_slower_within_bounds() -> None:
     np.testing.assert_allclose(np.array(pitches) / pitches[2], expected, rtol=0.01)
 
 
-def test_what_runs_on_the_mains_does_not_change_with_size() -> None:
+def test_pitch_of_mains_driven_machines_does_not_depend_on_size() -> None:
     for size in (0.1, 5.0):
         assert strongest_hz(make("transformer", "hum", size_m=(size, size, size)).samples) == pytest.approx(
             100, abs=0.3
@@ -156,7 +154,7 @@ def test_what_runs_on_the_mains_does_not_change_with_size() -> None:
 
 @pytest.mark.parametrize("mains_hz", [50.0, 60.0])
 @pytest.mark.parametrize("thing", ["tumble dryer", "bread maker", "conveyor belt"])
-def test_an_induction_motor_slips_behind_the_mains_whatever_the_size(thing: str, mains_hz: float) -> None:
+def test_induction_motor_runs_below_mains_frequency_at_any_size(thing: str, mains_hz: float) -> None:
     for size in (0.3, 1.0):
         asked = describe(thing, f"{thing} running", size_m=(size, size, size))
         (clip,) = Synthesizer(mains_hz=mains_hz).find(asked)
@@ -172,7 +170,7 @@ def test_intensity_is_brightness() -> None:
         assert centroid_hz(make(*words, intensity=0.1)) < centroid_hz(make(*words, intensity=0.9))
 
 
-def test_credits_say_that_nobody_is_owed() -> None:
+def test_credits_name_the_synthesizer_under_cc0() -> None:
     first, second = Synthesizer(takes=2).find(describe("electric toothbrush", "electric toothbrush vibrating"))
     assert first.credit.title == "electric toothbrush (reciprocating), take 1"
     assert second.credit.title == "electric toothbrush (reciprocating), take 2"
@@ -180,7 +178,7 @@ def test_credits_say_that_nobody_is_owed() -> None:
     assert first.credit.query == "electric toothbrush vibrating"
 
 
-def test_its_sounds_can_be_chosen_and_looped() -> None:
+def test_synthesized_clips_can_be_selected_and_looped() -> None:
     clip = select_clip(Synthesizer(takes=2).find(describe("refrigerator", "refrigerator humming")))
     assert make_loop(clip).duration_s > 2.0
 
@@ -195,7 +193,7 @@ def test_impossible_requests_are_refused() -> None:
         make("fan", "fan", size_m=(-1.0, 0.0, 0.0))
 
 
-def test_is_known_by_its_kind() -> None:
+def test_synthesizer_is_registered_by_its_kind() -> None:
     assert SOURCES.load("synth") is Synthesizer
     assert isinstance(Synthesizer(), AudioSource)
 
@@ -242,7 +240,7 @@ def test_the_state_may_hold_the_verb() -> None:
     assert voice_of("clock", "clock", "ringing") == "buzzer"
 
 
-def test_the_unknown_is_some_motor() -> None:
+def test_unknown_category_gets_the_motor_voice() -> None:
     assert patch_for("frobnicator", "frobnicator frobbing") is MOTOR
 
 
@@ -262,7 +260,7 @@ def test_a_kitchen_timer_ticks_four_or_five_times_a_second_and_a_clock_once() ->
     assert onsets_per_s(make("wall clock", "clock ticking").samples.astype(float)) == pytest.approx(1.0)
 
 
-def test_a_washing_machine_does_not_sound_alike_whatever_it_does() -> None:
+def test_states_of_a_washing_machine_have_different_pitches() -> None:
     """Spin by its motor, rinse and wash by a hum at twice the mains, drain by its pump's vanes."""
     heard = {
         verb: strongest_hz(make("washing machine", f"washing machine {verb}").samples.astype(float))
@@ -274,14 +272,14 @@ def test_a_washing_machine_does_not_sound_alike_whatever_it_does() -> None:
     assert 138 <= heard["draining"] <= 150
 
 
-def test_a_blender_and_a_dough_mixer_are_two_things() -> None:
+def test_blender_and_dough_mixer_have_different_pitches() -> None:
     blender, mixer = (
         strongest_hz(make(thing, f"{thing} mixing").samples.astype(float)) for thing in ("blender", "dough mixer")
     )
     assert abs(np.log(blender / mixer)) > 2 * np.log(1.18)
 
 
-def test_a_compressor_is_loaded_unevenly() -> None:
+def test_compressor_level_fluctuates_with_its_load() -> None:
     """Its level wavers by some 5-20 % between half a hertz and five; it was a tenth of that."""
     y = make("refrigerator", "refrigerator humming", intensity=0.1).samples.astype(float)
     n = SAMPLE_RATE_HZ // 20

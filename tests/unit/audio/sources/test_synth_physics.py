@@ -1,4 +1,4 @@
-"""What the voices promise about machines, read back from their samples by spectrum and envelope.
+"""Physics of the synthesized voices, measured from their samples by spectrum and envelope.
 
 Expectations come from the mechanics (orders of shaft speed, blade passing, mains, time constants); nothing here looks
 at how a voice is made.
@@ -65,7 +65,7 @@ def test_blades_pass_at_blades_times_shaft_speed(shaft_hz: float, blades: int) -
     assert prominence_db(y, passing) > 15.0
 
 
-def test_an_induction_compressor_slips_behind_its_mains() -> None:
+def test_induction_compressor_runs_below_mains_frequency() -> None:
     for mains_hz in (50.0, 60.0):
         y = compressor(take(mains_hz=mains_hz))
         shaft = line_hz(y, 0.9 * mains_hz, 1.1 * mains_hz)
@@ -77,7 +77,7 @@ def test_an_induction_compressor_slips_behind_its_mains() -> None:
 
 @pytest.mark.parametrize("mains_hz", [50.0, 60.0])
 @pytest.mark.parametrize("thing", ["transformer", "microwave"])
-def test_iron_hums_at_twice_the_mains_and_its_multiples(thing: str, mains_hz: float) -> None:
+def test_magnetic_hum_has_twice_the_mains_frequency_and_its_multiples(thing: str, mains_hz: float) -> None:
     (clip,) = Synthesizer(mains_hz=mains_hz).find(asked(thing, "hum", 0.5))
     y = clip.samples.astype(float)
     assert line_hz(y, 20.0, 1000.0) == pytest.approx(2 * mains_hz, abs=0.1)
@@ -125,7 +125,7 @@ def test_a_helicopter_slaps_at_blades_times_rotor_speed() -> None:
     assert line_hz(envelope, 4.0, 10.0) == pytest.approx(passing / 4, rel=0.02)
 
 
-def test_an_engine_fires_at_its_rate_and_its_loud_order_is_loudest() -> None:
+def test_loud_order_of_an_engine_is_the_strongest_multiple_of_its_firing_rate() -> None:
     y = combustion(take(), firing_hz=28.0, loud_order=2)
     loud = line_hz(y, 20.0, 400.0)
     assert loud == pytest.approx(56.0, rel=0.04)
@@ -140,9 +140,7 @@ def test_wheels_pass_sleepers_at_speed_over_spacing() -> None:
 
 
 @pytest.mark.parametrize(("spin_up_s", "spin_down_s"), [(0.05, 0.08), (0.12, 0.2)])
-def test_a_phone_s_motor_gathers_speed_and_its_force_with_the_square_of_it(
-    spin_up_s: float, spin_down_s: float
-) -> None:
+def test_phone_motor_force_grows_with_the_square_of_its_speed(spin_up_s: float, spin_down_s: float) -> None:
     y = ringing_motor(take(), spin_up_s=spin_up_s, spin_down_s=spin_down_s)[: round(1.5 * SAMPLE_RATE_HZ)]
     # Two cycles at the speed of half force: any other width would let the envelope flutter there.
     width = round(2 * SAMPLE_RATE_HZ / (182.0 / 2**0.5))
@@ -176,8 +174,8 @@ def test_bubbles_ring_where_their_radii_say() -> None:
     assert power[(f > 80.0) & (f < 440.0)].sum() > 0.9 * power.sum()
 
 
-def test_a_kettle_boils_at_one_pitch_whatever_the_seed() -> None:
-    """With bubbles of all sizes alike the strongest third octave was anywhere within two octaves."""
+def test_kettle_has_the_same_pitch_for_any_seed() -> None:
+    """With equal numbers of bubbles of all sizes, the strongest third octave varied by two octaves."""
     strongest = []
     for seed in range(12):
         f, magnitude = spectrum(bubbles(take(seed=seed), largest_hz=90.0, smallest_hz=380.0))
@@ -188,12 +186,12 @@ def test_a_kettle_boils_at_one_pitch_whatever_the_seed() -> None:
     assert near.sum() >= 11
 
 
-def test_blows_come_at_their_rate() -> None:
+def test_impacts_repeat_at_the_stated_rate() -> None:
     envelope = np.abs(hilbert(blows(take(), per_second=25.0, body_hz=125.0, decay_s=0.01)))
     assert line_hz(envelope, 10.0, 40.0) == pytest.approx(25.0, abs=0.1)
 
 
-def test_music_has_its_beat() -> None:
+def test_music_has_the_stated_beat() -> None:
     envelope = np.abs(hilbert(music(take(), beats_per_minute=120.0)))
     assert line_hz(envelope, 0.5, 3.0) in (pytest.approx(2.0, abs=0.1), pytest.approx(1.0, abs=0.1))
 
@@ -218,7 +216,7 @@ def test_a_stepper_s_pitch_stays_within_its_speeds() -> None:
     ],
     ids=lambda voice: voice.func.__name__,
 )
-def test_what_nothing_holds_runs_faster_when_driven_and_slower_when_large(voice: partial[Signal]) -> None:
+def test_speed_of_unregulated_motors_grows_with_drive_and_falls_with_size(voice: partial[Signal]) -> None:
     slow, middle, fast = (line_hz(voice(take(drive)), 40.0, 400.0) for drive in (0.0, 0.5, 1.0))
     assert (slow / middle, fast / middle) == (pytest.approx(0.85, rel=0.01), pytest.approx(1.15, rel=0.01))
     large = line_hz(voice(take(size_factor=0.75)), 30.0, 400.0)
@@ -226,7 +224,7 @@ def test_what_nothing_holds_runs_faster_when_driven_and_slower_when_large(voice:
 
 
 @pytest.mark.parametrize("voice", [compressor, pump])
-def test_what_the_mains_holds_keeps_its_speed(voice: object) -> None:
+def test_speed_of_mains_driven_motors_does_not_depend_on_drive(voice: object) -> None:
     idle, driven, american = (
         line_hz(voice(take(drive, mains_hz=mains)), 30.0, 400.0)  # type: ignore[operator]
         for drive, mains in ((0.0, 50.0), (1.0, 50.0), (0.5, 60.0))
@@ -235,7 +233,7 @@ def test_what_the_mains_holds_keeps_its_speed(voice: object) -> None:
     assert american / idle == pytest.approx(1.2, rel=3e-3)
 
 
-def test_mains_are_those_of_this_planet() -> None:
+def test_synthesizer_refuses_unusual_mains_frequencies() -> None:
     for mains_hz in (16.7, 400.0, float("nan")):
         with pytest.raises(ConfigError, match="mains_hz is"):
             Synthesizer(mains_hz=mains_hz)
@@ -269,7 +267,7 @@ def test_every_state_has_a_voice_of_its_own() -> None:
 
 
 @pytest.mark.parametrize("number", range(0, len(STATES), 24))
-def test_states_sound_whole(number: int) -> None:
+def test_states_give_finite_unclipped_and_repeatable_clips(number: int) -> None:
     """Every twenty-fourth; voices themselves are each tested in test_synth."""
     clip = made(*STATES[number])
     y = clip.samples.astype(float)

@@ -53,7 +53,7 @@ def voice(thing: str, verb: str, intensity: float, size_m: float, mains_hz: floa
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_a_voice_is_near_what_was_recorded(
+def test_voice_has_the_pitch_and_spectrum_of_its_recording(
     sound: Callable[[str], AudioClip],
     name: str,
     voiced: tuple[str, str, float, float, float],
@@ -67,7 +67,7 @@ def test_a_voice_is_near_what_was_recorded(
     assert made[2] == pytest.approx(real[2], abs=lines_abs)
 
 
-def test_voices_lie_in_the_order_of_what_was_recorded(sound: Callable[[str], AudioClip]) -> None:
+def test_voices_have_the_same_brightness_order_as_recordings(sound: Callable[[str], AudioClip]) -> None:
     """From the fridge's hum to the saw: darker to brighter, and the fan is noisier than the hums."""
     things = {
         "fridge_hum_kitchen.wav": ("refrigerator", "humming", 0.1, 0.7, 60.0),

@@ -1,4 +1,4 @@
-"""Rhythms that tell machines apart where their pitches do not, and an engine whose throttle moves."""
+"""Rhythms that distinguish machines of similar pitch, and an engine with a moving throttle."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def made(kind: str, verb: str, seed: int, intensity: float = 0.5) -> AudioClip:
         ("computer", "humming", 1.45),
     ],
 )
-def test_what_is_felt_of_a_machine_has_its_rhythm(kind: str, verb: str, rate_hz: float, seed: int) -> None:
-    """These had none, or one that their band did not keep."""
+def test_tactile_loop_keeps_the_rhythm_of_its_machine(kind: str, verb: str, rate_hz: float, seed: int) -> None:
+    """In an earlier version their loops had no rhythm, or the band did not keep it."""
     clip, converter = made(kind, verb, seed, 0.2), CONVERTERS.build("auto")
     (plan,) = plan_scene([SourceClip(clip, 0.2)], converter, ActuatorProfile())
     loop = felt_loop(clip, converter, plan).tactile
@@ -53,7 +53,7 @@ def pitches_hz(clip: AudioClip) -> np.ndarray:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_chainsaw_revs(seed: int) -> None:
+def test_chainsaw_changes_speed_and_loudness_together(seed: int) -> None:
     """Louder while it is faster; at work by a little, at the throttle by a third of its speed."""
     for verb, at_least in (("sawing", 1.04), ("revving", 1.4)):
         clip = made("chainsaw", verb, seed)

@@ -25,7 +25,7 @@ from scene2hap.audio.sources.words import noun_phrase, stems
         ("fan-hum.2", "fan hum"),
     ],
 )
-def test_spellings_of_one_thing_are_one(one: str, other: str) -> None:
+def test_spellings_of_one_name_have_equal_stems(one: str, other: str) -> None:
     assert stems(one) == stems(other) != ()
 
 
@@ -33,7 +33,7 @@ def test_spellings_of_one_thing_are_one(one: str, other: str) -> None:
     ("one", "other"),
     [("ring", "r"), ("string", "str"), ("glass", "glas s"), ("bus", "bu"), ("sewing machine", "washer")],
 )
-def test_different_things_stay_different(one: str, other: str) -> None:
+def test_different_names_have_different_stems(one: str, other: str) -> None:
     assert stems(one) != stems(other)
 
 
@@ -48,9 +48,9 @@ def test_different_things_stay_different(one: str, other: str) -> None:
         ("microwave oven", "microwave"),
     ],
 )
-def test_the_head_noun_says_what_it_is(category: str, head: str) -> None:
+def test_noun_phrase_ends_with_the_head_noun(category: str, head: str) -> None:
     assert noun_phrase(category)[-1:] == stems(head)
 
 
-def test_no_words_no_noun() -> None:
+def test_text_without_words_has_no_noun_phrase() -> None:
     assert noun_phrase("") == noun_phrase("123 / 4") == ()

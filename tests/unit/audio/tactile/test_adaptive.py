@@ -25,7 +25,7 @@ def amplitude(y: np.ndarray, frequency_hz: float) -> float:
     return float(2 * abs(np.mean(last * np.exp(-2j * np.pi * frequency_hz * np.arange(RATE) / RATE))))
 
 
-def test_left_alone_it_finds_the_source_and_keeps_a_band_around_it() -> None:
+def test_adaptive_converter_finds_the_pitch_and_filters_around_it() -> None:
     y = Adaptive().stream(RATE, ConversionContext(intensity=0.5)).process(tones(4, f187=0.3, f500=0.3, f40=0.5))
     own = amplitude(y, 187)
     # |H|^2 of one band-pass of Q = 2 is 1 / (1 + 4 (r - 1 / r)^2), which two in series have as |H|.
@@ -37,7 +37,7 @@ def test_left_alone_it_finds_the_source_and_keeps_a_band_around_it() -> None:
     assert np.std(y[-RATE:]) == pytest.approx(np.std(wide[0][-RATE:]), rel=0.05)
 
 
-def test_follows_a_source_whose_pitch_changes_without_a_click() -> None:
+def test_adaptive_converter_follows_a_changing_pitch_without_a_click() -> None:
     y = (
         Adaptive()
         .stream(RATE, ConversionContext(intensity=0.5))
@@ -49,7 +49,7 @@ def test_follows_a_source_whose_pitch_changes_without_a_click() -> None:
 
 
 @pytest.mark.parametrize(("own_hz", "target_hz"), [(187.0, 230.0), (100.0, 80.0), (286.0, 350.0)])
-def test_moves_the_band_to_its_target_and_nowhere_else(own_hz: float, target_hz: float) -> None:
+def test_adaptive_converter_moves_the_band_to_its_target_only(own_hz: float, target_hz: float) -> None:
     context = ConversionContext(own_hz=own_hz, target_hz=target_hz)
     y = Adaptive().stream(RATE, context).process(tones(3, **{f"f{own_hz:.0f}": 0.5}))
     assert amplitude(y, target_hz) == pytest.approx(0.5, rel=0.01)
@@ -58,14 +58,14 @@ def test_moves_the_band_to_its_target_and_nowhere_else(own_hz: float, target_hz:
             assert amplitude(y, elsewhere) < 0.5 * 10 ** (-40 / 20)
 
 
-def test_keeps_the_beat_of_what_it_moves() -> None:
+def test_adaptive_converter_keeps_the_beat_of_a_moved_band() -> None:
     context = ConversionContext(own_hz=100.0, target_hz=120.0)
     y = Adaptive().stream(RATE, context).process(tones(4, f100=0.3, f102=0.3))
     assert amplitude(y, 120) == pytest.approx(0.3, rel=0.02)
     assert amplitude(y, 122) == pytest.approx(0.3, rel=0.02)
 
 
-def test_keeps_clear_of_its_neighbours_within_its_limit() -> None:
+def test_adaptive_converter_moves_away_from_neighbours_within_its_limit() -> None:
     context = ConversionContext(intensity=0.5, neighbours_hz=(187.0,), own_hz=187.0)
     y = Adaptive().stream(RATE, context).process(tones(3, f187=0.5)).astype(float)
     spectrum = np.abs(np.fft.rfft(y[-2 * RATE :] * np.hanning(2 * RATE)))
@@ -75,7 +75,7 @@ def test_keeps_clear_of_its_neighbours_within_its_limit() -> None:
     assert amplitude(still, 187) == pytest.approx(0.5, rel=0.01)
 
 
-def test_clear_of_takes_the_nearest_clear_place() -> None:
+def test_clear_of_returns_the_nearest_free_frequency() -> None:
     assert clear_of(200.0, (400.0,), 160.0, 250.0) == 200.0
     two_jnds = 1.22**2
     assert clear_of(200.0, (180.0,), 160.0, 290.0) == pytest.approx(180 * two_jnds, rel=0.01)
@@ -101,14 +101,14 @@ def steps_db(y: np.ndarray, window_s: float = 0.25) -> np.ndarray:
     return 10 * np.log10(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n).astype(float)), axis=1) + 1e-12)
 
 
-def test_nothing_steps_when_the_band_of_a_steady_source_takes_over() -> None:
-    """A hum with harmonics: the first half second was 5-12 dB louder than what followed."""
+def test_level_does_not_jump_when_the_tracked_band_takes_over() -> None:
+    """A hum with harmonics: in an earlier version the first half second was 5-12 dB louder than the rest."""
     y = Adaptive().stream(RATE, ConversionContext(intensity=0.3)).process(tones(8, f100=0.1, f150=0.08, f300=0.1))
     levels = steps_db(y[RATE // 4 :])
     assert np.ptp(levels) < 1.5
 
 
-def test_two_harmonics_alike_do_not_take_turns() -> None:
+def test_tracked_pitch_does_not_alternate_between_equal_harmonics() -> None:
     """Either is the stronger in turn, by 2 dB, as a refrigerator has them."""
     t = np.arange(40 * RATE) / RATE
     turn = 10 ** (np.sign(np.sin(2 * np.pi * t / 7.0)) / 20)

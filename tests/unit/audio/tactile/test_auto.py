@@ -37,7 +37,7 @@ def test_roughness_is_modulation_at_the_rate_of_the_low_component() -> None:
         assert line(rough, side) - line(plain, side) == pytest.approx(0.25 * line(plain, 150.0), rel=0.2)
 
 
-def test_its_slow_envelope_is_that_of_the_bed() -> None:
+def test_roughness_leaves_the_slow_envelope_unchanged() -> None:
     rough, plain = (felt(ConversionContext(own_hz=150.0, rough_hz=hz)) for hz in (40.0, None))
 
     def levels(samples: np.ndarray) -> np.ndarray:
@@ -46,7 +46,7 @@ def test_its_slow_envelope_is_that_of_the_bed() -> None:
     assert np.ptp(levels(rough)) < np.ptp(levels(plain)) + 0.5
 
 
-def test_without_roughness_and_onsets_it_is_adaptive() -> None:
+def test_auto_equals_adaptive_without_roughness_and_onsets() -> None:
     context = ConversionContext(own_hz=150.0, target_hz=170.0)
     np.testing.assert_array_equal(felt(context), felt(context, "adaptive"))
 
@@ -57,7 +57,7 @@ def test_silence_stays_silent() -> None:
     assert not stream.finish().any()
 
 
-def test_a_scene_plans_it_and_says_how_each_source_is_felt() -> None:
+def test_scene_plan_works_with_auto_and_reports_the_felt_level() -> None:
     converter = CONVERTERS.build(DEFAULT_CONVERTER)
     source = SourceClip(AudioClip((0.5 * np.sin(2 * np.pi * 80 * T)).astype(np.float32), RATE), 0.9)
     (plan,) = plan_scene([source], converter, ActuatorProfile())
@@ -70,7 +70,7 @@ def test_a_scene_plans_it_and_says_how_each_source_is_felt() -> None:
     assert f"of {plan.level_db:.1f} asked" in str(loop.felt)
 
 
-def test_a_sensation_says_where_it_went() -> None:
+def test_sensation_text_states_level_and_moved_frequency() -> None:
     assert str(Sensation(20.0, 21.0, 98.0, 80.0)) == "20.0 dB over the threshold at 80 Hz, moved from 98"
     assert str(Sensation(20.0, 20.0, 98.0, 98.2)) == "20.0 dB over the threshold at 98 Hz"
     rough = "20.0 dB over the threshold at 250 Hz, moved from 49, rough at 49 Hz"

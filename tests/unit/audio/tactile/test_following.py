@@ -38,12 +38,12 @@ def test_a_steady_noise_stays_steady(slope: float, seed: int) -> None:
     assert range_db(through(x)) <= range_db(x) + 3.0
 
 
-def test_beats_of_what_lies_in_the_band_do_not_grow() -> None:
+def test_beats_within_the_band_are_not_amplified() -> None:
     x = np.sin(2 * np.pi * 120.0 * T) + 0.7 * np.sin(2 * np.pi * 121.5 * T) + 4.0 * np.sin(2 * np.pi * 400.0 * T)
     assert range_db(through(x)) <= range_db(x) + 3.0
 
 
-def test_what_rises_and_falls_outside_of_the_band_is_felt_to_do_so() -> None:
+def test_level_changes_outside_the_band_are_felt() -> None:
     rng = np.random.default_rng(2)
     surge = 0.1 + np.maximum(0.0, np.sin(2 * np.pi * 0.8 * T)) ** 2
     x = 0.5 * np.sin(2 * np.pi * 120.0 * T) + 3.0 * surge * band_noise(rng, len(T), RATE, 500.0, 3500.0)
@@ -71,12 +71,12 @@ def followed(gain: np.ndarray, cuts: list[int]) -> np.ndarray:
     return np.concatenate([*(stage.run(part) for part in np.split(x, cuts)), stage.rest()])
 
 
-def test_what_stays_within_half_a_decibel_is_untouched_bit_for_bit() -> None:
+def test_level_changes_within_half_a_decibel_leave_samples_unchanged() -> None:
     gain = 0.1 * 10 ** (0.2 * np.sin(2 * np.pi * 0.7 * T) / 20)
     np.testing.assert_array_equal(followed(gain, []), gain * 0.5 * np.sin(2 * np.pi * 200 * T))
 
 
-def test_it_returns_every_sample_however_a_sound_is_cut() -> None:
+def test_follower_returns_every_sample_for_any_block_sizes() -> None:
     gain = 0.1 * (1.0 + 0.9 * np.sin(2 * np.pi * 1.3 * T))
     whole = followed(gain, [])
     assert len(whole) == len(T)
@@ -87,7 +87,7 @@ def test_it_returns_every_sample_however_a_sound_is_cut() -> None:
         assert len(np.concatenate([stage.run(np.ones(n)), stage.rest()])) == n
 
 
-def test_its_gain_is_bounded_and_moves_without_a_step() -> None:
+def test_follower_gain_is_bounded_and_continuous() -> None:
     gain = np.where(T < 3.0, 1.0, 1e-4)
     found = followed(gain, [])
     late = np.abs(found[round(3.2 * RATE) : round(4.0 * RATE)]).max() / (0.5 * 1e-4)

@@ -60,7 +60,7 @@ def ticks(times_s: Signal, hum: float, tick: float, seconds: float = 10.0, rate:
 
 @pytest.mark.parametrize("hum", [0.0, 0.1, 0.3])
 @pytest.mark.parametrize("tick", [0.5, 0.15, 0.05])
-def test_every_tick_is_one_burst_at_its_moment(hum: float, tick: float) -> None:
+def test_each_tick_gives_one_burst_at_its_time(hum: float, tick: float) -> None:
     times = 0.1 + 0.24 * np.arange(40)
     found = starts_s(bursts(ticks(times, hum, tick)))
     assert len(found) == 40
@@ -68,7 +68,7 @@ def test_every_tick_is_one_burst_at_its_moment(hum: float, tick: float) -> None:
 
 
 @pytest.mark.parametrize("rate", [8000, 22_050, 44_100, 96_000])
-def test_the_rate_does_not_matter(rate: int) -> None:
+def test_onsets_do_not_depend_on_the_sample_rate(rate: int) -> None:
     times = 0.2 + 0.5 * np.arange(8)
     sound = np.zeros(5 * rate)
     for time in times:
@@ -92,7 +92,7 @@ def test_a_louder_tick_is_a_stronger_burst_and_a_sharper_one_is_shorter() -> Non
     assert lengths[1] > 1.7 * lengths[0]
 
 
-def test_what_is_steady_is_untouched() -> None:
+def test_steady_sounds_have_no_onsets() -> None:
     rng, t = np.random.default_rng(5), np.arange(5 * RATE) / RATE
     for sound in (
         np.zeros(RATE),
@@ -110,7 +110,7 @@ def test_recorded_machines_have_no_onsets(name: str) -> None:
     assert not bursts(sound - sound.mean(), rate).any()
 
 
-def test_ticks_over_a_hum_stand_out_of_it() -> None:
+def test_ticks_over_a_hum_are_12_db_stronger_than_the_hum() -> None:
     """By 12 dB and more within 5 ms; at 10 dB above the bed's peak they did not."""
     rate, t = 8000, np.arange(4 * 8000) / 8000
     since = t % 0.22
@@ -123,7 +123,7 @@ def test_ticks_over_a_hum_stand_out_of_it() -> None:
         assert level[at : at + 3].max() - np.median(level[at - 10 : at]) > 12.0, onset
 
 
-def test_what_goes_on_after_its_onset_is_left_to_the_bed() -> None:
+def test_sound_that_continues_after_its_onset_keeps_its_envelope() -> None:
     """Syllables and knocks came out as a burst and a gap."""
     rate, t = 8000, np.arange(5 * 8000) / 8000
     sound = np.where(t % 0.5 < 0.2, 0.4, 0.002) * np.sin(2 * np.pi * 150 * t)
@@ -144,7 +144,7 @@ def test_a_recorded_clock_keeps_its_ticks() -> None:
     assert len(found) <= 20  # with scrapes before the strokes
 
 
-def test_bursts_are_felt_where_the_source_is_or_where_the_actuator_is_best() -> None:
+def test_bursts_have_the_pitch_of_the_source_or_of_the_best_actuator_response() -> None:
     assert carrier_hz(ConversionContext(own_hz=120.0)) == 120.0
     assert carrier_hz(ConversionContext(own_hz=120.0, target_hz=150.0)) == 150.0
     assert carrier_hz(ConversionContext(own_hz=50.0)) == pytest.approx(250.0, rel=0.05)

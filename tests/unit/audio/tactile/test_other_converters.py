@@ -62,7 +62,7 @@ def test_frequency_shift_keeps_an_envelope() -> None:
     assert amplitude(y, 205) == pytest.approx(0.1, rel=0.02)
 
 
-def test_frequency_shift_moves_a_source_of_a_scene_as_it_moves_a_file() -> None:
+def test_frequency_shift_gives_the_same_pitch_for_scene_and_file() -> None:
     clip = AudioClip(tone(600), RATE)
     (plan,) = plan_scene([SourceClip(clip, 0.5, "a")], FrequencyShift(), ActuatorProfile())
     loop = felt_loop(clip, FrequencyShift(), plan)
@@ -93,7 +93,7 @@ def test_frequency_shift_refuses_to_fold_over() -> None:
         FrequencyShift(high_hz=200.0)
 
 
-def test_envelope_rides_on_the_carrier_with_its_own_size() -> None:
+def test_envelope_carrier_keeps_the_amplitude_of_the_envelope() -> None:
     y = EnvelopeCarrier().stream(RATE, PLAIN).process(tone(900))
     assert amplitude(y, 250) == pytest.approx(0.5, rel=0.01)
     assert amplitude(y, 900) < 0.005
@@ -107,7 +107,7 @@ def test_envelope_rides_on_the_carrier_with_its_own_size() -> None:
         (EnvelopeCarrier(90.0), ConversionContext(target_hz=120.0), 90),
     ],
 )
-def test_the_carrier_is_the_one_asked_for(
+def test_envelope_carrier_uses_the_configured_frequency(
     converter: EnvelopeCarrier, context: ConversionContext, carrier_hz: int
 ) -> None:
     assert amplitude(converter.stream(RATE, context).process(tone(700)), carrier_hz) == pytest.approx(0.5, rel=0.01)

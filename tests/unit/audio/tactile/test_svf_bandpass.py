@@ -48,7 +48,7 @@ def gain(section: np.ndarray, frequency_hz: float, rate: float) -> float:
     ("center_hz", "q", "rate"),
     [(250, 0.707, 48_000), (250, 5.0, 8000), (40, 0.1, 44_100), (3900, 1.0, 8000), (250, 100.0, 48_000)],
 )
-def test_is_the_state_variable_filter(center_hz: float, q: float, rate: int) -> None:
+def test_bandpass_equals_the_state_variable_filter(center_hz: float, q: float, rate: int) -> None:
     x = np.random.default_rng(3).uniform(-1, 1, 4800)
     converter = SvfBandpass(center_hz, q)
     expected = tpt(x, [(0, center_hz, q)], rate)
@@ -60,7 +60,7 @@ def test_is_the_state_variable_filter(center_hz: float, q: float, rate: int) -> 
 
 
 @pytest.mark.parametrize("block", [1, 7, 64])
-def test_retuned_from_block_to_block_it_is_still_that_filter(block: int) -> None:
+def test_bandpass_retuned_between_blocks_equals_the_state_variable_filter(block: int) -> None:
     rng = np.random.default_rng(6)
     x = rng.uniform(-1, 1, 40 * block)
     starts = range(0, len(x), block)
@@ -73,7 +73,7 @@ def test_retuned_from_block_to_block_it_is_still_that_filter(block: int) -> None
     np.testing.assert_allclose(np.concatenate(y), tpt(x, tunings, 8000), rtol=0, atol=1e-9)
 
 
-def test_never_grows_however_it_is_retuned() -> None:
+def test_bandpass_stays_bounded_under_any_retuning() -> None:
     rng = np.random.default_rng(7)
     stream = SvfBandpass().stream(RATE, CONTEXT)
     for _ in range(500):
@@ -88,12 +88,12 @@ def test_never_grows_however_it_is_retuned() -> None:
 
 @pytest.mark.parametrize("q", [0.1, 0.707, 100.0])
 @pytest.mark.parametrize("center_hz", [1.0, 250.0, 0.49 * RATE])
-def test_is_finite_at_the_edges_of_its_settings(center_hz: float, q: float) -> None:
+def test_bandpass_is_finite_at_the_bounds_of_its_settings(center_hz: float, q: float) -> None:
     x = np.sign(np.random.default_rng(8).standard_normal(20_000)).astype(np.float32)
     assert np.isfinite(SvfBandpass(center_hz, q).stream(RATE, CONTEXT).process(x)).all()
 
 
-def test_is_finite_and_settles_over_ten_million_samples() -> None:
+def test_bandpass_is_finite_and_settles_over_ten_million_samples() -> None:
     stream = SvfBandpass(q=100.0).stream(RATE, CONTEXT)
     n = np.arange(200_000)
     for start in range(0, 10_000_000, len(n)):
@@ -115,7 +115,7 @@ def test_denormal_input_and_ringing_out_stay_finite_and_end_at_zero() -> None:
 
 @pytest.mark.parametrize("q", [0.1, 0.707, 1.0, 5.0, 100.0])
 @pytest.mark.parametrize(("center_hz", "rate"), [(250.0, 48_000), (250.0, 8000), (40.0, 44_100), (480.0, 1000)])
-def test_passes_the_centre_whole_and_stops_both_ends(center_hz: float, q: float, rate: float) -> None:
+def test_bandpass_has_unit_gain_at_its_centre_and_stops_both_ends(center_hz: float, q: float, rate: float) -> None:
     section = SvfBandpass(center_hz, q).section(rate)
     assert gain(section, center_hz, rate) == pytest.approx(1.0, abs=1e-9)
     assert gain(section, 0.0, rate) == 0.0
@@ -130,7 +130,7 @@ def test_the_default_passes_129_to_483_hz() -> None:
         assert 20 * math.log10(gain(section, edge_hz, RATE)) == pytest.approx(-3.01, abs=0.05)
 
 
-def test_the_size_of_blocks_does_not_change_a_bit() -> None:
+def test_bandpass_output_is_bit_identical_for_any_block_size() -> None:
     x = np.random.default_rng(4).uniform(-1, 1, 20_000).astype(np.float32)
     whole = SvfBandpass().stream(RATE, CONTEXT).process(x)
     rng = np.random.default_rng(5)
@@ -161,7 +161,7 @@ def test_impossible_settings_are_refused() -> None:
         SvfBandpass().stream(500, CONTEXT)
 
 
-def test_is_known_by_its_kind() -> None:
+def test_bandpass_is_registered_by_its_kind() -> None:
     assert "svf_bandpass" in CONVERTERS.kinds()
     assert CONVERTERS.load("svf_bandpass") is SvfBandpass
     assert isinstance(SvfBandpass(), TactileConverter)

@@ -1,4 +1,4 @@
-"""What LexiconBackend answers to each component."""
+"""Answers of LexiconBackend to each component."""
 
 import asyncio
 import json
@@ -38,13 +38,13 @@ def analyse(name: str, size_m: tuple[float, float, float] = (0.6, 0.5, 0.02), **
     return answer
 
 
-def test_it_is_a_backend_and_found_by_its_kind() -> None:
+def test_lexicon_is_a_backend_registered_by_its_kind() -> None:
     assert isinstance(LexiconBackend(), LLMBackend)
     assert BACKENDS.load("lexicon") is LexiconBackend
     assert set(SHAPES) == set(get_args(Component))
 
 
-def test_replies_name_the_table_and_repeat_themselves() -> None:
+def test_replies_name_the_table_and_are_repeatable() -> None:
     request = LLMRequest("material_estimator", "", "", {"material_category": "oak"}, {}, "1")
     first, second = (asyncio.run(LexiconBackend().complete(request)) for _ in range(2))
     assert first == second
@@ -67,7 +67,7 @@ def test_replies_name_the_table_and_repeat_themselves() -> None:
         ([], "undefined"),
     ],
 )
-def test_place_is_what_most_objects_say(names: list[str], place: str) -> None:
+def test_kind_of_place_follows_the_majority_of_objects(names: list[str], place: str) -> None:
     assert ask("scene_analyzer", scene_name="Scene01", object_names=names).scene_category == place
 
 
@@ -91,7 +91,7 @@ def test_refrigerator_hums() -> None:
     assert answer.confidence > 0.8
 
 
-def test_unknown_says_so_instead_of_guessing() -> None:
+def test_unknown_names_get_category_unknown() -> None:
     for name in ("Object_7", "zorgon", ""):
         answer = analyse(name)
         assert (answer.object_category, answer.material_category) == ("unknown", "unknown")
@@ -119,7 +119,7 @@ def test_miniatures_are_silent(name: str, size_m: tuple[float, float, float], ca
     assert answer.vibrates == (category in ("truck", "refrigerator", "smartphone"))
 
 
-def test_giants_are_doubted_but_heard() -> None:
+def test_oversized_sources_vibrate_at_lower_confidence() -> None:
     giant, real = analyse("fridge", (180.0, 60.0, 60.0)), analyse("fridge", (1.8, 0.6, 0.6))
     assert giant.vibrates
     assert giant.confidence < real.confidence
@@ -136,7 +136,7 @@ def test_thickness_is_replaced_only_where_the_mesh_has_none() -> None:
 
 
 @pytest.mark.parametrize("heater", ["stove", "Cooktop_01", "hob", "SpaceHeater", "oven", "hotplate", "gas_stove_LOD0"])
-def test_pan_sizzles_on_what_heats_it(heater: str) -> None:
+def test_pan_sizzles_on_a_heater(heater: str) -> None:
     answer = analyse("pan", neighbour_names=["wall_back", heater])
     assert answer.vibrates
     (state,) = answer.states
@@ -145,19 +145,19 @@ def test_pan_sizzles_on_what_heats_it(heater: str) -> None:
 
 
 @pytest.mark.parametrize("neighbours", [["table"], ["oven_door", "pot"], ["toy_stove"], ["Object_3"]])
-def test_pan_is_still_elsewhere(neighbours: list[str]) -> None:
+def test_pan_does_not_vibrate_away_from_a_heater(neighbours: list[str]) -> None:
     answer = analyse("pan", neighbour_names=neighbours)
     assert not answer.vibrates
     assert answer.states == []
     assert "stove" in answer.vibration_reason
 
 
-def test_pan_that_touches_nothing_waits_for_a_stove() -> None:
+def test_pan_without_contacts_needs_contact_with_a_stove() -> None:
     (state,) = analyse("pan").states
     assert state.needs_contact == analyse("stove").object_category
 
 
-def test_what_a_neighbour_shakes_does_not_vibrate() -> None:
+def test_object_shaken_by_a_neighbour_is_no_source() -> None:
     assert not analyse("mug", neighbour_names=["washing_machine"]).vibrates
 
 
@@ -175,7 +175,7 @@ def test_what_a_neighbour_shakes_does_not_vibrate() -> None:
         ("wooden_toy_truck", "wood"),
     ],
 )
-def test_material(name: str, material: str) -> None:
+def test_material_is_read_from_name_and_category(name: str, material: str) -> None:
     assert analyse(name).material_category == material
 
 
@@ -204,7 +204,7 @@ def test_floors_of_wet_rooms_are_tiled(name: str, place: str, material: str) -> 
         ("Object_7", ["Material.001", "lambert1"], "unknown"),
     ],
 )
-def test_names_of_surface_materials_tell_where_they_agree(name: str, painted: list[str], material: str) -> None:
+def test_surface_material_names_are_used_where_they_agree(name: str, painted: list[str], material: str) -> None:
     assert analyse(name, material_names=painted).material_category == material
 
 
@@ -219,12 +219,12 @@ def test_every_material_of_the_lexicon_fits_the_answer() -> None:
 
 
 @pytest.mark.parametrize("word", ["unknown", "unobtainium", ""])
-def test_material_that_nobody_knows_is_no_answer(word: str) -> None:
+def test_estimating_an_unknown_material_raises(word: str) -> None:
     with pytest.raises(BadAnswer, match="table"):
         ask("material_estimator", material_category=word)
 
 
-def test_describes_every_state_of_the_table() -> None:
+def test_vibration_describer_answers_every_state_of_the_table() -> None:
     for row in table():
         for state in row.states:
             answer = describe(row.noun, state.name, "building site")
@@ -234,14 +234,14 @@ def test_describes_every_state_of_the_table() -> None:
             assert "vibrat" not in f"{answer.sentence} {answer.keywords}".lower()
 
 
-def test_says_what_and_how() -> None:
+def test_vibration_describer_names_object_and_manner() -> None:
     facts = {"object_category": "smartphone", "usage": "", "state": "ringing", "scene_category": "undefined"}
     answer = ask("vibration_describer", **facts)
     assert answer.sentence == "smartphone buzzing firmly and in bursts while ringing"
     assert answer.keywords == "smartphone buzzing"
 
 
-def test_category_that_the_table_lacks_is_described_by_its_state() -> None:
+def test_unknown_category_is_described_by_its_state() -> None:
     assert describe("hoverboard", "gliding").keywords == "hoverboard gliding"
     assert describe("vibrating plate", "vibrating").keywords == "plate humming"
 
@@ -264,7 +264,7 @@ def test_category_that_the_table_lacks_is_described_by_its_state() -> None:
         ("vibration_describer", {"object_category": "fridge"}, "state"),
     ],
 )
-def test_missing_facts_are_named(component: Component, facts: dict[str, Any], named: str | None) -> None:
+def test_error_names_missing_facts(component: Component, facts: dict[str, Any], named: str | None) -> None:
     if named is None:
         assert ask(component, **facts).scene_category == "undefined"
         return

@@ -10,7 +10,7 @@ SPOKEN_WITH_A_CONSONANT = {"ufo", "ukulele", "uniform", "urinal", "usb stick", "
 SPOKEN_WITH_A_VOWEL = {"hourglass", "led strip", "mri scanner", "x-ray machine"}
 
 
-def test_every_noun_of_the_table_has_its_article() -> None:
+def test_every_noun_of_the_table_gets_the_right_article() -> None:
     nouns = {row.noun for row in table()}
     assert nouns >= SPOKEN_WITH_A_CONSONANT | SPOKEN_WITH_A_VOWEL
     for noun in nouns:
@@ -21,7 +21,7 @@ def test_every_noun_of_the_table_has_its_article() -> None:
         assert not re.search(rf"\b{wrong} {re.escape(noun)}\b", str(answer)), answer
 
 
-def test_an_article_in_the_other_reasons() -> None:
+def test_reasons_use_the_right_article() -> None:
     airplane = judge(Measured("toy_airplane", (0.1, 0.1, 0.0)))
     assert "names an airplane." in airplane.category_reason
     assert airplane.vibration_reason == "a toy airplane has no working mechanism."
@@ -31,7 +31,7 @@ def test_an_article_in_the_other_reasons() -> None:
     assert umbrella.vibration_reason.startswith("an umbrella has no mechanism")
 
 
-def test_a_name_of_any_length_has_an_answer() -> None:
+def test_names_of_any_length_are_answered() -> None:
     for name in ("table " * 200, "x" * 100_000, "fridge_" + "z" * 700, "toy car " + "y" * 700):
         answer = judge(Measured(name, (0.5, 0.5, 0.02)))
         assert len(answer.category_reason) <= 600

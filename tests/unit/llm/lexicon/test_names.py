@@ -148,20 +148,20 @@ NAMES = {
 
 
 @pytest.mark.parametrize(("name", "noun"), NAMES.items(), ids=repr)
-def test_authored_name_reads_as_a_person_reads_it(name: str, noun: str | None) -> None:
+def test_authored_names_are_read_as_the_right_noun(name: str, noun: str | None) -> None:
     reading = read_name(name)
     assert (reading.row.noun if reading.row else None) == noun
     assert (reading.confidence <= 0.2) == (noun is None)
 
 
-def test_a_single_letter_is_no_part_of_a_noun() -> None:
+def test_single_letters_are_not_part_of_a_noun() -> None:
     # Together they would spell tablet, panel, cart and bowl.
     for name, noun in {"Table_T": "table", "Pan_E_L": "pan", "CarT": "car", "bow_L": None}.items():
         row = read_name(name).row
         assert (row.noun if row else None) == noun
 
 
-def test_confidence_tells_how_much_was_read() -> None:
+def test_confidence_falls_with_unread_words_and_spelling_errors() -> None:
     plain, before, slip, behind = (
         read_name(name).confidence for name in ("fridge", "zorgon_fridge", "refridgerator", "fridge_zorgon")
     )
@@ -177,7 +177,7 @@ def test_adjective_names_a_material(name: str, material: str | None) -> None:
     assert read_name(name).material == material
 
 
-def test_toys_and_parts_are_told_apart_from_the_thing() -> None:
+def test_toys_and_parts_are_distinguished_from_the_whole_object() -> None:
     assert read_name("toy_truck").toy
     assert not read_name("mini_fridge").toy
     whole = read_name("oven_door").whole
@@ -186,7 +186,7 @@ def test_toys_and_parts_are_told_apart_from_the_thing() -> None:
     assert read_name("glass_door").whole is None
 
 
-def test_splitting_at_capitals_signs_and_digits() -> None:
+def test_names_are_split_at_capitals_signs_and_digits() -> None:
     assert split_words("TVCabinet_01-leftDoor2b(Clone)") == ["tv", "cabinet", "left", "door", "b", "clone"]
 
 
@@ -209,5 +209,5 @@ def test_places_in_names() -> None:
         ("printersx", "printer", False),
     ],
 )
-def test_slips(written: str, known: str, slip: bool) -> None:
+def test_spelling_errors_are_distinguished_from_other_words(written: str, known: str, slip: bool) -> None:
     assert spelling._is_slip(written, known) is slip

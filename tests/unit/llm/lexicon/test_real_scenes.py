@@ -23,12 +23,12 @@ DEMO_SOURCES = {"refrigerator", "cooker_hood", "microwave", "washing_machine", "
 
 
 def others(*names: str) -> list[str]:
-    """Those scenes by others that are there."""
+    """Scenes by other authors that are available."""
     return there(names, SCENES.joinpath)
 
 
 def known(cases: dict[str, T]) -> list[tuple[str, T]]:
-    """What is known of scenes by others that are there."""
+    """Known facts of scenes by other authors that are available."""
     return [(name, cases[name]) for name in others(*cases)]
 
 

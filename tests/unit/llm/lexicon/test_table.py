@@ -75,14 +75,14 @@ def names_of(row: ObjectRow) -> list[str]:
     return [row.noun, *row.synonyms]
 
 
-def test_size_and_places() -> None:
+def test_table_covers_every_kind_of_place() -> None:
     assert len(table()) >= 1500
     for place in PLACES:
         assert sum(place in row.places for row in table()) >= 10, place
     assert {place for row in table() for place in row.places} == {*PLACES, "any"}
 
 
-def test_no_name_belongs_to_two_rows() -> None:
+def test_names_are_unique_in_the_table() -> None:
     # Written together, since "dish washer" and "dishwasher" are read alike.
     joined = [name.replace(" ", "").replace("-", "") for row in table() for name in names_of(row)]
     assert [name for name, count in Counter(joined).items() if count > 1] == []
@@ -138,12 +138,12 @@ def test_roles_are_known() -> None:
     assert {row.role for row in table()} == {"", "container", "vessel", "content", "part", "vehicle"}
 
 
-def test_sources_do_not_hide_what_is_assumed() -> None:
+def test_source_column_states_assumptions() -> None:
     for row in table():
         assert "assumed" in row.source, row.noun
 
 
-def test_file_has_no_ragged_line() -> None:
+def test_table_file_has_lines_of_equal_width() -> None:
     lines = files("scene2hap.llm.lexicon").joinpath("table.csv").read_text(encoding="utf-8").splitlines()
     assert {len(fields) for fields in csv.reader(lines)} == {14}
 
@@ -154,14 +154,14 @@ def test_adjectives_of_material_are_in_the_material_table() -> None:
 
 
 @pytest.mark.parametrize("name", VIBRATING_WORDS)
-def test_thing_vibrates_by_itself(name: str) -> None:
+def test_named_sources_vibrate(name: str) -> None:
     row = read_name(name).row
     assert row is not None
     assert row.vibrates
 
 
 @pytest.mark.parametrize("name", SILENT_WORDS)
-def test_thing_is_still(name: str) -> None:
+def test_named_passive_objects_do_not_vibrate(name: str) -> None:
     row = read_name(name).row
     assert row is None or not row.vibrates
 

@@ -46,7 +46,7 @@ def test_limits_are_checked_before_each_call(limit: dict[str, Any], calls: int) 
     assert len(inner.requests) == calls
 
 
-def test_calls_under_way_count() -> None:
+def test_running_calls_count_towards_limits() -> None:
     backend = BudgetBackend(answering(), max_calls=3)
 
     async def all_at_once() -> list[Any]:
@@ -55,7 +55,7 @@ def test_calls_under_way_count() -> None:
     assert sum(isinstance(result, BudgetExceeded) for result in asyncio.run(all_at_once())) == 5
 
 
-def test_report_of_what_was_spent() -> None:
+def test_budget_reports_calls_tokens_and_cost() -> None:
     backend = BudgetBackend(answering(), prices={"gpt-4o": Price(2.0, 5.0)})
     spend(backend, 2)
     assert backend.report() == {
@@ -79,13 +79,13 @@ def test_unknown_price_is_unknown_not_zero(model: str) -> None:
     assert backend.report()["models_without_price"] == [model]
 
 
-def test_price_of_a_snapshot_goes_before_that_of_its_model() -> None:
+def test_price_of_a_snapshot_precedes_the_price_of_its_model() -> None:
     backend = BudgetBackend(answering(), prices={"gpt-4o": (9.0, 9.0), "gpt-4o-2024-08-06": (0.0, 1.0)})
     spend(backend, 1)
     assert backend.cost == pytest.approx(0.0002)
 
 
-def test_a_cost_limit_cannot_be_kept_without_a_price() -> None:
+def test_cost_limit_needs_a_price() -> None:
     backend = BudgetBackend(answering("llava"), max_cost=1.0)
     spend(backend, 1)
     with pytest.raises(BudgetExceeded, match="unknown without a price for llava"):
@@ -93,7 +93,7 @@ def test_a_cost_limit_cannot_be_kept_without_a_price() -> None:
 
 
 @pytest.mark.parametrize("limit", [{"max_tokens": 10_000}, {"max_cost": 1.0}], ids=str)
-def test_no_limit_can_be_kept_without_usage(limit: dict[str, Any]) -> None:
+def test_limits_need_usage_in_replies(limit: dict[str, Any]) -> None:
     backend = BudgetBackend(answering(usage={}), **limit)
     spend(backend, 1)
     assert (backend.tokens, backend.cost) == (None, None)
@@ -114,7 +114,7 @@ def test_failed_calls_are_counted_and_shown() -> None:
     assert backend.report()["failed_calls"] == 1
 
 
-def test_own_prices_go_before_the_list() -> None:
+def test_given_prices_precede_listed_prices() -> None:
     listed, own = BudgetBackend(answering("gpt-4.1")), BudgetBackend(answering("gpt-4.1"), prices={"gpt-4.1": (0, 1)})
     for backend in (listed, own):
         spend(backend, 1)
@@ -123,7 +123,7 @@ def test_own_prices_go_before_the_list() -> None:
     assert own.cost == pytest.approx(0.0002)
 
 
-def test_bad_answers_are_paid_for() -> None:
+def test_bad_answers_count_towards_the_cost() -> None:
     """Cut short, refused or empty: the service bills them."""
 
     def cut(_: LLMRequest) -> LLMReply:
@@ -138,7 +138,7 @@ def test_bad_answers_are_paid_for() -> None:
         spend(backend, 1)
 
 
-def test_a_bad_answer_without_usage_leaves_the_sum_unknown() -> None:
+def test_bad_answer_without_usage_makes_the_sum_unknown() -> None:
     def empty(_: LLMRequest) -> LLMReply:
         raise UnusableAnswer("empty")
 
@@ -148,14 +148,14 @@ def test_a_bad_answer_without_usage_leaves_the_sum_unknown() -> None:
     assert (backend.tokens, backend.cost) == (None, None)
 
 
-def test_a_budget_around_repairs_counts_all_attempts() -> None:
+def test_budget_around_repairs_counts_all_attempts() -> None:
     backend = BudgetBackend(RepairBackend(answering("gpt-4o")), prices={"gpt-4o": (2.0, 5.0)})
     with pytest.raises(BadAnswer, match="still wrong after 2 repairs"):
         spend(backend, 1)
     assert backend.tokens == 3 * 1200
 
 
-def test_answers_from_a_cache_further_in_are_free(tmp_path: Path) -> None:
+def test_answers_from_an_inner_cache_are_free(tmp_path: Path) -> None:
     kitchen = FunctionBackend(lambda _: LLMReply('{"scene_category": "kitchen"}', "gpt-4o", usage=USAGE))
     backend = BudgetBackend(CacheBackend(kitchen, tmp_path), max_calls=1)
     spend(backend, 1)
@@ -175,6 +175,6 @@ def test_answers_from_a_cache_further_in_are_free(tmp_path: Path) -> None:
         ({"prices": {"m": (1.0, -1.0)}}, "output_per_million is -1"),
     ],
 )
-def test_settings_that_cannot_work(settings: dict[str, Any], named: str) -> None:
+def test_invalid_settings_are_refused(settings: dict[str, Any], named: str) -> None:
     with pytest.raises(ConfigError, match=named):
         BudgetBackend("lexicon", **settings)

@@ -1,4 +1,4 @@
-"""CacheBackend: what counts as the same question, and what happens to the files."""
+"""CacheBackend: equality of requests, and its files."""
 
 import asyncio
 import dataclasses
@@ -42,14 +42,14 @@ def ask(backend: CacheBackend, asked: LLMRequest | None = None) -> LLMReply:
 
 
 def files(folder: Path) -> list[Path]:
-    """What is kept; the files of locks stay behind, empty."""
+    """Stored entries; empty lock files remain."""
     return sorted(path for path in folder.rglob("*") if path.is_file() and path.parent.name != "locks")
 
 
 # --- hits and misses --------------------------------------------------------------------------------------------------
 
 
-def test_second_question_is_answered_from_disk(tmp_path: Path) -> None:
+def test_cache_answers_a_repeated_request_from_disk(tmp_path: Path) -> None:
     inner = answering()
     assert plain(ask(CacheBackend(inner, tmp_path))) == ANSWER
     again = CacheBackend(inner, tmp_path)
@@ -73,7 +73,7 @@ def test_second_question_is_answered_from_disk(tmp_path: Path) -> None:
     ],
     ids=lambda changes: next(iter(changes)),
 )
-def test_no_wrong_hits(tmp_path: Path, changes: dict[str, Any]) -> None:
+def test_cache_misses_when_a_deciding_field_changes(tmp_path: Path, changes: dict[str, Any]) -> None:
     inner = answering()
     backend = CacheBackend(inner, tmp_path)
     ask(backend)
@@ -81,7 +81,7 @@ def test_no_wrong_hits(tmp_path: Path, changes: dict[str, Any]) -> None:
     assert len(inner.requests) == 2
 
 
-def test_models_do_not_answer_for_each_other(tmp_path: Path) -> None:
+def test_cache_separates_models(tmp_path: Path) -> None:
     ask(CacheBackend(answering(), tmp_path))
     other = answering(model="another")
     ask(CacheBackend(other, tmp_path))
@@ -102,7 +102,7 @@ def test_models_do_not_answer_for_each_other(tmp_path: Path) -> None:
     ],
     ids=repr,
 )
-def test_identity_is_model_and_address_and_whatever_decides(other: OpenAIBackend | LocalBackend) -> None:
+def test_identity_includes_model_address_and_deciding_settings(other: OpenAIBackend | LocalBackend) -> None:
     assert other.identity != OpenAIBackend().identity
 
 
@@ -119,23 +119,23 @@ def test_identity_is_model_and_address_and_whatever_decides(other: OpenAIBackend
     ],
     ids=str,
 )
-def test_identity_of_a_local_backend_is_all_that_decides(settings: dict[str, Any]) -> None:
+def test_identity_of_a_local_backend_includes_all_deciding_settings(settings: dict[str, Any]) -> None:
     one, other = LocalBackend("m", base_url="http://a"), LocalBackend("m", base_url="http://a", **settings)
     assert one.identity != other.identity
     json.dumps(other.identity)  # a cache writes it
 
 
-def test_identity_has_nothing_that_does_not_decide() -> None:
+def test_identity_excludes_settings_that_do_not_affect_answers() -> None:
     assert OpenAIBackend(api_key="sk-one").identity == OpenAIBackend(api_key="sk-two", timeout_s=5).identity
 
 
-def test_key_of_a_reply_names_its_file_from_the_first(tmp_path: Path) -> None:
+def test_reply_key_is_the_file_name_from_the_first_request(tmp_path: Path) -> None:
     reply = ask(CacheBackend(answering(), tmp_path))
     assert not reply.is_kept
     assert [reply.key] == [path.stem for path in files(tmp_path)]
 
 
-def test_identity_is_asked_for_when_it_is_known(tmp_path: Path) -> None:
+def test_cache_reads_the_identity_after_the_backend_is_ready(tmp_path: Path) -> None:
     """A local backend learns its model from the server, which may serve another one tomorrow."""
 
     class Learning(FunctionBackend):
@@ -153,7 +153,7 @@ def test_identity_is_asked_for_when_it_is_known(tmp_path: Path) -> None:
     assert [json.loads(path.read_text())["identity"]["model"] for path in files(tmp_path)] != ["unknown"] * 2
 
 
-def test_what_is_learnt_while_answering_is_in_the_key(tmp_path: Path) -> None:
+def test_cache_key_includes_identity_learnt_while_answering(tmp_path: Path) -> None:
     """A guest's wrapper may hand `identity` on but not `ready`."""
 
     def answer(_: LLMRequest) -> LLMReply:
@@ -169,7 +169,7 @@ def test_what_is_learnt_while_answering_is_in_the_key(tmp_path: Path) -> None:
     assert len(inner.requests) == 2
 
 
-def test_backend_that_does_not_tell_who_it_is(tmp_path: Path) -> None:
+def test_backend_without_identity_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="no `identity`"):
         CacheBackend(LexiconBackend(), tmp_path)
 
@@ -179,14 +179,14 @@ def test_backend_that_does_not_tell_who_it_is(tmp_path: Path) -> None:
     [LLMReply("{}", "m"), LLMReply("no JSON", "m"), LLMReply(ANSWER.text, "m", "length")],
     ids=lambda reply: reply.text[:8] + reply.finish_reason,
 )
-def test_bad_answers_are_handed_on_but_never_kept(tmp_path: Path, reply: LLMReply) -> None:
+def test_bad_answers_are_returned_but_not_stored(tmp_path: Path, reply: LLMReply) -> None:
     backend = CacheBackend(answering(reply), tmp_path)
     assert ask(backend) == reply
     assert backend.report()["rejected"] == 1
     assert files(tmp_path) == []
 
 
-def test_failures_leave_nothing_behind_and_pass_through(tmp_path: Path) -> None:
+def test_failures_are_raised_and_not_stored(tmp_path: Path) -> None:
     error = BackendUnavailable("away", retryable=True)
 
     def fail(_: LLMRequest) -> LLMReply:
@@ -201,7 +201,7 @@ def test_failures_leave_nothing_behind_and_pass_through(tmp_path: Path) -> None:
 # --- files ------------------------------------------------------------------------------------------------------------
 
 
-def test_nothing_but_the_listed_fields_is_written(tmp_path: Path) -> None:
+def test_cache_writes_only_the_listed_fields(tmp_path: Path) -> None:
     ask(CacheBackend(answering(), tmp_path), request(images=(PNG,)))
     (entry,) = files(tmp_path)
     written = json.loads(entry.read_text(encoding="utf-8"))
@@ -225,7 +225,7 @@ def test_file_that_cannot_be_read_back_is_written_again(tmp_path: Path, damage: 
     assert backend.report()["unreadable"] == 1
 
 
-def test_an_answer_that_a_stricter_rule_forbids_is_asked_for_again(tmp_path: Path) -> None:
+def test_stored_answer_that_violates_a_newer_rule_is_requested_again(tmp_path: Path) -> None:
     """Rules that are not in the schema, as for words, may change without changing the key."""
     inner = answering()
     backend = CacheBackend(inner, tmp_path)
@@ -237,7 +237,7 @@ def test_an_answer_that_a_stricter_rule_forbids_is_asked_for_again(tmp_path: Pat
     assert len(inner.requests) == 2
 
 
-def test_write_that_fails_half_way_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failed_write_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(_: int) -> None:
         raise OSError(28, "No space left on device")
 
@@ -247,20 +247,20 @@ def test_write_that_fails_half_way_leaves_no_file(tmp_path: Path, monkeypatch: p
     assert files(tmp_path) == []
 
 
-def test_folder_that_cannot_be(tmp_path: Path) -> None:
+def test_folder_that_cannot_be_created_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(ConfigError, match="cannot write the cache"):
         CacheBackend(answering(), tmp_path / "file" / "cache")
 
 
-def test_folder_that_has_gone_is_made_again(tmp_path: Path) -> None:
+def test_deleted_folder_is_created_again(tmp_path: Path) -> None:
     backend = CacheBackend(answering(), tmp_path / "cache")
     shutil.rmtree(tmp_path / "cache")
     assert plain(ask(backend)) == ANSWER
     assert len(files(tmp_path / "cache")) == 1
 
 
-def test_folder_that_cannot_be_locked(tmp_path: Path) -> None:
+def test_folder_that_cannot_be_locked_is_refused(tmp_path: Path) -> None:
     backend = CacheBackend(answering(), tmp_path / "cache")
     shutil.rmtree(tmp_path / "cache")
     (tmp_path / "cache").write_text("")
@@ -271,7 +271,7 @@ def test_folder_that_cannot_be_locked(tmp_path: Path) -> None:
 # --- locks ------------------------------------------------------------------------------------------------------------
 
 
-def test_equal_questions_at_the_same_time_are_asked_once(tmp_path: Path) -> None:
+def test_concurrent_equal_requests_are_sent_once(tmp_path: Path) -> None:
     async def slow(_: LLMRequest) -> LLMReply:
         await asyncio.sleep(0)
         return ANSWER
@@ -318,7 +318,7 @@ def other_run(folder: Path, answer: str = "") -> subprocess.Popen[str]:
     return process
 
 
-def test_another_run_is_waited_for(tmp_path: Path) -> None:
+def test_cache_waits_for_the_lock_of_another_run(tmp_path: Path) -> None:
     inner = answering()
     ask(CacheBackend(inner, tmp_path))
     answer = json.dumps(json.loads(files(tmp_path)[0].read_bytes()))
@@ -327,7 +327,7 @@ def test_another_run_is_waited_for(tmp_path: Path) -> None:
     assert len(inner.requests) == 1
 
 
-def test_lock_of_a_run_that_died_is_free(tmp_path: Path) -> None:
+def test_lock_of_a_dead_process_is_released(tmp_path: Path) -> None:
     inner = answering()
     ask(CacheBackend(inner, tmp_path))
     with other_run(tmp_path) as process:

@@ -8,7 +8,7 @@ from scene2hap import Price
 from scene2hap.llm.wrappers import price_list
 
 
-def test_the_list_says_of_when_and_from_where_it_is() -> None:
+def test_price_list_states_date_and_source() -> None:
     listed = price_list()
     assert date.fromisoformat(listed.date) >= date(2026, 1, 1)
     assert "genai-prices" in listed.source
@@ -27,11 +27,11 @@ def test_the_list_says_of_when_and_from_where_it_is() -> None:
         ("", None),
     ],
 )
-def test_models_their_snapshots_and_strangers(model: str, price: Price | None) -> None:
+def test_price_list_finds_models_and_snapshots_but_no_others(model: str, price: Price | None) -> None:
     assert price_list().of(model) == price
 
 
-def test_own_prices_are_beside_or_instead_of_the_listed() -> None:
+def test_given_prices_extend_or_replace_listed_prices() -> None:
     own = price_list({"llava": (0.0, 0.0), "gpt-4o": Price(1.0, 2.0)})
     assert own.of("llava") == Price(0.0, 0.0)
     assert own.of("gpt-4o-2024-11-20") == Price(1.0, 2.0)
@@ -39,7 +39,7 @@ def test_own_prices_are_beside_or_instead_of_the_listed() -> None:
     assert price_list().of("gpt-4o") == Price(2.5, 10.0, 1.25)
 
 
-def test_cached_input_and_tiers_have_prices_of_their_own() -> None:
+def test_cached_input_and_tiers_have_separate_prices() -> None:
     listed = price_list({"own": (4.0, 8.0, 1.0), "plain": (4.0, 8.0)})
     usage = {"prompt_tokens": 1_000_000, "completion_tokens": 500_000, "cached_tokens": 250_000}
     assert listed.cost_usd("own", usage) == pytest.approx(0.75 * 4 + 0.25 * 1 + 4)

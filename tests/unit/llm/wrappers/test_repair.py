@@ -1,4 +1,4 @@
-"""RepairBackend: what is handed back to the model, how often, and at what cost."""
+"""RepairBackend: content, number and cost of repair requests."""
 
 import asyncio
 import json
@@ -31,7 +31,7 @@ def oak(**changes: Any) -> str:
     return json.dumps({**OAK, **changes})
 
 
-def test_good_answers_pass_untouched() -> None:
+def test_valid_answers_pass_unchanged() -> None:
     inner = scripted(oak())
     backend = RepairBackend(inner)
     assert asyncio.run(backend.complete(ASKED)) == LLMReply(oak(), "m", usage={"prompt_tokens": 10})
@@ -39,7 +39,7 @@ def test_good_answers_pass_untouched() -> None:
     assert backend.report() == {"calls": 1, "repairs": 0, "given_up": 0}
 
 
-def test_modulus_in_pascal_is_asked_again_never_rescaled() -> None:
+def test_modulus_in_pascal_is_requested_again_and_never_rescaled() -> None:
     inner = scripted(oak(youngs_modulus_gpa=1.1e10), oak())
     reply = asyncio.run(RepairBackend(inner).complete(ASKED))
     assert json.loads(reply.text)["youngs_modulus_gpa"] == 11.0
@@ -50,7 +50,7 @@ def test_modulus_in_pascal_is_asked_again_never_rescaled() -> None:
 
 
 @pytest.mark.parametrize("wrong", ["2700 kg/m^3", "about 700", 0.0, 30000.0, None, float("nan")])
-def test_numbers_that_are_none_are_asked_again_without_images(wrong: Any) -> None:
+def test_invalid_numbers_are_requested_again_without_images(wrong: Any) -> None:
     inner = scripted(oak(density_kg_m3=wrong), oak())
     asyncio.run(RepairBackend(inner).complete(ASKED))
     assert "density_kg_m3" in inner.requests[1].prompt
@@ -60,13 +60,13 @@ def test_numbers_that_are_none_are_asked_again_without_images(wrong: Any) -> Non
 @pytest.mark.parametrize(
     "wrong", ["no JSON", '{"density_kg_m3": 700}', oak(more=1), "[]", oak(more=1, damping_ratio=7)]
 )
-def test_other_faults_keep_the_images(wrong: str) -> None:
+def test_other_faults_are_requested_again_with_images(wrong: str) -> None:
     inner = scripted(wrong, oak())
     asyncio.run(RepairBackend(inner).complete(ASKED))
     assert inner.requests[1].images == (PNG,)
 
 
-def test_last_failure_only() -> None:
+def test_repair_request_quotes_only_the_last_failure() -> None:
     inner = scripted(oak(damping_ratio=7.0), oak(poisson_ratio=0.9), oak())
     asyncio.run(RepairBackend(inner).complete(ASKED))
     first, second = (asked.prompt for asked in inner.requests[1:])
@@ -78,13 +78,13 @@ def test_last_failure_only() -> None:
     assert len(second) < len(first) + 50
 
 
-def test_all_attempts_are_in_the_usage() -> None:
+def test_usage_includes_all_attempts() -> None:
     backend = RepairBackend(scripted("no", "no", oak()))
     assert asyncio.run(backend.complete(ASKED)).usage == {"prompt_tokens": 30}
     assert backend.report() == {"calls": 1, "repairs": 2, "given_up": 0}
 
 
-def test_gives_up_with_the_last_raw_text() -> None:
+def test_repair_gives_up_with_the_last_raw_text() -> None:
     inner = scripted("no", "no", "still no")
     backend = RepairBackend(inner)
     with pytest.raises(BadAnswer, match=r"material_estimator about 'the scene': still wrong after 2 repairs") as caught:
@@ -94,13 +94,13 @@ def test_gives_up_with_the_last_raw_text() -> None:
     assert backend.report() == {"calls": 1, "repairs": 2, "given_up": 1}
 
 
-def test_the_error_carries_what_all_attempts_cost() -> None:
+def test_error_includes_the_usage_of_all_attempts() -> None:
     with pytest.raises(UnusableAnswer) as caught:
         asyncio.run(RepairBackend(scripted("no", "no", "still no")).complete(ASKED))
     assert (caught.value.model, caught.value.usage) == ("m", {"prompt_tokens": 30})
 
 
-def test_an_attempt_that_is_cut_short_carries_the_cost_of_those_before() -> None:
+def test_cut_attempt_includes_the_usage_of_earlier_attempts() -> None:
     def answer(asked: LLMRequest) -> LLMReply:
         if "Your last answer was" in asked.prompt:
             raise UnusableAnswer("cut", model="m", usage={"prompt_tokens": 5})
@@ -111,19 +111,19 @@ def test_an_attempt_that_is_cut_short_carries_the_cost_of_those_before() -> None
     assert caught.value.usage == {"prompt_tokens": 15}
 
 
-def test_no_repairs_still_validates() -> None:
+def test_answers_are_validated_with_zero_repairs() -> None:
     with pytest.raises(BadAnswer, match="0 repairs"):
         asyncio.run(RepairBackend(scripted("no"), 0).complete(ASKED))
 
 
-def test_fences_are_taken_off_without_asking() -> None:
+def test_code_fences_are_removed_without_a_request() -> None:
     inner = scripted(f"Here:\n```json\n{oak()}\n```")
     assert asyncio.run(RepairBackend(inner).complete(ASKED)).text == oak()
     assert len(inner.requests) == 1
 
 
 @pytest.mark.parametrize("reason", ["length", "content_filter", "tool_calls"])
-def test_answers_that_did_not_end_are_not_repaired(reason: str) -> None:
+def test_truncated_answers_are_not_repaired(reason: str) -> None:
     inner = scripted(LLMReply(oak(), "m", reason))
     with pytest.raises(BadAnswer, match=reason):
         asyncio.run(RepairBackend(inner).complete(ASKED))
@@ -137,7 +137,7 @@ def test_a_long_bad_answer_is_quoted_in_part() -> None:
 
 
 @pytest.mark.parametrize("component", ANSWERS)
-def test_every_component_has_an_answer_that_an_empty_object_is_not(component: Any) -> None:
+def test_empty_object_is_invalid_for_every_component(component: Any) -> None:
     fault = find_fault(component, "{}")
     assert fault is not None
     assert fault.needs_images
@@ -159,7 +159,7 @@ def described(sentence: str) -> str:
         (["word " * 30, "word " * 30, "It buzzes."], "It buzzes.", 3),
     ],
 )
-def test_a_sentence_that_begins_otherwise_is_asked_again_once_and_never_lost(
+def test_sentence_with_another_subject_is_requested_again_once_and_kept(
     said: list[str], heard: str, calls: int
 ) -> None:
     inner = scripted(*map(described, said))

@@ -32,7 +32,7 @@ class Failing:
         return RetryBackend(self.backend, retries, rng=random.Random(0), sleep=self.sleep)
 
 
-def test_waits_grow_from_half_a_second_to_eight_less_up_to_a_quarter() -> None:
+def test_waits_grow_from_half_a_second_to_eight_with_25_percent_jitter() -> None:
     failing = Failing(*[AWAY] * 7)
     backend = failing.retrying(7)
     asyncio.run(backend.complete(request()))
@@ -43,7 +43,7 @@ def test_waits_grow_from_half_a_second_to_eight_less_up_to_a_quarter() -> None:
     assert backend.report() == {"calls": 1, "retries": 7, "given_up": 0, "waited_s": sum(failing.waits_s)}
 
 
-def test_server_says_when() -> None:
+def test_retry_waits_as_long_as_the_server_requests() -> None:
     failing = Failing(BackendUnavailable("slow", retryable=True, retry_after_s=20.0), AWAY)
     asyncio.run(failing.retrying().complete(request()))
     assert failing.waits_s[0] == 20.0
@@ -62,7 +62,7 @@ def test_last_error_is_raised_when_retries_are_used_up() -> None:
 
 
 @pytest.mark.parametrize("error", [BackendUnavailable("no money"), BadAnswer("refused"), KeyError("bug")], ids=repr)
-def test_what_waiting_cannot_help_is_raised_at_once(error: Exception) -> None:
+def test_permanent_errors_are_raised_immediately(error: Exception) -> None:
     failing = Failing(error)
     with pytest.raises(type(error)):
         asyncio.run(failing.retrying().complete(request()))
@@ -73,7 +73,7 @@ def test_what_waiting_cannot_help_is_raised_at_once(error: Exception) -> None:
 TOLD = BackendUnavailable("slow", retryable=True, retry_after_s=20.0)
 
 
-def test_waits_that_were_asked_for_count_apart_where_that_is_wanted() -> None:
+def test_server_requested_waits_have_a_separate_count() -> None:
     failing = Failing(TOLD, AWAY, TOLD, AWAY, TOLD)
     backend = RetryBackend(failing.backend, 2, told_retries=3, rng=random.Random(0), sleep=failing.sleep)
     asyncio.run(backend.complete(request()))
@@ -85,7 +85,7 @@ def test_waits_that_were_asked_for_count_apart_where_that_is_wanted() -> None:
     ("told_retries", "errors", "calls"),
     [(3, [TOLD] * 9, 4), (3, [AWAY] * 9, 3), (0, [TOLD] * 9, 1), (None, [TOLD] * 9, 3), (None, [TOLD, AWAY] * 5, 3)],
 )
-def test_no_count_is_passed(told_retries: int | None, errors: list[Exception], calls: int) -> None:
+def test_retry_counts_are_never_exceeded(told_retries: int | None, errors: list[Exception], calls: int) -> None:
     failing = Failing(*errors)
     backend = RetryBackend(failing.backend, 2, told_retries=told_retries, sleep=failing.sleep)
     with pytest.raises(BackendUnavailable):
@@ -95,6 +95,6 @@ def test_no_count_is_passed(told_retries: int | None, errors: list[Exception], c
 
 
 @pytest.mark.parametrize("settings", [{"retries": -1}, {"told_retries": -1}], ids=str)
-def test_negative_retries(settings: dict[str, int]) -> None:
+def test_negative_retries_are_refused(settings: dict[str, int]) -> None:
     with pytest.raises(ConfigError, match="retries is -1"):
         RetryBackend("lexicon", **settings)

@@ -28,7 +28,7 @@ from scene2hap.llm.wrappers import build_backend, reports, standard_stack
 from scenes import box, scene
 
 
-def test_a_whole_stack_from_a_configuration(tmp_path: Path) -> None:
+def test_configuration_builds_a_whole_stack(tmp_path: Path) -> None:
     model = {"kind": "openai", "model": "gpt-4.1", "detail": "high"}
     guarded = {"kind": "budget", "max_calls": 9, "inner": {"kind": "retry", "retries": 3, "inner": model}}
     built = BACKENDS.build({"kind": "cache", "folder": tmp_path, "inner": {"kind": "repair", "inner": guarded}})
@@ -52,7 +52,7 @@ def test_each_repair_is_a_call_within_the_budget() -> None:
         asyncio.run(backend.complete(request()))
 
 
-def test_cache_keeps_what_was_repaired(tmp_path: Path) -> None:
+def test_cache_stores_repaired_answers(tmp_path: Path) -> None:
     answers = iter(["no", json.dumps(GOOD["scene_analyzer"])])
     inner = FunctionBackend(lambda _: next(answers))
     backend = CacheBackend(RepairBackend(inner), tmp_path)
@@ -61,7 +61,7 @@ def test_cache_keeps_what_was_repaired(tmp_path: Path) -> None:
     assert len(inner.requests) == 2
 
 
-def test_what_a_stack_recorded_can_be_replayed(tmp_path: Path) -> None:
+def test_answers_recorded_by_a_stack_can_be_replayed(tmp_path: Path) -> None:
     tape = tmp_path / "tape.jsonl"
     failures = [BackendUnavailable("away", retryable=True)]
 
@@ -87,7 +87,7 @@ ORDERS = [
 
 @pytest.mark.parametrize("order", ORDERS, ids="-".join)
 def test_wrappers_compose_in_every_sensible_order(order: tuple[str, ...], tmp_path: Path) -> None:
-    """Retries next to the model, all else anywhere: a valid answer comes out, is kept and recorded, and asked once."""
+    """With retries next to the model, others in any order: a valid answer is kept, recorded and requested once."""
     answers = iter([json.dumps(GOOD["scene_analyzer"])])
     inner = FunctionBackend(lambda _: next(answers))
     wrap = {
@@ -107,12 +107,12 @@ def test_wrappers_compose_in_every_sensible_order(order: tuple[str, ...], tmp_pa
     assert stack.identity == {"model": "function"}  # type: ignore[attr-defined]
 
 
-def test_an_order_that_the_cache_cannot_live_with_is_named(tmp_path: Path) -> None:
+def test_error_names_a_wrapper_order_that_breaks_the_cache(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="no `identity`"):
         CacheBackend(RepairBackend("lexicon"), tmp_path)
 
 
-def test_standard_stack(tmp_path: Path) -> None:
+def test_standard_stack_has_the_documented_wrappers(tmp_path: Path) -> None:
     stack = standard_stack({"kind": "openai", "model": "gpt-4.1"}, tmp_path, max_cost=5.0)
     model = "OpenAIBackend('gpt-4.1', base_url='https://api.openai.com/v1')"
     assert repr(stack) == f"CacheBackend(RepairBackend(BudgetBackend(RetryBackend({model}))))"
@@ -141,15 +141,15 @@ def test_limits_of_the_standard_stack_hold(tmp_path: Path) -> None:
         (FunctionBackend(lambda _: ""), "FunctionBackend"),
     ],
 )
-def test_a_configuration_gets_the_standard_stack_where_it_needs_one(spec: object, built: str) -> None:
+def test_configuration_of_a_remote_model_gets_the_standard_stack(spec: object, built: str) -> None:
     assert type(build_backend(spec)).__name__ == built
 
 
-def test_a_configuration_gets_the_cache_it_names(tmp_path: Path) -> None:
+def test_configuration_gets_the_configured_cache(tmp_path: Path) -> None:
     assert isinstance(build_backend("openai", tmp_path), CacheBackend)
 
 
-def test_a_chain_through_all_of_them_is_paid_for_once(tmp_path: Path) -> None:
+def test_chain_through_the_whole_stack_is_paid_once(tmp_path: Path) -> None:
     lexicon = BACKENDS.build("lexicon")
 
     async def answer(asked: LLMRequest) -> str:

@@ -27,7 +27,7 @@ def isolated(*items: SceneObject, alone: bool = True) -> list[tuple[bytes, ...]]
     return [tuple(item.images.isolated) for item in scene.objects if item.images is not None]
 
 
-def test_place_and_neighbours_do_not_show() -> None:
+def test_isolated_pictures_do_not_depend_on_place_or_neighbours() -> None:
     turned = Pose.from_yaw((3.0, 1.0, -2.0), math.radians(77.0))
     (here,) = isolated(lamp("a", Pose()))
     elsewhere, _ = isolated(lamp("b", turned), SceneObject("box", pose=Pose((0, 5, 0)), geometry=Box((1, 1, 1))))
@@ -37,7 +37,7 @@ def test_place_and_neighbours_do_not_show() -> None:
 
 @pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)])
 @pytest.mark.parametrize("degrees", [90.0, 180.0, 30.0])
-def test_what_lies_shows_that_it_lies(axis: tuple[float, float, float], degrees: float) -> None:
+def test_isolated_pictures_show_a_lying_object_as_lying(axis: tuple[float, float, float], degrees: float) -> None:
     half = math.radians(degrees) / 2
     x, y, z = (math.sin(half) * part for part in axis)
     lies = Pose((0.0, 0.0, 0.0), (x, y, z, math.cos(half)))
@@ -47,7 +47,7 @@ def test_what_lies_shows_that_it_lies(axis: tuple[float, float, float], degrees:
     assert lying != upright
 
 
-def test_all_pictures_are_of_the_object_alone_and_can_be_taken_at_once() -> None:
+def test_alone_mode_takes_no_context_pictures() -> None:
     items = (lamp("a", Pose()), lamp("b", Pose((2.0, 0.0, 0.0))))
     scene = capture_images(SceneSnapshot.build(items, name="room"), config=SMALL, alone=True)
     counted: list[tuple[int, int]] = []

@@ -50,7 +50,7 @@ def visible_share(camera_man: Photographer, shot: Shot) -> float:
     return float((alone & seen).sum() / alone.sum())
 
 
-def test_a_far_blocker_goes_and_support_and_neighbour_stay() -> None:
+def test_culling_removes_far_blockers_and_keeps_support_and_neighbour() -> None:
     blocker = box("pillar", (0.4, 1.0, 0.03), (0, 1.3, 0.15))
     spoon = box("spoon", (0.01, 0.01, 0.1), (0.065, 0.705, 0))
     bystander = box("chair", (0.4, 0.9, 0.4), (1.5, 0.45, 0))
@@ -61,13 +61,13 @@ def test_a_far_blocker_goes_and_support_and_neighbour_stay() -> None:
     assert visible_share(man, shot) > 0.95
 
 
-def test_what_stands_behind_the_target_stays() -> None:
+def test_culling_keeps_objects_behind_the_target() -> None:
     man = photographer(*ROOM[:1], TABLE, CUP, box("pillar", (0.4, 1.0, 0.03), (0, 1.3, -0.15)))
     _, selection = man.aim(Shot("context", "cup", 0.0, 45.0))
     assert "pillar" in shown(man, selection)
 
 
-def test_a_near_neighbour_goes_once_it_hides_more_than_its_share() -> None:
+def test_culling_removes_a_neighbour_that_hides_more_than_the_allowed_share() -> None:
     objects = (*ROOM[:1], TABLE, CUP, box("book", (0.2, 0.1, 0.05), (0, 0.75, 0.08)))
     shot = Shot("context", "cup", 0.0, 45.0)
     strict, lenient = photographer(*objects, hidden_share=0.2), photographer(*objects, hidden_share=0.95)
@@ -87,7 +87,7 @@ def test_neighbours_hide_no_more_than_their_share_together() -> None:
 
 
 @pytest.mark.parametrize("azimuth", [0.0, 30.0, 90.0, 210.0])
-def test_from_below_floor_and_table_do_not_hide_the_cup(azimuth: float) -> None:
+def test_floor_and_table_do_not_hide_the_cup_from_below(azimuth: float) -> None:
     man = photographer(*ROOM, TABLE, CUP)
     shot = Shot("context", "cup", azimuth, -45.0)
     assert visible_share(man, shot) > 0.95
@@ -116,7 +116,7 @@ def test_a_room_in_one_mesh_is_opened_like_one_of_walls() -> None:
         assert (ids == 1).any()
 
 
-def test_what_is_inside_a_cabinet_is_seen_in_the_opened_cabinet() -> None:
+def test_culling_opens_a_cabinet_to_show_its_content() -> None:
     cabinet = box("cabinet", (0.8, 0.8, 0.5), (0, 0.4, 0))
     plate = box("plate", (0.3, 0.05, 0.3), (0, 0.4, 0))
     man = photographer(*ROOM[:1], cabinet, plate, box("chair", (0.4, 0.9, 0.4), (2, 0.45, 0)))
@@ -126,7 +126,7 @@ def test_what_is_inside_a_cabinet_is_seen_in_the_opened_cabinet() -> None:
         assert visible_share(man, shot) > 0.95
 
 
-def test_in_scene_pictures_a_blocker_of_the_middle_goes_and_the_middle_thing_stays() -> None:
+def test_scene_pictures_remove_blockers_of_the_central_object_only() -> None:
     sign = box("sign", (0.5, 0.5, 0.05), (0, 2.3, 1.2))
     middle = box("pillar", (0.5, 2.4, 0.5), (0, 1.2, 0))
     man = photographer(*ROOM[:1], middle, sign, TABLE)

@@ -53,7 +53,7 @@ def draw(snapshot: SceneSnapshot, shown: set[int] | None = None, **options: Any)
     return found
 
 
-def test_colours_are_those_of_the_materials_under_light() -> None:
+def test_rendered_colours_are_material_colours_under_light() -> None:
     picture, ids = draw(table_and_cup(), antialias=False)
     assert (picture[ids == -1] == BACKGROUND_RGB).all()
     cup, table = picture[ids == 1], picture[ids == 0]
@@ -73,7 +73,7 @@ def test_textures_lie_where_uv_says() -> None:
     assert red.mean() == pytest.approx(0.75, abs=0.04)
 
 
-def test_one_sees_through_holes_in_textures() -> None:
+def test_transparent_texels_show_objects_behind() -> None:
     holed = np.zeros((2, 2, 4), np.uint8)
     holed[:, 0] = (0, 200, 0, 255)
     crate = replace(box("crate", (1, 1, 1), (0, 0, 0)), appearance=painted((1, 1, 1, 1), holed))
@@ -84,7 +84,7 @@ def test_one_sees_through_holes_in_textures() -> None:
     assert (closed == 1).sum() == 0
 
 
-def test_what_is_not_shown_leaves_what_it_touches_whole() -> None:
+def test_hidden_object_leaves_no_hole_in_touching_objects() -> None:
     with_cup, _ = draw(table_and_cup(), {0}, antialias=False)
     snapshot = table_and_cup()
     lonely = scene(*snapshot.objects[:1], replace(snapshot.objects[1], pose=box("x", (1, 1, 1), (0, 0.75, 0)).pose))
@@ -108,7 +108,7 @@ def test_a_culled_object_in_the_whole_tree_leaves_no_trace() -> None:
     assert len(colours) == 3, "the table shows its three sides, nothing of what is inside it"
 
 
-def test_smoothing_touches_edges_alone() -> None:
+def test_antialiasing_changes_only_edges() -> None:
     rough, ids = draw(table_and_cup(), antialias=False)
     smooth, same_ids = draw(table_and_cup(), antialias=True)
     np.testing.assert_array_equal(ids, same_ids)
@@ -118,7 +118,7 @@ def test_smoothing_touches_edges_alone() -> None:
     assert len(np.unique(between, axis=0)) > 5
 
 
-def test_the_outline_is_pure_and_the_target_keeps_its_colours() -> None:
+def test_outline_has_one_colour_and_target_keeps_its_colours() -> None:
     shot = capture_images(table_and_cup(), size_px=200)
     images = shot.object("cup").images
     assert images is not None
@@ -141,7 +141,7 @@ if __name__ == "__main__":
 """
 
 
-def test_two_fresh_processes_and_workers_give_the_same_bytes(tmp_path: Any) -> None:
+def test_pictures_are_identical_across_processes_and_workers(tmp_path: Any) -> None:
     here = __file__.rsplit("/", 1)[0]
     path = [here, here.rsplit("/", 3)[0]]
     digests = set()

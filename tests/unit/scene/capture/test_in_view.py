@@ -49,7 +49,7 @@ def test_triangles_at_pixels(corners: list[tuple[float, float, float]], expected
     assert visible(placed(CENTRE, *corners), CENTRE).tolist() == [expected]
 
 
-def test_extents_serve_every_camera_of_one_eye() -> None:
+def test_extents_are_shared_by_cameras_at_one_position() -> None:
     triangles = np.random.default_rng(0).normal(size=(400, 1, 3)) + np.random.default_rng(1).normal(
         size=(400, 3, 3), scale=0.05
     )
@@ -67,7 +67,7 @@ def test_extents_serve_every_camera_of_one_eye() -> None:
     elevation_deg=st.floats(-80, 80),
     widening=st.sampled_from([0.3, 1.0, 2.5]),
 )
-def test_what_is_left_out_colours_no_pixel(
+def test_culled_triangles_cover_no_pixel(
     seed: int, size_m: float, azimuth_deg: float, elevation_deg: float, widening: float
 ) -> None:
     screen = import_module("scene2hap.scene.capture.panda3d_screen").Screen(8.0)

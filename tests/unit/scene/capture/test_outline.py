@@ -11,7 +11,7 @@ from scene2hap.scene.capture.outline import mark, outline_of
 
 @pytest.mark.parametrize("width", [1, 2, 4, 7])
 @pytest.mark.parametrize("seed", range(3))
-def test_the_outline_is_what_lies_within_its_width(width: int, seed: int) -> None:
+def test_outline_covers_pixels_within_its_width(width: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
     is_target = rng.random((60, 60)) < 0.01
     is_target[20:30, 55:] = True
@@ -20,11 +20,11 @@ def test_the_outline_is_what_lies_within_its_width(width: int, seed: int) -> Non
     np.testing.assert_array_equal(outline_of(is_target, width), (distance > 0) & (distance <= width + 0.5))
 
 
-def test_nothing_seen_nothing_outlined() -> None:
+def test_invisible_target_has_no_outline() -> None:
     assert not outline_of(np.zeros((8, 8), bool), 3).any()
 
 
-def test_the_target_itself_keeps_its_colours() -> None:
+def test_outline_leaves_the_target_unchanged() -> None:
     picture = np.full((9, 9, 3), 50, np.uint8)
     is_target = np.zeros((9, 9), bool)
     is_target[4, 4] = True

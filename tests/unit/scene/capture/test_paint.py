@@ -44,7 +44,7 @@ def test_large_textures_are_shrunk_by_averaging() -> None:
     assert set(palette.texels[:, 0].tolist()) == {100}
 
 
-def test_glass_is_pale_and_not_see_through() -> None:
+def test_glass_is_drawn_pale_and_opaque() -> None:
     palette = palette_of(FaceMaterial((0.0, 0.0, 0.0, 0.25)), FaceMaterial((0.0, 0.0, 0.0, 1.0)))
     assert palette.rgb[0] == pytest.approx([0.75 * 0.85] * 3)
     assert palette.rgb[1] == pytest.approx([0.0] * 3)
@@ -68,7 +68,7 @@ def test_light_depends_on_the_side_seen_and_not_on_the_winding() -> None:
     np.testing.assert_allclose(light(faces[:2], -forward, up), [from_below] * 2, rtol=1e-6)
 
 
-def test_neutral_paint_is_the_key_s_own() -> None:
+def test_neutral_colour_depends_only_on_the_key() -> None:
     paints = {neutral(key).color_rgba for key in ("cup", "plate", "pan", "pot")}
     assert len(paints) == 4
     assert neutral("cup").color_rgba == neutral("cup").color_rgba

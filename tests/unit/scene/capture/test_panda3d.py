@@ -62,7 +62,7 @@ def test_both_renderers_agree(selection: Selection, elevation: float) -> None:
     assert (np.abs(cast[same].astype(int) - drawn[same]).max(axis=1) > 12).mean() < 0.03
 
 
-def test_it_is_chosen_by_name() -> None:
+def test_panda3d_renderer_is_chosen_by_name() -> None:
     images = capture_images(room(), size_px=64, renderer="panda3d").images
     assert images is not None
     assert images[0].startswith(b"\x89PNG")
@@ -91,7 +91,7 @@ def seen_by(renderer: Any, stage: Stage, size_px: int = 200) -> tuple[np.ndarray
 
 
 @pytest.mark.parametrize("holed", [False, True])
-def test_holes_in_textures_show_what_is_behind(holed: bool) -> None:
+def test_transparent_texels_show_objects_behind(holed: bool) -> None:
     stage = Stage.of(leaves(holed))
     picture, ids, identified = seen_by(panda.Panda3DRenderer(stage), stage)
     _, expected, _ = seen_by(embree.EmbreeRenderer(stage), stage)
@@ -103,7 +103,7 @@ def test_holes_in_textures_show_what_is_behind(holed: bool) -> None:
 
 @pytest.mark.parametrize("n_objects", [250, 251])
 @pytest.mark.parametrize("is_textured", [False, True])
-def test_every_object_of_a_crowd_is_told(n_objects: int, is_textured: bool) -> None:
+def test_object_ids_are_distinct_in_a_large_scene(n_objects: int, is_textured: bool) -> None:
     looks = room().object("crate").appearance
     side = int(np.ceil(np.sqrt(n_objects)))
     crowd = scene(
@@ -132,7 +132,7 @@ def test_an_empty_selection_shows_the_background() -> None:
     assert (picture == BACKGROUND_RGB).all()
 
 
-def test_what_was_drawn_before_leaves_no_trace() -> None:
+def test_pictures_do_not_depend_on_earlier_pictures() -> None:
     stage = Stage.of(room())
     camera = frame(stage.actors[2].points_m, 30.0, 45.0, "y", 0.4, 128)
     selections = [

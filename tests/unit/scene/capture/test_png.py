@@ -24,12 +24,12 @@ def read(file: bytes) -> np.ndarray:
 
 
 @given(PICTURES)
-def test_every_pixel_comes_back(picture: np.ndarray) -> None:
+def test_png_round_trip_keeps_every_pixel(picture: np.ndarray) -> None:
     np.testing.assert_array_equal(read(png(picture)), picture)
 
 
 @given(PICTURES, st.booleans())
-def test_a_view_into_memory_is_packed_like_its_copy(picture: np.ndarray, turned: bool) -> None:
+def test_array_view_is_encoded_like_its_copy(picture: np.ndarray, turned: bool) -> None:
     view = picture.transpose(1, 0, 2) if turned else picture[::-1]
     assert png(view) == png(view.copy())
 

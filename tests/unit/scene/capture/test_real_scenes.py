@@ -111,7 +111,7 @@ def first_objects(studio: Studio, camera: Camera, selection: Selection, directio
     ("name", "every"),
     [(name, {"aws_house_living": 12}.get(name, 2 if name in OWN else 9)) for name in names()],
 )
-def test_the_outline_encloses_exactly_what_is_visible(name: str, every: int) -> None:
+def test_outline_encloses_exactly_the_visible_target(name: str, every: int) -> None:
     studio = studio_of(name)
     width = studio.config.outline_px
     reach = np.hypot(*np.mgrid[-width : width + 1, -width : width + 1]) <= width + 0.5
@@ -153,7 +153,7 @@ def test_every_isolated_image_is_framed_and_not_blank(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", names())
-def test_targets_are_visible_among_other_things(name: str) -> None:
+def test_targets_are_visible_in_context_pictures(name: str) -> None:
     studio = studio_of(name)
     man = studio._photographer
     good = []
@@ -182,5 +182,5 @@ def test_scene_pictures_show_most_objects(name: str) -> None:
     assert len(seen - {-1}) >= 0.7 * len(studio.scene.objects)
 
 
-def test_shots_are_named_for_people() -> None:
+def test_shots_have_readable_names() -> None:
     assert Shot("context", "cup", 390.0, -45.0).label == "below 30°"

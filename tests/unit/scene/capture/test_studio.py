@@ -75,7 +75,7 @@ def images_of(snapshot: SceneSnapshot) -> ImageSet:
     return snapshot.images
 
 
-def test_nothing_is_rendered_until_it_is_read() -> None:
+def test_pictures_are_rendered_at_first_access() -> None:
     shot = captured()
     cup = shot.object("cup").images
     assert cup is not None
@@ -92,7 +92,7 @@ def test_nothing_is_rendered_until_it_is_read() -> None:
     assert CountingRenderer.drawn == 3
 
 
-def test_copies_share_images_and_the_numbers_say_so() -> None:
+def test_copies_share_images_and_statistics_count_them() -> None:
     shot = captured()
     stats = render_all(shot)
     # Kinds: floor, table, cup. Classes: floor on nothing, table on floor, cup on table, cup on floor.
@@ -111,14 +111,14 @@ def test_sharing_can_be_turned_off() -> None:
     assert stats.from_memory == 8 * 3
 
 
-def test_only_what_is_asked_for_gets_images() -> None:
+def test_only_requested_objects_get_images() -> None:
     shot = capture_images(cups_on_tables(), ["cup#2"], size_px=32, renderer=CountingRenderer)
     assert [item.id for item in shot.objects if item.images is not None] == ["cup#2"]
     assert render_all(shot).rendered == 4 + 8 + 8
     assert render_all(shot).rendered == 20
 
 
-def test_progress_is_told_for_every_picture() -> None:
+def test_progress_is_reported_for_every_picture() -> None:
     told: list[tuple[int, int]] = []
     render_all(
         capture_images(cups_on_tables(), [], size_px=32, renderer=CountingRenderer), progress=lambda *n: told.append(n)
@@ -126,7 +126,7 @@ def test_progress_is_told_for_every_picture() -> None:
     assert told == [(1, 4), (2, 4), (3, 4), (4, 4)]
 
 
-def test_a_second_capture_comes_from_memory() -> None:
+def test_second_capture_reads_pictures_from_memory() -> None:
     before = captured()
     render_all(before)
     drawn = CountingRenderer.drawn
@@ -136,7 +136,7 @@ def test_a_second_capture_comes_from_memory() -> None:
     assert list(images_of(after)) == list(images_of(before))
 
 
-def test_a_moved_object_keeps_its_isolated_images_alone() -> None:
+def test_moved_object_reuses_only_its_isolated_images() -> None:
     render_all(captured())
     drawn = CountingRenderer.drawn
     moved = cups_on_tables()
@@ -147,7 +147,7 @@ def test_a_moved_object_keeps_its_isolated_images_alone() -> None:
 
 
 @pytest.mark.parametrize("change", [{"elevation_deg": 30.0}, {"outline_rgb": (0, 255, 0)}, {"antialias": True}])
-def test_other_settings_are_other_pictures(change: dict[str, object]) -> None:
+def test_changed_settings_render_new_pictures(change: dict[str, object]) -> None:
     render_all(captured())
     assert render_all(captured(**change)).from_memory == 0
 
@@ -163,7 +163,7 @@ def test_a_folder_keeps_pictures_between_runs(tmp_path: Path) -> None:
     assert list(images_of(after)) == list(images_of(before))
 
 
-def test_a_file_that_was_cut_short_is_taken_anew(tmp_path: Path) -> None:
+def test_truncated_picture_file_is_rendered_again(tmp_path: Path) -> None:
     render_all(captured(cache_dir=tmp_path))
     victim = next(tmp_path.rglob("*.png"))
     whole = victim.read_bytes()
@@ -173,7 +173,7 @@ def test_a_file_that_was_cut_short_is_taken_anew(tmp_path: Path) -> None:
     assert victim.read_bytes() == whole
 
 
-def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+def test_error_names_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("no folder")
     cache = FolderCache(tmp_path / "file")
     assert cache.get("ab") is None
@@ -181,7 +181,7 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
         cache.put("ab", b"png")
 
 
-def test_memory_forgets_the_longest_unused() -> None:
+def test_memory_drops_the_least_recently_used_picture() -> None:
     cache = MemoryCache(limit_bytes=10)
     cache.put("a", b"1234")
     cache.put("b", b"1234")
@@ -190,7 +190,7 @@ def test_memory_forgets_the_longest_unused() -> None:
     assert (cache.get("a"), cache.get("b"), cache.get("c")) == (b"1234", None, b"1234")
 
 
-def test_threads_may_read_at_once() -> None:
+def test_threads_can_read_pictures_concurrently() -> None:
     images = images_of(captured())
     found: list[list[bytes]] = []
     threads = [threading.Thread(target=lambda: found.append(list(images))) for _ in range(8)]
@@ -203,7 +203,7 @@ def test_threads_may_read_at_once() -> None:
     assert CountingRenderer.drawn == 4
 
 
-def test_a_captured_scene_is_the_same_scene() -> None:
+def test_captured_scene_equals_the_original_scene() -> None:
     plain = cups_on_tables()
     shot = captured(plain)
     assert shot == plain
@@ -220,14 +220,14 @@ def test_a_captured_scene_can_be_sent_to_another_process() -> None:
     assert list(copy.images) == list(images_of(shot))
 
 
-def test_looks_that_do_not_fit_are_refused_when_a_picture_is_taken() -> None:
+def test_invalid_appearance_is_refused_at_rendering() -> None:
     looks = Appearance((FaceMaterial(),), np.zeros(5, np.int32))
     shot = captured(scene(replace(box("cup", (1, 1, 1), (0, 0, 0)), appearance=looks)))
     with pytest.raises(SceneError, match="appearance of 'cup' has 5 faces, its mesh has 12"):
         _ = images_of(shot)[0]
 
 
-def test_unknown_objects_are_named() -> None:
+def test_error_names_unknown_objects() -> None:
     with pytest.raises(UnknownObject, match="no object 'cupp'. Did you mean 'cup"):
         capture_images(cups_on_tables(), ["cupp"], renderer=CountingRenderer)
     with pytest.raises(ConfigError, match=r"give a list of ids, \['cup'\]"):
@@ -249,12 +249,12 @@ def test_settings_out_of_bounds_are_refused(settings: dict[str, object], sentenc
         capture_images(cups_on_tables(), **settings)  # type: ignore[arg-type]
 
 
-def test_an_unknown_renderer_is_told_with_the_known_ones() -> None:
+def test_error_for_an_unknown_renderer_lists_the_known_ones() -> None:
     with pytest.raises(UnknownPlugin, match="no kind 'povray'. Known: embree, panda3d"):
         capture_images(cups_on_tables(), renderer="povray")
 
 
-def test_a_missing_extra_is_named_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_extra_is_named_at_capture(monkeypatch: pytest.MonkeyPatch) -> None:
     import sys
 
     monkeypatch.setitem(sys.modules, "embreex", None)
@@ -265,14 +265,14 @@ def test_a_missing_extra_is_named_at_once(monkeypatch: pytest.MonkeyPatch) -> No
     assert RENDERERS.extras["panda3d"] == "panda3d"
 
 
-def test_scenes_without_images_are_told_what_to_do() -> None:
+def test_error_for_a_scene_without_images_names_capture_images() -> None:
     with pytest.raises(ConfigError, match="call capture_images first"):
         render_all(cups_on_tables())
     with pytest.raises(ConfigError, match="pass a scene through capture_images first"):
         contact_sheet(cups_on_tables().object("cup"))
 
 
-def test_settings_may_come_from_a_configuration() -> None:
+def test_settings_are_read_from_a_configuration() -> None:
     config = CaptureConfig(size_px=48, azimuths=2)
     shot = capture_images(cups_on_tables(), renderer=CountingRenderer, config=config)
     assert len(images_of(shot)) == 2

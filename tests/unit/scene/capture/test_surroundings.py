@@ -33,7 +33,7 @@ def names(room: Stage, numbers: frozenset[int]) -> set[str]:
     return {room.actors[k].id for k in numbers}
 
 
-def test_support_is_what_lies_first_below() -> None:
+def test_support_is_the_first_object_below() -> None:
     room = stage(*ROOM)
     below = {actor.id: under for actor, under in zip(room.actors, supports(room), strict=True)}
     found = {key: None if under is None else room.actors[under].id for key, under in below.items()}
@@ -62,14 +62,14 @@ def test_floor_walls_and_pieces_of_wall_are_shells() -> None:
     assert names(room, shells(room)) == {"floor", "wall", "tile"}
 
 
-def test_near_is_a_part_of_the_targets_size() -> None:
+def test_near_distance_scales_with_the_target() -> None:
     room = stage(*ROOM)
     table = room.index["table"]
     assert names(room, near(room, table, 0.1)) == {"floor", "cup", "saucer"}
     assert "chair" in names(room, near(room, table, 1.0))
 
 
-def test_a_container_holds_nearly_all_of_the_target() -> None:
+def test_container_encloses_most_of_the_target() -> None:
     room = stage(
         box("cabinet", (1, 1, 1), (0, 0.5, 0)),
         box("plate", (0.2, 0.02, 0.2), (0, 0.5, 0)),
@@ -79,7 +79,7 @@ def test_a_container_holds_nearly_all_of_the_target() -> None:
     assert names(room, containers(room, room.index["door"])) == set()
 
 
-def test_touching_faces_are_drawn_apart_and_far_scenes_keep_their_detail() -> None:
+def test_touching_faces_are_separated_far_from_the_origin() -> None:
     far = 1e5
     room = stage(box("table", (1, 0.7, 1), (far, 0.35, far)), box("cup", (0.1, 0.1, 0.1), (far, 0.75, far)))
     table, cup = (room.actors[k].box_m for k in (0, 1))
@@ -88,7 +88,7 @@ def test_touching_faces_are_drawn_apart_and_far_scenes_keep_their_detail() -> No
     np.testing.assert_allclose(np.ptp(cup, axis=0), 0.1, rtol=1e-2)
 
 
-def test_a_plane_hides_only_what_lies_behind_it() -> None:
+def test_plane_hides_only_points_behind_it() -> None:
     triangle = np.array([[(0, 0, 0), (1, 0, 0), (0, 1, 0)]], np.float32)
     wall = planes(np.concatenate((triangle, triangle[:, ::-1], np.zeros_like(triangle))))
     across, beside = np.array([5.0, 5.0, -1.0]), np.array([5.0, 5.0, 1.0])
@@ -97,7 +97,7 @@ def test_a_plane_hides_only_what_lies_behind_it() -> None:
     assert separates(wall, eye, beside).tolist() == [False, False, False]
 
 
-def test_copies_stand_for_each_other_by_what_they_stand_on() -> None:
+def test_copies_on_equal_supports_share_context_pictures() -> None:
     keys = {"floor": "f", "table": "t", "cup": "c", "cup2": "c", "cup3": "c", "bowl": "", "bowl2": ""}
     below = [None, 0, 1, 1, 0, 1, 1]
     objects = [replace(box(name, (1, 1, 1), (0, 0, 0)), instance_key=key) for name, key in keys.items()]

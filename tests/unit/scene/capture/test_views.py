@@ -19,7 +19,7 @@ SHAPES = {
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("elevation", [45.0, -45.0])
 @pytest.mark.parametrize("fill", [0.6, 0.9])
-def test_the_larger_extent_fills_the_asked_part_and_is_centred(shape: str, elevation: float, fill: float) -> None:
+def test_larger_extent_fills_the_requested_share_and_is_centred(shape: str, elevation: float, fill: float) -> None:
     camera = frame(SHAPES[shape], 30.0, elevation, "y", fill, 400)
     pixels, depth = camera.project(SHAPES[shape])
     extents = np.ptp(pixels, axis=0)
@@ -30,7 +30,7 @@ def test_the_larger_extent_fills_the_asked_part_and_is_centred(shape: str, eleva
 
 @pytest.mark.parametrize("up_axis", ["y", "z"])
 @pytest.mark.parametrize("elevation", [45.0, -45.0])
-def test_the_eye_stands_at_the_asked_angle_and_sees_up_as_up(up_axis: str, elevation: float) -> None:
+def test_camera_has_the_requested_angle_and_up_direction(up_axis: str, elevation: float) -> None:
     right, up, front = axes_of(up_axis)  # type: ignore[arg-type]
     camera = frame(SHAPES["cube"], 0.0, elevation, up_axis, 0.75, 100)  # type: ignore[arg-type]
     away = camera.eye_m / np.linalg.norm(camera.eye_m)
@@ -42,7 +42,7 @@ def test_the_eye_stands_at_the_asked_angle_and_sees_up_as_up(up_axis: str, eleva
     np.testing.assert_allclose(np.cross(camera.axes[0], camera.axes[1]), -camera.axes[2], atol=1e-12)
 
 
-def test_a_ray_through_a_pixel_meets_what_projects_there() -> None:
+def test_ray_through_a_pixel_inverts_the_projection() -> None:
     camera = frame(SHAPES["cube"], 77.0, 20.0, "y", 0.7, 64)
     numbers = np.array([0, 63, 1000, 4095])
     for offset in ((0.0, 0.0), (0.25, -0.4)):
@@ -53,7 +53,7 @@ def test_a_ray_through_a_pixel_meets_what_projects_there() -> None:
         np.testing.assert_allclose(depth, 3.0, rtol=1e-5)
 
 
-def test_widening_keeps_the_eye_and_shrinks_what_is_seen() -> None:
+def test_widened_camera_keeps_its_position_and_shows_more() -> None:
     camera = frame(SHAPES["cube"], 30.0, 45.0, "y", 0.75, 200)
     wide = camera.widened(2.5)
     np.testing.assert_array_equal(wide.eye_m, camera.eye_m)
@@ -61,7 +61,7 @@ def test_widening_keeps_the_eye_and_shrinks_what_is_seen() -> None:
     assert extents[0] / extents[1] == pytest.approx(2.5)
 
 
-def test_the_window_holds_all_points_and_is_whole_when_one_is_behind_the_eye() -> None:
+def test_window_contains_all_points_and_is_full_for_points_behind_the_camera() -> None:
     camera = frame(SHAPES["cube"], 30.0, 45.0, "y", 0.5, 200)
     top, bottom, left, right = camera.window_of(SHAPES["cube"])
     pixels, _ = camera.project(SHAPES["cube"])
@@ -72,7 +72,7 @@ def test_the_window_holds_all_points_and_is_whole_when_one_is_behind_the_eye() -
     assert camera.window_of(behind[None]) == (0, 200, 0, 200)
 
 
-def test_a_pixel_apart_looks_where_the_picture_does() -> None:
+def test_single_pixel_ray_equals_that_of_the_whole_picture() -> None:
     camera = Camera(np.zeros(3), np.eye(3), np.array([0.1, -0.2]), 0.5, 100)
     point = np.array([[0.3, -0.1, 1.0]])
     spot = camera.at_pixel(camera.project(point)[0][0])

@@ -58,7 +58,7 @@ def mjcf(folder: Path, inside: str, name: str = "main.xml") -> Path:
         r'<asset><mesh name="t" file="meshes\t.obj"/></asset>',
     ],
 )
-def test_files_in_the_scenes_own_folder_are_read(home: Path, inside: str) -> None:
+def test_files_in_the_folder_of_the_scene_are_read(home: Path, inside: str) -> None:
     assert [item.id for item in load_mjcf(mjcf(home, inside + WORLD)).objects] == ["a"]
 
 
@@ -87,7 +87,7 @@ REACHING_OUT = {
 
 
 @pytest.mark.parametrize("how", REACHING_OUT)
-def test_what_lies_outside_is_refused_and_the_root_it_needs_is_told(home: Path, how: str) -> None:
+def test_file_outside_the_root_is_refused_with_the_needed_assets_root(home: Path, how: str) -> None:
     with pytest.raises(SceneError, match="lies outside") as caught:
         load_mjcf(mjcf(home, REACHING_OUT[how]))
     assert f"Give assets_root={str(home.parent)!r}" in str(caught.value)
@@ -95,7 +95,7 @@ def test_what_lies_outside_is_refused_and_the_root_it_needs_is_told(home: Path, 
 
 
 @pytest.mark.parametrize("how", ["mesh", "meshdir", "backslash", "include"])
-def test_with_that_root_it_loads(home: Path, how: str) -> None:
+def test_file_outside_the_folder_loads_with_assets_root(home: Path, how: str) -> None:
     world = "" if how == "include" else WORLD
     assert len(load_mjcf(mjcf(home, REACHING_OUT[how] + world), assets_root=home.parent).objects) == 1
 
@@ -107,13 +107,13 @@ def test_absolute_paths_are_refused_outside_and_read_inside(home: Path) -> None:
         load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{outside}"/></asset>{WORLD}'))
 
 
-def test_a_link_does_not_lead_out(home: Path) -> None:
+def test_symbolic_link_out_of_the_root_is_refused(home: Path) -> None:
     os.symlink(home.parent / "other", home / "linked")
     with pytest.raises(SceneError, match="lies outside"):
         load_mjcf(mjcf(home, f'<asset><mesh name="t" file="linked/t.obj"/></asset>{WORLD}'))
 
 
-def test_a_part_cannot_reach_further_than_the_whole(home: Path) -> None:
+def test_included_file_cannot_leave_the_root(home: Path) -> None:
     write(home / "part.xml", '<mujocoinclude><include file="../other/part.xml"/></mujocoinclude>')
     write(home / "sub" / "model.xml", '<mujoco><asset><mesh name="t" file="../../other/t.obj"/></asset></mujoco>')
     with pytest.raises(SceneError, match=r"part\.xml, line 1, <include> wants '\.\./other/part\.xml'"):
@@ -190,7 +190,7 @@ def test_a_long_chain_of_files_is_refused(home: Path) -> None:
         ("<worldbody>" + "<body>" * 300 + "</body>" * 300 + "</worldbody>", "MAX_DEPTH"),
     ],
 )
-def test_what_would_take_minutes_or_all_memory_is_refused(home: Path, inside: str, sentence: str) -> None:
+def test_excessive_models_are_refused(home: Path, inside: str, sentence: str) -> None:
     with pytest.raises(SceneError, match=sentence):
         load_mjcf(mjcf(home, inside))
 
@@ -227,7 +227,7 @@ def test_large_files_are_refused(home: Path, monkeypatch: pytest.MonkeyPatch) ->
         ("<mujoco><worldbody><body pos='1e300 0 0'><geom size='1'/></body></worldbody></mujoco>", "is 1e.300 m from"),
     ],
 )
-def test_broken_files_end_in_our_errors_and_in_silence(
+def test_broken_files_raise_scene_errors_without_output(
     home: Path, text: str, sentence: str, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(home)
@@ -252,7 +252,7 @@ def test_warnings_of_mujoco_reach_neither_terminal_nor_disk(
     assert not (home / "MUJOCO_LOG.TXT").exists()
 
 
-def test_broken_assets_end_in_our_errors(home: Path) -> None:
+def test_broken_assets_raise_scene_errors(home: Path) -> None:
     flat = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n"
     for name, text in {"junk.obj": "junk", "junk.stl": "junk", "flat.obj": flat}.items():
         write(home / name, text)
@@ -308,7 +308,7 @@ def test_kitchens_are_loaded_by_their_bodies(furniture: Path, name: str) -> None
 
 
 @pytest.mark.parametrize("name", ["own", *there(KITCHENS, SIM.joinpath)])
-def test_kitchens_tell_the_root_that_they_need(furniture: Path, name: str) -> None:
+def test_kitchens_are_refused_with_the_needed_assets_root(furniture: Path, name: str) -> None:
     root, name = (furniture.resolve(), "kitchen/kitchen.xml") if name == "own" else (SIM, name)
     with pytest.raises(SceneError, match="lies outside") as caught:
         load_mjcf(root / name)
@@ -345,12 +345,12 @@ def test_a_real_kitchen_is_measured_from_its_visual_geoms() -> None:
         '<asset><mesh name="t" builtin="sphere" params="1e9"/></asset>' + WORLD,
     ],
 )
-def test_rooms_and_meshes_that_a_few_bytes_make_are_bounded(home: Path, inside: str) -> None:
+def test_sizes_of_generated_rooms_and_meshes_are_bounded(home: Path, inside: str) -> None:
     with pytest.raises(SceneError, match="up to .* is read"):
         open_mjcf(mjcf(home, inside))
 
 
-def test_whatever_mujoco_raises_is_an_error_of_ours(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_mujoco_errors_become_scene_errors(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import mujoco
 
     def fails(model: object) -> None:

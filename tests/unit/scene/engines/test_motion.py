@@ -30,7 +30,7 @@ def turned(angle_rad: float) -> Pose:
         (turned(math.pi), True),
     ],
 )
-def test_trembling_is_not_moving(pose: Pose, is_moved: bool) -> None:
+def test_jitter_is_not_motion(pose: Pose, is_moved: bool) -> None:
     assert moved({"a": pose}, {"a": HOME}) == ({"a": pose} if is_moved else {})
 
 
@@ -40,11 +40,11 @@ def test_bounds_may_be_set() -> None:
     assert moved({"a": turned(0.1)}, {"a": HOME}, by_rad=0.2) == {}
 
 
-def test_what_is_new_has_moved_and_what_is_gone_has_not() -> None:
+def test_new_objects_count_as_moved_and_missing_objects_do_not() -> None:
     assert moved({"a": HOME, "b": HOME}, {"a": HOME, "c": HOME}) == {"b": HOME}
 
 
-def test_slow_motion_adds_up_when_only_what_moved_is_kept() -> None:
+def test_slow_motion_is_detected_against_the_last_reported_pose() -> None:
     known, n_moves = {"a": Pose()}, 0
     for step in range(100):
         changed = moved({"a": Pose((step * 3e-5, 0, 0))}, known)

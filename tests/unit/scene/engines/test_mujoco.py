@@ -68,7 +68,7 @@ def union(bounds: list[NDArray[np.float64]]) -> NDArray[np.float64]:
     return np.array([np.min([low for low, _ in bounds], axis=0), np.max([high for _, high in bounds], axis=0)])
 
 
-def test_every_shape_is_where_mujoco_has_it() -> None:
+def test_every_shape_has_the_place_that_mujoco_gives() -> None:
     model, data = load(ALL_SHAPES)
     scene = snapshot(model, data)
     assert scene.name == "shapes"
@@ -104,7 +104,7 @@ def test_meshes_face_outwards_even_if_their_scale_mirrors_them() -> None:
     assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(0.001 + 0.002, rel=1e-6)
 
 
-def test_poses_are_those_of_bodies_and_of_the_worlds_geoms_as_authored() -> None:
+def test_poses_equal_those_of_bodies_and_world_geoms() -> None:
     model, data = load(ALL_SHAPES)
     scene = snapshot(model, data)
     for item in scene.objects:
@@ -119,7 +119,7 @@ def test_poses_are_those_of_bodies_and_of_the_worlds_geoms_as_authored() -> None
     assert corner == pytest.approx((-0.03, 0, 0), abs=1e-6)
 
 
-def test_poses_after_steps_are_those_of_a_new_snapshot() -> None:
+def test_poses_after_steps_equal_a_new_snapshot() -> None:
     model, data = load(ALL_SHAPES)
     before = snapshot(model, data)
     data.qvel[:] = 1.0
@@ -161,7 +161,7 @@ def test_a_plane_is_a_sheet_without_thickness() -> None:
     assert floor.surface.pose.rotation[:, 2] == pytest.approx((0, 0, 1))
 
 
-def test_a_plane_without_end_reaches_under_everything() -> None:
+def test_infinite_plane_extends_below_all_objects() -> None:
     scene = scene_of(
         '<worldbody><geom name="floor" type="plane" size="0 0 1"/>'
         '<body name="far" pos="30 0 1"><geom size="0.1"/></body><body name="near"><geom size="0.1"/></body></worldbody>'
@@ -172,7 +172,7 @@ def test_a_plane_without_end_reaches_under_everything() -> None:
     assert np.isfinite(scene.object("floor").geometry.mesh.vertices_m).all()
 
 
-def test_things_on_a_plane_touch_it() -> None:
+def test_objects_on_a_plane_touch_it() -> None:
     scene = scene_of(
         '<worldbody><geom name="floor" type="plane" size="0 0 1"/>'
         '<body name="crate" pos="0 0 0.25"><geom type="box" size="0.25 0.25 0.25"/></body></worldbody>'
@@ -180,7 +180,7 @@ def test_things_on_a_plane_touch_it() -> None:
     assert ContactGraph(scene).neighbours("crate") == ("floor",)
 
 
-def test_the_engines_contacts_are_taken_when_asked_for() -> None:
+def test_engine_contacts_are_used_on_request() -> None:
     scene = snapshot(*load(RESTING), contacts="engine")
     assert scene.contacts is not None
     (contact,) = scene.contacts  # none of the body that cannot move
@@ -198,18 +198,18 @@ def test_contacts_are_found_from_geometry_otherwise() -> None:
     assert ContactGraph(scene).neighbours("floor") == ("ball", "still")
 
 
-def test_contacts_of_what_is_not_drawn_are_left_out() -> None:
+def test_contacts_of_hidden_geoms_are_left_out() -> None:
     hidden = RESTING.replace('type="plane"', 'type="plane" group="3"')
     assert snapshot(*load(hidden), contacts="engine").contacts == ()
 
 
-def test_a_missing_engine_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_mujoco_error_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mujoco", None)
     with pytest.raises(MissingExtra, match=r"pip install 'scene2hap\[mujoco\]'"):
         snapshot(None, None)
 
 
-def test_wrong_arguments_are_told() -> None:
+def test_wrong_arguments_are_refused() -> None:
     model, data = load(RESTING)
     with pytest.raises(SceneError, match=r"model is a MjData and data a MjModel; they must be mujoco\.MjModel"):
         snapshot(data, model)
@@ -223,7 +223,7 @@ def test_wrong_arguments_are_told() -> None:
         scene_of('<worldbody><body name="a"/></worldbody>')
 
 
-def test_a_simulation_that_blew_up_is_told() -> None:
+def test_diverged_simulation_is_refused() -> None:
     model, data = load(RESTING)
     data.xpos[1] = np.nan
     with pytest.raises(SceneError, match="must be finite"):

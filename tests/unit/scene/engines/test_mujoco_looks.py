@@ -17,7 +17,7 @@ def png(pixels: list[list[tuple[int, int, int]]]) -> bytes:
     return stream.getvalue()
 
 
-def test_colours_are_the_geoms_own_or_their_materials() -> None:
+def test_geom_colour_overrides_material_colour() -> None:
     scene = scene_of(
         '<asset><material name="red" rgba="2 0 0 1"/></asset><worldbody>'
         '<body name="a"><geom size="1" material="red"/>'
@@ -32,7 +32,7 @@ def test_colours_are_the_geoms_own_or_their_materials() -> None:
     assert b.materials[0].color_rgba == (0.5, 0.5, 0.5, 1)
 
 
-def test_a_texture_lies_on_a_mesh_as_its_file_says() -> None:
+def test_mesh_texture_follows_the_coordinates_of_the_file() -> None:
     quarters = [[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (255, 255, 255)]]
     scene = scene_of(
         '<asset><mesh name="wedge" file="wedge.obj"/><mesh name="other" file="wedge.obj" scale="-1 1 1"/>'
@@ -59,7 +59,7 @@ def test_a_texture_lies_on_a_mesh_as_its_file_says() -> None:
     np.testing.assert_allclose(look.uv[at_origin], [(0.25, 0.25)] * 6)
 
 
-def test_without_texture_coordinates_a_texture_is_its_mean_colour() -> None:
+def test_texture_without_coordinates_becomes_its_mean_colour() -> None:
     halves = [[(255, 0, 0)] * 2, [(0, 0, 255)] * 2]
     scene = scene_of(
         '<asset><texture name="t" type="2d" file="t.png"/><material name="m" texture="t" rgba="1 1 0.5 1"/></asset>'

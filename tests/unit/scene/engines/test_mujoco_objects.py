@@ -1,4 +1,4 @@
-"""What is an object in a MuJoCo model, and what it is called."""
+"""Objects of a MuJoCo model, and their names."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def names(scene: SceneSnapshot) -> dict[str, str]:
     return {item.id: item.name for item in scene.objects}
 
 
-def test_doors_and_knobs_are_objects_and_bodies_without_geoms_are_looked_through() -> None:
+def test_jointed_bodies_are_objects_and_bodies_without_geoms_are_skipped() -> None:
     scene = scene_of(
         '<worldbody><body name="room"><body name="cabinet"><geom size="1"/>'
         '<body name="door"><joint/><geom size="0.5"/><body name="knob"><geom size="0.1"/></body></body></body>'
@@ -24,7 +24,7 @@ def test_doors_and_knobs_are_objects_and_bodies_without_geoms_are_looked_through
     assert names(scene) == {name: name for name in ("cabinet", "door", "knob", "shelf")}
 
 
-def test_a_wrapper_lends_its_name_to_the_only_thing_in_it() -> None:
+def test_body_without_geoms_gives_its_name_to_its_only_child() -> None:
     scene = scene_of(
         '<worldbody><body name="microwave"><body name="microroot"><geom size="1"/>'
         '<body name="microdoor"><joint/><geom size="0.5"/></body></body></body>'
@@ -37,7 +37,7 @@ def test_a_wrapper_lends_its_name_to_the_only_thing_in_it() -> None:
     }  # fmt: skip
 
 
-def test_what_has_no_name_is_told_by_where_it_is() -> None:
+def test_unnamed_bodies_get_ids_from_their_place_in_the_tree() -> None:
     xml = (
         '<asset><mesh name="wedge" file="wedge.obj"/></asset>'
         '<worldbody><geom type="plane" size="1 1 1"/><geom name="wall" type="box" size="1 1 1"/>'
@@ -58,12 +58,12 @@ def test_what_has_no_name_is_told_by_where_it_is() -> None:
     assert [item.geometry for item in again.objects] == [item.geometry for item in scene.objects]
 
 
-def test_a_body_and_a_geom_of_one_name_are_told_apart() -> None:
+def test_body_and_geom_with_one_name_get_different_ids() -> None:
     scene = scene_of('<worldbody><geom name="a" size="1"/><body name="a"><geom size="2"/></body></worldbody>')
     assert {item.id: round(item.bounds_m[1, 0]) for item in scene.objects} == {"a": 2, "a#2": 1}
 
 
-def test_geoms_that_cannot_collide_are_the_looks_of_a_body() -> None:
+def test_geoms_without_collision_give_the_appearance_of_a_body() -> None:
     body = (
         '<worldbody><body name="drawer">'
         '<geom size="1" group="1" contype="0" conaffinity="0"/><geom size="2" group="4" contype="0" conaffinity="1"/>'
@@ -83,7 +83,7 @@ def test_geoms_that_cannot_collide_are_the_looks_of_a_body() -> None:
         radii(geom_groups=4)
 
 
-def test_of_the_worlds_geoms_hidden_walls_are_left_out() -> None:
+def test_hidden_world_geoms_are_left_out() -> None:
     scene = scene_of(
         '<worldbody><geom name="floor" size="1"/><geom name="hidden" size="1" group="3"/>'
         '<geom name="poster" size="1" group="3" contype="0" conaffinity="0"/></worldbody>'

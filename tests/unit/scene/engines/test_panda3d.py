@@ -83,7 +83,7 @@ def volume(item: SceneObject) -> float:
 # -- geometry and places ---------------------------------------------------------------------------------------------
 
 
-def test_objects_stand_where_panda_has_them() -> None:
+def test_objects_have_the_place_that_panda3d_gives() -> None:
     render = graph()
     scene = snapshot(render)
     assert (scene.name, scene.up_axis, scene.contacts) == ("render", "z", None)
@@ -94,7 +94,7 @@ def test_objects_stand_where_panda_has_them() -> None:
         np.testing.assert_allclose(item.bounds_m, expected, atol=1e-5)
 
 
-def test_scale_and_mirroring_are_in_the_meshes_which_face_outwards() -> None:
+def test_meshes_contain_scale_and_mirroring_and_face_outwards() -> None:
     scene = snapshot(graph())
     table = 1.2 * 0.8 * 0.04 + 0.06 * 0.06 * 0.7
     volumes = {item.id: volume(item) for item in scene.objects}
@@ -111,7 +111,7 @@ def test_instances_share_a_mesh() -> None:
     np.testing.assert_allclose(np.subtract(other.pose.position_m, cup.pose.position_m), (0, 4, 0), atol=1e-6)
 
 
-def test_a_part_of_a_graph_is_read_in_the_coordinates_of_its_top() -> None:
+def test_subgraph_has_the_coordinates_of_the_whole_graph() -> None:
     render = graph()
     part = snapshot(render.find("holder"))
     assert [item.id for item in part.objects] == ["holder"]
@@ -128,7 +128,7 @@ def test_the_grouping_rule_is_that_of_the_loaders() -> None:
         snapshot(render, group={"chair": "chair"})
 
 
-def test_things_that_stand_on_each_other_touch() -> None:
+def test_stacked_objects_touch() -> None:
     render = core.NodePath("render")
     attach(render, "crate")
     attach(render, "box").set_pos(0.2, 0.2, 1)
@@ -189,7 +189,7 @@ def test_hidden_nodes_and_coarser_levels_are_left_out() -> None:
     np.testing.assert_allclose(scene.object("lamp").bounds_m[1], (1, 1, 1), atol=1e-6)
 
 
-def test_a_loaded_model_is_called_by_its_file() -> None:
+def test_loaded_model_is_named_after_its_file() -> None:
     render = core.NodePath("render")
     model = render.attach_new_node(core.ModelRoot("reading lamp.egg.pz"))
     attach(model, "Cube.001")
@@ -199,7 +199,7 @@ def test_a_loaded_model_is_called_by_its_file() -> None:
 # -- poses -----------------------------------------------------------------------------------------------------------
 
 
-def test_poses_at_rest_are_those_of_the_snapshot() -> None:
+def test_poses_at_rest_equal_those_of_the_snapshot() -> None:
     render = graph()
     scene = snapshot(render)
     at_rest = {item.id: item.pose for item in scene.objects}
@@ -225,14 +225,14 @@ def test_poses_follow_the_nodes(moved: str) -> None:
         np.testing.assert_allclose([points.min(axis=0), points.max(axis=0)], expected, atol=1e-5)
 
 
-def test_a_node_inside_its_wrapper_is_followed() -> None:
+def test_inner_node_of_a_wrapper_is_followed() -> None:
     render = graph()
     scene, moving = snapshot(render), nodes(render)
     render.find("holder").get_child(0).set_z(1.0)
     assert poses(moving, scene)["holder"].position_m[2] == pytest.approx(1.0)
 
 
-def test_what_was_removed_has_no_pose() -> None:
+def test_removed_node_has_no_pose() -> None:
     render = graph()
     scene, moving = snapshot(render), nodes(render)
     moving["table"].remove_node()
@@ -252,7 +252,7 @@ def picture() -> Any:
     return texture
 
 
-def test_a_texture_lies_as_panda_lays_it() -> None:
+def test_texture_coordinates_follow_those_of_panda3d() -> None:
     render = core.NodePath("render")
     card = core.CardMaker("card")
     card.set_frame(0, 1, 0, 1)
@@ -301,13 +301,13 @@ def test_colours_come_from_states_materials_and_vertices() -> None:
 # -- what cannot be read ---------------------------------------------------------------------------------------------
 
 
-def test_a_missing_engine_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_panda3d_error_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "panda3d.core", None)
     with pytest.raises(MissingExtra, match=r"pip install 'scene2hap\[panda3d\]'"):
         snapshot(None)
 
 
-def test_wrong_arguments_are_told() -> None:
+def test_wrong_arguments_are_refused() -> None:
     with pytest.raises(SceneError, match="it must be a panda3d.core.NodePath"):
         snapshot("render")
     with pytest.raises(SceneError, match="it must be a panda3d.core.NodePath with a node"):
@@ -318,7 +318,7 @@ def test_wrong_arguments_are_told() -> None:
         snapshot(graph(), up_axis="x")  # type: ignore[arg-type]
 
 
-def test_broken_vertices_are_named() -> None:
+def test_error_names_broken_vertices() -> None:
     render = core.NodePath("render")
     attach(render, "dust", geom([(float("nan"), 0, 0), *CORNERS[1:]]))
     with pytest.raises(SceneError, match="node 'dust', geom 0: vertex 0 is"):

@@ -1,6 +1,6 @@
-"""Child of the servers' family: ask a server once, or read a sound; end with 0 or with one sentence of ours.
+"""Child process of the servers' family: query a server once, or read a sound. Exits with 0 or a one-line error.
 
-python ask.py openai|ollama|page|sound WHERE
+python query.py openai|ollama|page|sound WHERE
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _WITHOUT_KEY = ("page", "sound")
 
 
 def main(kind: str, where: str) -> None:
-    """Ask; the answer is shown, as a log would show it."""
+    """Query a server, or read a sound, and print the reply as a log would."""
     if kind == "sound":
         from scene2hap.audio.files import read_clip
 
@@ -46,11 +46,11 @@ if __name__ == "__main__":
     try:
         main(*sys.argv[1:])
     except Scene2HapError as error:
-        told = "".join(traceback.format_exception(error)) + getattr(error, "raw_text", "")
-        # A page or a sound is asked for without a key, so that the library has none to look for.
+        shown = "".join(traceback.format_exception(error)) + getattr(error, "raw_text", "")
+        # Pages and sounds are requested without a key, so that the library has none to mask.
         if sys.argv[1] not in _WITHOUT_KEY and any(
-            is_shown(name, told) for name in SPELLINGS if name not in NOT_COVERED
+            is_shown(name, shown) for name in SPELLINGS if name not in NOT_COVERED
         ):
-            sys.exit(f"the key is shown: {told}")
+            sys.exit(f"the key is shown: {shown}")
         print(f"scene2hap: error: {printable(str(error))[:2000]}", file=sys.stderr)
         sys.exit(1)
