@@ -63,7 +63,7 @@ class Figure:
 
 
 FIGURES = {
-    "structure-rooms": Figure("structure", "benchmarks/structure.py --part table", 0.1),
+    "structure-packages": Figure("structure", "benchmarks/structure.py --part table", 0.1),
     "structure-way": Figure("structure", "benchmarks/structure.py --part way", 0.5),
     "structure-pictures": Figure("structure", "benchmarks/structure.py --part tree", 0.1),
     "surfaces": Figure("surfaces", "benchmarks/surfaces.py", 1, needs="scenes"),

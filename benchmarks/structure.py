@@ -1,10 +1,10 @@
-"""The package's structure at two commits: size, import cycles and fan-in of each room; files used for a gain.
+"""The package's structure at two commits: size, import cycles and fan-in of each package; files used for a gain.
 
 python benchmarks/structure.py [--before 01b76f5] [--after HEAD] [--part table|way|tree]
 
-A room is a module or package directly below `scene2hap`. Imports are read from the source, those below `TYPE_CHECKING`
+A package here is a module or package directly below `scene2hap`. Imports are read from the source, those below `TYPE_CHECKING`
 and inside functions included. A cycle is a set of modules that import each other, directly or through others; fan-in
-is the number of modules outside the room that import it.
+is the number of modules outside the package that import it.
 
 The way from a `SceneSnapshot` to a gain is traced with `sys.setprofile` in a fresh process: a session over the demo
 bundle is made, and updated with a touch and a moved object. Counted are the files whose functions are called. Kernels
@@ -87,8 +87,8 @@ class Source:
             self.imports.add_edges_from((name, found) for found in self._imported(name, path) if found != name)
 
     @property
-    def rooms(self) -> list[str]:
-        return sorted({room_of(name) for name in self.files if name != PACKAGE})
+    def packages(self) -> list[str]:
+        return sorted({package_of(name) for name in self.files if name != PACKAGE})
 
     def _name(self, path: Path, root: Path) -> str:
         parts = path.relative_to(root.parent).with_suffix("").parts
@@ -107,31 +107,31 @@ class Source:
                     elif module in self.files:
                         yield module
 
-    def cycles(self, room: str) -> list[list[str]]:
-        """Sets of modules of a room that import each other, in alphabetical order."""
-        inside = self.imports.subgraph(name for name in self.files if room_of(name) == room)
+    def cycles(self, package: str) -> list[list[str]]:
+        """Sets of modules of a package that import each other, in alphabetical order."""
+        inside = self.imports.subgraph(name for name in self.files if package_of(name) == package)
         return sorted(sorted(each) for each in nx.strongly_connected_components(inside) if len(each) > 1)
 
-    def fan_in(self, room: str) -> int:
-        return len({a for a, b in self.imports.edges if room_of(b) == room != room_of(a) and a != PACKAGE})
+    def fan_in(self, package: str) -> int:
+        return len({a for a, b in self.imports.edges if package_of(b) == package != package_of(a) and a != PACKAGE})
 
-    def lines(self, room: str) -> tuple[int, int]:
+    def lines(self, package: str) -> tuple[int, int]:
         """Lines of Python and of Cython."""
-        python = sum(count(path) for name, path in self.files.items() if room_of(name) == room)
-        cython = sum(count(path) for path in self.compiled if path.relative_to(self.root).parts[0] == room)
+        python = sum(count(path) for name, path in self.files.items() if package_of(name) == package)
+        cython = sum(count(path) for path in self.compiled if path.relative_to(self.root).parts[0] == package)
         return python, cython
 
     def room_graph(self) -> nx.DiGraph:
         graph = nx.DiGraph()
-        graph.add_nodes_from(self.rooms)
+        graph.add_nodes_from(self.packages)
         for a, b in self.imports.edges:
-            if PACKAGE not in (a, b) and room_of(a) != room_of(b):
-                graph.add_edge(room_of(a), room_of(b))
+            if PACKAGE not in (a, b) and package_of(a) != package_of(b):
+                graph.add_edge(package_of(a), package_of(b))
         return graph
 
-    def levels(self, room: str) -> list[list[str]]:
-        """Modules of a room by level, those that import nothing of the room first; braces enclose a cycle."""
-        inside = self.imports.subgraph(name for name in self.files if room_of(name) == room)
+    def levels(self, package: str) -> list[list[str]]:
+        """Modules of a package by level, those that import nothing of the package first; braces enclose a cycle."""
+        inside = self.imports.subgraph(name for name in self.files if package_of(name) == package)
         merged = nx.condensation(inside)
         level: dict[int, int] = {}
         for each in reversed(list(nx.topological_sort(merged))):
@@ -139,12 +139,12 @@ class Source:
         rows: dict[int, list[str]] = defaultdict(list)
         for each, at in level.items():
             members = merged.nodes[each]["members"]
-            names = sorted(name.partition(f"{PACKAGE}.{room}.")[2] or "__init__" for name in members)
+            names = sorted(name.partition(f"{PACKAGE}.{package}.")[2] or "__init__" for name in members)
             rows[at].append(names[0] if len(names) == 1 else "{" + " ".join(names) + "}")
         return [sorted(rows[at]) for at in sorted(rows)]
 
 
-def room_of(name: str) -> str:
+def package_of(name: str) -> str:
     return name.split(".")[1] if "." in name else name
 
 
@@ -174,28 +174,28 @@ def way(package: Path) -> dict[str, set[str]]:
 
 
 def table(before: Source, after: Source) -> None:
-    print("| room | modules | lines of Python | of Cython | modules in cycles | fan-in |\n|---|---|---|---|---|---|")
+    print("| package | modules | lines of Python | of Cython | modules in cycles | fan-in |\n|---|---|---|---|---|---|")
     totals = [Counter[int](), Counter[int]()]
-    for room in sorted({*before.rooms, *after.rooms}):
+    for package in sorted({*before.packages, *after.packages}):
         cells = []
         for source, total in zip((before, after), totals, strict=True):
-            n = sum(room_of(name) == room for name in source.files if name != PACKAGE)
-            found = [n, *source.lines(room), sum(map(len, source.cycles(room))), source.fan_in(room)]
+            n = sum(package_of(name) == package for name in source.files if name != PACKAGE)
+            found = [n, *source.lines(package), sum(map(len, source.cycles(package))), source.fan_in(package)]
             cells.append(found if n else None)
             total.update(dict(enumerate(found)))
-        print(f"| `{room}` | " + " | ".join(pairs(*cells)) + " |")
+        print(f"| `{package}` | " + " | ".join(pairs(*cells)) + " |")
     both = [[total[i] for i in range(4)] for total in totals]
     print("| all | " + " | ".join(pairs(*both)) + " | |")
     for title, source in (("before", before), ("after", after)):
         rings = [each for each in nx.strongly_connected_components(source.room_graph()) if len(each) > 1]
-        print(f"\nCycles of whole rooms {title}: {'; '.join(', '.join(sorted(each)) for each in rings) or 'none'}.")
-        rings = [ring for room in source.rooms for ring in source.cycles(room)]
+        print(f"\nCycles of whole packages {title}: {'; '.join(', '.join(sorted(each)) for each in rings) or 'none'}.")
+        rings = [ring for package in source.packages for ring in source.cycles(package)]
         inside = [", ".join(name.partition(".")[2] for name in ring) for ring in rings]
-        print(f"Cycles inside rooms {title}: {'; '.join(inside) or 'none'}.")
+        print(f"Cycles inside packages {title}: {'; '.join(inside) or 'none'}.")
 
 
 def pairs(before: list[int] | None, after: list[int] | None) -> list[str]:
-    """Cells "before → after", one figure where nothing changed, a dash where the room does not exist."""
+    """Cells "before → after", one figure where nothing changed, a dash where the package does not exist."""
     if before is None or after is None:
         return [f"- → {b:,}" if before is None else f"{b:,} → -" for b in before or after or []]
     return [f"{a:,}" if a == b else f"{a:,} → {b:,}" for a, b in zip(before, after, strict=True)]
@@ -212,25 +212,25 @@ def print_way(before: Path, after: Path) -> None:
         print(f"| {part} | {len(ways[0][phase])} | {len(ways[1][phase])} |")
     everything = [set().union(*each.values()) for each in ways]
     print(f"| all together | {len(everything[0])} | {len(everything[1])} |\n")
-    rooms = [Counter(name.partition("/")[0].removesuffix(".py") for name in each) for each in everything]
-    print("| room | files before | files after |\n|---|---|---|")
-    for room in sorted({*rooms[0], *rooms[1]}):
-        print(f"| `{room}` | {rooms[0][room]} | {rooms[1][room]} |")
+    packages = [Counter(name.partition("/")[0].removesuffix(".py") for name in each) for each in everything]
+    print("| package | files before | files after |\n|---|---|---|")
+    for package in sorted({*packages[0], *packages[1]}):
+        print(f"| `{package}` | {packages[0][package]} | {packages[1][package]} |")
 
 
 def print_tree(before: Source, after: Source) -> None:
     for title, source in (("before", before), ("after", after)):
         graph = source.room_graph()
-        print(f"Rooms {title}; an arrow means imports, and arrows that follow from others are left out.\n\n```mermaid")
+        print(f"Packages {title}; an arrow means imports, and arrows that follow from others are left out.\n\n```mermaid")
         print("flowchart TD")
         drawn = nx.transitive_reduction(graph) if nx.is_directed_acyclic_graph(graph) else graph
         for a, b in sorted(drawn.edges):
             print(f"    {a} --> {b}")
         print("```\n")
-    for room in ("contact", "session"):
+    for package in ("contact", "session"):
         for title, source in (("before", before), ("after", after)):
-            print(f"Modules of `{room}` {title}; each row imports rows below it, and braces enclose a cycle.\n\n```")
-            for row in reversed(source.levels(room)):
+            print(f"Modules of `{package}` {title}; each row imports rows below it, and braces enclose a cycle.\n\n```")
+            for row in reversed(source.levels(package)):
                 print("  ".join(row))
             print("```\n")
 

@@ -8,7 +8,7 @@ import pytest
 
 PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
-# Bottom to top; rooms of one row never import each other.
+# Bottom to top; packages of one row never import each other.
 LAYERS = [
     {"errors", "printable", "quiet_logs"},
     {"checks", "compiled", "echoes"},
@@ -32,12 +32,12 @@ LAYERS = [
     {"cli"},
     {"__main__"},
 ]
-HEIGHT = {room: height for height, rooms in enumerate(LAYERS) for room in rooms}
+HEIGHT = {package: height for height, packages in enumerate(LAYERS) for package in packages}
 PLAY_SIDE = ("session", "touch_track", "track_player", "render", "devices", "propagation", "contact")
 DESIGN_TIME_ONLY = ("scene2hap.llm", "scene2hap.baking", "scene2hap.audio.sources", "scene2hap.web", "httpx", "trimesh")
 
 
-def room_of(path: Path) -> str:
+def package_of(path: Path) -> str:
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
@@ -56,20 +56,20 @@ def imports_of(path: Path) -> set[str]:
 SOURCES = [path for path in sorted(PACKAGE.rglob("*.py")) if path != PACKAGE / "__init__.py"]
 
 
-def test_every_room_has_a_layer() -> None:
-    assert {room_of(path) for path in SOURCES} <= set(HEIGHT)
+def test_every_package_has_a_layer() -> None:
+    assert {package_of(path) for path in SOURCES} <= set(HEIGHT)
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_imports_point_down(path: Path) -> None:
-    here = room_of(path)
+    here = package_of(path)
     for name in imports_of(path):
         parts = name.split(".")
         if parts[0] == "scene2hap" and len(parts) > 1 and parts[1] in HEIGHT and parts[1] != here:
             assert HEIGHT[parts[1]] < HEIGHT[here], f"{here} must not import {name}"
 
 
-@pytest.mark.parametrize("path", [p for p in SOURCES if room_of(p) in PLAY_SIDE], ids=lambda p: p.name)
+@pytest.mark.parametrize("path", [p for p in SOURCES if package_of(p) in PLAY_SIDE], ids=lambda p: p.name)
 def test_the_playing_side_reaches_no_network(path: Path) -> None:
     for name in imports_of(path):
         assert not name.startswith(DESIGN_TIME_ONLY), f"{path.name} imports {name}"
@@ -77,7 +77,7 @@ def test_the_playing_side_reaches_no_network(path: Path) -> None:
 
 def test_sound_sources_are_imported_at_design_time_alone() -> None:
     users = {
-        room_of(path)
+        package_of(path)
         for path in SOURCES
         if "sources" not in path.parts and any(name.startswith("scene2hap.audio.sources") for name in imports_of(path))
     }
