@@ -170,7 +170,8 @@ class _Needs:
         """Return the first candidate that reaches the level, or the one that comes nearest, and its error [dB]."""
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
-            band, n, peak = self._band(own_hz)
+            band, n = self._band(own_hz)
+            peak = _peak(band, n)
             rate_hz = self._rate_hz * n / self._n
             reached_db = felt_level_of_spectrum_db(n * band, n, rate_hz, self._actuator) - 20 * np.log10(peak)
             crest_db = self._level_db - reached_db - float(drive_db(own_hz, self._level_db, self._actuator))
@@ -184,9 +185,9 @@ class _Needs:
 
     def carried(self, own_hz: float) -> Anchor:
         """Return the anchor of a band that is shifted to the best frequency of the actuator; its crest stays."""
-        band, _, peak = self._band(own_hz)
+        band, n = self._band(own_hz)
         rms = float(np.sqrt(2.0 * np.sum(np.abs(band) ** 2)))
-        crest_db = 20.0 * float(np.log10(peak / (np.sqrt(2.0) * rms)))
+        crest_db = 20.0 * float(np.log10(_peak(band, n) / (np.sqrt(2.0) * rms)))
         return Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator))
 
     def missed_db(self, anchor: Anchor) -> float:
@@ -199,14 +200,10 @@ class _Needs:
         one, other = (float(np.sum(np.abs(self._band(hz)[0]) ** 2)) for hz in (one_hz, other_hz))
         return 10.0 * float(np.log10(max(one, 1e-300) / max(other, 1e-300)))
 
-    def _band(self, own_hz: float) -> tuple[NDArray[np.complex128], int, float]:
-        """Return the spectrum of a band divided by its number of samples, that number, and the peak of the band.
-
-        The number is no larger than the peak needs.
-        """
+    def _band(self, own_hz: float) -> tuple[NDArray[np.complex128], int]:
+        """Return the spectrum of a band divided by its number of samples, and that number, which its peak needs."""
         n = min(scipy.fft.next_fast_len(2 * self._n_bins(own_hz), real=True), self._n)
-        band = self._spectrum[: n // 2 + 1] * _band(self._f[: n // 2 + 1], own_hz)
-        return band, n, n * float(np.abs(scipy.fft.irfft(band, n)).max())
+        return self._spectrum[: n // 2 + 1] * _band(self._f[: n // 2 + 1], own_hz), n
 
     def _n_bins(self, own_hz: float) -> int:
         """Return the number of bins that hold a band: all that can be felt, and all but -50 dB of its energy."""
@@ -230,6 +227,12 @@ def _rough_hz(strongest: Component, found: Anchor, magnitude: Signal, sample_rat
     n = 2 * (len(magnitude) - 1)
     felt_db = 20.0 * float(np.log10(max(magnitude[round(found.frequency_hz * n / sample_rate_hz)], 1e-300)))
     return strongest.hz if strongest.level_db - felt_db >= MISSED_DB else None
+
+
+def _peak(band: NDArray[np.complex128], n: int) -> float:
+    """Return the peak of n samples with this spectrum, divided by n."""
+    x = scipy.fft.irfft(band, n)
+    return n * float(max(x.max(), -x.min()))
 
 
 def _band(f: NDArray[np.float64], own_hz: float) -> NDArray[np.float64]:

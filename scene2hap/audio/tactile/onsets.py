@@ -19,7 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.signal import butter
 
-from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StepEnergies
+from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
+from scene2hap.audio.tactile.step_energies import StepEnergies
 from scene2hap.compiled import compiled
 
 STEP_S = 0.0025
