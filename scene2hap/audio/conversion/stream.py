@@ -174,7 +174,13 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
     if anchor is None:
         return context
-    return replace(context, own_hz=anchor.frequency_hz, target_hz=anchor.carrier_hz, rough_hz=anchor.rough_hz)
+    return replace(
+        context,
+        own_hz=anchor.frequency_hz,
+        target_hz=anchor.carrier_hz,
+        rough_hz=anchor.rough_hz,
+        band_q=anchor.band_q,
+    )
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
