@@ -65,7 +65,12 @@ def judged(clip: AudioClip, kind: str, actuator: str) -> str:
     anchor = anchor_of(clip.samples, rate, sensation_level_db(INTENSITY), profile)
     assert anchor is not None
     context = ConversionContext(
-        profile, INTENSITY, own_hz=anchor.frequency_hz, target_hz=anchor.carrier_hz, rough_hz=anchor.rough_hz
+        profile,
+        INTENSITY,
+        own_hz=anchor.frequency_hz,
+        target_hz=anchor.carrier_hz,
+        rough_hz=anchor.rough_hz,
+        band_q=anchor.band_q,
     )
     heard = clip.samples.astype(np.float64)
     felt = convert_clip(clip, CONVERTERS.build(kind), context).samples.astype(np.float64)

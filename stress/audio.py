@@ -114,7 +114,7 @@ def loops(real: dict[str, tuple[Signal, int]], seed: int, draws: int | None) -> 
         context = ConversionContext(intensity=0.3)
         if anchor is not None:
             places = {"own_hz": anchor.frequency_hz, "target_hz": anchor.carrier_hz, "rough_hz": anchor.rough_hz}
-            context = replace(context, **places)
+            context = replace(context, **places, band_q=anchor.band_q)
         felt = convert_clip(clip, CONVERTERS.build(converter), context).samples.astype(float)
         begin = time.process_time()
         seam = find_seam(heard, rate, felt)

@@ -10,6 +10,9 @@ strongest can reach the level:
 - the strongest is higher, and would be felt more than 6 dB better there, as a beep of 900 Hz: it is shifted;
 - else the component that comes nearest to the level keeps its frequency and is weaker than planned.
 
+A pitch that moves out of the band around it, as that of an engine that revs, gets a band that holds it
+(`moving_pitch`), and the same rules apply to the middle of that.
+
 The drive of a component is computed before any conversion. A band around it, of the shape that the adaptive converter
 keeps, B(f) = 1 / (1 + Q^2 (f / f_0 - f_0 / f)^2), has a sensation level and a peak. The drive of a sine that is felt as
 strongly, plus the band's peak relative to that sine ("crest"), must fit into the head-room of a loop.
@@ -25,8 +28,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.actuators import MAX_BOOST_DB, response_db
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.components import Component, Signal, components, magnitudes, strongest_bands_hz
+from scene2hap.audio.components import LINE_DB, Component, Signal, components, magnitudes, strongest_bands_hz
 from scene2hap.audio.levels import TACTILE_RANGE_HZ, drive_db, felt_level_of_spectrum_db, threshold_db
+from scene2hap.audio.moving_pitch import GROWN_DB, MovingPitch, growth_db, moving_pitch
 from scene2hap.haptics import ActuatorProfile
 
 BAND_Q = 2.0
@@ -63,13 +67,15 @@ class Anchor:
     """A source's own frequency [Hz], and the peak of its band relative to that of an equally felt sine [dB].
 
     rough_hz : the strongest component of the sound, if it is too low for a tone and is kept as roughness, else None
-    [Hz]; carrier_hz : the frequency to which the band is shifted, if it cannot be felt at its own, else None [Hz].
+    [Hz]; carrier_hz : the frequency to which the band is shifted, if it cannot be felt at its own, else None [Hz];
+    band_q : Q of a band that holds a moving pitch, `frequency_hz` in its middle; None for `BAND_Q` [-].
     """
 
     frequency_hz: float
     crest_db: float = 0.0
     rough_hz: float | None = None
     carrier_hz: float | None = None
+    band_q: float | None = None
 
     @property
     def felt_hz(self) -> float:
@@ -101,13 +107,11 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     is_whine = heard[0].hz > RANGE_HZ[1]
     if found is not None and is_whine and needs.above_db(found.frequency_hz, heard[0].hz) < FAINTEST_BELOW_WHINE_DB:
         found, strongest = None, heard[0]  # a hiss: only its lower end is in range
-    if found is None or missed_db > MISSED_DB:
-        carried = needs.carried(strongest.hz)
-        is_slow = strongest.is_line and strongest.hz <= ROUGH_HZ[1]
-        is_rendered = found is not None and float(response_db(actuator, found.frequency_hz)) >= -MAX_BOOST_DB
-        is_too_high = strongest.hz > carried.felt_hz and missed_db - needs.missed_db(carried) > CARRIED_DB
-        if found is None or is_slow or not is_rendered or is_too_high:
-            found = carried
+    found = needs.felt(found, missed_db, strongest)
+    pitch = needs.moving_pitch(found)
+    if pitch is not None:
+        strongest = strongest._replace(hz=pitch.centre_hz, above_noise_db=LINE_DB)
+        found = needs.felt(*needs.first_met([pitch.centre_hz], pitch.q), strongest)
     return replace(found, rough_hz=_rough_hz(strongest, found, magnitude, sample_rate_hz))
 
 
@@ -115,7 +119,8 @@ def band_of(clip: AudioClip, anchor: Anchor) -> NDArray[np.float64]:
     """Return the band (n_samples,) of a clip that the adaptive converter keeps around its anchor."""
     x = clip.samples.astype(np.float64)
     spectrum = scipy.fft.rfft(x - x.mean())
-    spectrum *= _band(scipy.fft.rfftfreq(len(x), 1.0 / clip.sample_rate_hz), anchor.frequency_hz)
+    f = scipy.fft.rfftfreq(len(x), 1.0 / clip.sample_rate_hz)
+    spectrum *= _band(f, anchor.frequency_hz, anchor.band_q or BAND_Q)
     return np.asarray(scipy.fft.irfft(spectrum, len(x)), dtype=np.float64)
 
 
@@ -159,22 +164,23 @@ class _Needs:
     """The drive that bands of a sound need for a sensation level."""
 
     def __init__(self, x: Signal, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
-        self._n, self._rate_hz, self._level_db, self._actuator = len(x), sample_rate_hz, level_db, actuator
+        self._x, self._n, self._rate_hz, self._level_db, self._actuator = x, len(x), sample_rate_hz, level_db, actuator
         self._spectrum = np.asarray(scipy.fft.rfft(x - x.mean()), dtype=np.complex128) / len(x)
         self._f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
         self._power = self._spectrum.real**2 + self._spectrum.imag**2
         # Far above its middle f_0 the energy of a band is that of the sound times (f_0 / f)^4 / Q^4.
         self._above = np.cumsum(self._power[:0:-1] / self._f[:0:-1] ** 4)[::-1]
 
-    def first_met(self, candidates_hz: list[float]) -> tuple[Anchor | None, float]:
+    def first_met(self, candidates_hz: list[float], q: float | None = None) -> tuple[Anchor | None, float]:
         """Return the first candidate that reaches the level, or the one that comes nearest, and its error [dB]."""
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
-            band, n, peak = self._band(own_hz)
+            band, n = self._band(own_hz, q)
+            peak = _peak(band, n)
             rate_hz = self._rate_hz * n / self._n
             reached_db = felt_level_of_spectrum_db(n * band, n, rate_hz, self._actuator) - 20 * np.log10(peak)
             crest_db = self._level_db - reached_db - float(drive_db(own_hz, self._level_db, self._actuator))
-            anchor = Anchor(own_hz, crest_db)
+            anchor = Anchor(own_hz, crest_db, band_q=q)
             missed_db = self.missed_db(anchor)
             if missed_db < best[1]:
                 best = anchor, missed_db
@@ -182,12 +188,42 @@ class _Needs:
                 break
         return best
 
-    def carried(self, own_hz: float) -> Anchor:
+    def felt(self, found: Anchor | None, missed_db: float, strongest: Component) -> Anchor:
+        """Return the anchor, or the strongest component where the actuator is felt best, by the rules above."""
+        if found is not None and missed_db <= MISSED_DB:
+            return found
+        carried = self.carried(strongest.hz, None if found is None else found.band_q)
+        is_slow = strongest.is_line and strongest.hz <= ROUGH_HZ[1]
+        is_rendered = found is not None and float(response_db(self._actuator, found.frequency_hz)) >= -MAX_BOOST_DB
+        is_too_high = strongest.hz > carried.felt_hz and missed_db - self.missed_db(carried) > CARRIED_DB
+        return carried if found is None or is_slow or not is_rendered or is_too_high else found
+
+    def moving_pitch(self, anchor: Anchor) -> MovingPitch | None:
+        """Return the band that holds the sound's pitch, if that leaves the band around the anchor; else None.
+
+        Of a component that is shifted down, only rise and fall are felt, at any pitch.
+        """
+        if anchor.carrier_hz is not None and anchor.carrier_hz < anchor.frequency_hz:
+            return None
+        grown_db = self._growth_db(anchor.frequency_hz)
+        if grown_db <= GROWN_DB:
+            return None
+        range_hz = RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * self._rate_hz)
+        n = min(scipy.fft.next_fast_len(round(2.5 * range_hz[1] * self._n / self._rate_hz), real=True), self._n)
+        low = scipy.fft.irfft(self._spectrum[: n // 2 + 1], n)
+        pitch = moving_pitch(low, self._rate_hz * n / self._n, range_hz, BAND_Q)
+        return pitch if pitch is not None and self._growth_db(*pitch) < 0.5 * grown_db else None
+
+    def _growth_db(self, own_hz: float, q: float | None = None) -> float:
+        band, n = self._band(own_hz, q)
+        return growth_db(self._x - self._x.mean(), scipy.fft.irfft(band, n), self._n / self._rate_hz)
+
+    def carried(self, own_hz: float, q: float | None = None) -> Anchor:
         """Return the anchor of a band that is shifted to the best frequency of the actuator; its crest stays."""
-        band, _, peak = self._band(own_hz)
+        band, n = self._band(own_hz, q)
         rms = float(np.sqrt(2.0 * np.sum(np.abs(band) ** 2)))
-        crest_db = 20.0 * float(np.log10(peak / (np.sqrt(2.0) * rms)))
-        return Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator))
+        crest_db = 20.0 * float(np.log10(_peak(band, n) / (np.sqrt(2.0) * rms)))
+        return Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator), band_q=q)
 
     def missed_db(self, anchor: Anchor) -> float:
         """Return how far an anchor's band stays below the level where it is felt [dB]."""
@@ -199,23 +235,20 @@ class _Needs:
         one, other = (float(np.sum(np.abs(self._band(hz)[0]) ** 2)) for hz in (one_hz, other_hz))
         return 10.0 * float(np.log10(max(one, 1e-300) / max(other, 1e-300)))
 
-    def _band(self, own_hz: float) -> tuple[NDArray[np.complex128], int, float]:
-        """Return the spectrum of a band divided by its number of samples, that number, and the peak of the band.
+    def _band(self, own_hz: float, q: float | None = None) -> tuple[NDArray[np.complex128], int]:
+        """Return the spectrum of a band divided by its number of samples, and that number, which its peak needs."""
+        q = q or BAND_Q
+        n = min(scipy.fft.next_fast_len(2 * self._n_bins(own_hz, q), real=True), self._n)
+        return self._spectrum[: n // 2 + 1] * _band(self._f[: n // 2 + 1], own_hz, q), n
 
-        The number is no larger than the peak needs.
-        """
-        n = min(scipy.fft.next_fast_len(2 * self._n_bins(own_hz), real=True), self._n)
-        band = self._spectrum[: n // 2 + 1] * _band(self._f[: n // 2 + 1], own_hz)
-        return band, n, n * float(np.abs(scipy.fft.irfft(band, n)).max())
-
-    def _n_bins(self, own_hz: float) -> int:
+    def _n_bins(self, own_hz: float, q: float) -> int:
         """Return the number of bins that hold a band: all that can be felt, and all but -50 dB of its energy."""
         low, high, end = (
             min(round(f * self._n / self._rate_hz), len(self._f) - 1)
             for f in (own_hz / 2**0.5, own_hz * 2**0.5, max(_OVERSAMPLED * own_hz, TACTILE_RANGE_HZ[1]))
         )
-        within = float(self._power[low : high + 1] @ _band(self._f[low : high + 1], own_hz) ** 2)
-        while end < len(self._f) - 1 and (own_hz / BAND_Q) ** 4 * self._above[end] > 1e-5 * within:
+        within = float(self._power[low : high + 1] @ _band(self._f[low : high + 1], own_hz, q) ** 2)
+        while end < len(self._f) - 1 and (own_hz / q) ** 4 * self._above[end] > 1e-5 * within:
             end = min(2 * end, len(self._f) - 1)
         return end
 
@@ -232,6 +265,12 @@ def _rough_hz(strongest: Component, found: Anchor, magnitude: Signal, sample_rat
     return strongest.hz if strongest.level_db - felt_db >= MISSED_DB else None
 
 
-def _band(f: NDArray[np.float64], own_hz: float) -> NDArray[np.float64]:
+def _peak(band: NDArray[np.complex128], n: int) -> float:
+    """Return the peak of n samples with this spectrum, divided by n."""
+    x = scipy.fft.irfft(band, n)
+    return n * float(max(x.max(), -x.min()))
+
+
+def _band(f: NDArray[np.float64], own_hz: float, q: float) -> NDArray[np.float64]:
     r = np.maximum(f, 1e-3) / own_hz
-    return np.asarray(1.0 / (1.0 + (BAND_Q * (r - 1.0 / r)) ** 2))
+    return np.asarray(1.0 / (1.0 + (q * (r - 1.0 / r)) ** 2))

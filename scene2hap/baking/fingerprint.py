@@ -54,8 +54,8 @@ def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
     context = plan.context
     # A converter with a given target does not need the other sources' frequencies.
     neighbours_hz = () if context.target_hz is not None else sorted(context.neighbours_hz)
-    rough = [] if context.rough_hz is None else [context.rough_hz]
-    places = [context.own_hz, context.target_hz, plan.level_db, *rough]
+    some = [value for value in (context.rough_hz, context.band_q) if value is not None]
+    places = [context.own_hz, context.target_hz, plan.level_db, *some]
     return {
         "sound": sound_digest(clip),
         "converter": converter,

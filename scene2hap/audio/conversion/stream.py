@@ -19,7 +19,6 @@ from typing import IO
 import numpy as np
 import soundfile
 from numpy.typing import NDArray
-from scipy.signal import lfilter, lfilter_zi
 
 from scene2hap import checks
 from scene2hap.audio.actuators import actuator_profile, is_flat
@@ -38,6 +37,7 @@ from scene2hap.audio.protocol import (
     opened_stream,
 )
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
+from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError, ConfigError
 
 Block = NDArray[np.float32]
@@ -174,7 +174,13 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
     if anchor is None:
         return context
-    return replace(context, own_hz=anchor.frequency_hz, target_hz=anchor.carrier_hz, rough_hz=anchor.rough_hz)
+    return replace(
+        context,
+        own_hz=anchor.frequency_hz,
+        target_hz=anchor.carrier_hz,
+        rough_hz=anchor.rough_hz,
+        band_q=anchor.band_q,
+    )
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
@@ -216,7 +222,7 @@ class _Felt:
     def blocks(self, source: Path, file: soundfile.SoundFile) -> Iterator[Block]:
         """Yield the output of the converter in blocks (n, channels)."""
         stated, n_read = int(file.frames), 0
-        rests = [] if self._raw else [_Rest(self.rate, offset) for offset in self._offsets(file)]
+        rest = None if self._raw else _Rest(self.rate, self._offsets(file))
         while len(block := file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
             if self._mono and block.shape[1] > 1:
                 block = block.mean(axis=1, keepdims=True, dtype=np.float32)
@@ -224,10 +230,8 @@ class _Felt:
             if not math.isfinite(self.before.peak):
                 require_finite(source, block, n_read)
             n_read += len(block)
-            channels = [block[:, i] for i in range(self.channels)]
-            if not self._raw:
-                channels = [rest.taken_out(channel) for rest, channel in zip(rests, channels, strict=True)]
-            yield self._felt([stream.process(x) for stream, x in zip(self._streams, channels, strict=True)])
+            rows = block.T if rest is None else rest.taken_out(block)
+            yield self._felt([stream.process(x) for stream, x in zip(self._streams, rows, strict=True)])
         if n_read == 0:
             raise AudioError(f"{source} has no samples. Use a sound that is longer than 0 s.")
         if n_read < stated and file.format != "MP3":  # the length of an MP3 is an estimate
@@ -276,18 +280,18 @@ class _Felt:
 
 
 class _Rest:
-    """Removes the offset of a recording: a high-pass that starts at the offset of the beginning."""
+    """Removes the offset of a recording: a high-pass that starts at the offset of each channel's beginning."""
 
-    def __init__(self, sample_rate_hz: int, at_first: float) -> None:
+    def __init__(self, sample_rate_hz: int, at_first: list[float]) -> None:
         share = 1.0 / (1.0 + 2.0 * math.pi * _SLOWEST_HZ / sample_rate_hz)
-        self._filter = np.array([share, -share]), np.array([1.0, -share])
-        self._state = lfilter_zi(*self._filter) * at_first
+        self._section = np.array([[share, -share, 0.0, 1.0, -share, 0.0]])
+        self._state = np.zeros((1, len(at_first), 2))
+        self._state[0, :, 0] = -share * np.array(at_first)
 
-    def taken_out(self, samples: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return the next samples (n,) without the offset."""
-        found, self._state = lfilter(*self._filter, samples, zi=self._state)
-        without: NDArray[np.float32] = found.astype(np.float32)
-        return without
+    def taken_out(self, block: Block) -> NDArray[np.float32]:
+        """Return the next frames (n, channels) without the offset, as rows (channels, n)."""
+        rows = np.ascontiguousarray(block.T, dtype=np.float64)
+        return through_sections(self._section, rows, self._state).astype(np.float32)
 
 
 def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, held: IO[bytes]) -> Iterator[Block]:

@@ -1,11 +1,15 @@
-"""The compiled twin of the kernel in `onsets`."""
+"""The compiled twins of the kernels in `onsets`."""
 
 import numpy as np
+
+from libc.math cimport sqrt
 
 from scene2hap.audio.tactile import onsets
 
 cdef double QUIETEST = onsets.QUIETEST, FORGET = onsets.FORGET
-cdef Py_ssize_t WARM = onsets.WARM
+cdef double RISE = onsets.RISE, FAINTEST = onsets.FAINTEST, LOUDER = onsets.LOUDER, SUSTAINED = onsets.SUSTAINED
+cdef Py_ssize_t WARM = onsets.WARM, LOOK = onsets.LOOK, APART = onsets.APART, SPARED = onsets.SPARED
+cdef Py_ssize_t FIRST_AFTER = onsets.AFTER[0], LAST_AFTER = onsets.AFTER[1]
 
 
 def followed(const double[::1] energies, double mean, double loudest, Py_ssize_t n_known):
@@ -24,3 +28,60 @@ def followed(const double[::1] energies, double mean, double loudest, Py_ssize_t
         if energy > loudest:
             loudest = energy
     return means, loudests, mean, loudest
+
+
+cdef struct Onset:
+    double height
+    double left
+    bint is_sustained
+
+
+def onsets_among(
+    const double[:, :] sound,
+    const double[:, :] ticks,
+    Py_ssize_t n,
+    Py_ssize_t n_known,
+    double[::1] memory,
+    bint spares_sustained,
+):
+    cdef Py_ssize_t k
+    cdef double last = memory[0], before = memory[1], height_before = memory[2], since, energy
+    cdef Onset onset
+    found, lowered = [], np.ones(n)
+    cdef double[::1] shares = lowered
+    for k in range(n):
+        if n_known + k >= WARM and (sound[0, k] > RISE * sound[1, k] or ticks[0, k] > RISE * ticks[1, k]):
+            onset.height, onset.left, onset.is_sustained = 0.0, 0.0, False
+            highest(sound, k, spares_sustained, &onset)
+            highest(ticks, k, spares_sustained, &onset)
+            since = n_known + k - last
+            if onset.height > (0.0 if since >= APART else LOUDER * height_before) and not onset.is_sustained:
+                if since >= SPARED:
+                    before = sound[1, k]
+                last, height_before = n_known + k, onset.height
+                found.append((k, onset.height, onset.left))
+        energy = sound[0, k]
+        if n_known + k - last < SPARED and energy > 2.0 * before:
+            shares[k] = sqrt(before / energy)
+    memory[0], memory[1], memory[2] = last, before, height_before
+    return found, lowered
+
+
+cdef void highest(const double[:, :] band, Py_ssize_t k, bint spares_sustained, Onset* onset) noexcept:
+    """Replace an onset by that of this band, if it is higher."""
+    cdef Py_ssize_t i, at = k
+    cdef double most = RISE * band[1, k], after = 0.0
+    most = max(most, QUIETEST, FAINTEST * band[2, k])
+    if band[0, k] <= most:
+        return
+    for i in range(k + 1, k + LOOK + 1):
+        if band[0, i] > band[0, at]:
+            at = i
+    if band[0, at] - band[1, k] <= onset.height:
+        return
+    onset.height, onset.left = band[0, at] - band[1, k], min(band[0, k + LOOK] / band[0, at], 1.0)
+    onset.is_sustained = False
+    if spares_sustained:
+        for i in range(at + FIRST_AFTER, at + LAST_AFTER + 1):
+            after = max(after, band[0, i])
+        onset.is_sustained = after > SUSTAINED * band[0, at]

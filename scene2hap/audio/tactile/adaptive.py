@@ -77,12 +77,14 @@ class Adaptive:
         """Return the filters for a source with this own frequency, and its shift, if any."""
         own_hz = min(own_hz, _HIGHEST * sample_rate_hz)
         target_hz = min(self._target_hz(context, own_hz), _HIGHEST * sample_rate_hz)
-        section = SvfBandpass(own_hz, self.q).section(sample_rate_hz)
-        stages: list[Stage] = [SosStage(np.concatenate([section, section]))]
+        q = min(self.q, context.band_q or self.q)
+        stages: list[Stage] = [band_around(own_hz, q, sample_rate_hz)]
         if target_hz != own_hz:
             # A band from far above would be too wide for the range below its target.
             half_hz = _SHIFTED * (target_hz if target_hz < own_hz / 2.0 else own_hz)
-            stages.append(ShiftStage(own_hz - half_hz, own_hz + half_hz, target_hz - own_hz, sample_rate_hz))
+            # The mirror image of a wide band is further away, in proportion to its middle.
+            high_hz = max(own_hz + half_hz, 0.5 * own_hz * (1.0 / q + (q**-2 + 4.0) ** 0.5) if context.band_q else 0.0)
+            stages.append(ShiftStage(own_hz - half_hz, high_hz, target_hz - own_hz, sample_rate_hz))
         return stages
 
     def _target_hz(self, context: ConversionContext, own_hz: float) -> float:
@@ -93,6 +95,12 @@ class Adaptive:
         level_db = sensation_level_db(context.intensity)
         low, high, _ = reachable_hz(Anchor(own_hz), level_db, context.actuator, self.shift_octaves)
         return clear_of(own_hz, context.neighbours_hz, low, high)
+
+
+def band_around(frequency_hz: float, q: float, sample_rate_hz: float) -> SosStage:
+    """Return two state-variable band-passes in series."""
+    section = SvfBandpass(frequency_hz, q).section(sample_rate_hz)
+    return SosStage(np.concatenate([section, section]))
 
 
 def clear_of(own_hz: float, neighbours_hz: tuple[float, ...], low_hz: float, high_hz: float) -> float:

@@ -16,29 +16,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
 from scipy.signal import butter
 
 from scene2hap.audio.anchor import BAND_Q, best_carrier_hz
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.tactile.adaptive import Adaptive
+from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import Following
 from scene2hap.audio.tactile.onsets import WithOnsets
-from scene2hap.audio.tactile.stages import Chain, Signal, SosStage, Stage, StageStream
-from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.audio.tactile.roughness import Roughened
+from scene2hap.audio.tactile.stages import Chain, SosStage, Stage, StageStream
 
 _CARRIERS_HZ = (100.0, 300.0)
 """Range of carriers [Hz]: a burst of 8 ms still has a frequency, and touch is sensitive."""
-DEPTH = 0.5
-"""Depth of the modulation. It is felt as rough (the least depth of a rhythm is 0.2, see `distinctness`), and its side
-bands stay 12 dB below the bed, so that they do not dominate where touch is more sensitive."""
 _FROM_ABOVE = 1.5
 """Ratio of own to felt frequency above which a source was too high to be felt. Moving sources apart gives at most a
 third of an octave (1.26)."""
-_SLOWER = 4.0
-"""How much slower than a rough component its envelope follows [-]."""
-_NOTHING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -51,11 +44,15 @@ class Auto(Adaptive):
         if beep_hz is not None:
             # Without the octaves below, hum and noise of the room do not fill the pauses of the beep.
             above = butter(2, min(0.5 * beep_hz, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos")
-            bed: Stage = Chain([SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages])
+            stages: list[Stage] = [SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages]
         else:
-            bed = Chain(super().stream(sample_rate_hz, context).stages)
+            stages = [*super().stream(sample_rate_hz, context).stages]
+        bed: Stage = Chain(stages)
         if context.rough_hz is not None:
-            bed = _Roughened(bed, context.rough_hz, sample_rate_hz)
+            # A component that is felt elsewhere, as roughness, is the bed's own band.
+            is_own = context.rough_hz == context.own_hz
+            band = stages[0] if is_own else band_around(context.rough_hz, BAND_Q, sample_rate_hz)
+            bed = Roughened(stages, band, context.rough_hz, sample_rate_hz)
         is_known = context.own_hz is not None
         if is_known:  # the whole sound was analysed, so this is no live stream, and latency is allowed
             bed = Following(bed, sample_rate_hz)
@@ -74,22 +71,3 @@ def carrier_hz(context: ConversionContext) -> float:
     if wanted is not None and _CARRIERS_HZ[0] <= wanted <= _CARRIERS_HZ[-1]:
         return wanted
     return best_carrier_hz(context.actuator)
-
-
-class _Roughened:
-    """A bed that is modulated by a low component of the sound."""
-
-    def __init__(self, bed: Stage, rough_hz: float, sample_rate_hz: float) -> None:
-        section = SvfBandpass(rough_hz, BAND_Q).section(sample_rate_hz)
-        self._bed, self._band = bed, SosStage(np.concatenate([section, section]))
-        self._envelope = SosStage(butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
-
-    def run(self, x: Signal) -> Signal:
-        """Return the modulated bed."""
-        low = self._band.run(x)
-        envelope = np.maximum(self._envelope.run(np.abs(low)) * (0.5 * np.pi), _NOTHING)
-        return np.asarray(self._bed.run(x) * (1.0 + DEPTH * np.clip(low / envelope, -1.0, 1.0)))
-
-    def rest(self) -> Signal:
-        """Return nothing, like the stage of the bed."""
-        return np.empty(0)

@@ -18,7 +18,8 @@ from scipy.signal import butter
 
 from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.tactile.stages import Oscillator, Signal, SosStage, StageStream
+from scene2hap.audio.tactile.oscillator import Oscillator
+from scene2hap.audio.tactile.stages import Signal, SosStage, StageStream
 from scene2hap.errors import ConfigError
 
 BEST_FELT_HZ = 250.0
@@ -57,7 +58,7 @@ class _EnvelopeStage:
     def run(self, x: Signal) -> Signal:
         # Butterworth overshoots, and a negative envelope would turn the carrier's phase.
         envelope = np.maximum(self._smooth.run(np.abs(x)) * (0.5 * math.pi), 0.0)
-        y: Signal = envelope * self._carrier.values(self._position, len(x))[1]
+        y: Signal = self._carrier.times(envelope, self._position)[1]
         self._position += len(x)
         return y
 

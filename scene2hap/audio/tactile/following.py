@@ -14,7 +14,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
-from scene2hap.audio.tactile.stages import Signal, Stage, StepEnergies
+from scene2hap.audio.tactile.stages import Signal, Stage
+from scene2hap.audio.tactile.step_energies import StepEnergies
+from scene2hap.compiled import compiled
 
 STEP_S = 0.01
 FREE_DB = 0.5
@@ -85,9 +87,15 @@ class Following:
         """Return the n - 1 steps between gains (n,), each faded from one gain to the next."""
         n = (len(gains) - 1) * self._step
         y, self._waiting = self._waiting[:n], self._waiting[n:]
-        rising = np.arange(self._step) / self._step
-        ramp = (gains[1:] - gains[:-1])[:, None] * rising
-        ramp += gains[:-1, None]
-        felt = ramp.reshape(-1)
-        felt *= y
-        return felt
+        return faded(y, gains, self._step)
+
+
+@compiled
+def faded(y: Signal, gains: Signal, step: int) -> Signal:
+    """Apply a gain that moves in a straight line from one of gains (n + 1,) to the next in each of n steps of y."""
+    rising = np.arange(step) / step
+    ramp = (gains[1:] - gains[:-1])[:, None] * rising
+    ramp += gains[:-1, None]
+    felt = ramp.reshape(-1)
+    felt *= y
+    return felt

@@ -25,7 +25,8 @@ from scipy.signal import find_peaks
 
 from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.tactile.stages import Oscillator, Signal, StageStream
+from scene2hap.audio.tactile.oscillator import Oscillator
+from scene2hap.audio.tactile.stages import Signal, StageStream
 from scene2hap.errors import ConfigError
 
 _FRAME_S = 4096 / 44_100

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.signal import ellip, ellipord
 
 from scene2hap.audio.clip import Samples
+from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError
 
@@ -117,59 +118,6 @@ class SosStage:
         return np.empty(0)
 
 
-class StepEnergies:
-    """Mean squares of a signal in steps of so many samples, however it is cut."""
-
-    def __init__(self, step: int) -> None:
-        self._step, self._left = step, np.empty(0)
-
-    def next(self, x: Signal) -> Signal:
-        """Of the steps (n,) that are whole with the next samples."""
-        n_first = -len(self._left) % self._step
-        if len(x) < n_first:
-            self._left = np.concatenate([self._left, x])
-            return np.empty(0)
-        first, whole = np.concatenate([self._left, x[:n_first]]), x[n_first:]
-        n = len(whole) // self._step * self._step
-        self._left = whole[n:].copy()
-        steps = [part.reshape(-1, self._step) for part in (first, whole[:n])]
-        return np.concatenate([(part**2).mean(axis=1) for part in steps])
-
-
-class Oscillator:
-    """cos and sin of 2 pi f n / f_s for any range of sample numbers n; phase does not drift over 10^9 samples."""
-
-    _SIZE = 4096
-
-    def __init__(self, frequency_hz: float, sample_rate_hz: float) -> None:
-        self._cycles = frequency_hz / sample_rate_hz
-        angle = 2.0 * np.pi * self._cycles * np.arange(self._SIZE)
-        self._cos, self._sin = np.cos(angle), np.sin(angle)
-        self._table = -1
-        self._values = np.empty((2, self._SIZE))
-
-    def values(self, start: int, n: int) -> Signal:
-        """(2, n): cosine and sine from sample `start` on."""
-        out = np.empty((2, n))
-        done = 0
-        while done < n:
-            table, offset = divmod(start + done, self._SIZE)
-            self._turn_to(table)
-            size = min(n - done, self._SIZE - offset)
-            out[:, done : done + size] = self._values[:, offset : offset + size]
-            done += size
-        return out
-
-    def _turn_to(self, table: int) -> None:
-        if table == self._table:
-            return
-        angle = 2.0 * math.pi * math.fmod(self._cycles * (table * self._SIZE), 1.0)
-        c, s = math.cos(angle), math.sin(angle)
-        self._values[0] = c * self._cos - s * self._sin
-        self._values[1] = s * self._cos + c * self._sin
-        self._table = table
-
-
 class ShiftStage:
     """Single-sideband modulation: moves a band by a number of hertz and keeps its envelope.
 
@@ -203,12 +151,11 @@ class ShiftStage:
         """Equally many samples."""
         if x.size == 0:
             return x
-        mixed = self._down.values(self._position, len(x)) * x
-        z = through_sections(self._sections, mixed, self._state)
+        z = through_sections(self._sections, self._down.times(x, self._position), self._state)
         # The lower oscillator turns backwards, exp(-i...), hence the plus in the product's real part.
-        y = z * self._up.values(self._position, len(x))
+        y = self._up.joined(z, self._position)
         self._position += len(x)
-        return np.asarray(2.0 * (y[0] + y[1]))
+        return np.asarray(2.0 * y)
 
     def rest(self) -> Signal:
         """Nothing."""

@@ -39,3 +39,67 @@ def test_the_mean_and_the_loudest_of_late(seed: int, n_known: int) -> None:
     plain, compiled = (kind(energies, 1e-5, 1e-3, n_known) for kind in kinds)
     for one, other in zip(compiled, plain, strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-13)
+
+
+@steady
+@given(seed=seeds, n_known=st.sampled_from([0, 20, 1000]), spares=st.booleans(), rate=st.sampled_from([0.02, 0.2]))
+def test_onsets_and_how_far_the_bed_is_lowered(seed: int, n_known: int, spares: bool, rate: float) -> None:
+    """Steps of noise with strokes that last for up to eight of them, cut in two."""
+    rng = np.random.default_rng(seed)
+    n, beyond = 300, 8
+    strokes = np.convolve(rng.random(n + beyond) * (rng.random(n + beyond) < rate), np.ones(rng.integers(1, 9)))
+    sound = 1e-4 * rng.uniform(0.2, 2.0, n + beyond) + 0.1 * strokes[: n + beyond]
+    ticks = sound * rng.uniform(0.0, 1.0, n + beyond)
+    follow = both("audio.tactile.onsets.followed")[0]
+    bands = [np.array([band, *follow(band, 1e-4, 1e-3, n_known)[:2]]) for band in (sound, ticks)]
+    answers = []
+    for kernel in both("audio.tactile.onsets.onsets_among"):
+        memory, found, shares = np.array([-24.0, 0.0, 0.0]), [], []
+        for begin, end in ((0, 130), (130, n)):
+            parts = [band[:, begin : end + beyond] for band in bands]
+            onsets, lowered = kernel(*parts, end - begin, n_known + begin, memory, spares)
+            found += [(begin + k, height, left) for k, height, left in onsets]
+            shares.append(lowered)
+        answers.append((found, np.concatenate(shares), memory))
+    (plain, plain_shares, plain_memory), (compiled, compiled_shares, compiled_memory) = answers
+    assert [k for k, *_ in compiled] == [k for k, *_ in plain]
+    np.testing.assert_allclose(np.array(compiled), np.array(plain), rtol=1e-13)
+    np.testing.assert_allclose(compiled_shares, plain_shares, rtol=1e-13)
+    np.testing.assert_allclose(compiled_memory, plain_memory, rtol=1e-13)
+    assert (plain_shares <= 1.0).all()
+
+
+@steady
+@given(seed=seeds, start=st.integers(0, 10**9), n=st.integers(1, 9000))
+def test_products_with_an_oscillator(seed: int, start: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    cycles = float(rng.uniform(1e-4, 0.5))
+    angle = 2.0 * np.pi * cycles * np.arange(4096)
+    table = np.array([np.cos(angle), np.sin(angle)])
+    z = rng.standard_normal((2, n))
+    plain, compiled = (kernel(z[0], table, cycles, start) for kernel in both("audio.tactile.oscillator.multiplied"))
+    np.testing.assert_allclose(compiled, plain, atol=1e-12)
+    plain, compiled = (kernel(z, table, cycles, start) for kernel in both("audio.tactile.oscillator.summed"))
+    np.testing.assert_allclose(compiled, plain, atol=1e-12)
+
+
+@steady
+@given(seed=seeds, step=st.integers(1, 500), n=st.integers(0, 20))
+def test_energies_and_gains_of_steps(seed: int, step: int, n: int) -> None:
+    rng = np.random.default_rng(seed)
+    x, gains = rng.standard_normal(step * n), rng.uniform(0.1, 5.0, n + 1)
+    plain, compiled = (kernel(x, step) for kernel in both("audio.tactile.step_energies.mean_squares"))
+    np.testing.assert_allclose(compiled, plain, rtol=1e-12)
+    plain, compiled = (kernel(x, gains, step) for kernel in both("audio.tactile.following.faded"))
+    np.testing.assert_allclose(compiled, plain, rtol=1e-13)
+
+
+@steady
+@given(seed=seeds)
+def test_modulation_by_a_low_component(seed: int) -> None:
+    """Where the mean is below the least, or below 0 as an overshooting filter makes it, the depth is bounded."""
+    rng = np.random.default_rng(seed)
+    bed, low = rng.standard_normal((2, 500))
+    mean = rng.uniform(-0.1, 1.0, 500) * (rng.random(500) < 0.9)
+    plain, compiled = (kernel(bed, low, mean) for kernel in both("audio.tactile.roughness.modulated"))
+    np.testing.assert_allclose(compiled, plain, rtol=1e-13)

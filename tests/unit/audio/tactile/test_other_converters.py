@@ -12,8 +12,8 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.frequency_shift import FrequencyShift
 from scene2hap.audio.tactile.lowpass import Lowpass
+from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.perception_level import PerceptionLevel, amplitudes
-from scene2hap.audio.tactile.stages import Oscillator
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile
 

@@ -1,0 +1,69 @@
+"""Sounds whose pitch moves, and the band that holds it.
+
+An engine that revs from 40 to 160 Hz leaves any band that is narrow enough for a hum. Levels L of the sound and of a
+band of it are those of half a second, and a range is that from the 5th to the 95th percentile. Where the range of the
+band exceeds that of the sound by more than `GROWN_DB`, and the sound has lines, the band must hold the strongest line
+wherever it goes. With a and b the 5th and the 95th percentile of its frequency, in stretches of half a second:
+
+    centre f_0 = sqrt(a b)        r = b / f_0        Q such that B(b) = 1 / (1 + Q^2 (r - 1 / r)^2) is -3 dB
+
+Then the band takes as much from the range as touch hardly notices.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from scene2hap.audio.components import Signal, components, magnitudes
+
+GROWN_DB = 3.0
+"""Growth of the range by which a band loses the sound [dB]: about the least difference that is felt."""
+STRETCH_S = 0.5
+_LEAST_STRETCHES = 4
+_LEAST_SHARE = 0.5
+"""Least share of stretches with a line in a sound that has a pitch."""
+_LEAST_Q = 0.2
+_LOST_DB = 3.0
+_FAINTEST_DB = -14.0
+
+
+class MovingPitch(NamedTuple):
+    """The band that holds a moving pitch: centre [Hz], and Q of each of two band-passes in series [-]."""
+
+    centre_hz: float
+    q: float
+
+
+def growth_db(sound: Signal, band: Signal, duration_s: float) -> float:
+    """Return by how much the range of a band's level exceeds that of its sound [dB], 0 for a short sound.
+
+    Parameters: sound (n,), band (m,) : of equal duration, at any rates.
+    """
+    n_stretches = int(duration_s / STRETCH_S)
+    if n_stretches < _LEAST_STRETCHES:
+        return 0.0
+    return _range_db(band, n_stretches) - _range_db(sound, n_stretches)
+
+
+def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float], most_q: float) -> MovingPitch | None:
+    """Return the band that holds the strongest line of a sound (n,) in each stretch; None if it has no lines."""
+    size = round(STRETCH_S * sample_rate_hz)
+    stretches = x[: len(x) // size * size].reshape(-1, size)
+    found = [components(magnitudes(one), sample_rate_hz, range_hz, _FAINTEST_DB) for one in stretches]
+    lines_hz = [one[0].hz for one in found if one and one[0].is_line]
+    if len(lines_hz) < max(_LEAST_STRETCHES, _LEAST_SHARE * len(stretches)):
+        return None
+    low, high = (float(hz) for hz in np.percentile(lines_hz, (5, 95)))
+    r = math.sqrt(high / low)
+    lost = math.sqrt(10 ** (_LOST_DB / 20) - 1.0)
+    return MovingPitch(math.sqrt(low * high), min(max(lost / max(r - 1.0 / r, 1e-9), _LEAST_Q), most_q))
+
+
+def _range_db(x: Signal, n_stretches: int) -> float:
+    size = len(x) // n_stretches
+    power = np.square(x[: n_stretches * size].reshape(n_stretches, size)).mean(axis=1)
+    low, high = np.percentile(power, (5, 95))
+    return 10.0 * math.log10(max(float(high), 1e-30) / max(float(low), 1e-30))

@@ -1,0 +1,23 @@
+"""The compiled twin of the kernel in `roughness`."""
+
+import numpy as np
+
+from scene2hap.audio.tactile import roughness
+
+cdef double DEPTH = roughness.DEPTH, NOTHING = roughness.NOTHING, QUARTER_TURN = 0.5 * np.pi
+
+
+def modulated(const double[::1] bed, const double[::1] low, const double[::1] mean):
+    cdef Py_ssize_t i, n = bed.shape[0]
+    cdef double envelope, share
+    cdef double depth = DEPTH, nothing = NOTHING, quarter_turn = QUARTER_TURN
+    found = np.empty(n)
+    cdef double[::1] y = found
+    for i in range(n):
+        envelope = mean[i] * quarter_turn
+        envelope = envelope if envelope > nothing else nothing
+        share = low[i] / envelope
+        share = share if share > -1.0 else -1.0
+        share = share if share < 1.0 else 1.0
+        y[i] = bed[i] * (1.0 + depth * share)
+    return found

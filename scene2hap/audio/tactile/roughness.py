@@ -1,0 +1,48 @@
+"""Roughness: modulate a bed by a low component of its sound."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import butter
+
+from scene2hap.audio.tactile.stages import Chain, Signal, SosStage, Stage
+from scene2hap.compiled import compiled
+
+DEPTH = 0.5
+"""Depth of the modulation. It is felt as rough (the least depth of a rhythm is 0.2, see `distinctness`), and its side
+bands stay 12 dB below the bed, so that they do not dominate where touch is more sensitive."""
+NOTHING = 1e-6
+"""Amplitude below which there is no component (-120 dB re full scale)."""
+_SLOWER = 4.0
+"""How much slower than a rough component its envelope follows [-]."""
+
+
+class Roughened:
+    """A `Stage`: a bed without latency, of stages in series, modulated by what a band around `rough_hz` passes.
+
+    A band that is the bed's first stage is filtered once for both.
+    """
+
+    def __init__(self, bed: Sequence[Stage], band: Stage, rough_hz: float, sample_rate_hz: float) -> None:
+        self._band, self._is_shared = band, bed[0] is band
+        self._bed = Chain(bed[1:] if self._is_shared else bed)
+        self._envelope = SosStage(butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
+
+    def run(self, x: Signal) -> Signal:
+        """Return the modulated bed."""
+        low = self._band.run(x)
+        return modulated(self._bed.run(low if self._is_shared else x), low, self._envelope.run(np.abs(low)))
+
+    def rest(self) -> Signal:
+        """Return nothing, like the stages of the bed."""
+        return np.empty(0)
+
+
+@compiled
+def modulated(bed: NDArray[np.float64], low: NDArray[np.float64], mean: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Modulate a bed (n,) by a low component (n,) over its envelope, from its rectified mean (n,). Returns: (n,)."""
+    envelope = np.maximum(mean * (0.5 * np.pi), NOTHING)
+    return np.asarray(bed * (1.0 + DEPTH * np.clip(low / envelope, -1.0, 1.0)))

@@ -1,0 +1,108 @@
+"""A pitch that moves keeps its level: the band holds it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+
+from scene2hap.audio.actuators import actuator_profile
+from scene2hap.audio.anchor import anchor_of
+from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.conversion import convert, convert_clip
+from scene2hap.audio.felt_loop import SourceClip, plan_scene
+from scene2hap.audio.levels import sensation_level_db
+from scene2hap.audio.moving_pitch import growth_db, moving_pitch
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.adaptive import Adaptive
+from scene2hap.audio.tactile.auto import Auto
+from scene2hap.audio.tactile.stages import Signal
+
+RATE = 16_000
+T = np.arange(16 * RATE) / RATE
+
+
+def engine(low_hz: float, high_hz: float, n_orders: int = 12, seed: int = 3) -> Signal:
+    """Orders of a speed that rises and falls in 8 s, all of constant amplitude, and a little noise."""
+    middle, reach = 0.5 * (low_hz + high_hz), 0.5 * (high_hz - low_hz)
+    phase = 2 * np.pi * np.cumsum(middle - reach * np.cos(2 * np.pi * T / 8)) / RATE
+    x = sum((np.sin(k * phase + k * k) / k for k in range(1, n_orders + 1)), np.zeros(len(T)))
+    sound: Signal = 0.6 * x / np.abs(x).max() + 0.002 * np.random.default_rng(seed).standard_normal(len(T))
+    return sound
+
+
+def range_db(x: Signal, rate: int = RATE) -> float:
+    """From the 5th to the 95th percentile of the level in 0.1 s."""
+    n = rate // 10
+    level = 10 * np.log10((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1) + 1e-12)
+    return float(np.subtract(*np.percentile(level, (95, 5))))
+
+
+@pytest.mark.parametrize("n_orders", [1, 4, 12])
+def test_an_engine_that_revs_keeps_its_range_in_a_file(n_orders: int, tmp_path: Path) -> None:
+    sound = engine(40.0, 160.0, n_orders)
+    soundfile.write(tmp_path / "engine.wav", sound, RATE, subtype="PCM_24")
+    convert(tmp_path / "engine.wav", tmp_path / "felt.wav")
+    felt, _ = soundfile.read(tmp_path / "felt.wav")
+    assert range_db(felt) <= range_db(sound) + 3.0
+
+
+@pytest.mark.parametrize("neighbour_hz", [None, 85.0])
+def test_an_engine_that_revs_keeps_its_range_in_a_scene(neighbour_hz: float | None) -> None:
+    """Also where it is moved away from a neighbour."""
+    sound = engine(50.0, 150.0)
+    sources = [SourceClip(AudioClip(sound.astype(np.float32), RATE), 0.5, "engine")]
+    if neighbour_hz is not None:
+        hum = (0.5 * np.sin(2 * np.pi * neighbour_hz * T)).astype(np.float32)
+        sources.append(SourceClip(AudioClip(hum, RATE), 0.5, "hum", keep=True))
+    context = plan_scene(sources, Auto(), actuator_profile("flat"))[0].context
+    assert context.band_q is not None
+    assert context.own_hz is not None
+    assert context.target_hz is not None
+    assert (abs(context.target_hz - context.own_hz) > 5.0) == (neighbour_hz is not None)
+    felt = convert_clip(sources[0].clip, Auto(), context).samples.astype(float)
+    assert range_db(felt) <= range_db(sound) + 3.0
+
+
+def test_the_band_is_3_db_down_at_the_ends_of_the_pitch() -> None:
+    """A sweep whose pitch is known: its 5th and 95th percentile are 3 dB below the middle of the band."""
+    t = np.arange(20 * RATE) / RATE
+    hz = 60.0 * 4.0 ** (t / 20.0)
+    x = np.sin(2 * np.pi * np.cumsum(hz) / RATE)
+    found = moving_pitch(x, RATE, (20.0, 1000.0), 2.0)
+    assert found is not None
+    low, high = 60.0 * 4.0**0.05, 60.0 * 4.0**0.95
+    assert found.centre_hz == pytest.approx(120.0, rel=0.02)
+    n = RATE
+    impulse = np.zeros(n, dtype=np.float32)
+    impulse[0] = 1.0
+    context = ConversionContext(own_hz=found.centre_hz, band_q=found.q)
+    spectrum = np.abs(np.fft.rfft(Adaptive().stream(RATE, context).process(impulse)))
+    assert 20 * np.log10(spectrum[round(120.0)]) == pytest.approx(0.0, abs=0.1)
+    for edge in (low, high):
+        assert 20 * np.log10(spectrum[round(edge)]) == pytest.approx(-3.0, abs=0.4)
+
+
+@pytest.mark.parametrize("kind", ["steady", "noise", "impulses", "silence"])
+def test_what_has_no_pitch_that_moves_keeps_its_band(kind: str) -> None:
+    rng = np.random.default_rng(4)
+    noise = rng.standard_normal(len(T))
+    sound = {
+        "steady": engine(80.0, 84.0),
+        "noise": 0.2 * noise,
+        "impulses": 0.3 * np.exp(-(T % 0.1) / 1e-3) * noise.clip(-2, 2),
+        "silence": np.zeros(len(T)),
+    }[kind]
+    found = anchor_of(sound, RATE, sensation_level_db(1.0), actuator_profile("flat"))
+    assert found is None or found.band_q is None
+
+
+def test_growth_is_that_of_the_range_of_the_level() -> None:
+    """A band that is half as strong in half of the time: 6 dB more than the sound, at any rate."""
+    sound = np.sin(2 * np.pi * 100.0 * T)
+    band = np.sin(2 * np.pi * 100.0 * T[::4]) * np.where(T[::4] < 8.0, 1.0, 0.5)
+    assert growth_db(sound, band, 16.0) == pytest.approx(20 * np.log10(2.0), abs=0.01)
+    assert growth_db(sound, sound, 16.0) == 0.0
+    assert growth_db(sound[: RATE // 2], band[: RATE // 8], 0.5) == 0.0
