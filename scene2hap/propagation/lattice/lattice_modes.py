@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,7 @@ from scene2hap.propagation.lattice.block_lanczos import largest
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
-from scene2hap.scene.outline import Outline
+from scene2hap.scene.outline import Outline, Ring
 
 if TYPE_CHECKING:
     from scipy.sparse.linalg import SuperLU
@@ -122,18 +122,24 @@ def _of_size_one(plate: Plate) -> tuple[Plate, float]:
     size_m = max(plate.extent_m)
     outline = plate.outline
     if outline is not None:
-        outline = Outline(
+        outline = _outline_of(
             tuple(tuple((round(x / size_m, 9), round(y / size_m, 9)) for x, y in ring) for ring in outline.rings_m)
         )
-    alike = Plate(
-        plate.length_m / size_m,
-        plate.width_m / size_m,
-        1e-3,
-        Material("any", 1e3, 1e9, plate.material.poisson_ratio, 0.0),
-        plate.boundary,
-        outline=outline,
-    )
-    return alike, size_m
+    material = _material_of(plate.material.poisson_ratio)
+    return Plate(
+        plate.length_m / size_m, plate.width_m / size_m, 1e-3, material, plate.boundary, outline=outline
+    ), size_m
+
+
+@lru_cache(maxsize=32)
+def _outline_of(rings_m: tuple[Ring, ...]) -> Outline:
+    """One outline for all plates of a shape, which checks itself once."""
+    return Outline(rings_m)
+
+
+@lru_cache(maxsize=32)
+def _material_of(poisson_ratio: float) -> Material:
+    return Material("any", 1e3, 1e9, poisson_ratio, 0.0)
 
 
 def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:
@@ -199,17 +205,28 @@ def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
     """Modes up to `MARGIN` times a frequency, so many thirds of an octave above that of a half wave along the plate."""
     wanted = MARGIN**2 * (math.pi / max(plate.extent_m)) ** 4 * 4 ** (thirds / 3)
     lattice, factors, shift = _factorised(plate, resolution, wanted)
-    expected = 0 if _is_small(lattice, shift) else n_modes_below(lattice, wanted)
+    if _is_small(lattice, shift):
+        # Some more than wanted: what rounding adds to a value is taken away with the springs' digits.
+        k4, shapes = _over_springs(lattice, _small_shapes(lattice, subset_by_value=(-np.inf, (1 + _BURIED) * wanted)))
+    else:
+        k4, shapes = _all_below(lattice, factors, shift, wanted)
+    kept = max(np.count_nonzero(k4 <= wanted), n_rigid_motions(plate))
+    return LatticeModes(lattice, k4[:kept], shapes[:, :kept], shift, factors)
+
+
+def _all_below(
+    lattice: Lattice, factors: SuperLU, shift_k4: float, wanted: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """k^4 and shapes of all modes below a value, and some more, as `_lowest`."""
+    expected = n_modes_below(lattice, wanted)
     count = max(expected, 7)
     while True:
         count += 1
-        k4, shapes = _lowest(lattice, factors, shift, count)
+        k4, shapes = _lowest(lattice, factors, shift_k4, count)
         enough = k4[-1] > wanted and np.count_nonzero(k4 <= wanted * (1 + 1e-9)) >= expected
         if enough or len(k4) == lattice.n_nodes:
-            break
+            return k4, shapes
         count += count // 5
-    kept = max(np.count_nonzero(k4 <= wanted), n_rigid_motions(plate))
-    return LatticeModes(lattice, k4[:kept], shapes[:, :kept], shift, factors)
 
 
 def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, SuperLU, float]:
@@ -264,8 +281,7 @@ def _lowest(
 
     is_clear = _lost(lattice, shift_k4) < _BURIED
     if _is_small(lattice, shift_k4):
-        stiffness, whole = lattice.stiffness.toarray(), masses.toarray()
-        shapes = eigh(stiffness, whole, driver="gvx", subset_by_index=[0, min(count, n) - 1])[1]
+        shapes = _small_shapes(lattice, subset_by_index=(0, min(count, n) - 1))
     elif count < DENSE_SHARE * n:
         shapes = largest(factors.solve if is_clear else compliance, masses, count)
     elif is_clear:
@@ -273,9 +289,27 @@ def _lowest(
     else:
         dense = masses @ compliance(masses.toarray())
         shapes = eigh((dense + dense.T) / 2, masses.toarray(), driver="gvd")[1][:, : -count - 1 : -1]
-    # The shapes' own modes over the springs (Ritz): exact to the square of what the shapes still miss.
+    return _over_springs(lattice, shapes)
+
+
+def _small_shapes(lattice: Lattice, **subset: Any) -> NDArray[np.float64]:
+    """Shapes (n_nodes, n) of a `subset` (`scipy.linalg.eigh`) of all modes."""
+    from scipy.linalg import eigh
+
+    shapes: NDArray[np.float64] = eigh(
+        lattice.stiffness.toarray(), lattice.masses.toarray(), driver="gvx", check_finite=False, **subset
+    )[1]
+    return shapes
+
+
+def _over_springs(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The shapes' own modes over the springs (Ritz): exact to the square of what the shapes still miss."""
+    from scipy.linalg import eigh
+
+    if not shapes.shape[1]:
+        return np.empty(0), shapes
     stiffness = shapes.T @ lattice.restoring(shapes)
-    k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (masses @ shapes))
+    k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (lattice.masses @ shapes))
     k4[: n_rigid_motions(lattice.plate)] = 0.0
     return k4, shapes @ turned
 

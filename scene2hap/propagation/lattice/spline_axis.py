@@ -31,25 +31,38 @@ _HELD = {"F": 0, "S": 1, "C": 2}
 class SplineAxis:
     """Nodes and springs along one coordinate.
 
-    lines : between cells, rising (n + 1,) [m]; slope, bend : S (n + 2, n + 3) [m^-1] and B (n + 1, n + 3) [m^-2].
+    lines : between cells, rising (n + 1,) [m]; slope : what is not 0 of each row of S (n + 2, 2) [m^-1], from the
+    diagonal on; bend : of B (n + 1, 3) [m^-2].
     """
 
     lines: Floats
-    slope: csr_array
-    bend: csr_array
+    slope: Floats
+    bend: Floats
 
     @classmethod
     def of(cls, lines: Floats) -> SplineAxis:
         """The axis of these lines (n + 1,), rising [m]."""
-        slope = _differences(_knots(lines, 3), 3)
-        bend = _differences(_knots(lines, 2), 2) @ slope
-        bend.sort_indices()
+        slope, curvature = (_differences(_knots(lines, degree), degree) for degree in (3, 2))
+        # Each row of B is a difference of two of S.
+        bend = np.zeros((len(curvature), 3))
+        bend[:, :2] = curvature[:, :1] * slope[:-1]
+        bend[:, 1:] += curvature[:, 1:] * slope[1:]
         return cls(lines, slope, bend)
 
     @property
     def n_nodes(self) -> int:
         """Number of nodes, those held by edges included."""
         return len(self.lines) + 2
+
+    @property
+    def slope_of_cells(self) -> Floats:
+        """S of the nodes that each cell has (n, 3, 4) [m^-1]."""
+        return _banded(self.slope, 3)
+
+    @property
+    def bend_of_cells(self) -> Floats:
+        """B of the nodes that each cell has (n, 2, 4) [m^-2]."""
+        return _banded(self.bend, 2)
 
     def splines(self, x_m: Floats, degree: int = 3) -> csr_array:
         """Values of its splines at places within it (n_places, n_splines), `degree` + 1 in each row."""
@@ -90,12 +103,17 @@ def _knots(lines: Floats, degree: int) -> Floats:
     return np.pad(lines, degree, mode="edge")
 
 
-def _differences(knots: Floats, degree: int) -> csr_array:
-    """From a spline's values to those of its derivative, of one degree less."""
-    from scipy.sparse import csr_array
-
+def _differences(knots: Floats, degree: int) -> Floats:
+    """From a spline's values to those of its derivative, of one degree less: each from two neighbours (n, 2)."""
     n = len(knots) - degree - 1
     per_m = degree / (knots[degree + 1 : n + degree] - knots[1:n])
-    row = np.arange(n - 1)
-    ends = (np.concatenate([row, row]), np.concatenate([row, row + 1]))
-    return csr_array((np.concatenate([-per_m, per_m]), ends), shape=(n - 1, n))
+    return np.column_stack([-per_m, per_m])
+
+
+def _banded(rows: Floats, count: int) -> Floats:
+    """Every `count` rows in a row as a matrix over 4 nodes (n, count, 4)."""
+    n, width = len(rows) - count + 1, rows.shape[1]
+    found = np.zeros((n, count, 4))
+    for k in range(count):
+        found[:, k, k : k + width] = rows[k : k + n]
+    return found
