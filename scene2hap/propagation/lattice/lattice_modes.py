@@ -29,13 +29,14 @@ from scene2hap.materials import Material
 from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
 from scene2hap.propagation.lattice.block_lanczos import largest
+from scene2hap.propagation.lattice.factors import Factors, diagonal_factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
 from scene2hap.scene.outline import Outline, Ring
 
 if TYPE_CHECKING:
-    from scipy.sparse.linalg import SuperLU
+    from scipy.sparse import csr_array
 
 MARGIN = 1.5
 """Modes are solved up to this many times the top frequency; the series takes over from there."""
@@ -73,7 +74,7 @@ class LatticeModes:
     k4: NDArray[np.float64]
     shapes: NDArray[np.float64]
     shift_k4: float
-    factors: SuperLU
+    factors: Factors
 
     @property
     def frequencies_hz(self) -> NDArray[np.float64]:
@@ -215,7 +216,7 @@ def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
 
 
 def _all_below(
-    lattice: Lattice, factors: SuperLU, shift_k4: float, wanted: float
+    lattice: Lattice, factors: Factors, shift_k4: float, wanted: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """k^4 and shapes of all modes below a value, and some more, as `_lowest`."""
     expected = n_modes_below(lattice, wanted)
@@ -229,20 +230,18 @@ def _all_below(
         count += count // 5
 
 
-def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, SuperLU, float]:
+def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, Factors, float]:
     """The lattice, the factors of K + s A, and s, for modes up to k^4."""
     lattice = bending_lattice(plate, resolution)
     # Large enough beside the stiffest springs for refinement to converge, small beside the modes of interest.
     shift = max(1e-2 * top_k4, STIFFEST * lattice.stiffest_k4)
-    return lattice, _factors(lattice, shift), shift
+    return lattice, positive_factors(_shifted(lattice, shift)), shift
 
 
-def _factors(lattice: Lattice, shift_k4: float) -> SuperLU:
-    """Factors of K + s A, with pivots on the diagonal."""
-    from scipy.sparse.linalg import splu
-
-    shifted = (lattice.stiffness + shift_k4 * lattice.masses).tocsc()
-    return splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+def _shifted(lattice: Lattice, shift_k4: float) -> csr_array:
+    """K + s A."""
+    shifted: csr_array = lattice.stiffness + shift_k4 * lattice.masses
+    return shifted
 
 
 def n_modes_below(lattice: Lattice, k4: float) -> int:
@@ -253,12 +252,12 @@ def n_modes_below(lattice: Lattice, k4: float) -> int:
     """
     if k4 < STIFFEST * lattice.stiffest_k4:
         return 0
-    pivots: NDArray[np.float64] = _factors(lattice, -k4).U.diagonal()
+    pivots: NDArray[np.float64] = diagonal_factors(_shifted(lattice, -k4)).U.diagonal()
     return int(np.count_nonzero(pivots < 0))
 
 
 def solve_shifted(
-    lattice: Lattice, factors: SuperLU, shift_k4: float, forces: NDArray[np.float64]
+    lattice: Lattice, factors: Factors, shift_k4: float, forces: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined."""
     found: NDArray[np.float64] = factors.solve(forces)
@@ -269,7 +268,7 @@ def solve_shifted(
 
 
 def _lowest(
-    lattice: Lattice, factors: SuperLU, shift_k4: float, count: int
+    lattice: Lattice, factors: Factors, shift_k4: float, count: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """k^4 (n,) [m^-4], rising, and shapes (n_nodes, n) [1/m] of at least `count` modes, or of all."""
     from scipy.linalg import eigh
