@@ -42,7 +42,7 @@ class PixelProducts:
         lines = np.append(axis.lines[:-1, None] + h * np.arange(PIXELS), axis.lines[-1])
         step = np.diff(lines)[:, None]
         x = (lines[:-1, None] + step * (_PLACES + 1) / 2).ravel()
-        linear, quadratic, cubic = (axis.splines(x, degree).data.reshape(n, -1, degree + 1) for degree in (1, 2, 3))
+        linear, quadratic, cubic = (each.reshape(n, -1, each.shape[1]) for each in axis.splines(x)[1].values())
         functions = {
             "1": linear,
             "2": quadratic,
