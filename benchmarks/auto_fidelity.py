@@ -163,8 +163,9 @@ def forget() -> None:
     """Make every plate one that was never seen."""
     for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
-    for kept in (lattice_modes._modes_up_to, lattice_body.lattice_body, bending_lattice.bending_lattice):
+    for kept in (lattice_modes._modes_up_to, lattice_modes._outline_of, lattice_body.lattice_body):
         kept.cache_clear()
+    bending_lattice.bending_lattice.cache_clear()
     bending_lattice.lines_of.cache_clear()
     infinite_plate._table.cache_clear()
 

@@ -45,24 +45,24 @@ def largest(compliance: Callable[[Floats], Floats], masses: csr_array, count: in
     basis, weighed, projected = np.empty((n, 0)), np.empty((n, 0)), np.empty((0, 0))
     # A start that has been smoothed once: of stiff waves next to nothing is left to be carried along.
     start = compliance(masses @ np.random.default_rng(0).standard_normal((n, min(WIDTH, n))))
-    block, beyond = _orthonormal(start, masses)
-    size, look = 0, _FIRST_LOOK * count
+    block, image, beyond = _orthonormal(start, masses)
+    size, look, weight = 0, _FIRST_LOOK * count, float(masses.trace())
     while True:
         new = slice(size, size + block.shape[1])
         if new.stop > basis.shape[1]:
             more = min(3 * max(count, new.stop), n) - basis.shape[1]
             basis, weighed = (np.pad(one, ((0, 0), (0, more))) for one in (basis, weighed))
             projected = np.pad(projected, (0, more))
-        basis[:, new], weighed[:, new] = block, masses @ block
+        basis[:, new], weighed[:, new] = block, image
         size = new.stop
         image = compliance(weighed[:, new])
-        least = (_ROUNDING * np.abs(image).max()) ** 2 * masses.trace()
+        least = (_ROUNDING * np.abs(image).max()) ** 2 * weight
         for _ in range(2):  # rounding of what the first pass takes away is left to the second
             shares = weighed[:, :size].T @ image
             image -= basis[:, :size] @ shares
             projected[:size, new] += shares
         projected[new, : new.start] = projected[: new.start, new].T
-        block, beyond = _orthonormal(image, masses, least)
+        block, image, beyond = _orthonormal(image, masses, least)
         is_whole = block.shape[1] == 0
         if size < look and not is_whole:
             continue
@@ -76,15 +76,17 @@ def largest(compliance: Callable[[Floats], Floats], masses: csr_array, count: in
             return found
 
 
-def _orthonormal(block: Floats, masses: csr_array, least: float = 0.0) -> tuple[Floats, Floats]:
-    """Vectors V (n, m) with V^T A V = 1 that span a block, and R (m, n_block) with block = V R; fewer if some depend on
-    the others, or if squares of their lengths are no more than `least`."""
+def _orthonormal(block: Floats, masses: csr_array, least: float = 0.0) -> tuple[Floats, Floats, Floats]:
+    """Vectors V (n, m) with V^T A V = 1 that span a block, A V, and R (m, n_block) with block = V R; fewer if some
+    depend on the others, or if squares of their lengths are no more than `least`."""
     total = np.eye(block.shape[1])
     for _ in range(2):
-        squares, turned = np.linalg.eigh(block.T @ (masses @ block))
+        image = masses @ block
+        squares, turned = np.linalg.eigh(block.T @ image)
         kept = squares > max(_DEPENDENT * squares.max(initial=0.0), least)
         root = np.sqrt(squares[kept])
-        block = block @ (turned[:, kept] / root)
-        total = root[:, None] * turned[:, kept].T @ total
+        turned = turned[:, kept]
+        block, image = block @ (turned / root), image @ (turned / root)
+        total = root[:, None] * turned.T @ total
         least = 0.0  # lengths are 1 from now on
-    return block, total
+    return block, image, total

@@ -22,7 +22,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,9 +41,9 @@ class Lattice:
     """Masses and springs of one plate, for D = 1 and m = 1.
 
     cell_m : sides of the smallest cell [m]; springs : B, sparse (n_springs, n_nodes) [m^-2]; weights : W, sparse,
-    symmetric (n_springs, n_springs) [m^2]; masses : A, sparse, symmetric (n_nodes, n_nodes) [m^2]; interpolation :
-    deflection at points (n_points, 2) [m] from what the nodes say, sparse (n_points, n_nodes); its transpose spreads a
-    force.
+    symmetric (n_springs, n_springs) [m^2]; masses : A, sparse, symmetric (n_nodes, n_nodes) [m^2]; stiffness :
+    K = B^T W B, likewise [m^-2], which times D is the force per deflection; interpolation : deflection at points
+    (n_points, 2) [m] from what the nodes say, sparse (n_points, n_nodes); its transpose spreads a force.
     """
 
     plate: Plate
@@ -52,19 +51,13 @@ class Lattice:
     springs: csr_array
     weights: csr_array
     masses: csr_array
+    stiffness: csr_array
     interpolation: Callable[[NDArray[np.float64]], csr_array]
 
     @property
     def n_nodes(self) -> int:
         """Nodes that can move."""
         return int(self.masses.shape[0])
-
-    @cached_property
-    def stiffness(self) -> csr_array:
-        """K = B^T W B, sparse (n_nodes, n_nodes) [m^-2]; times D it is the force per deflection."""
-        from scipy.sparse import csr_array
-
-        return csr_array(self.springs.T @ self.weights @ self.springs)
 
     @property
     def stiffest_k4(self) -> float:
@@ -81,6 +74,7 @@ class Lattice:
             self.springs,
             self.weights,
             self.masses * times**4,
+            self.stiffness,
             lambda points_m: self.interpolation(points_m / times) * times,
         )
 

@@ -75,13 +75,17 @@ class LatticeBody:
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
         """See `ElasticBody`."""
-        look = self.modes.lattice.interpolation(points_m)
-        shares, stiffer = self._from_forces(forces_m)
-        static = (look @ stiffer).reshape(len(points_m), len(forces_m), TERMS)
+        shares, stiffer, among = self._from_forces(forces_m)
+        if points_m is forces_m:
+            static, of_points = among, shares
+        else:
+            look = self.modes.lattice.interpolation(points_m)
+            static, of_points = look @ stiffer, look @ self.modes.shapes
+        static = static.reshape(len(points_m), len(forces_m), TERMS)
         # Among the same points every pair counts once.
         row, column = np.indices(static.shape[:2])
         pair = np.nonzero(row >= column if points_m is forces_m else row >= 0)
-        resonant = (look @ self.modes.shapes)[pair[0]] * shares[pair[1]]
+        resonant = of_points[pair[0]] * shares[pair[1]]
         sums = (np.concatenate([resonant, static[pair]], axis=1) @ self._spectra(frequencies_hz)).view(np.complex128)
         answer = np.empty((*row.shape, len(frequencies_hz)), dtype=np.complex128)
         answer[pair] = sums
@@ -91,15 +95,16 @@ class LatticeBody:
 
     def response_basis(self, forces_m: NDArray[np.float64]) -> LatticeBasis:
         """See `HasResponseBasis`."""
-        shares, stiffer = self._from_forces(forces_m)
+        shares, stiffer, _ = self._from_forces(forces_m)
         shapes = np.concatenate([self.modes.shapes, stiffer], axis=1)
         return LatticeBasis(self.modes.lattice, shapes, shares, self._spectra)
 
-    def _pushed(self, forces_m: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Share of every mode in every force (n_forces, n_modes); the series at the nodes (n_nodes, n_forces TERMS)."""
+    def _pushed(self, forces_m: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
+        """Share of every mode in every force (n_forces, n_modes); the series at the nodes (n_nodes, n_forces TERMS) and
+        where the forces push (n_forces, n_forces TERMS)."""
         forces = self.modes.lattice.interpolation(forces_m).T.toarray()
-        stiffer = np.moveaxis(self.modes.stiffer(forces), 0, 2)
-        return forces.T @ self.modes.shapes, stiffer.reshape(len(forces), -1)
+        stiffer = np.moveaxis(self.modes.stiffer(forces), 0, 2).reshape(len(forces), -1)
+        return forces.T @ self.modes.shapes, stiffer, forces.T @ stiffer
 
     def _spectrum(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.float64]:
         """Real and imaginary part, by turns, of each term at each frequency (n_modes + TERMS, 2 n_frequencies)."""

@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,13 +29,14 @@ from scene2hap.materials import Material
 from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
 from scene2hap.propagation.lattice.block_lanczos import largest
+from scene2hap.propagation.lattice.factors import Factors, diagonal_factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
-from scene2hap.scene.outline import Outline
+from scene2hap.scene.outline import Outline, Ring
 
 if TYPE_CHECKING:
-    from scipy.sparse.linalg import SuperLU
+    from scipy.sparse import csr_array
 
 MARGIN = 1.5
 """Modes are solved up to this many times the top frequency; the series takes over from there."""
@@ -73,7 +74,7 @@ class LatticeModes:
     k4: NDArray[np.float64]
     shapes: NDArray[np.float64]
     shift_k4: float
-    factors: SuperLU
+    factors: Factors
 
     @property
     def frequencies_hz(self) -> NDArray[np.float64]:
@@ -122,18 +123,24 @@ def _of_size_one(plate: Plate) -> tuple[Plate, float]:
     size_m = max(plate.extent_m)
     outline = plate.outline
     if outline is not None:
-        outline = Outline(
+        outline = _outline_of(
             tuple(tuple((round(x / size_m, 9), round(y / size_m, 9)) for x, y in ring) for ring in outline.rings_m)
         )
-    alike = Plate(
-        plate.length_m / size_m,
-        plate.width_m / size_m,
-        1e-3,
-        Material("any", 1e3, 1e9, plate.material.poisson_ratio, 0.0),
-        plate.boundary,
-        outline=outline,
-    )
-    return alike, size_m
+    material = _material_of(plate.material.poisson_ratio)
+    return Plate(
+        plate.length_m / size_m, plate.width_m / size_m, 1e-3, material, plate.boundary, outline=outline
+    ), size_m
+
+
+@lru_cache(maxsize=32)
+def _outline_of(rings_m: tuple[Ring, ...]) -> Outline:
+    """One outline for all plates of a shape, which checks itself once."""
+    return Outline(rings_m)
+
+
+@lru_cache(maxsize=32)
+def _material_of(poisson_ratio: float) -> Material:
+    return Material("any", 1e3, 1e9, poisson_ratio, 0.0)
 
 
 def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:
@@ -199,33 +206,42 @@ def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
     """Modes up to `MARGIN` times a frequency, so many thirds of an octave above that of a half wave along the plate."""
     wanted = MARGIN**2 * (math.pi / max(plate.extent_m)) ** 4 * 4 ** (thirds / 3)
     lattice, factors, shift = _factorised(plate, resolution, wanted)
-    expected = 0 if _is_small(lattice, shift) else n_modes_below(lattice, wanted)
-    count = max(expected, 7)
-    while True:
-        count += 1
-        k4, shapes = _lowest(lattice, factors, shift, count)
-        enough = k4[-1] > wanted and np.count_nonzero(k4 <= wanted * (1 + 1e-9)) >= expected
-        if enough or len(k4) == lattice.n_nodes:
-            break
-        count += count // 5
+    if _is_small(lattice, shift):
+        # Some more than wanted: what rounding adds to a value is taken away with the springs' digits.
+        k4, shapes = _over_springs(lattice, _small_shapes(lattice, subset_by_value=(-np.inf, (1 + _BURIED) * wanted)))
+    else:
+        k4, shapes = _all_below(lattice, factors, shift, wanted)
     kept = max(np.count_nonzero(k4 <= wanted), n_rigid_motions(plate))
     return LatticeModes(lattice, k4[:kept], shapes[:, :kept], shift, factors)
 
 
-def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, SuperLU, float]:
+def _all_below(
+    lattice: Lattice, factors: Factors, shift_k4: float, wanted: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """k^4 and shapes of all modes below a value, and some more, as `_lowest`."""
+    expected = n_modes_below(lattice, wanted)
+    count = max(expected, 7)
+    while True:
+        count += 1
+        k4, shapes = _lowest(lattice, factors, shift_k4, count)
+        enough = k4[-1] > wanted and np.count_nonzero(k4 <= wanted * (1 + 1e-9)) >= expected
+        if enough or len(k4) == lattice.n_nodes:
+            return k4, shapes
+        count += count // 5
+
+
+def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, Factors, float]:
     """The lattice, the factors of K + s A, and s, for modes up to k^4."""
     lattice = bending_lattice(plate, resolution)
     # Large enough beside the stiffest springs for refinement to converge, small beside the modes of interest.
     shift = max(1e-2 * top_k4, STIFFEST * lattice.stiffest_k4)
-    return lattice, _factors(lattice, shift), shift
+    return lattice, positive_factors(_shifted(lattice, shift)), shift
 
 
-def _factors(lattice: Lattice, shift_k4: float) -> SuperLU:
-    """Factors of K + s A, with pivots on the diagonal."""
-    from scipy.sparse.linalg import splu
-
-    shifted = (lattice.stiffness + shift_k4 * lattice.masses).tocsc()
-    return splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+def _shifted(lattice: Lattice, shift_k4: float) -> csr_array:
+    """K + s A."""
+    shifted: csr_array = lattice.stiffness + shift_k4 * lattice.masses
+    return shifted
 
 
 def n_modes_below(lattice: Lattice, k4: float) -> int:
@@ -236,12 +252,12 @@ def n_modes_below(lattice: Lattice, k4: float) -> int:
     """
     if k4 < STIFFEST * lattice.stiffest_k4:
         return 0
-    pivots: NDArray[np.float64] = _factors(lattice, -k4).U.diagonal()
+    pivots: NDArray[np.float64] = diagonal_factors(_shifted(lattice, -k4)).U.diagonal()
     return int(np.count_nonzero(pivots < 0))
 
 
 def solve_shifted(
-    lattice: Lattice, factors: SuperLU, shift_k4: float, forces: NDArray[np.float64]
+    lattice: Lattice, factors: Factors, shift_k4: float, forces: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined."""
     found: NDArray[np.float64] = factors.solve(forces)
@@ -252,7 +268,7 @@ def solve_shifted(
 
 
 def _lowest(
-    lattice: Lattice, factors: SuperLU, shift_k4: float, count: int
+    lattice: Lattice, factors: Factors, shift_k4: float, count: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """k^4 (n,) [m^-4], rising, and shapes (n_nodes, n) [1/m] of at least `count` modes, or of all."""
     from scipy.linalg import eigh
@@ -264,8 +280,7 @@ def _lowest(
 
     is_clear = _lost(lattice, shift_k4) < _BURIED
     if _is_small(lattice, shift_k4):
-        stiffness, whole = lattice.stiffness.toarray(), masses.toarray()
-        shapes = eigh(stiffness, whole, driver="gvx", subset_by_index=[0, min(count, n) - 1])[1]
+        shapes = _small_shapes(lattice, subset_by_index=(0, min(count, n) - 1))
     elif count < DENSE_SHARE * n:
         shapes = largest(factors.solve if is_clear else compliance, masses, count)
     elif is_clear:
@@ -273,9 +288,27 @@ def _lowest(
     else:
         dense = masses @ compliance(masses.toarray())
         shapes = eigh((dense + dense.T) / 2, masses.toarray(), driver="gvd")[1][:, : -count - 1 : -1]
-    # The shapes' own modes over the springs (Ritz): exact to the square of what the shapes still miss.
+    return _over_springs(lattice, shapes)
+
+
+def _small_shapes(lattice: Lattice, **subset: Any) -> NDArray[np.float64]:
+    """Shapes (n_nodes, n) of a `subset` (`scipy.linalg.eigh`) of all modes."""
+    from scipy.linalg import eigh
+
+    shapes: NDArray[np.float64] = eigh(
+        lattice.stiffness.toarray(), lattice.masses.toarray(), driver="gvx", check_finite=False, **subset
+    )[1]
+    return shapes
+
+
+def _over_springs(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The shapes' own modes over the springs (Ritz): exact to the square of what the shapes still miss."""
+    from scipy.linalg import eigh
+
+    if not shapes.shape[1]:
+        return np.empty(0), shapes
     stiffness = shapes.T @ lattice.restoring(shapes)
-    k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (masses @ shapes))
+    k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (lattice.masses @ shapes))
     k4[: n_rigid_motions(lattice.plate)] = 0.0
     return k4, shapes @ turned
 

@@ -31,19 +31,22 @@ _HELD = {"F": 0, "S": 1, "C": 2}
 class SplineAxis:
     """Nodes and springs along one coordinate.
 
-    lines : between cells, rising (n + 1,) [m]; slope, bend : S (n + 2, n + 3) [m^-1] and B (n + 1, n + 3) [m^-2].
+    lines : between cells, rising (n + 1,) [m]; slope : what is not 0 of each row of S (n + 2, 2) [m^-1], from the
+    diagonal on; bend : of B (n + 1, 3) [m^-2].
     """
 
     lines: Floats
-    slope: csr_array
-    bend: csr_array
+    slope: Floats
+    bend: Floats
 
     @classmethod
     def of(cls, lines: Floats) -> SplineAxis:
         """The axis of these lines (n + 1,), rising [m]."""
-        slope = _differences(_knots(lines, 3), 3)
-        bend = _differences(_knots(lines, 2), 2) @ slope
-        bend.sort_indices()
+        slope, curvature = (_differences(_knots(lines, degree), degree) for degree in (3, 2))
+        # Each row of B is a difference of two of S.
+        bend = np.zeros((len(curvature), 3))
+        bend[:, :2] = curvature[:, :1] * slope[:-1]
+        bend[:, 1:] += curvature[:, 1:] * slope[1:]
         return cls(lines, slope, bend)
 
     @property
@@ -51,18 +54,43 @@ class SplineAxis:
         """Number of nodes, those held by edges included."""
         return len(self.lines) + 2
 
-    def splines(self, x_m: Floats, degree: int = 3) -> csr_array:
-        """Values of its splines at places within it (n_places, n_splines), `degree` + 1 in each row."""
-        from scipy.interpolate import BSpline
+    @cached_property
+    def _knots(self) -> Floats:
+        """Those of cubic splines, without the first and last, which count for none of them."""
+        return _knots(self.lines, 2)
 
-        return BSpline.design_matrix(x_m, _knots(self.lines, degree), degree)
+    @property
+    def slope_of_cells(self) -> Floats:
+        """S of the nodes that each cell has (n, 3, 4) [m^-1]."""
+        return _banded(self.slope, 3)
+
+    @property
+    def bend_of_cells(self) -> Floats:
+        """B of the nodes that each cell has (n, 2, 4) [m^-2]."""
+        return _banded(self.bend, 2)
+
+    def splines(self, x_m: Floats) -> tuple[NDArray[np.intp], dict[int, Floats]]:
+        """The cell of each place within the axis, (n_places,), and the values of the splines of degrees 1 to 3 that it
+        has, (n_places, degree + 1) each; spline k of a cell is the axis's of number cell + k."""
+        n = len(self.lines) - 1
+        cell = np.clip(np.searchsorted(self.lines, x_m, side="right") - 1, 0, n - 1)
+        # De Boor's recursion.
+        knots = self._knots[cell[:, None] + np.arange(6)]
+        below, above = x_m[:, None] - knots, knots - x_m[:, None]
+        found = {0: np.ones((len(x_m), 1))}
+        for degree in (1, 2, 3):
+            low, high = slice(3 - degree, 3), slice(3, 3 + degree)
+            share = found[degree - 1] / (knots[:, high] - knots[:, low])
+            found[degree] = np.zeros((len(x_m), degree + 1))
+            found[degree][:, :-1] = above[:, high] * share
+            found[degree][:, 1:] += below[:, low] * share
+        del found[0]
+        return cell, found
 
     def at(self, x_m: Floats) -> tuple[NDArray[np.intp], Floats]:
         """Nodes and the values of their splines (n_places, 4) at places, or at the nearest end of the axis."""
-        if not len(x_m):
-            return np.empty((0, 4), dtype=np.intp), np.empty((0, 4))
-        found = self.splines(np.clip(x_m, self.lines[0], self.lines[-1]))
-        return found.indices.reshape(-1, 4).astype(np.intp), found.data.reshape(-1, 4)
+        cell, values = self.splines(np.clip(x_m, self.lines[0], self.lines[-1]))
+        return cell[:, None] + np.arange(4), values[3]
 
     def free(self, edges: str) -> slice:
         """The nodes that its ends leave free, each F, S or C."""
@@ -78,24 +106,34 @@ class SplineAxis:
     @cached_property
     def _at_gauss(self) -> tuple[dict[int, csr_array], dia_array]:
         """Splines of each degree at the places of Gauss's rule, and its weights on a diagonal."""
-        from scipy.sparse import diags_array
+        from scipy.sparse import csr_array, diags_array
 
         places, weights = np.polynomial.legendre.leggauss(4)
         h = np.diff(self.lines)[:, None]
-        x = (self.lines[:-1, None] + h * (places + 1) / 2).ravel()
-        return {degree: self.splines(x, degree) for degree in (1, 2, 3)}, diags_array((h * weights / 2).ravel())
+        cell, values = self.splines((self.lines[:-1, None] + h * (places + 1) / 2).ravel())
+        splines = {}
+        for degree, each in values.items():
+            columns, ends = cell[:, None] + np.arange(degree + 1), (degree + 1) * np.arange(len(cell) + 1)
+            shape = len(cell), len(self.lines) - 1 + degree
+            splines[degree] = csr_array((each.ravel(), columns.ravel(), ends), shape=shape)
+        return splines, diags_array((h * weights / 2).ravel())
 
 
 def _knots(lines: Floats, degree: int) -> Floats:
-    return np.pad(lines, degree, mode="edge")
+    return np.concatenate([lines[:1].repeat(degree), lines, lines[-1:].repeat(degree)])
 
 
-def _differences(knots: Floats, degree: int) -> csr_array:
-    """From a spline's values to those of its derivative, of one degree less."""
-    from scipy.sparse import csr_array
-
+def _differences(knots: Floats, degree: int) -> Floats:
+    """From a spline's values to those of its derivative, of one degree less: each from two neighbours (n, 2)."""
     n = len(knots) - degree - 1
     per_m = degree / (knots[degree + 1 : n + degree] - knots[1:n])
-    row = np.arange(n - 1)
-    ends = (np.concatenate([row, row]), np.concatenate([row, row + 1]))
-    return csr_array((np.concatenate([-per_m, per_m]), ends), shape=(n - 1, n))
+    return np.column_stack([-per_m, per_m])
+
+
+def _banded(rows: Floats, count: int) -> Floats:
+    """Every `count` rows in a row as a matrix over 4 nodes (n, count, 4)."""
+    n, width = len(rows) - count + 1, rows.shape[1]
+    found = np.zeros((n, count, 4))
+    for k in range(count):
+        found[:, k, k : k + width] = rows[k : k + n]
+    return found
