@@ -22,6 +22,8 @@ from numpy.typing import NDArray
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.coupling import ElasticBody
+from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.coupled.hand_load import loaded, stiffness_of
 from scene2hap.propagation.inclined_body import InclinedBody
 
 Floats = NDArray[np.float64]
@@ -51,7 +53,7 @@ class StruckScene:
 
     Parameters: bodies : of struck and touched objects; passed : H (n_frequencies, n_joints of the touched, n_joints of
     the struck) of each pair, and of each struck object with itself, at frequencies (n_frequencies,) [Hz] that rise;
-    silent : connected pairs of which nothing is felt.
+    silent : connected pairs of which nothing is felt; hand : load at the struck and at touched points.
     """
 
     def __init__(
@@ -60,8 +62,9 @@ class StruckScene:
         passed: Mapping[Pair, Complex],
         silent: Collection[Pair],
         frequencies_hz: Floats,
+        hand: Hand | None = None,
     ) -> None:
-        self._bodies, self._passed, self._silent = bodies, passed, silent
+        self._bodies, self._passed, self._silent, self._hand = bodies, passed, silent, hand
         self._frequencies_hz = frequencies_hz
         between = (frequencies_hz[1:] + frequencies_hz[:-1]) / 2
         # Each frequency stands for the step between these (n_frequencies + 1,).
@@ -128,16 +131,34 @@ class StruckScene:
         towards = struck.body.receptance(ports, struck.joints_m, f)
         free = towards[:, :1].transpose(0, 2, 1)
         moved = struck.body.receptance(ports, pushed, f) - towards @ (self._passed[struck_id, struck_id][used] @ free)
-        own = _lengths(moved, len(on_it))
+        own = _lengths(self._under_hand(struck_id, ports, towards, moved, used), len(on_it))
         found = [own[:, :1]]
         for touched_id, places in points.items():
             if touched_id == struck_id:
                 found.append(own[:, 1:])
                 continue
             touched = self._bodies[touched_id]
-            towards = touched.body.receptance(_ports(touched.body, places), touched.joints_m, f)
-            found.append(_lengths(towards @ (self._passed[touched_id, struck_id][used] @ free), len(places)))
+            ports = _ports(touched.body, places)
+            towards = touched.body.receptance(ports, touched.joints_m, f)
+            moved = towards @ (self._passed[touched_id, struck_id][used] @ free)
+            found.append(_lengths(self._under_hand(touched_id, ports, towards, moved, used), len(places)))
         return np.concatenate(found, axis=1) * f[:, None] ** 2
+
+    def _under_hand(
+        self, object_id: str, ports: Floats, towards: Complex, moved: Complex, used: NDArray[np.intp]
+    ) -> Complex:
+        """Deflections of ports (n_used, n_ports, 1) with the hand's load, each point alone, as fields of the model."""
+        if self._hand is None:
+            return moved
+        f, body, held = self._frequencies_hz[used], self._bodies[object_id].body, self._passed[object_id, object_id]
+        stiffness, answer = stiffness_of(self._hand, f), np.empty_like(moved)
+        n_points = len(ports) // (3 if isinstance(body, InclinedBody) else 1)
+        for i in range(n_points):
+            at = slice(i, None, n_points)
+            alone = body.receptance(ports[at], ports[at].copy(), f)
+            yielding = alone - towards[:, at] @ held[used] @ towards[:, at].transpose(0, 2, 1)
+            answer[:, at] = loaded(stiffness, yielding, moved[:, at])
+        return answer
 
 
 def _ports(body: ElasticBody, points_m: Floats) -> Floats:

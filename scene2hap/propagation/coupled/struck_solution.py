@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, JointForces, couple, ends_of
+from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.struck_scene import IMPACT_BANDS, HeldBody, Pair, StruckScene
 
 Floats = NDArray[np.float64]
@@ -35,6 +36,7 @@ def solve_struck(
     object_ids: Collection[str],
     touched_ids: Collection[str],
     frequencies_hz: Floats,
+    hand: Hand | None = None,
 ) -> StruckScene:
     """Solve connected groups of bodies for impacts on any of their objects and hands on the touched ones.
 
@@ -58,7 +60,7 @@ def solve_struck(
     passed = {pair: held for room in rooms for pair, held in room.passed(kept, frequencies_hz).items()}
     held = {key: HeldBody(bodies[key], room.ends[key].points_m) for room in rooms for key in room.object_ids}
     silent = frozenset(pair for pair, level in levels.items() if level <= SILENT)
-    return StruckScene({x: held[x] for pair in kept for x in pair}, passed, silent, frequencies_hz)
+    return StruckScene({x: held[x] for pair in kept for x in pair}, passed, silent, frequencies_hz, hand)
 
 
 class _Group:

@@ -75,12 +75,14 @@ class Assembly:
                 reach |= _solved(bodies, joints, sources, source_ids, sampling, hand)
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
 
-    def struck(self, touched_ids: Collection[str], elastic: Mapping[str, ElasticBody]) -> StruckScene:
+    def struck(
+        self, touched_ids: Collection[str], elastic: Mapping[str, ElasticBody], hand: Hand | None = None
+    ) -> StruckScene:
         """All objects that are connected with touched ones, on each of which is a source, for impacts, given a body for
         each of the plates."""
         bodies = self._bodies(elastic)
         groups, frequencies_hz = [joints for _, joints in self.groups], self._sampling(bodies, DENSITY).frequencies_hz
-        return solve_struck(bodies, groups, self.network.bodies.keys(), touched_ids, frequencies_hz)
+        return solve_struck(bodies, groups, self.network.bodies.keys(), touched_ids, frequencies_hz, hand)
 
     def _bodies(self, elastic: Mapping[str, ElasticBody]) -> dict[str, ElasticBody]:
         """All bodies, with their legs, and inclined where a joint pulls aside."""
@@ -160,7 +162,7 @@ def prepare_coupled(
 
 
 def prepare_struck(model: CoupledModel, network: ContactNetwork, touched_ids: Collection[str]) -> StruckScene:
-    """A scene, for impacts on any point of what is connected with touched objects; the model's hand is left out.
+    """A scene, for impacts on any point of what is connected with touched objects.
 
     The only sources are probes on the touched objects, too light to change anything.
     Raises: ModelDomainError: as the model's `prepare`.
@@ -173,7 +175,7 @@ def prepare_struck(model: CoupledModel, network: ContactNetwork, touched_ids: Co
     # Whoever prepares the field in use is warned of thick plates.
     scene = assemble(with_probes, sources, IMPACT_BANDS, model.contact, "ignore")
     elastic = {key: model.elastic_body(plate, scene.top_hz) for key, plate in scene.plates.items()}
-    return scene.struck(touched_ids, elastic)
+    return scene.struck(touched_ids, elastic, model.hand)
 
 
 def _next_step_hz(frequency_hz: float) -> float:

@@ -21,6 +21,7 @@ from scene2hap import (
 )
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation.coupled import struck_solution
+from scene2hap.propagation.coupled.hand import PALM
 from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
@@ -31,6 +32,9 @@ RATE = 48_000
 TOP_M = 0.72
 NEAR, FAR = (0.5, TOP_M, 0.4), (1.0, TOP_M, 0.4)
 STRUCK = (0.4, TOP_M, 0.4)
+
+
+PHYSICAL = (ModalPlate(), InfinitePlate(), MassSpringDamper(), AutoFidelity(), ModalPlate(hand=PALM))
 
 
 def session(**settings: Any) -> HapticSession:
@@ -131,7 +135,7 @@ def test_a_touched_object_that_was_prepared_feels_an_impact_with_the_next_block_
 
 def test_what_was_prepared_is_what_the_model_prepares_for_the_impact_alone() -> None:
     """On a table on a block, with two phones on it."""
-    for model in (ModalPlate(), InfinitePlate(), MassSpringDamper(), AutoFidelity()):
+    for model in PHYSICAL:
         scene, bundle = table_with_two_phones()
         made = HapticSession(scene, bundle, {"propagation": model})
         made.update(touches=touches())
@@ -162,10 +166,7 @@ def test_after_a_contact_changed_the_last_answer_plays_on_until_there_is_a_new_o
     assert second.felt != first.felt
 
 
-PHYSICAL = (ModalPlate(), InfinitePlate(), MassSpringDamper(), AutoFidelity())
-
-
-@pytest.mark.parametrize("model", PHYSICAL, ids=lambda one: one.kind)
+@pytest.mark.parametrize("model", PHYSICAL, ids=lambda one: f"{one.kind} {'under a hand' if one.hand else ''}")
 @pytest.mark.parametrize(
     ("touched", "struck"), [("cup", "table"), ("phone", "table"), ("phone", "cup"), ("table", "cup")]
 )
