@@ -119,6 +119,5 @@ class SessionConfig(Settings):
 
     @property
     def prepares_impacts(self) -> bool:
-        """True if a worker prepares touched objects for impacts: with a coupled model that no hand loads."""
-        model = self.propagation
-        return self.impacts and self.prepare == "background" and isinstance(model, CoupledModel) and model.hand is None
+        """True if a worker prepares the scene around touched objects for impacts: with a coupled model."""
+        return self.impacts and self.prepare == "background" and isinstance(self.propagation, CoupledModel)

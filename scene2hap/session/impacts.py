@@ -173,11 +173,10 @@ class Impacts:
             return
         left = touched
         if self._ahead is not None:
-            on_it = {i: hand for i, hand in touched.items() if {x for x, _ in hand} == {impact.object_id}}
-            answer = self._ahead.answer(impact.object_id, impact.point_m, [*on_it.values()], f) if on_it else None
+            answer = self._ahead.answer(impact.object_id, impact.point_m, touched, f)
             if answer is not None:
-                self._answered(answer.gains, sound, at_frame, on_it, now=answer.is_quick)
-                left = {i: hand for i, hand in touched.items() if i not in on_it}
+                self._answered(answer.gains, sound, at_frame, answer.among, now=answer.is_quick)
+                left = {i: hand for i, hand in touched.items() if i not in answer.among}
         if left:
             model, hands_left = self._config.propagation, [*left.values()]
             prepared = struck_later(model, self._state, impact.object_id, impact.point_m, hands_left, f)

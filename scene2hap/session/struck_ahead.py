@@ -1,14 +1,15 @@
-"""Objects that hands touch, prepared for impacts in advance, so that an impact is felt with the next block.
+"""Scenes prepared in advance around what hands touch, so that an impact is felt with the next block.
 
-A worker solves the scene around a touched object once, for forces at any of its points
-(`propagation.coupled.struck_object`), and again after contacts changed. Until then the last answer stays in use.
+A worker solves the joints around the touched objects once, for forces at any point of all that is connected with them
+(`propagation.coupled.struck_solution`), and again after contacts changed or a hand touched something else. Until then
+the last answer stays in use.
 """
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future, wait
 from typing import NamedTuple
 
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import Scene2HapError
-from scene2hap.propagation.coupled.struck_object import StruckObject
+from scene2hap.propagation.coupled.struck_scene import StruckScene
 from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Body, CoupledModel
@@ -27,20 +28,28 @@ Floats = NDArray[np.float64]
 Point = tuple[float, float, float]
 
 AT_REST_S, EVERY_S = 0.05, 1.0
-"""An object is prepared again once its contacts have rested for `AT_REST_S`, or after `EVERY_S` of changes [s]."""
+"""A scene is prepared again once its contacts have rested for `AT_REST_S`, or after `EVERY_S` of changes [s]."""
 MOST = 4
-"""Number of prepared objects that are kept; two hands touch two."""
+"""Number of touched objects for which a scene is prepared, the last ones; two hands touch two."""
 
 
 class Answer(NamedTuple):
-    """Gains (n_hands, n_frequencies) [-], in any thread, and whether an update can spare the time for them."""
+    """Gains (n_hands, n_frequencies) [-] of some hands, in any thread, and whether an update can spare the time."""
 
+    among: Collection[int]
     gains: Callable[[], Floats]
     is_quick: bool
 
 
+class Ordered(NamedTuple):
+    """For which objects a scene is prepared, and the version of its contacts."""
+
+    touched: tuple[str, ...]
+    version: int
+
+
 class StruckAhead:
-    """Prepares objects as hands touch them. `expect` and `answer` belong to the game's thread.
+    """Prepares the scene around objects as hands touch them. `expect` and `answer` belong to the game's thread.
 
     Parameters: submit : has a worker call a function.
     """
@@ -49,14 +58,15 @@ class StruckAhead:
         self, model: CoupledModel, state: SceneState, submit: Callable[[Callable[[], None]], Future[None]]
     ) -> None:
         self._model, self._state, self._submit = model, state, submit
-        self._prepared: dict[str, tuple[Body, StruckObject]] = {}
-        self._versions: dict[str, int] = {}
+        self._prepared: tuple[Mapping[str, Body], StruckScene] | None = None
+        self._touched: list[str] = []
+        self._ordered = Ordered((), -1)
         self._job: Future[None] | None = None
         self._expected: Collection[str] = ()
         self._version, self._changed_at_s, self._ordered_at_s = -1, 0.0, 0.0
 
     def expect(self, object_ids: Collection[str]) -> None:
-        """Order the next of these objects that is not prepared for the present contacts; one at a time."""
+        """Order the scene around these objects unless it is prepared for the present contacts; one at a time."""
         self._expected, version, now = object_ids, self._state.graph.version, time.monotonic()
         if version != self._version:
             self._version, self._changed_at_s = version, now
@@ -75,50 +85,63 @@ class StruckAhead:
                 return True
 
     def answer(
-        self, object_id: str, point_m: Point, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
+        self,
+        object_id: str,
+        point_m: Point,
+        hands: Mapping[int, Sequence[TouchedPoint]],
+        frequencies_hz: Floats,
     ) -> Answer | None:
-        """Return the gains of an impact at hands that touch only the struck object; the largest of each hand's touches.
+        """Return the gains of an impact at those hands for which it is prepared; the largest of each hand's touches.
 
-        None if the object is not prepared.
+        None if there is no such hand.
         """
-        body, struck = self._prepared.get(object_id, (None, None))
-        if struck is None or body is not self._state.bodies.get(object_id):
+        if self._prepared is None:
             return None
-        ready, places = struck, [point_m, *(at for hand in hands for _, at in hand)]
-        points = np.array([self._state.on_plate(object_id, place) for place in places], dtype=np.float64)
-        starts = np.cumsum([0, *map(len, hands)])[:-1]
+        bodies, scene = self._prepared
+
+        def is_ready(touched_id: str) -> bool:
+            same = all(bodies.get(x) is self._state.bodies.get(x) for x in (touched_id, object_id))
+            return same and scene.knows(touched_id, object_id)
+
+        ready = {i: hand for i, hand in hands.items() if hand and all(is_ready(x) for x, _ in hand)}
+        if not ready:
+            return None
+        struck_m = self._on_plate(object_id, point_m)
+        felt = [(x, self._on_plate(x, at)) for hand in ready.values() for x, at in hand]
+        starts = np.cumsum([0, *map(len, ready.values())])[:-1]
 
         def gains() -> Floats:
-            found = ready.gains(points[:1], points[1:], frequencies_hz)
-            return at_least_itself(np.maximum.reduceat(found, starts, axis=0), object_id, hands)
+            found = scene.gains(object_id, struck_m, felt, frequencies_hz)
+            return at_least_itself(np.maximum.reduceat(found, starts, axis=0), object_id, [*ready.values()])
 
-        return Answer(gains, ready.is_quick)
+        return Answer(ready.keys(), gains, scene.is_quick({x for x, _ in felt}, object_id))
+
+    def _on_plate(self, object_id: str, point_m: Point) -> Floats:
+        return np.array([self._state.on_plate(object_id, point_m)], dtype=np.float64)
 
     def _order_next(self, version: int, *, rests: bool) -> bool:
-        """Order the first missing object, or an outdated one if contacts rest. Returns True if there was one."""
-        for object_id in self._expected:
-            before = self._versions.get(object_id)
-            if (before is None or (before != version and rests)) and object_id in self._state.bodies:
-                self._order(object_id, version)
-                return True
-        return False
+        """Order the scene if an expected object is missing, or if it is outdated and contacts rest. True if so."""
+        expected = [x for x in self._expected if x in self._state.bodies]
+        is_missing = not set(expected) <= set(self._ordered.touched)
+        if not expected or not (is_missing or (version != self._ordered.version and rests)):
+            return False
+        others = [x for x in self._touched if x not in expected and x in self._state.bodies]
+        self._touched = [*others, *expected][-max(MOST, len(expected)) :]
+        self._order(version)
+        return True
 
-    def _order(self, object_id: str, version: int) -> None:
-        self._versions.pop(object_id, None)
-        self._versions[object_id], self._ordered_at_s = version, time.monotonic()
-        for oldest in list(self._versions)[:-MOST]:
-            del self._versions[oldest]
-            self._prepared.pop(oldest, None)
-        body = self._state.bodies[object_id]
+    def _order(self, version: int) -> None:
+        touched, bodies = tuple(self._touched), self._state.bodies
+        self._ordered, self._ordered_at_s = Ordered(touched, version), time.monotonic()
         # An object without contacts is in no network of connected objects.
-        put_together = self._state.network([object_id] if self._state.graph.beside.get(object_id) else None)
+        put_together = self._state.network(touched if all(map(self._state.graph.beside.get, touched)) else None)
 
         def work() -> None:
             try:
-                struck = prepare_struck(self._model, put_together({object_id}).network, object_id)
+                scene = prepare_struck(self._model, put_together(touched).network, touched)
             except Scene2HapError:  # the field in use fails in the same way, and says so
-                self._prepared.pop(object_id, None)
+                self._prepared = None
             else:
-                self._prepared[object_id] = body, struck
+                self._prepared = bodies, scene
 
         self._job = self._submit(work)

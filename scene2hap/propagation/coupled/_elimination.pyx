@@ -33,19 +33,22 @@ cdef struct Part:
     const double* receptance
     const double* signs
     const int* at
+    double* inverse
     int n
 
 
-def factored(elements, diagonal, const double[:, ::1] free, pattern, double worst_growth, forces):
+def factored(elements, diagonal, const double[:, ::1] free, pattern, double worst_growth, forces, inverses_at):
     cdef const int[::1] begins = pattern.begins, columns = pattern.columns, place = pattern.place
     cdef const int[:, ::1] entry = pattern.entry
     # Complex numbers as pairs: not every C compiler has them.
     cdef const double[:, ::1] yielding = np.ascontiguousarray(diagonal).view(np.float64)
     cdef double[:, :, ::1] found = forces.view(np.float64)
     cdef const double[:, :, ::1] receptance
+    cdef double[:, :, ::1] block
     cdef const double[::1] signs
     cdef const int[::1] at
     cdef int n = free.shape[0], n_f = forces.shape[2], n_sources = free.shape[1], n_parts = len(elements), k
+    cdef int n_inverses = len(inverses_at)
     good = np.ones(n_f, dtype=np.uint8)
     if n == 0 or n_f == 0:
         return good.astype(bool)
@@ -64,7 +67,11 @@ def factored(elements, diagonal, const double[:, ::1] free, pattern, double wors
             signs = np.ascontiguousarray(element.signs, dtype=np.float64)
             at = pattern.place[element.rows]
             kept.append((receptance, signs, at))
-            parts[k] = Part(&receptance[0, 0, 0], &signs[0], &at[0], at.shape[0])
+            parts[k] = Part(&receptance[0, 0, 0], &signs[0], &at[0], NULL, at.shape[0])
+        for k in inverses_at:
+            block = inverses_at[k].view(np.float64)
+            kept.append(block)
+            parts[k].inverse = &block[0, 0, 0]
         with nogil:
             for k in range(0, n_f, 4):
                 memset(matrix, 0, 8 * <size_t>columns.shape[0] * sizeof(double))
@@ -73,6 +80,9 @@ def factored(elements, diagonal, const double[:, ::1] free, pattern, double wors
                 eliminate(matrix, x, inverses, factors, &begins[0], &columns[0], &entry[0, 0], n, n_sources)
                 substitute(matrix, x, inverses, &begins[0], &columns[0], n, n_sources)
                 read(matrix, x, found, place, begins, is_good, worst_growth * worst_growth, k, n_f)
+                if n_inverses:
+                    invert(matrix, inverses, factors, &begins[0], &columns[0], &entry[0, 0], n)
+                    read_inverses(matrix, parts, n_parts, &entry[0, 0], n, k, n_f)
     finally:
         PyMem_Free(parts)
         PyMem_Free(matrix)
@@ -196,3 +206,48 @@ cdef void read(
                 forces[row, column, 2 * (first + w) + 1] = at[w + 4]
                 if not at[w] * at[w] + at[w + 4] * at[w + 4] < INFINITY:
                     is_good[first + w] = False
+
+
+cdef void invert(
+    double* matrix, const double* inverses, double* factors, const int* begins, const int* columns, const int* entry,
+    int n
+) noexcept nogil:
+    """The entries of A^-1 where L has any, in place, the last row first: each needs those of rows behind it only."""
+    cdef int i, p, q, m, w, low, high
+    cdef double* row
+    cdef const int* own
+    for i in range(n - 1, -1, -1):
+        row, own, m = matrix + 8 * <Py_ssize_t>begins[i], columns + begins[i], begins[i + 1] - begins[i]
+        for p in range(8, 8 * m):
+            factors[p], row[p] = row[p], 0
+        for p in range(1, m):
+            for q in range(1, m):
+                low, high = own[min(p, q)], own[max(p, q)]
+                s2h_take(row + 8 * p, factors + 8 * q, matrix + 8 * <Py_ssize_t>entry[<Py_ssize_t>low * n + high])
+        for w in range(8):
+            row[w] = inverses[8 * <Py_ssize_t>i + w]
+        for q in range(1, m):
+            s2h_take(row, factors + 8 * q, row + 8 * q)
+
+
+cdef void read_inverses(
+    const double* matrix, const Part* parts, int n_parts, const int* entry, int n, int first, int n_f
+) noexcept nogil:
+    """Write the entries of A^-1 among the joints of each body that wants them."""
+    cdef int e, i, j, w, low, high
+    cdef const Part* part
+    cdef const double* at
+    cdef double* to
+    for e in range(n_parts):
+        part = &parts[e]
+        if part.inverse == NULL:
+            continue
+        for i in range(part.n):
+            for j in range(part.n):
+                low, high = part.at[i], part.at[j]
+                if low > high:
+                    low, high = high, low
+                at = matrix + 8 * <Py_ssize_t>entry[<Py_ssize_t>low * n + high]
+                for w in range(min(4, n_f - first)):
+                    to = part.inverse + 2 * ((<Py_ssize_t>(first + w) * part.n + i) * part.n + j)
+                    to[0], to[1] = at[w], at[w + 4]

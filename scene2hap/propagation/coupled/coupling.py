@@ -18,7 +18,7 @@ Source: de Klerk, Rixen, Voormeeren, General framework for dynamic substructurin
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.coupled.elimination import Element, solve
+from scene2hap.propagation.coupled.elimination import Element, solve, solve_and_invert
 
 
 class ElasticBody(Protocol):
@@ -154,11 +154,20 @@ class JointForces:
 
         All joints are solved again. Returns: (n_frequencies, n_own, n_own) complex128 [N/m], in the order of its ends.
         """
-        own = self.ends[body_id]
-        free = np.zeros((len(self.joints), len(own.rows)))
-        free[own.rows, np.arange(len(own.rows))] = own.signs
-        forces = _forces(self.receptances, self.ends, self.joints, free, self.frequencies_hz)
-        return own.signs[:, None] * forces[:, own.rows]
+        return self.answers(np.empty(0, dtype=np.intp), [body_id])[1][body_id]
+
+    def answers(
+        self, rows: NDArray[np.intp], body_ids: Collection[str]
+    ) -> tuple[NDArray[np.complex128], dict[str, NDArray[np.complex128]]]:
+        """Forces in all joints per free deflection across each of some (n_frequencies, n_joints, n_rows) [N/m], and
+        `holding` of some bodies. All joints are solved again."""
+        free = np.zeros((len(self.joints), len(rows)))
+        free[rows, np.arange(len(rows))] = 1.0
+        elements, compliances = _system(self.receptances, self.ends, self.joints, self.frequencies_hz)
+        number = {body_id: k for k, body_id in enumerate(self.ends)}
+        forces, inverses = solve_and_invert(elements, compliances, free, [number[x] for x in body_ids])
+        held = {x: np.multiply.outer(self.ends[x].signs, self.ends[x].signs) * inverses[number[x]] for x in body_ids}
+        return forces.transpose(2, 0, 1), held
 
 
 def couple(
@@ -231,7 +240,16 @@ def _forces(
     frequencies_hz: NDArray[np.float64],
 ) -> NDArray[np.complex128]:
     """Forces (n_f, n_joints, n) for free deflections across the joints (n_joints, n)."""
-    if not joints:
+    if not free.size:
         return np.zeros((len(frequencies_hz), *free.shape), dtype=np.complex128)
+    return solve(*_system(receptances, ends, joints, frequencies_hz), free).transpose(2, 0, 1)
+
+
+def _system(
+    receptances: Mapping[str, NDArray[np.complex128]],
+    ends: Mapping[str, Ends],
+    joints: Sequence[Joint],
+    frequencies_hz: NDArray[np.float64],
+) -> tuple[list[Element], NDArray[np.complex128]]:
     elements = [Element(own.rows, own.signs, receptances[body_id]) for body_id, own in ends.items()]
-    return solve(elements, compliances_m_n(joints, frequencies_hz), free).transpose(2, 0, 1)
+    return elements, compliances_m_n(joints, frequencies_hz)

@@ -36,6 +36,21 @@ class HandLoad:
     group: JointForces
 
 
+def loaded(stiffness: Complex, yielding: Complex, moved: Complex) -> Complex:
+    """Deflection under a hand (n_frequencies, n, n_sources), from the free one.
+
+    Parameters: stiffness : j omega Z (n_frequencies,) [N/m]; yielding : Y_t (n_frequencies, n, n) [m/N] of the n
+    directions of one point.
+    """
+    pulled = np.eye(yielding.shape[1]) + stiffness[:, None, None] * yielding
+    return np.linalg.solve(pulled, moved).astype(np.complex128, copy=False)
+
+
+def stiffness_of(hand: Hand, frequencies_hz: Floats) -> Complex:
+    """j omega Z (n_frequencies,) [N/m]."""
+    return 2j * math.pi * frequencies_hz * hand.impedance_n_s_m(frequencies_hz)
+
+
 class LoadedGains:
     """Gains at points of an object under a hand, see `Gains`.
 
@@ -58,7 +73,7 @@ class LoadedGains:
         self._forces = forces.T[:, :, None] if sampling.is_single else forces
         held = load.group.holding(load.object_id)
         self._held = held[columns] if sampling.is_single else held
-        self._stiffness = 2j * math.pi * self._frequencies_hz * load.hand.impedance_n_s_m(self._frequencies_hz)
+        self._stiffness = stiffness_of(load.hand, self._frequencies_hz)
 
     def __call__(self, points_m: Floats) -> Floats:
         """At points (n_points, 2) [m]: (n_points, n_sources, n_bands)."""
@@ -74,12 +89,10 @@ class LoadedGains:
         yielding = self._body.receptance(ports, ports.copy(), self._frequencies_hz)
         towards = self._body.receptance(ports, self._points_m, self._frequencies_hz)
         yielding = yielding - towards @ self._held @ towards.transpose(0, 2, 1)
-        moved = towards @ self._forces
-        pulled = np.eye(len(ports)) + self._stiffness[:, None, None] * yielding
-        loaded: Complex = np.linalg.solve(pulled, moved).astype(np.complex128, copy=False)
+        moved = loaded(self._stiffness, yielding, towards @ self._forces)
         if self._sampling.is_single:
-            gains: Floats = np.abs(loaded[:, :, 0]).T[:, :, None]
+            gains: Floats = np.abs(moved[:, :, 0]).T[:, :, None]
         else:
-            gains = self._sampling.gains(loaded, self._columns)
+            gains = self._sampling.gains(moved, self._columns)
         lengths: Floats = np.sqrt(np.square(gains).sum(axis=0))
         return lengths

@@ -12,7 +12,7 @@ Compact bodies move as a whole; so does every source. Objects that no source can
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,11 +20,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
-from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, ends_of, inclined_in
+from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, inclined_in
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import HandLoad
 from scene2hap.propagation.coupled.joints import joints_of, legs_of, source_groups
@@ -32,7 +32,8 @@ from scene2hap.propagation.coupled.legged_body import legged
 from scene2hap.propagation.coupled.object_response import ObjectResponse
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.solved_object import SolvedObject
-from scene2hap.propagation.coupled.struck_object import DENSITY, IMPACT_BANDS, StruckObject
+from scene2hap.propagation.coupled.struck_scene import DENSITY, IMPACT_BANDS, StruckScene
+from scene2hap.propagation.coupled.struck_solution import solve_struck
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.inclined_body import InclinedBody, inclined
 from scene2hap.propagation.plate import Plate, RigidBody
@@ -41,8 +42,6 @@ from scene2hap.propagation.protocol import Carrier, ContactNetwork, CoupledModel
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 
-MOST_HELD_BYTES = 64_000_000
-"""Of an object that is prepared for impacts: some 90 contacts at a loss of 0.01."""
 _PROBE, _PROBE_KG = "\0probe", 1e-9
 
 
@@ -76,25 +75,14 @@ class Assembly:
                 reach |= _solved(bodies, joints, sources, source_ids, sampling, hand)
         return CoupledField(source_ids, self.bands, self.network, sampling, reach)
 
-    def struck(self, object_id: str, elastic: Mapping[str, ElasticBody]) -> StruckObject:
-        """An object that a source touches, for impacts, given a body for each of the plates.
-
-        Raises: ModelDomainError: it has so many contacts that what holds it takes more than `MOST_HELD_BYTES`.
-        """
+    def struck(
+        self, touched_ids: Collection[str], elastic: Mapping[str, ElasticBody], hand: Hand | None = None
+    ) -> StruckScene:
+        """All objects that are connected with touched ones, on each of which is a source, for impacts, given a body for
+        each of the plates."""
         bodies = self._bodies(elastic)
-        joints = next(joints for _, joints in self.groups if any(object_id in (one.a, one.b) for one in joints))
-        frequencies_hz = self._sampling(bodies, DENSITY).frequencies_hz
-        ends = ends_of(joints)[object_id]
-        n_own, of_row = len(ends.rows), 16 * len(frequencies_hz) * len(ends.rows)
-        if of_row * n_own > MOST_HELD_BYTES:
-            raise ModelDomainError(
-                f"{object_id!r} has {n_own} contacts, whose answers to impacts take {of_row * n_own / 1e6:.0f} MB at "
-                f"{len(frequencies_hz)} frequencies; at most {MOST_HELD_BYTES / 1e6:.0f} MB are kept."
-            )
-        # The forces in all joints are only needed a few frequencies at a time.
-        parts = np.array_split(frequencies_hz, -(-of_row * len(joints) // MOST_HELD_BYTES))
-        held = [couple(bodies, joints, (), part).holding(object_id) for part in parts]
-        return StruckObject(bodies[object_id], ends.points_m, np.concatenate(held), frequencies_hz)
+        groups, frequencies_hz = [joints for _, joints in self.groups], self._sampling(bodies, DENSITY).frequencies_hz
+        return solve_struck(bodies, groups, self.network.bodies.keys(), touched_ids, frequencies_hz, hand)
 
     def _bodies(self, elastic: Mapping[str, ElasticBody]) -> dict[str, ElasticBody]:
         """All bodies, with their legs, and inclined where a joint pulls aside."""
@@ -173,20 +161,21 @@ def prepare_coupled(
     return scene.solve({key: elastic_body(plate, top_hz) for key, plate in scene.plates.items()}, density, hand)
 
 
-def prepare_struck(model: CoupledModel, network: ContactNetwork, object_id: str) -> StruckObject:
-    """An object of a scene, for impacts on any of its points; the model's hand is left out.
+def prepare_struck(model: CoupledModel, network: ContactNetwork, touched_ids: Collection[str]) -> StruckScene:
+    """A scene, for impacts on any point of what is connected with touched objects.
 
-    The only source is a probe on the object, too light to change anything.
+    The only sources are probes on the touched objects, too light to change anything.
     Raises: ModelDomainError: as the model's `prepare`.
     """
-    contacts = (*network.contacts, Contact(_PROBE, object_id, network.poses.get(object_id, Pose()).position_m))
-    with_probe = ContactNetwork(network.bodies, contacts, network.poses)
-    probe = Excitation(_PROBE, 100.0, 100.0, _PROBE_KG)
+    probes = {f"{_PROBE}{i}": object_id for i, object_id in enumerate(touched_ids)}
+    places = {probe: network.poses.get(object_id, Pose()).position_m for probe, object_id in probes.items()}
+    contacts = [Contact(probe, object_id, places[probe]) for probe, object_id in probes.items()]
+    with_probes = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
+    sources = [Excitation(probe, 100.0, 100.0, _PROBE_KG) for probe in probes]
     # Whoever prepares the field in use is warned of thick plates.
-    scene = assemble(with_probe, [probe], IMPACT_BANDS, model.contact, "ignore")
-    return scene.struck(
-        object_id, {key: model.elastic_body(plate, scene.top_hz) for key, plate in scene.plates.items()}
-    )
+    scene = assemble(with_probes, sources, IMPACT_BANDS, model.contact, "ignore")
+    elastic = {key: model.elastic_body(plate, scene.top_hz) for key, plate in scene.plates.items()}
+    return scene.struck(touched_ids, elastic, model.hand)
 
 
 def _next_step_hz(frequency_hz: float) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scene2hap.propagation.coupled import elimination
-from scene2hap.propagation.coupled.elimination import Element, solve
+from scene2hap.propagation.coupled.elimination import Element, solve, solve_and_invert
 from scene2hap.propagation.coupled.elimination_order import merged_fronts, pattern_of
 
 N_F = 40
@@ -51,6 +51,28 @@ def test_elimination_equals_lapack(shape: str) -> None:
     expected = whole(elements, compliance, free)
     found = solve(elements, compliance, free).transpose(2, 0, 1)
     assert (np.abs(found - expected) <= 1e-9 * np.abs(expected).max(axis=(1, 2), keepdims=True)).all()
+
+
+@pytest.mark.parametrize("shape", PAIRS)
+@pytest.mark.parametrize("worst_growth", [elimination.WORST_GROWTH, 3.0])
+def test_the_inverse_among_the_joints_of_a_body(
+    shape: str, worst_growth: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where many frequencies are solved again, since their factors are large."""
+    monkeypatch.setattr(elimination, "WORST_GROWTH", worst_growth)
+    rng = np.random.default_rng(12)
+    elements = room(rng, PAIRS[shape])
+    n = len(PAIRS[shape])
+    compliance = 4 + rng.normal(size=(n, N_F)) + 1j * rng.normal(size=(n, N_F))
+    expected = whole(elements, compliance, np.eye(n))
+    free = np.sign(rng.normal(size=(n, 2)))
+    forces, inverses = solve_and_invert(elements, compliance, free, range(1, len(elements)))
+    assert (np.abs(forces - solve(elements, compliance, free)) <= 1e-12).all()
+    assert inverses.keys() == set(range(1, len(elements)))
+    largest = np.abs(expected).max(axis=(1, 2), keepdims=True)
+    for k, found in inverses.items():
+        rows = elements[k].rows
+        assert (np.abs(found - expected[:, rows[:, None], rows]) <= 1e-8 * largest).all()
 
 
 @pytest.mark.parametrize("slack", [0.0, elimination.SLACK])

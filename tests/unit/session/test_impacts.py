@@ -20,6 +20,9 @@ from scene2hap import (
     UserProfile,
 )
 from scene2hap.errors import SessionError, UnknownObject
+from scene2hap.propagation.coupled import struck_solution
+from scene2hap.propagation.coupled.hand import PALM
+from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
 from scene2hap.session.impacts import LEAST_INTERVAL_S, PEAK, Impact, struck_later
@@ -29,6 +32,9 @@ RATE = 48_000
 TOP_M = 0.72
 NEAR, FAR = (0.5, TOP_M, 0.4), (1.0, TOP_M, 0.4)
 STRUCK = (0.4, TOP_M, 0.4)
+
+
+PHYSICAL = (ModalPlate(), InfinitePlate(), MassSpringDamper(), AutoFidelity(), ModalPlate(hand=PALM))
 
 
 def session(**settings: Any) -> HapticSession:
@@ -60,8 +66,6 @@ def amplitudes(samples: np.ndarray, burst: Any) -> np.ndarray:
 
 
 def burst_at(made: HapticSession, point_m: tuple[float, float, float]) -> Any:
-    from scene2hap.propagation.impact import burst_of
-
     state = made._state
     return burst_of(
         state.bodies["table"], state.on_plate("table", point_m), state.bodies["cup"], speed_m_s=1.0, is_finger=False
@@ -131,7 +135,7 @@ def test_prepared_touched_object_feels_an_impact_with_the_next_block(
 
 def test_prepared_impact_equals_the_field_of_the_impact_alone() -> None:
     """On a table on a block, with two phones on it."""
-    for model in (ModalPlate(), InfinitePlate(), MassSpringDamper(), AutoFidelity()):
+    for model in PHYSICAL:
         scene, bundle = table_with_two_phones()
         made = HapticSession(scene, bundle, {"propagation": model})
         made.update(touches=touches())
@@ -140,8 +144,9 @@ def test_prepared_impact_equals_the_field_of_the_impact_alone() -> None:
         burst, hands = burst_at(made, STRUCK), [[("table", NEAR)], [("table", FAR), ("table", STRUCK)]]
         f = burst.frequencies_hz
         expected = struck_later(model, made._state, "table", STRUCK, hands, f)()
-        answer = made._impacts._ahead.answer("table", STRUCK, hands, f)
+        answer = made._impacts._ahead.answer("table", STRUCK, dict(enumerate(hands)), f)
         assert answer is not None
+        assert list(answer.among) == [0, 1]
         found = answer.gains()
         assert np.abs(20 * np.log10(found / expected)).max() < 0.5
         assert (found[1] > 0.999).all()  # this hand is where it is struck
@@ -161,17 +166,85 @@ def test_last_prepared_impact_is_used_until_a_new_one_is_ready() -> None:
     assert second.felt != first.felt
 
 
-def test_a_hand_on_another_object_waits_for_the_worker_and_counts_once() -> None:
+@pytest.mark.parametrize("model", PHYSICAL, ids=lambda one: f"{one.kind} {'under a hand' if one.hand else ''}")
+@pytest.mark.parametrize(
+    ("touched", "struck"), [("cup", "table"), ("phone", "table"), ("phone", "cup"), ("table", "cup")]
+)
+def test_a_hand_on_another_object_feels_an_impact_with_the_next_block_as_the_model_says(
+    model: Any, touched: str, struck: str
+) -> None:
+    """On a table on which a phone lies and a cup stands, as heavy as a box."""
+    scene, bundle = table_with_two_phones()
+    made = HapticSession(scene, bundle, {"propagation": model, "gain_limit_db": None}, hands=("hand",))
+    for source_id in made.source_ids:
+        made.set_source(source_id, on=False)
+    places = {"table": STRUCK, "cup": (0.6, TOP_M + 0.05, 0.4), "phone": (0.1, TOP_M + 0.005, 0.4)}
+    x, y, z = places[touched]
+    hand = (x + 0.02, y, z + 0.01)
+    made.update({"cup": Pose(places["cup"])}, [Touch("hand", touched, hand)])
+    assert made.wait_prepared(60.0)
+    impact = made.strike(struck, places[struck], speed_m_s=3.0)
+    assert set(impact.felt) == {"hand"}
+    assert made.render(256).any()
+
+    state = made._state
+    burst = burst_of(state.bodies[struck], state.on_plate(struck, places[struck]), speed_m_s=3.0, is_finger=True)
+    f, weights = burst.frequencies_hz, burst.accelerations_m_s2**2
+    own = struck_later(model, state, struck, places[struck], [[(touched, hand)]], f)()
+    assert made._impacts._ahead is not None
+    answer = made._impacts._ahead.answer(struck, places[struck], {0: [(touched, hand)]}, f)
+    assert answer is not None
+    expected, found = (float((weights * gains[0] ** 2).sum()) for gains in (own, answer.gains()))
+    assert abs(10 * math.log10(found / expected)) < 0.5
+
+
+def test_hands_on_several_objects_feel_an_impact_at_once_and_it_counts_once() -> None:
     made = session(propagation="modal_plate")
     both = [Touch("left", "table", NEAR), Touch("right", "phone", made._state.poses["phone"].position_m)]
     made.update(touches=both)
     assert made.wait_prepared(30.0)
     impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0)
-    assert "left" in impact.felt
-    assert made.wait_prepared(30.0)
     assert set(impact.felt) == {"left", "right"}
+    assert made.wait_prepared(30.0)
     assert made.stats.impacts_felt == 1
     assert made.impacts == (impact,)
+
+
+def test_a_hand_on_two_objects_feels_the_larger_answer() -> None:
+    made = session(propagation="modal_plate")
+    phone = made._state.poses["phone"].position_m
+    made.update(touches=[Touch("left", "table", FAR), Touch("left", "phone", phone)])
+    assert made.wait_prepared(30.0)
+    ahead, f = made._impacts._ahead, np.array([60.0, 150.0])
+    assert ahead is not None
+    answers = [
+        ahead.answer("table", STRUCK, {0: hand}, f)
+        for hand in ([("table", FAR)], [("phone", phone)], [("table", FAR), ("phone", phone)])
+    ]
+    one, other, both = (answer.gains()[0] for answer in answers if answer is not None)
+    np.testing.assert_allclose(both, np.maximum(one, other))
+
+
+def test_without_memory_for_a_pair_a_worker_prepares_the_impact(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(struck_solution, "MOST_HELD_BYTES", 0)
+    made = session(propagation="modal_plate")
+    made.update(touches=touches())
+    assert made.wait_prepared(30.0)
+    impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0)
+    assert made.wait_prepared(30.0)
+    assert set(impact.felt) == {"left", "right"}
+
+
+def test_an_object_that_is_touched_next_is_prepared_beside_the_last_ones() -> None:
+    made = session(propagation="modal_plate")
+    phone = made._state.poses["phone"].position_m
+    for touched, point in (("table", NEAR), ("phone", phone), ("cup", made._state.poses["cup"].position_m)):
+        made.update(touches=[Touch("left", touched, point)])
+        assert made.wait_prepared(30.0)
+    made.update(touches=[Touch("left", "phone", phone)])
+    assert made._impacts._ahead is not None
+    assert made._impacts._ahead.wait(0.0)
+    assert made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0).felt
 
 
 def test_it_sounds_with_the_next_block_and_ends() -> None:
