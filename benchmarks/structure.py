@@ -2,9 +2,9 @@
 
 python benchmarks/structure.py [--before 01b76f5] [--after HEAD] [--part table|way|tree]
 
-A package here is a module or package directly below `scene2hap`. Imports are read from the source, those below `TYPE_CHECKING`
-and inside functions included. A cycle is a set of modules that import each other, directly or through others; fan-in
-is the number of modules outside the package that import it.
+A package here is a module or package directly below `scene2hap`. Imports are read from the source, those below
+`TYPE_CHECKING` and inside functions included. A cycle is a set of modules that import each other, directly or through
+others; fan-in is the number of modules outside the package that import it.
 
 The way from a `SceneSnapshot` to a gain is traced with `sys.setprofile` in a fresh process: a session over the demo
 bundle is made, and updated with a touch and a moved object. Counted are the files whose functions are called. Kernels
@@ -121,7 +121,7 @@ class Source:
         cython = sum(count(path) for path in self.compiled if path.relative_to(self.root).parts[0] == package)
         return python, cython
 
-    def room_graph(self) -> nx.DiGraph:
+    def package_graph(self) -> nx.DiGraph:
         graph = nx.DiGraph()
         graph.add_nodes_from(self.packages)
         for a, b in self.imports.edges:
@@ -187,7 +187,7 @@ def table(before: Source, after: Source) -> None:
     both = [[total[i] for i in range(4)] for total in totals]
     print("| all | " + " | ".join(pairs(*both)) + " | |")
     for title, source in (("before", before), ("after", after)):
-        rings = [each for each in nx.strongly_connected_components(source.room_graph()) if len(each) > 1]
+        rings = [each for each in nx.strongly_connected_components(source.package_graph()) if len(each) > 1]
         print(f"\nCycles of whole packages {title}: {'; '.join(', '.join(sorted(each)) for each in rings) or 'none'}.")
         rings = [ring for package in source.packages for ring in source.cycles(package)]
         inside = [", ".join(name.partition(".")[2] for name in ring) for ring in rings]
@@ -220,8 +220,8 @@ def print_way(before: Path, after: Path) -> None:
 
 def print_tree(before: Source, after: Source) -> None:
     for title, source in (("before", before), ("after", after)):
-        graph = source.room_graph()
-        print(f"Packages {title}; an arrow means imports, and arrows that follow from others are left out.\n\n```mermaid")
+        graph = source.package_graph()
+        print(f"Packages {title}; an arrow means imports, implied arrows are left out.\n\n```mermaid")
         print("flowchart TD")
         drawn = nx.transitive_reduction(graph) if nx.is_directed_acyclic_graph(graph) else graph
         for a, b in sorted(drawn.edges):
