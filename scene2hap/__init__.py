@@ -21,7 +21,7 @@ _HOME = {
     "scene2hap.scene.pose": ("Pose",),
     "scene2hap.scene.pose_table": ("PoseTable",),
     "scene2hap.scene.objects": ("Contact", "SceneObject"),
-    "scene2hap.scene.outline": ("Outline",),
+    "scene2hap.scene.surface.outline": ("Outline",),
     "scene2hap.scene.shapes": ("Box", "DominantSurface", "TriMesh"),
     "scene2hap.scene.scene_warning": ("SceneWarning",),
     "scene2hap.scene.snapshot": ("SceneSnapshot",),
@@ -44,10 +44,10 @@ _HOME = {
     "scene2hap.audio.select": ("select_clip",),
     "scene2hap.llm.protocol": ("LLMBackend", "LLMReply", "LLMRequest"),
     "scene2hap.llm.lexicon": ("LexiconBackend",),
-    "scene2hap.llm.openai": ("OpenAIBackend",),
-    "scene2hap.llm.local": ("LocalBackend",),
-    "scene2hap.llm.function": ("FunctionBackend",),
-    "scene2hap.llm.chat": ("BackendWarning",),
+    "scene2hap.llm.backends.openai": ("OpenAIBackend",),
+    "scene2hap.llm.backends.local": ("LocalBackend",),
+    "scene2hap.llm.backends.function": ("FunctionBackend",),
+    "scene2hap.llm.backends.chat": ("BackendWarning",),
     "scene2hap.llm.wrappers": (
         "BudgetBackend",
         "CacheBackend",
@@ -56,7 +56,7 @@ _HOME = {
         "RetryBackend",
         "standard_stack",
     ),
-    "scene2hap.llm.replay": ("RecordingBackend", "ReplayBackend"),
+    "scene2hap.llm.backends.replay": ("RecordingBackend", "ReplayBackend"),
     "scene2hap.llm.chain": ("infer_haptics",),
     "scene2hap.bundle": ("HapticBundle", "Override"),
     "scene2hap.baking": ("BakeConfig", "abake", "arebake", "bake", "bake_object", "rebake"),
@@ -187,17 +187,17 @@ if TYPE_CHECKING:
     from scene2hap.haptics import (
         VibrationDescription as VibrationDescription,
     )
+    from scene2hap.llm.backends.chat import BackendWarning as BackendWarning
+    from scene2hap.llm.backends.function import FunctionBackend as FunctionBackend
+    from scene2hap.llm.backends.local import LocalBackend as LocalBackend
+    from scene2hap.llm.backends.openai import OpenAIBackend as OpenAIBackend
+    from scene2hap.llm.backends.replay import RecordingBackend as RecordingBackend
+    from scene2hap.llm.backends.replay import ReplayBackend as ReplayBackend
     from scene2hap.llm.chain import infer_haptics as infer_haptics
-    from scene2hap.llm.chat import BackendWarning as BackendWarning
-    from scene2hap.llm.function import FunctionBackend as FunctionBackend
     from scene2hap.llm.lexicon import LexiconBackend as LexiconBackend
-    from scene2hap.llm.local import LocalBackend as LocalBackend
-    from scene2hap.llm.openai import OpenAIBackend as OpenAIBackend
     from scene2hap.llm.protocol import LLMBackend as LLMBackend
     from scene2hap.llm.protocol import LLMReply as LLMReply
     from scene2hap.llm.protocol import LLMRequest as LLMRequest
-    from scene2hap.llm.replay import RecordingBackend as RecordingBackend
-    from scene2hap.llm.replay import ReplayBackend as ReplayBackend
     from scene2hap.llm.wrappers import (
         BudgetBackend as BudgetBackend,
     )
@@ -244,7 +244,6 @@ if TYPE_CHECKING:
     from scene2hap.scene.load import load_scene as load_scene
     from scene2hap.scene.objects import Contact as Contact
     from scene2hap.scene.objects import SceneObject as SceneObject
-    from scene2hap.scene.outline import Outline as Outline
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.pose_table import PoseTable as PoseTable
     from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
@@ -252,6 +251,7 @@ if TYPE_CHECKING:
     from scene2hap.scene.shapes import DominantSurface as DominantSurface
     from scene2hap.scene.shapes import TriMesh as TriMesh
     from scene2hap.scene.snapshot import SceneSnapshot as SceneSnapshot
+    from scene2hap.scene.surface.outline import Outline as Outline
     from scene2hap.session import (
         HapticFrame as HapticFrame,
     )

@@ -97,8 +97,8 @@ def _preload() -> None:
     for name in (
         "scene2hap.cli",
         "scene2hap.scene.load",
-        "scene2hap.scene.gltf",
-        "scene2hap.scene.obj",
+        "scene2hap.scene.formats.gltf",
+        "scene2hap.scene.formats.obj",
         "trimesh",
         "PIL",
     ):

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.spread import spread, spread_few
-from scene2hap.contact.vectors import Floats, Triple, along, frame_along, highest
+from scene2hap.contact.geometry.spread import spread, spread_few
+from scene2hap.contact.geometry.vectors import Floats, Triple, along, frame_along, highest
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from scene2hap.contact.free_region import FreeRegions
+from scene2hap.contact.geometry.vectors import Rows, Triple
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.stance import Stance
-from scene2hap.contact.vectors import Rows, Triple
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 

@@ -16,8 +16,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.broad import Boxes, box_pairs
-from scene2hap.contact.vectors import AABB, Triple
+from scene2hap.contact.geometry.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.vectors import AABB, Triple
 
 SKIN_M = 0.06
 """Distance an object may move before its neighbours are searched again (assumed: a hand's path in four or five frames).

@@ -9,10 +9,10 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate, Extent, Resting, resting_on, separated, standing_planes
 from scene2hap.contact.free_space import free_planes, has_nothing_near
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.planes import Plane
 from scene2hap.contact.relative import roles
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
-from scene2hap.contact.vectors import Triple
 
 _MOST_REFUSALS = 5
 """After n refusals a body waits for 2^(n-1) - 1 moves before the next attempt; n grows to this."""

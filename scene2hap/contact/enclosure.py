@@ -16,11 +16,11 @@ import math
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.broad import Boxes
-from scene2hap.contact.rays import first_hits
+from scene2hap.contact.geometry.broad import Boxes
+from scene2hap.contact.geometry.rays import first_hits
+from scene2hap.contact.geometry.vectors import Floats, Triple
 from scene2hap.contact.relative import box_in_frame, middle_m, roles
 from scene2hap.contact.rule import OUTSIDE_SHARE, SIDE_SHARE, play_reach_m, weight
-from scene2hap.contact.vectors import Floats, Triple
 
 
 def enclosed(a: Body, b: Body) -> tuple[float, float]:

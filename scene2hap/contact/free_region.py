@@ -6,8 +6,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import NamedTuple
 
+from scene2hap.contact.geometry.vectors import AABB
 from scene2hap.contact.ledge import Flat, Upright
-from scene2hap.contact.vectors import AABB
 
 _MOST_REGIONS = 64
 _MOST_GUESTS = 256

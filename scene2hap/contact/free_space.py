@@ -16,14 +16,14 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.free_region import FreeRegion
+from scene2hap.contact.geometry.triangle_tree import meeting
+from scene2hap.contact.geometry.vectors import AABB, Indices, Marks
 from scene2hap.contact.ledge import Flat, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.relative import box_in_frame
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, is_over, play_reach_m
 from scene2hap.contact.stance import TopFace
-from scene2hap.contact.triangle_tree import meeting
-from scene2hap.contact.vectors import AABB, Indices, Marks
 
 _MOST_TILT_M = 1e-4  # Largest lean of a host over its whole size: the error of a ledge's height.
 _AROUND_M = 0.8  # The host is searched this far beyond a guest, so that later guests can use the region.

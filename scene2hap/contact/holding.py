@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import has_nothing_near
+from scene2hap.contact.geometry.vectors import Floats, Triple
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.level import Aside, Rest, rest_points
 from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by, box_distance_m
@@ -27,7 +28,6 @@ from scene2hap.contact.rule import (
     supports,
     weight,
 )
-from scene2hap.contact.vectors import Floats, Triple
 
 
 class Bond(NamedTuple):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.contact.vectors import Triple
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.scene.objects import Contact
 
 Pair = tuple[str, str]

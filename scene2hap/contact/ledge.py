@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.contact.broad import Boxes
-from scene2hap.contact.vectors import Floats
+from scene2hap.contact.geometry.broad import Boxes
+from scene2hap.contact.geometry.vectors import Floats
 
 Flat = tuple[float, float, float, float]
 """A rectangle: least u, least v, greatest u, greatest v."""

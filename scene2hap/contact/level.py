@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.polygons import Point, clipped, inside_edges, polygon_gap
-from scene2hap.contact.spread import spread_few
+from scene2hap.contact.geometry.polygons import Point, clipped, inside_edges, polygon_gap
+from scene2hap.contact.geometry.spread import spread_few
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.stance import Stance
-from scene2hap.contact.vectors import Triple
 
 # Least overlap of two outlines, as a share of the upper one's radius, and its upper bound. Without it, equal boxes side
 # by side, whose rims coincide, would lie over each other.

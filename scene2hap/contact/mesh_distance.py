@@ -21,11 +21,11 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from scene2hap.compiled import compiled
-from scene2hap.contact.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.spread import spread
+from scene2hap.contact.geometry.triangles import clearances, heights, meetings
+from scene2hap.contact.geometry.vectors import Floats, Indices, Rows, Triple, cross, dot, rotated, transposed
 from scene2hap.contact.shape import Shape, boxes_of
-from scene2hap.contact.spread import spread
-from scene2hap.contact.triangles import clearances, heights, meetings
-from scene2hap.contact.vectors import Floats, Indices, Rows, Triple, cross, dot, rotated, transposed
 
 ROUNDING_M = 1e-9
 """Distances below this are rounding errors."""

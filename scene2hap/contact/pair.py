@@ -13,11 +13,11 @@ from typing import Any
 from scene2hap.contact.body import Body
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import has_nothing_near, ledge_under
+from scene2hap.contact.geometry.vectors import Floats, Triple
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
 from scene2hap.contact.relative import roles
 from scene2hap.contact.rule import SLACK_M, TOUCH_M, fall_reach_m, is_over
-from scene2hap.contact.vectors import Floats, Triple
 
 NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 """Marks a fall distance that only triangles can give."""

@@ -6,7 +6,7 @@ Written in plain Python, since it runs often for one pair at a time, where numpy
 from __future__ import annotations
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.vectors import Triple
+from scene2hap.contact.geometry.vectors import Triple
 
 
 def middle_m(body: Body) -> Triple:

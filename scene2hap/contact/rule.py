@@ -25,8 +25,8 @@ import numpy as np
 
 from scene2hap.compiled import compiled
 from scene2hap.contact.body import Body
+from scene2hap.contact.geometry.vectors import Floats
 from scene2hap.contact.level import Rest
-from scene2hap.contact.vectors import Floats
 
 TOUCH_M = 0.004
 """Gap at which any two surfaces cease to touch (tuned: cups on saucers stand 6 mm above the table)."""

@@ -11,12 +11,12 @@ from weakref import WeakValueDictionary
 import numpy as np
 
 from scene2hap.contact.base_face import BaseFace, base_face_of, top_of, triples, uneven_m
-from scene2hap.contact.broad import Boxes
-from scene2hap.contact.features import Features, features_of
+from scene2hap.contact.geometry.broad import Boxes
+from scene2hap.contact.geometry.features import Features, features_of
+from scene2hap.contact.geometry.rays import first_hits
+from scene2hap.contact.geometry.triangle_tree import TriangleTree
+from scene2hap.contact.geometry.vectors import Floats, Triple, cross, dot, highest, lowest
 from scene2hap.contact.ledge import Ledges, Upright
-from scene2hap.contact.rays import first_hits
-from scene2hap.contact.triangle_tree import TriangleTree
-from scene2hap.contact.vectors import Floats, Triple, cross, dot, highest, lowest
 from scene2hap.scene.shapes import TriMesh
 
 # Directions of up whose faces a shape caches. A tumbling object has more, which clears the cache.

@@ -12,11 +12,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from scene2hap.contact.base_face import across
+from scene2hap.contact.geometry.polygons import Point, edges_of, turned_outline
+from scene2hap.contact.geometry.separation import Footprint
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.ledge import Upright
-from scene2hap.contact.polygons import Point, edges_of, turned_outline
-from scene2hap.contact.separation import Footprint
 from scene2hap.contact.shape import Shape
-from scene2hap.contact.vectors import Triple
 
 # Digits to which the upward direction is rounded before level faces are searched. Rounding in a game, or jitter of an
 # engine below 0.003 degrees, then changes nothing.

@@ -6,9 +6,9 @@ BACKENDS = PluginGroup(
     "scene2hap.llm",
     builtins={
         "lexicon": "scene2hap.llm.lexicon:LexiconBackend",
-        "openai": "scene2hap.llm.openai:OpenAIBackend",
-        "local": "scene2hap.llm.local:LocalBackend",
-        "replay": "scene2hap.llm.replay:ReplayBackend",
+        "openai": "scene2hap.llm.backends.openai:OpenAIBackend",
+        "local": "scene2hap.llm.backends.local:LocalBackend",
+        "replay": "scene2hap.llm.backends.replay:ReplayBackend",
         "retry": "scene2hap.llm.wrappers:RetryBackend",
         "repair": "scene2hap.llm.wrappers:RepairBackend",
         "cache": "scene2hap.llm.wrappers:CacheBackend",

@@ -12,8 +12,8 @@ from pydantic import ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
-from scene2hap.llm import chat
 from scene2hap.llm.answers import Answer
+from scene2hap.llm.backends import chat
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport

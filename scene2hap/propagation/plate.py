@@ -18,7 +18,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.materials import Material, lookup
-from scene2hap.scene.outline import Outline
+from scene2hap.scene.surface.outline import Outline
 
 MAX_FREQUENCY_HZ = 1e9
 """Far beyond any vibration; assumed, so that no square of a frequency is too large for a number."""

@@ -148,7 +148,7 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
 def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
     """Return the scene with surfaces and heights measured if its rows lack them."""
     # Imported only here, since files that this library wrote contain all measurements.
-    from scene2hap.scene.surfaces import Surfaces
+    from scene2hap.scene.surface.surfaces import Surfaces
 
     surfaces = Surfaces()
     stored = {item.geometry.mesh.digest: len(item.geometry.mesh.vertices_m) for item in scene.objects}

@@ -56,7 +56,7 @@ def load_scene(
         folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
     names : only for Habitat scenes, whose templates may be hashes: names of objects by template, or the path of a table
         of them: JSON that maps one to the other, or CSV with columns such as id and name. HSSD's own tables are found
-        without it; see `scene2hap.scene.habitat_names`.
+        without it; see `scene2hap.scene.formats.habitat_names`.
 
     Returns: the scene named after the file. An object has the pose of the node that names it, without scale. Copies of
         one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names. The second and
@@ -90,7 +90,7 @@ def load_scene(
         snapshot = _from_mjcf(path, up_axis, unit, group, root)
     else:
         if is_habitat(path):
-            from scene2hap.scene.habitat import read_habitat
+            from scene2hap.scene.formats.habitat import read_habitat
 
             authored = read_habitat(path, None if assets_root is None else root, names, _read)
         else:
@@ -116,29 +116,29 @@ def _read(path: Path, assets_root: Path) -> AuthoredScene:
         )
     # Each reader is imported at its first use: a game that loads GLB pays for no other.
     if suffix in (".glb", ".gltf"):
-        from scene2hap.scene.gltf import read_gltf
+        from scene2hap.scene.formats.gltf import read_gltf
 
         return read_gltf(path, assets_root)
     if suffix in _USD_SUFFIXES:
-        from scene2hap.scene.usd import read_usd
+        from scene2hap.scene.formats.usd import read_usd
 
         return read_usd(path, assets_root)
     if suffix == ".urdf":
-        from scene2hap.scene.urdf import read_urdf
+        from scene2hap.scene.formats.urdf import read_urdf
 
         return read_urdf(path, assets_root, _read)
     data = read_bytes(path)
     if suffix == ".obj":
-        from scene2hap.scene.obj import read_obj
+        from scene2hap.scene.formats.obj import read_obj
 
         return read_obj(
             data.decode("utf-8", errors="replace"), writable(path.stem), TextureFiles(path.parent, assets_root)
         )
     if suffix == ".dae":
-        from scene2hap.scene.dae import read_dae
+        from scene2hap.scene.formats.dae import read_dae
 
         return read_dae(data, path.name, TextureFiles(path.parent, assets_root))
-    from scene2hap.scene.stl_ply import read_stl_ply
+    from scene2hap.scene.formats.stl_ply import read_stl_ply
 
     return read_stl_ply(data, suffix[1:], writable(path.stem))
 

@@ -174,7 +174,9 @@ def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> Dominan
 
 @lru_cache(maxsize=256)
 def _measured(geometry: Geometry, up: tuple[float, ...]) -> DominantSurface:
-    from scene2hap.scene.dominant_surface import dominant_surface  # given or stored surfaces need no measurement
+    from scene2hap.scene.surface.dominant_surface import (
+        dominant_surface,  # given or stored surfaces need no measurement
+    )
 
     return dominant_surface(geometry.mesh, up=up)
 

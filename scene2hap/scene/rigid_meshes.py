@@ -18,7 +18,7 @@ from scene2hap.scene.appearance import Appearance, joined
 from scene2hap.scene.grouping import Group
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh
-from scene2hap.scene.surfaces import Surfaces
+from scene2hap.scene.surface.surfaces import Surfaces
 from scene2hap.scene.tree import Matrix, Piece, digest
 
 # Matrices that were stored as float32 differ in the seventh digit, so instances may differ by this share of their size.

@@ -15,8 +15,8 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene import sizes
-from scene2hap.scene.outline import Outline
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.surface.outline import Outline
 
 SurfaceFlag = Literal["open-mesh", "zero-thickness", "box-fallback"]
 """Reasons to review a measured dominant surface.

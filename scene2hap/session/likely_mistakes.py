@@ -20,9 +20,9 @@ import numpy as np
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.mesh_distance import surface_distance
 from scene2hap.contact.shape import Shape, shape_of
-from scene2hap.contact.vectors import Triple
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose

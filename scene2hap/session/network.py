@@ -11,9 +11,9 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, Excitation
 from scene2hap.scene.objects import SceneObject
-from scene2hap.scene.outline import Outline
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface
+from scene2hap.scene.surface.outline import Outline
 from scene2hap.session.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0

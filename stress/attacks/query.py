@@ -32,7 +32,7 @@ def main(kind: str, where: str) -> None:
 
         print(printable(web.get(where, web.Limits(2.0, 1 << 20)).text[:1000]))
     else:
-        from scene2hap.llm.local import LocalBackend
+        from scene2hap.llm.backends.local import LocalBackend
         from scene2hap.llm.protocol import LLMRequest
 
         schema = {"type": "object", "properties": {"scene_category": {"type": "string"}}, "additionalProperties": False}

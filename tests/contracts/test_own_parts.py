@@ -13,8 +13,8 @@ from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.devices.tee import TeeSink
 from scene2hap.export import EXPORTS
+from scene2hap.llm.backends.replay import RecordingBackend, ReplayBackend
 from scene2hap.llm.lexicon import LexiconBackend
-from scene2hap.llm.replay import RecordingBackend, ReplayBackend
 from scene2hap.propagation import MODELS
 from scene2hap.scene.capture import RENDERERS
 from scene2hap.testing import (

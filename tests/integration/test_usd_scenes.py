@@ -52,7 +52,7 @@ def test_from_usd_to_a_sound_file(tmp_path: Path) -> None:
 def test_other_formats_do_not_import_the_reader() -> None:
     code = (
         "import sys; from scene2hap import load_scene; load_scene(sys.argv[1], unit_m=1.0); "
-        "print([name for name in sys.modules if name.startswith(('pxr', 'scene2hap.scene.usd'))])"
+        "print([name for name in sys.modules if name.startswith(('pxr', 'scene2hap.scene.formats.usd'))])"
     )
     done = subprocess.run(
         [sys.executable, "-c", code, str(room_file(NAME))], capture_output=True, text=True, check=True

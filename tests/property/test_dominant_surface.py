@@ -7,9 +7,9 @@ import trimesh
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from scene2hap.scene.dominant_surface import RAYS_PER_SIDE, dominant_surface
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
+from scene2hap.scene.surface.dominant_surface import RAYS_PER_SIDE, dominant_surface
 
 common = settings(derandomize=True, deadline=None, max_examples=40)
 edges = st.floats(0.05, 3.0)

@@ -14,9 +14,9 @@ from gltf_builder import Gltf
 from looks import embedded, image_file
 from scene2hap import Pose, SceneObject, SceneSnapshot, TriMesh
 from scene2hap.contact.junction import Pair, pair_of
-from scene2hap.scene.dominant_surface import dominant_surface
 from scene2hap.scene.objects import with_relative_heights
 from scene2hap.scene.shapes import Box
+from scene2hap.scene.surface.dominant_surface import dominant_surface
 
 Triple = tuple[float, float, float]
 

@@ -16,9 +16,9 @@ import pytest
 from llm_server import KEY
 from scene2hap import web
 from scene2hap.errors import BackendUnavailable
-from scene2hap.llm import http_client
-from scene2hap.llm.http_client import Endpoint
-from scene2hap.llm.http_reply import HttpReply
+from scene2hap.llm.backends import http_client
+from scene2hap.llm.backends.http_client import Endpoint
+from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.secret import Secret
 
 LIMITS = web.Limits(5.0, 1 << 20)

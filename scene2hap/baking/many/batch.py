@@ -25,8 +25,8 @@ from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.run import WORK, Progress, Run, scene_paths
 from scene2hap.calls import clear_attributes, clear_call
 from scene2hap.errors import BudgetExceeded, ConfigError, Scene2HapError
+from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch import AnswerPending, BatchBackend, BatchFolder, BatchRow, BatchService, BatchStatus
-from scene2hap.llm.openai import OpenAIBackend
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import CacheBackend, RepairBackend, identity, innermost

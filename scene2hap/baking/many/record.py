@@ -18,7 +18,7 @@ from scene2hap.errors import ConfigError, SceneError
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
 from scene2hap.scene.files import is_habitat, read_bytes
-from scene2hap.scene.habitat import referenced_files
+from scene2hap.scene.formats.habitat import referenced_files
 from scene2hap.text_files import write_whole
 
 _SELF_CONTAINED = frozenset({".glb", ".stl", ".ply", ".json"})

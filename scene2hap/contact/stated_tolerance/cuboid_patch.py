@@ -18,7 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.spread import spread_each
+from scene2hap.contact.geometry.spread import spread_each
+from scene2hap.contact.geometry.vectors import Floats, Indices, Marks, dot
 from scene2hap.contact.stated_tolerance.cuboids import (
     AXES,
     FLUSH_M,
@@ -31,7 +32,6 @@ from scene2hap.contact.stated_tolerance.cuboids import (
     nearest_axis,
     picked,
 )
-from scene2hap.contact.vectors import Floats, Indices, Marks, dot
 
 # Gaps this close count as equal, so that rounding does not choose a face; and points this near a rim count as inside.
 _TIE, _RIM_M, _RIM = 1e-6, 1e-9, 1e-9

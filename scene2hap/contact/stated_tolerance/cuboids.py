@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.vectors import Floats, Indices, Marks, dot
+from scene2hap.contact.geometry.vectors import Floats, Indices, Marks, dot
 
 NEXT, LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 SIGNS = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]).T

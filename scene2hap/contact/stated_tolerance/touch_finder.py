@@ -12,16 +12,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.spread import MAX_POINTS
+from scene2hap.contact.geometry.vectors import Indices, Marks, Rows, Triple, dot
 from scene2hap.contact.junction import ContactArrays, Junction, Pair
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
 from scene2hap.contact.rule import CLEAR_M, PATCH_SHARE, weight, weights
 from scene2hap.contact.shape import Shape, shape_of
-from scene2hap.contact.spread import MAX_POINTS
 from scene2hap.contact.stated_tolerance.cuboid_patch import patches
 from scene2hap.contact.stated_tolerance.cuboids import Pairs, gaps, times
 from scene2hap.contact.stated_tolerance.touches import Difference, PairNames, Touches, difference
-from scene2hap.contact.vectors import Indices, Marks, Rows, Triple, dot
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable

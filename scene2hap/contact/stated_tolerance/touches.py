@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.contact.geometry.spread import MAX_POINTS
+from scene2hap.contact.geometry.vectors import Floats, Indices, Marks, Triple
 from scene2hap.contact.junction import Junction, Pair
-from scene2hap.contact.spread import MAX_POINTS
-from scene2hap.contact.vectors import Floats, Indices, Marks, Triple
 
 _BITS = 32
 _LOW = (1 << _BITS) - 1

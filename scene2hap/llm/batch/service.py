@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from scene2hap.errors import BackendUnavailable, BadAnswer
-from scene2hap.llm import chat
-from scene2hap.llm.http_client import Endpoint
-from scene2hap.llm.http_reply import HttpReply
+from scene2hap.llm.backends import chat
+from scene2hap.llm.backends.http_client import Endpoint
+from scene2hap.llm.backends.http_reply import HttpReply
 
 COMPLETIONS = "/v1/chat/completions"
 """The endpoint of every request of a batch."""

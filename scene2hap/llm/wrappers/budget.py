@@ -8,7 +8,7 @@ from typing import Any
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import BackendError, BudgetExceeded, ConfigError
-from scene2hap.llm.chat import UnusableAnswer
+from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
 from scene2hap.llm.wrappers.stack import Spec, Wrapper

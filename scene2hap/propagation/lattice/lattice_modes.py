@@ -33,7 +33,7 @@ from scene2hap.propagation.lattice.factors import Factors, diagonal_factors, pos
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
-from scene2hap.scene.outline import Outline, Ring
+from scene2hap.scene.surface.outline import Outline, Ring
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

@@ -22,7 +22,7 @@ from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.lattice.pixel_integrals import PieceIntegrals, PixelProducts
 from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.propagation.plate import Plate
-from scene2hap.scene.outline import Outline
+from scene2hap.scene.surface.outline import Outline
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

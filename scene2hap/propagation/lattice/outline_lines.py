@@ -11,7 +11,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.outline import Outline
+from scene2hap.scene.surface.outline import Outline
 
 FINER = 2.0
 """How much smaller than others cells at a notch are, per cell along the box's shorter side: 16 times with 8. So they

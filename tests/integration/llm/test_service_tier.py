@@ -10,7 +10,7 @@ from llm_server import Asked, Scripted, refused, request, said
 from openai_schema import openai_serving
 from scene2hap import BackendWarning, BudgetBackend, RetryBackend
 from scene2hap.errors import BackendUnavailable, ConfigError
-from scene2hap.llm.openai import FLEX_TIMEOUT_S, TIMEOUT_S
+from scene2hap.llm.backends.openai import FLEX_TIMEOUT_S, TIMEOUT_S
 from scene2hap.llm.wrappers import reports
 
 NO_CAPACITY = refused(

@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scene2hap.contact import broad
-from scene2hap.contact.broad import Boxes, box_pairs
+from scene2hap.contact.geometry import broad
+from scene2hap.contact.geometry.broad import Boxes, box_pairs
 
 
 def random_boxes(rng: np.random.Generator, n: int) -> Boxes:

@@ -11,8 +11,8 @@ from scipy.optimize import lsq_linear
 
 from contact_scenes import box
 from scene2hap.contact.body import Body
+from scene2hap.contact.geometry.spread import spread_each
 from scene2hap.contact.mesh_distance import MeshPair
-from scene2hap.contact.spread import spread_each
 from scene2hap.contact.stated_tolerance.cuboid_patch import patches
 from scene2hap.contact.stated_tolerance.cuboids import Gaps, Pairs, gaps
 from scene2hap.scene.pose import Pose

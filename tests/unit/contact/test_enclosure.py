@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from contact_scenes import Triple, box, boxes, floor, found, on_floor, points, scene, weight
 from scene2hap.contact.body import Body
 from scene2hap.contact.enclosure import enclosed, play_reach_m
+from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.contact.rays import first_hits
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 

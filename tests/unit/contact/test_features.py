@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.features import features_of
+from scene2hap.contact.geometry.features import features_of
+from scene2hap.contact.geometry.triangles import meetings
+from scene2hap.contact.geometry.vectors import Floats
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.shape import Shape, shape_of
-from scene2hap.contact.triangles import meetings
-from scene2hap.contact.vectors import Floats
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, TriMesh
 

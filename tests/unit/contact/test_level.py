@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from contact_scenes import box, boxes
 from scene2hap.contact.body import Body
+from scene2hap.contact.geometry.polygons import clipped
 from scene2hap.contact.level import aside, rest_on, rest_points
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.pair import BodyPair
-from scene2hap.contact.polygons import clipped
 from scene2hap.scene.pose import Pose
 
 TURNS = st.floats(-3.0, 3.0)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scene2hap.contact.separation import Footprint, reach_along, separation
+from scene2hap.contact.geometry.separation import Footprint, reach_along, separation
 
 ANGLES, HALVES, PLACES = st.floats(0.0, 7.0), st.floats(0.0, 0.5), st.floats(-1.0, 1.0)
 

@@ -126,7 +126,7 @@ def test_weights_of_supports_to_the_last_bit(seed: int) -> None:
 def test_triangles_in_a_box(seed: int) -> None:
     rng = np.random.default_rng(seed)
     tree = shape_of(mesh(rng)).tree
-    plain, twin = both("contact.triangle_tree.meeting")
+    plain, twin = both("contact.geometry.triangle_tree.meeting")
     for _ in range(8):
         low = np.round(rng.uniform(-0.4, 0.4, 3), int(rng.choice([1, 9])))
         high = low + rng.choice([0.0, 0.1, 0.5])
@@ -161,14 +161,14 @@ def test_outlines_over_each_other_to_the_last_bit(seed: int) -> None:
         angles = np.sort(rng.uniform(0, 2 * math.pi, int(n)))
         ring = np.stack([np.cos(angles), rng.uniform(size=int(n)), np.sin(angles)], axis=1) + rng.choice([0.0, 0.5], 3)
         rows = Stance(shape_of(Box((0.1, 0.1, 0.1)).mesh), turned(rng, 1), 1).rows
-        plain, twin = both("contact.polygons.turned_outline")
+        plain, twin = both("contact.geometry.polygons.turned_outline")
         outline = plain(ring.tolist(), rows[0], rows[2])
         assert twin(ring.tolist(), rows[0], rows[2]) == outline
         outlines.append(outline)
-    plain, twin = both("contact.polygons.edges_of")
+    plain, twin = both("contact.geometry.polygons.edges_of")
     edges = plain(outlines[1])
     assert twin(outlines[1]) == edges
-    for plain, twin in (both("contact.polygons.inside_edges"), both("contact.polygons.clipped")):
+    for plain, twin in (both("contact.geometry.polygons.inside_edges"), both("contact.geometry.polygons.clipped")):
         for move in ((0.0, 0.0), tuple(rng.uniform(-1, 1, 2).tolist())):
             assert twin(outlines[0], *move, edges) == plain(outlines[0], *move, edges)
 
@@ -185,7 +185,7 @@ def test_outlines_beside_each_other_to_the_last_bit(seed: int) -> None:
             # Squares side by side, as things on a grid are: several ways are equally short.
             ring = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) + rng.choice([0.0, 1.0, 1.25], 2)
         outlines.append([(u, v) for u, v in ring.tolist()])
-    plain, twin = both("contact.polygons.polygon_gap")
+    plain, twin = both("contact.geometry.polygons.polygon_gap")
     for rise_m in (0.0, 0.1):
         given = (*outlines, rise_m, float(rng.choice([0.1, 0.5, 4.0])), 0.01)
         assert twin(*given) == plain(*given)
@@ -198,5 +198,5 @@ def test_few_points_that_stand_for_more(seed: int, n: int, n_axes: int) -> None:
     rng = np.random.default_rng(seed)
     places = rng.integers(0, 3, (n, n_axes)) * rng.choice([0.1, 0.003, 1e-7]) + rng.choice([0.0, 1e-12, 0.01], (n, 1))
     points = [tuple(place) for place in places.tolist()]
-    plain, twin = both("contact.spread.spread_few")
+    plain, twin = both("contact.geometry.spread.spread_few")
     assert twin(points) == plain(points)

@@ -12,8 +12,8 @@ import pytest
 from llm_server import GOOD, KEY, request, said
 from scene2hap import OpenAIBackend
 from scene2hap.errors import BackendError, BackendUnavailable, ConfigError
-from scene2hap.llm.http_client import Endpoint
-from scene2hap.llm.http_reply import HttpReply
+from scene2hap.llm.backends.http_client import Endpoint
+from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.secret import Secret
 
 

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scene2hap.errors import BackendError, BadAnswer, ConfigError, ReplayMiss
+from scene2hap.llm.backends.replay import RecordingBackend, ReplayBackend
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
-from scene2hap.llm.replay import RecordingBackend, ReplayBackend
 from scene2hap.llm.request_key import request_key
 
 REQUEST = LLMRequest(

@@ -7,9 +7,9 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from scene2hap.scene.dominant_surface import dominant_surface
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
+from scene2hap.scene.surface.dominant_surface import dominant_surface
 
 Size = tuple[float, float, float]
 

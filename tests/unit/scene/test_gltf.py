@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
-from scene2hap.scene.gltf import read_gltf
+from scene2hap.scene.formats.gltf import read_gltf
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.shapes import TriMesh

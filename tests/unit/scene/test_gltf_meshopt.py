@@ -19,7 +19,7 @@ from gltf_reading import header_and_buffer
 from laundry import IDS
 from scene2hap import SceneSnapshot, load_scene
 from scene2hap.errors import Scene2HapError, SceneError, SceneFormatError
-from scene2hap.scene import meshopt_codec
+from scene2hap.scene.formats import meshopt_codec
 
 DATA = Path(__file__).parents[2] / "data" / "meshopt"
 STREAMS: list[dict[str, Any]] = json.loads((DATA / "streams.json").read_text(encoding="utf-8"))

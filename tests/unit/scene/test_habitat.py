@@ -20,7 +20,7 @@ from others import SCENES, needed
 from scene2hap import SceneWarning
 from scene2hap.errors import Scene2HapError, SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.habitat import referenced_files
+from scene2hap.scene.formats.habitat import referenced_files
 from scene2hap.scene.load import TextureWarning, UnitWarning, load_scene
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -88,7 +88,7 @@ def test_equal_piece_numbers_of_two_models_are_distinguished(dataset: Dataset) -
 
 
 def test_a_model_is_read_once(dataset: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
-    from scene2hap.scene import gltf
+    from scene2hap.scene.formats import gltf
 
     opened: list[str] = []
     read = gltf.read_gltf

@@ -73,7 +73,7 @@ def test_scene_with_given_surfaces_is_read_without_measuring() -> None:
     scene = read(row("a", {"kind": "box", "size_m": [1, 1, 1]}))
     code = (
         "import sys\nfrom scene2hap import SceneSnapshot\nSceneSnapshot.from_json(sys.stdin.read())\n"
-        "print('scene2hap.scene.dominant_surface' in sys.modules)"
+        "print('scene2hap.scene.surface.dominant_surface' in sys.modules)"
     )
     run = subprocess.run(
         [sys.executable, "-c", code], input=scene.to_json(), capture_output=True, text=True, check=True

@@ -9,8 +9,8 @@ import pytest
 
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
+from scene2hap.scene.formats.obj import read_obj
 from scene2hap.scene.load import load_scene
-from scene2hap.scene.obj import read_obj
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 

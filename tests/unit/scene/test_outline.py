@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from scene2hap import TriMesh
 from scene2hap.errors import SceneError
-from scene2hap.scene.dominant_surface import dominant_surface
-from scene2hap.scene.outline import Outline
+from scene2hap.scene.surface.dominant_surface import dominant_surface
+from scene2hap.scene.surface.outline import Outline
 
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 L = ((0.0, 0.0), (1.0, 0.0), (1.0, 0.4), (0.5, 0.4), (0.5, 1.0), (0.0, 1.0))

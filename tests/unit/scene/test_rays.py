@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from scene2hap.scene.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.shapes import Box
+from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 
 Floats = NDArray[np.float64]
 

@@ -11,15 +11,17 @@ import pytest
 
 from scene2hap import load_scene
 from scene2hap.errors import SceneError
-from scene2hap.scene import collection, limits, mtl, stl_ply, surfaces
-from scene2hap.scene import dominant_surface as dominant_surface_module
+from scene2hap.scene import collection, limits
 from scene2hap.scene.collection import Member, split
-from scene2hap.scene.cuboid import cuboid_bounds_m
-from scene2hap.scene.dominant_surface import dominant_surface
 from scene2hap.scene.engines import mjcf_files, mujoco_geoms
 from scene2hap.scene.engines.mjcf_files import check_files
+from scene2hap.scene.formats import mtl, stl_ply
+from scene2hap.scene.formats.stl_ply import read_stl_ply
 from scene2hap.scene.shapes import Box, TriMesh
-from scene2hap.scene.stl_ply import read_stl_ply
+from scene2hap.scene.surface import dominant_surface as dominant_surface_module
+from scene2hap.scene.surface import surfaces
+from scene2hap.scene.surface.cuboid import cuboid_bounds_m
+from scene2hap.scene.surface.dominant_surface import dominant_surface
 from scene2hap.scene.tree import Piece
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"

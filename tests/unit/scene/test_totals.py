@@ -15,10 +15,11 @@ from scene2hap.audio import files
 from scene2hap.audio.conversion.stream import convert
 from scene2hap.audio.files import read_clip
 from scene2hap.errors import AudioError, SceneError
-from scene2hap.scene import limits, mtl, obj
-from scene2hap.scene.dominant_surface import dominant_surface
+from scene2hap.scene import limits
 from scene2hap.scene.engines import mjcf_files
+from scene2hap.scene.formats import mtl, obj
 from scene2hap.scene.shapes import TriMesh
+from scene2hap.scene.surface.dominant_surface import dominant_surface
 from scene2hap.scene.tree import Piece
 
 

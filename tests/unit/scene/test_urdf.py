@@ -16,7 +16,8 @@ from looks import image_file
 from scene2hap import HapticSession, SceneSnapshot, bake, load_scene
 from scene2hap.engines import MuJoCoLink
 from scene2hap.errors import MissingExtra, Scene2HapError, SceneError, SceneFormatError
-from scene2hap.scene import limits, urdf, urdf_files
+from scene2hap.scene import limits
+from scene2hap.scene.formats import urdf, urdf_files
 from scene2hap.scene.load import TextureWarning
 
 LAUNDRY = Path(__file__).parents[2] / "data" / "urdf" / "laundry"

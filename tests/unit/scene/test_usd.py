@@ -15,10 +15,10 @@ from looks import BLUE, GREEN, QUAD, UPRIGHT, image_file, looks, refused, shown
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.colors import srgb
+from scene2hap.scene.formats.usd import process
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.scene.usd import process
 from usd_writing import CUBE_POINTS, CUBE_QUADS, bind, mesh, new_stage, preview, textured, usd
 
 SUFFIXES = [".usda", ".usdc", ".usd"]
@@ -284,7 +284,7 @@ def area_of_outline(points: Any) -> float:
 @pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -1), (1, 2, 3)])
 def test_concave_faces_are_covered_once(outline: list[Any], first: int, normal: tuple[float, ...]) -> None:
     """All triangles turn as their face does, and their areas sum to its area."""
-    from scene2hap.scene.usd.polygons import triangulated
+    from scene2hap.scene.formats.usd.polygons import triangulated
 
     n, up = len(outline), np.array(normal, float) / np.linalg.norm(normal)
     side = np.cross(up, [1.0, 0.3, 0.2])
@@ -805,7 +805,8 @@ def test_reader_process_uses_the_limits_of_the_caller(tmp_path: Path, monkeypatc
 def test_a_reader_that_takes_too_long_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "sitecustomize.py").write_text(
         # Some releases of usd-core read so small a file in some milliseconds.
-        "import scene2hap.scene.usd.process as p\np.TIME_S, p.TIME_S_PER_BYTE, p.TIME_S_PER_PRIM = 1e-6, 0.0, 0.0\n",
+        "import scene2hap.scene.formats.usd.process as p\n"
+        "p.TIME_S, p.TIME_S_PER_BYTE, p.TIME_S_PER_PRIM = 1e-6, 0.0, 0.0\n",
         encoding="utf-8",
     )
     monkeypatch.syspath_prepend(str(tmp_path))

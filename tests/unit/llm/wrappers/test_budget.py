@@ -9,7 +9,7 @@ import pytest
 from llm_server import request
 from scene2hap import BudgetBackend, CacheBackend, FunctionBackend, LLMReply, LLMRequest, Price, RepairBackend
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ConfigError
-from scene2hap.llm.chat import UnusableAnswer
+from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.wrappers import price_list
 
 USAGE = {"prompt_tokens": 1000, "completion_tokens": 200}

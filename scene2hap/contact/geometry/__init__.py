@@ -1,0 +1,1 @@
+"""Geometry of triangles, boxes and polygons as arrays, without bodies or tolerances."""

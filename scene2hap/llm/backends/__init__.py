@@ -1,0 +1,1 @@
+"""Model backends: OpenAI, local servers, recorded answers and Python functions, and the HTTP that they share."""

@@ -1,0 +1,192 @@
+"""Chat completions, the format of OpenAI and most local servers: request bodies and parsed replies."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
+from scene2hap.llm.backends.http_client import HttpReply
+from scene2hap.llm.backends.http_errors import failure, server_error
+from scene2hap.llm.protocol import LLMRequest
+from scene2hap.llm.quoting import shown
+from scene2hap.llm.refusals import FILTERED_REQUEST, is_filtered, refusal_in
+
+_AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
+
+
+class BackendWarning(UserWarning):
+    """A model or its server deviated from the request; the answer may be worse."""
+
+
+class UnusableAnswer(BadAnswer):
+    """A bad answer that was billed: by `model`, with `usage` in tokens if known, in tier `service_tier`."""
+
+    def __init__(
+        self,
+        message: str,
+        raw_text: str = "",
+        *,
+        model: str = "",
+        usage: Mapping[str, int] | None = None,
+        service_tier: str = "",
+    ) -> None:
+        super().__init__(message, raw_text)
+        self.model = model
+        self.usage = dict(usage or {})
+        self.service_tier = service_tier
+
+
+class RefusedAnswer(UnusableAnswer, AnswerRefused):
+    """A refusal that was billed."""
+
+
+@dataclass(frozen=True)
+class Said:
+    """A model's message before any check. Some servers put the answer into `thoughts` by mistake."""
+
+    content: str
+    model: str
+    finish_reason: str = "stop"
+    usage: Mapping[str, int] = field(default_factory=dict)
+    thoughts: str = ""
+    refusal: str = ""
+    service_tier: str = ""
+
+
+def user_message(request: LLMRequest, text: str, detail: str) -> dict[str, Any]:
+    """Return one message: the text, then the pictures in their order, as data URLs.
+
+    `detail` sets the price of a picture at OpenAI. Most local servers ignore it, but some pass it on to a service.
+    """
+    parts: list[dict[str, Any]] = [{"type": "text", "text": text}]
+    for png in request.images:
+        picture = {"url": f"data:image/png;base64,{as_base64(png)}"}
+        parts.append({"type": "image_url", "image_url": {**picture, "detail": detail}})
+    return {"role": "user", "content": parts}
+
+
+def as_base64(png: bytes) -> str:
+    """Encode a picture as base64 text without line breaks."""
+    return base64.b64encode(png).decode("ascii")
+
+
+def json_schema_format(request: LLMRequest, schema: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the `response_format` that forces a schema, in the nested form: llama.cpp reads no other."""
+    return {"type": "json_schema", "json_schema": {"name": request.component, "strict": True, "schema": schema}}
+
+
+def about(request: LLMRequest) -> str:
+    """Describe the question of a request for a message."""
+    return f"{request.component} about {shown(request.subject or 'the scene')}"
+
+
+def read_chat(reply: HttpReply, model: str) -> Said:
+    """Read a chat completion. `model` is used if the server does not name one.
+
+    Raises: BackendUnavailable: an error status, or an error under status 200. BadAnswer: not a chat completion.
+    """
+    body = json_object(reply)
+    choices = body.get("choices")
+    choice = choices[0] if isinstance(choices, list) and choices else None
+    message = choice.get("message") if isinstance(choice, dict) else None
+    if choice is None or not isinstance(message, dict):
+        raise BadAnswer(f"{reply.url} sent no chat completion. Check base_url and the dialect.", reply.text)
+    return Said(
+        content=text_of(message.get("content")),
+        model=text_of(body.get("model")) or model,
+        finish_reason=text_of(choice.get("finish_reason")) or "stop",
+        usage=_usage(body.get("usage")),
+        thoughts=text_of(message.get("reasoning_content")) or text_of(message.get("reasoning")),
+        refusal=text_of(message.get("refusal")),
+        service_tier=text_of(body.get("service_tier")),
+    )
+
+
+def require_whole(said: Said, about: str) -> None:
+    """Reject an answer that must not be parsed, even if its content looks valid.
+
+    Raises: UnusableAnswer: cut short, with the partial answer; RefusedAnswer: filtered or refused.
+    """
+    if said.finish_reason == "length":
+        raise unusable(
+            said,
+            f"{about}: {said.model} was cut off at its token limit. Raise max_tokens (or num_ctx), or switch off "
+            "its reasoning.",
+            said.content,
+        )
+    require_willing(said, about)
+
+
+def require_willing(said: Said, about: str) -> None:
+    """Reject a refusal: in its own field, as finish reason, or as the text itself.
+
+    Raises: RefusedAnswer.
+    """
+    if is_filtered(said.finish_reason):
+        message = f"{about}: the answer of {said.model} was withheld by a content filter ({said.finish_reason})."
+        raise RefusedAnswer(f"{message} {_AFTER_REFUSAL}", said.content, **_paid(said))
+    refusal = said.refusal or refusal_in(said.content)
+    if refusal:
+        message = f"{about}: {said.model} refused to answer: {shown(refusal)}. {_AFTER_REFUSAL}"
+        raise RefusedAnswer(message, refusal, **_paid(said))
+
+
+def is_withheld(reply: HttpReply) -> bool:
+    """Return True if a filter kept the question from the model."""
+    error = server_error(reply)
+    return reply.status == 400 and not FILTERED_REQUEST.isdisjoint({error.code, error.type})
+
+
+def unusable(said: Said, message: str, raw_text: str) -> UnusableAnswer:
+    """Return the error for a model's message, with its model, usage and tier."""
+    return UnusableAnswer(message, raw_text, **_paid(said))
+
+
+def _paid(said: Said) -> dict[str, Any]:
+    return {"model": said.model, "usage": said.usage, "service_tier": said.service_tier}
+
+
+def json_object(reply: HttpReply) -> dict[str, Any]:
+    """Return the body of a successful reply.
+
+    Raises: BackendUnavailable: an error status, an error under status 200, or no JSON object. Truncated JSON is
+    retryable, since it may arrive complete the next time; a page of HTML is not. AnswerRefused: a filter withheld the
+    question.
+    """
+    body = reply.json()
+    if not reply.ok:
+        if is_withheld(reply):
+            said = shown(server_error(reply).message)
+            raise AnswerRefused(f"{reply.url} withheld the question from the model: {said}. {_AFTER_REFUSAL}")
+        raise failure(reply)
+    if body is None and reply.text.lstrip().startswith("{"):
+        raise BackendUnavailable(
+            f"{reply.url} answered {reply.status} with JSON that breaks off after {len(reply.text)} characters.",
+            retryable=True,
+        )
+    if not isinstance(body, dict):
+        raise BackendUnavailable(f"{reply.url} answered {reply.status} without a JSON object. Check base_url.")
+    if body.get("error"):
+        raise BackendUnavailable(f"{reply.url} answered {reply.status} with an error: {server_error(reply).message}.")
+    return body
+
+
+def text_of(value: object) -> str:
+    """Return the value if it is a text, else ""."""
+    return value if isinstance(value, str) else ""
+
+
+def _usage(usage: object) -> dict[str, int]:
+    """Return the token counts of a chat completion, including prompt tokens served from the service's prompt cache."""
+    details = usage.get("prompt_tokens_details") if isinstance(usage, dict) else None
+    cached = counts(details).get("cached_tokens", 0)
+    return {**counts(usage), **({"cached_tokens": cached} if cached else {})}
+
+
+def counts(usage: object) -> dict[str, int]:
+    """Return the valid token counts in a server's usage report."""
+    items = usage.items() if isinstance(usage, dict) else ()
+    return {name: n for name, n in items if isinstance(n, int) and not isinstance(n, bool) and n >= 0}

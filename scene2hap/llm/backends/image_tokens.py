@@ -1,0 +1,67 @@
+"""Detect pictures that a model did not see, from the token count that its server reports."""
+
+from __future__ import annotations
+
+import warnings
+
+from scene2hap.llm.backends import chat
+from scene2hap.llm.protocol import LLMRequest
+
+_CHARACTERS_PER_TOKEN = 4.0
+"""Assumed: usual for English."""
+_LEAST_PER_IMAGE = 256
+"""Fewest tokens of one picture (assumed: those of Gemma 3; most models need more)."""
+_FAR_BELOW = 0.5
+_FAR_ABOVE = 2.0
+
+MOST_PER_IMAGE = {"low": 6_200, "high": 48_200}
+"""Most tokens of one picture in any OpenAI model: 2,500 patches times 2.46 (nano); 2,833 + 8 * 5,667 for the eight
+tiles of 768 x 2,048 px (gpt-4o-mini). Source: OpenAI, "Images and vision", section "Calculating costs"."""
+
+
+class LostImages:
+    """Warn once if a model read far fewer tokens than the prompt and its pictures have.
+
+    Ollama drops messages that exceed its context, and reports this only in its debug log.
+    """
+
+    def __init__(self) -> None:
+        self._warned = False
+
+    def look(self, request: LLMRequest, said: chat.Said) -> None:
+        """Compare the reported tokens of one request with the expected number. Warns: BackendWarning."""
+        expected = len(request.prompt) / _CHARACTERS_PER_TOKEN + _LEAST_PER_IMAGE * len(request.images)
+        read = said.usage.get("prompt_tokens")
+        if self._warned or not request.images or read is None or read >= _FAR_BELOW * expected:
+            return
+        self._warned = True
+        warnings.warn(
+            f"{chat.about(request)}: {said.model} read {read} tokens where about {expected:.0f} were sent with "
+            f"{len(request.images)} pictures. It may not have seen them: raise the server's context (num_ctx), and "
+            "check that the model sees.",
+            chat.BackendWarning,
+            stacklevel=2,
+        )
+
+
+class ImagesAsText:
+    """Warn once if a model billed far more tokens than pictures can have, for example if it read base64 as text."""
+
+    def __init__(self, detail: str) -> None:
+        self._most_per_image = MOST_PER_IMAGE[detail]
+        self._warned = False
+
+    def look(self, request: LLMRequest, said: chat.Said) -> None:
+        """Compare the reported tokens of one request with the expected number. Warns: BackendWarning."""
+        text = (len(request.prompt) + len(str(request.answer_schema))) / _CHARACTERS_PER_TOKEN
+        most = _FAR_ABOVE * text + self._most_per_image * len(request.images)
+        read = said.usage.get("prompt_tokens", 0)
+        if self._warned or not request.images or read <= most:
+            return
+        self._warned = True
+        warnings.warn(
+            f"{chat.about(request)}: {said.model} billed {read} tokens where its {len(request.images)} pictures make "
+            f"{most:.0f} at most. It seems to read them as text: choose another model or send no pictures.",
+            chat.BackendWarning,
+            stacklevel=2,
+        )

@@ -1,0 +1,250 @@
+"""glTF and GLB files as authored trees.
+
+Nodes are identified by their number in the file, so an object stays the same on every load, even if its name changes.
+Cameras, lights, skins and animations are left out: a skinned mesh keeps the pose in which it was modelled.
+
+Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.colors import painted, srgb
+from scene2hap.scene.formats.gltf_accessors import indices, positions, vectors
+from scene2hap.scene.formats.gltf_container import GltfFile, Json, natural
+from scene2hap.scene.formats.gltf_draco import DRACO, draco
+from scene2hap.scene.formats.gltf_materials import GltfMaterials, Paint
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
+
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_FLOAT = 5126
+# Vertex colours above this do not change a material.
+_NEARLY_WHITE = 0.999
+
+_Attribute = Callable[[str, tuple[str, ...]], NDArray[np.float64]]
+"""Function from an attribute's name and its allowed types to the attribute's values (n, columns) in a primitive."""
+
+
+def read_gltf(path: Path, assets_root: Path) -> AuthoredScene:
+    """Return the file's default scene with its looks.
+
+    Raises: SceneFormatError, SceneError: the file is broken, has a reference to something missing, or needs an
+    extension that cannot be read.
+    """
+    file = GltfFile(path, assets_root)
+    textures = TextureFiles(path.parent, assets_root)
+    reader = _Reader(file, GltfMaterials(file, textures))
+    roots = tuple(reader.node(number, 1) for number in _roots(file))
+    return AuthoredScene(roots, left_out=textures.left_out)
+
+
+class _Reader:
+    """Convert nodes to authored nodes. Each mesh is read once."""
+
+    def __init__(self, file: GltfFile, materials: GltfMaterials) -> None:
+        self._file, self._materials = file, materials
+        self._seen: set[int] = set()
+        self._pieces: dict[int, tuple[Piece, ...]] = {}
+        self._scaled_pieces: dict[tuple[object, bytes], Piece] = {}
+        self._n_triangles = 0
+
+    def node(self, number: int, depth: int) -> AuthoredNode:
+        row = self._file.row("nodes", number, "a node or scene")
+        if number in self._seen:
+            raise SceneFormatError(f"nodes[{number}] hangs below itself or below two nodes; nodes must form a tree.")
+        self._seen.add(number)
+        limits.at_most("the depth of the node tree", depth, "MAX_DEPTH")
+        name = _name(row)
+        place = f"node {name!r}" if name else f"nodes[{number}]"
+        pieces: tuple[Piece, ...] = ()
+        if "mesh" in row:
+            mesh = self._file.row("meshes", row["mesh"], place)
+            pieces = self._mesh(row["mesh"], mesh, place)
+            name = name or _name(mesh)
+            self._n_triangles += sum(len(piece.faces) for piece in pieces)
+            limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+        below = _numbers(row.get("children", []), f"{place}.children")
+        children = tuple(self.node(child, depth + 1) for child in below)
+        if "mesh" not in row:
+            rows = self._file.table("nodes")
+            only_scale = [self._only_scales(rows[number], child) for number, child in zip(below, children, strict=True)]
+            scaled = [child for child, is_one in zip(children, only_scale, strict=True) if is_one]
+            pieces = tuple(self._scaled(piece, child.matrix) for child in scaled for piece in child.pieces)
+            children = tuple(child for child, is_one in zip(children, only_scale, strict=True) if not is_one)
+            name = name or (scaled[0].name if len(scaled) == 1 else "")
+        return AuthoredNode(name, _matrix(row, place), pieces, children)
+
+    def _only_scales(self, row: Json, node: AuthoredNode) -> bool:
+        """Return True if a node only converts quantised positions (stored as whole numbers) to lengths.
+
+        gltfpack moves a quantised mesh into such a node, below the author's node. Without this rule a door below a
+        cupboard would be part of another object than in the file before packing.
+        """
+        if node.children or not node.pieces or _name(row) or row.keys() & {"matrix", "rotation", "skin"}:
+            return False
+        primitives = self._file.table("meshes")[row["mesh"]]["primitives"]
+        return all(map(self._is_quantised, primitives)) and bool((np.diag(node.matrix) > 0).all())
+
+    def _is_quantised(self, primitive: Json) -> bool:
+        """Return True if positions are whole numbers. False for a broken row, since rows of lines are not checked."""
+        attributes, rows = primitive.get("attributes"), self._file.table("accessors")
+        number = attributes.get("POSITION") if isinstance(attributes, dict) else None
+        return isinstance(number, int) and 0 <= number < len(rows) and rows[number].get("componentType") != _FLOAT
+
+    def _scaled(self, piece: Piece, matrix: Matrix) -> Piece:
+        """Return a piece in the frame of the parent node; `matrix` scales and moves it. Copies share the result."""
+        key = (piece.key, matrix.tobytes())
+        if key not in self._scaled_pieces:
+            # A file may scale one mesh differently in each node, so the memory is bounded.
+            self._file.values.spend(piece.vertices.size, "a node that scales a quantised mesh")
+            with np.errstate(over="ignore", invalid="ignore"):
+                vertices = piece.vertices * np.diag(matrix)[:3] + matrix[:3, 3]
+            self._scaled_pieces[key] = replace(piece, key=key, vertices=vertices)
+        return self._scaled_pieces[key]
+
+    def _mesh(self, number: int, mesh: Json, place: str) -> tuple[Piece, ...]:
+        if number not in self._pieces:
+            rows = mesh.get("primitives")
+            if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+                raise SceneFormatError(f"meshes[{number}].primitives must be a list of objects.")
+            place = f"{place}, meshes[{number}]"
+            pieces = (self._piece((number, i), row, place) for i, row in enumerate(rows))
+            self._pieces[number] = tuple(piece for piece in pieces if piece is not None and len(piece.faces))
+        return self._pieces[number]
+
+    def _piece(self, key: tuple[int, int], row: Json, place: str) -> Piece | None:
+        mode = natural(row.get("mode", _TRIANGLES), f"{place}.mode")
+        if mode not in (_TRIANGLES, _STRIP, _FAN):
+            return None  # points and lines cannot be touched
+        attributes = row.get("attributes")
+        if not isinstance(attributes, dict):
+            raise SceneFormatError(f"{place}.attributes must be an object.")
+        if "POSITION" not in attributes:
+            return None
+        extensions = row.get("extensions")
+        compressed = extensions.get(DRACO) if isinstance(extensions, dict) else None
+        if isinstance(compressed, dict):
+            mesh, numbers = draco(self._file, compressed, place), compressed.get("attributes")
+            points, faces = mesh.points, mesh.faces
+            self._file.triangles.spend(len(faces), place)
+
+            def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
+                number = numbers.get(name) if isinstance(numbers, dict) else None
+                return mesh.vectors(number, f"{place}: its {name}")
+
+        else:
+            points = positions(self._file, attributes["POSITION"], place)
+            order = indices(self._file, row["indices"], place) if "indices" in row else np.arange(len(points))
+            self._file.triangles.spend(len(order) // 3 if mode == _TRIANGLES else max(len(order) - 2, 0), place)
+            faces = _triangles(order, mode)
+
+            def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
+                return vectors(self._file, attributes.get(name), types, f"{place}: its {name}")
+
+        material = None if row.get("material") is None else self._file.row("materials", row["material"], place)
+        piece = Piece.checked(key, points, faces, "" if material is None else _name(material), place)
+        paint = None if material is None else self._materials.paint(row["material"], material)
+        looks = self._looks(paint, faces, len(points), attribute, "COLOR_0" in attributes)
+        return replace(piece, appearance=looks)
+
+    def _looks(
+        self, paint: Paint | None, faces: NDArray[np.int64], n_points: int, attribute: _Attribute, is_colored: bool
+    ) -> Appearance | None:
+        """Return the looks of a primitive; None if the file has none."""
+
+        def corners(name: str, types: tuple[str, ...], columns: slice) -> NDArray[np.float64] | None:
+            """Return an attribute at each corner (m, 3, columns). If it is broken: None, and the reason is recorded."""
+            try:
+                values = attribute(name, types)[:, columns]
+                if len(values) != n_points:
+                    raise SceneFormatError(f"{name} has {len(values)} values for {n_points} vertices.")
+            except SceneError as error:
+                self._materials.textures.refuse(str(error), str(error))
+                return None
+            return values[faces]
+
+        material, uv = FaceMaterial((1.0, 1.0, 1.0, 1.0)) if paint is None else paint.material, None
+        if paint is not None and material.has_texture:
+            stored = corners(f"TEXCOORD_{paint.uv_set}", ("VEC2",), slice(2))
+            if stored is None:
+                material = material.untextured()
+            else:
+                uv = (stored @ paint.transform[:, :2].T + paint.transform[:, 2]).astype(np.float32)
+        colors = corners("COLOR_0", ("VEC3", "VEC4"), slice(4)) if is_colored else None
+        if colors is not None and len(faces) and not colors.min() > _NEARLY_WHITE:
+            means = colors.mean(axis=1)
+            means[:, :3] = srgb(means[:, :3])
+            return painted(means, material, uv)
+        return None if paint is None else Appearance.plain(material, len(faces), uv)
+
+
+def _roots(file: GltfFile) -> list[int]:
+    """Return the nodes of the default scene. Without a default scene: all nodes without a parent."""
+    if file.table("scenes"):
+        scene = file.row("scenes", file.header.get("scene", 0), "scene")
+        return _numbers(scene.get("nodes", []), "scene.nodes")
+    below = {child for row in file.table("nodes") for child in _numbers(row.get("children", []), "node.children")}
+    return [number for number in range(len(file.table("nodes"))) if number not in below]
+
+
+def _triangles(order: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
+    """Return faces (m, 3) of vertex numbers in the order of a list, strip or fan of triangles."""
+    if mode == _TRIANGLES:
+        return order[: len(order) // 3 * 3].reshape(-1, 3)
+    n = max(len(order) - 2, 0)
+    if mode == _FAN:
+        return np.stack((order[1 : n + 1], order[2 : n + 2], np.repeat(order[:1], n)), axis=1)
+    faces = np.stack((order[:n], order[1 : n + 1], order[2 : n + 2]), axis=1)
+    # Every second triangle of a strip has the opposite orientation.
+    faces[1::2] = faces[1::2, [0, 2, 1]]
+    # Degenerate triangles, which use a vertex twice, join strips.
+    joins = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
+    kept: NDArray[np.int64] = faces[~joins]
+    return kept
+
+
+def _matrix(row: Json, place: str) -> Matrix:
+    """Return the node's transform: `matrix` by columns, or translation, rotation and scale."""
+    if "matrix" in row:
+        entries = checks.vector(f"{place}.matrix", row["matrix"], "-", size=16, error=SceneFormatError)
+        matrix = np.array(entries).reshape(4, 4).T
+        if not np.allclose(matrix[3], [0, 0, 0, 1], atol=1e-6):
+            raise SceneFormatError(f"{place}.matrix ends in the row {matrix[3].tolist()}; it must be 0, 0, 0, 1.")
+        matrix[3] = 0, 0, 0, 1
+        return matrix
+
+    def numbers(key: str, default: float) -> NDArray[np.float64]:
+        given = row.get(key, [default] * 3)
+        return np.array(checks.vector(f"{place}.{key}", given, "-", size=3, error=SceneFormatError))
+
+    try:
+        rotation = Pose(rotation_xyzw=row.get("rotation", (0.0, 0.0, 0.0, 1.0))).rotation
+    except SceneError as cause:
+        raise SceneFormatError(f"{place}.rotation: {cause}") from cause
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation * numbers("scale", 1.0)
+    matrix[:3, 3] = numbers("translation", 0.0)
+    return matrix
+
+
+def _numbers(value: object, place: str) -> list[int]:
+    if not isinstance(value, list):
+        raise SceneFormatError(f"{place} is {value!r}; it must be a list of node numbers.")
+    return [natural(item, place) for item in value]
+
+
+def _name(row: Json) -> str:
+    name = row.get("name")
+    return name.strip() if isinstance(name, str) else ""

@@ -1,0 +1,123 @@
+"""Materials of a glTF file: base colour (diffuse colour in older files) and its texture. Both multiply.
+
+A broken material loses its texture, but the scene is still read. Samplers are not read: textures repeat.
+
+Source: glTF 2.0 specification, section 3.9; extensions KHR_materials_pbrSpecularGlossiness, KHR_texture_transform,
+EXT_texture_webp.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.appearance import FaceMaterial
+from scene2hap.scene.colors import srgb
+from scene2hap.scene.formats.gltf_accessors import view
+from scene2hap.scene.formats.gltf_container import GltfFile, Json, data_uri, natural
+from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.textures import EncodedTexture
+
+Affine = NDArray[np.float64]
+"""(2, 3) matrix from texture coordinates (u, v, 1) of the mesh to those of the image."""
+
+
+@dataclass(frozen=True, eq=False)
+class Paint:
+    """A material, its set of texture coordinates, and their transform."""
+
+    material: FaceMaterial
+    uv_set: int = 0
+    transform: Affine = field(default_factory=lambda: np.eye(2, 3))
+
+
+@dataclass(eq=False)
+class GltfMaterials:
+    """Reader of a file's materials. It reads each material once."""
+
+    file: GltfFile
+    textures: TextureFiles
+    _paints: dict[int, Paint] = field(default_factory=dict)
+
+    def paint(self, number: int, row: Json) -> Paint:
+        """Return the paint of row `number` of the materials."""
+        if number not in self._paints:
+            try:
+                self._paints[number] = self._paint(row, f"materials[{number}]")
+            except SceneError as error:
+                self.textures.refuse(f"materials[{number}]", str(error))
+                self._paints[number] = Paint(FaceMaterial((1.0, 1.0, 1.0, 1.0)))
+        return self._paints[number]
+
+    def _paint(self, row: Json, place: str) -> Paint:
+        pbr = _object(row.get("pbrMetallicRoughness"))
+        color, info = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
+        older = _object(_object(row.get("extensions")).get("KHR_materials_pbrSpecularGlossiness"))
+        if older:
+            color, info = older.get("diffuseFactor"), older.get("diffuseTexture")
+        r, g, b, a = checks.vector(
+            f"the colour of {place}", [1.0] * 4 if color is None else color, "-", size=4, error=SceneFormatError
+        )
+        # Opacity is used only if the material declares it. Images often store other data in that channel.
+        keeps_alpha = row.get("alphaMode") in ("MASK", "BLEND")
+        r, g, b = srgb((r, g, b)).tolist()
+        rgba = (r, g, b, min(max(a, 0.0), 1.0) if keeps_alpha else 1.0)
+        name = str(row.get("name", ""))
+        if not isinstance(info, dict):
+            return Paint(FaceMaterial(rgba, name=name))
+        place = f"{place}, its texture"
+        try:
+            texture = self._texture(info.get("index"), place, keeps_alpha)
+            transform = _object(_object(info.get("extensions")).get("KHR_texture_transform"))
+            uv_set = natural(transform.get("texCoord", info.get("texCoord", 0)), f"{place}.texCoord")
+            return Paint(FaceMaterial(rgba, texture, name), uv_set, _affine(transform, place))
+        except SceneError as error:
+            self.textures.refuse(place, str(error))
+            return Paint(FaceMaterial(rgba, name=name))
+
+    def _texture(self, number: object, place: str, keeps_alpha: bool) -> EncodedTexture | None:
+        row = self._row("textures", number, place)
+        webp = _object(_object(row.get("extensions")).get("EXT_texture_webp"))
+        source = webp.get("source", row.get("source"))
+        if source is None:
+            kinds = ", ".join(_object(row.get("extensions"))) or "none"
+            raise SceneFormatError(
+                f"{place}: textures[{number}] names no image that is read (its extensions: {kinds})."
+            )
+        image = self._row("images", source, place)
+        uri, name = image.get("uri"), f"images[{source}]"
+        if not isinstance(uri, str):
+            return self.textures.named(name, lambda: self._embedded(image.get("bufferView"), name), keeps_alpha)
+        if uri.startswith("data:"):
+            return self.textures.named(name, lambda: data_uri(uri, name), keeps_alpha)
+        return self.textures.from_file(uri, name, keeps_alpha=keeps_alpha)
+
+    def _embedded(self, number: object, place: str) -> bytes:
+        data = view(self.file, number, place)[0]
+        self.file.image_bytes.spend(len(data), place)
+        return bytes(data)
+
+    def _row(self, table: str, number: object, place: str) -> Json:
+        """Return row `number` of a table that the container does not check, since a scene can be read without it."""
+        rows = self.file.header.get(table)
+        n = len(rows) if isinstance(rows, list) else 0
+        if not isinstance(rows, list) or not isinstance(number, int) or not 0 <= number < n:
+            raise SceneFormatError(f"{place} refers to {table}[{number!r}]; the file has {n} {table} (from 0).")
+        return _object(rows[number])
+
+
+def _affine(row: Json, place: str) -> Affine:
+    """Matrix that scales, then rotates counter-clockwise as seen on the image (v runs down), then moves."""
+    (angle,) = checks.vector(f"{place}.rotation", [row.get("rotation", 0.0)], "rad", size=1, error=SceneFormatError)
+    offset = checks.vector(f"{place}.offset", row.get("offset", (0.0, 0.0)), "-", size=2, error=SceneFormatError)
+    scale = checks.vector(f"{place}.scale", row.get("scale", (1.0, 1.0)), "-", size=2, error=SceneFormatError)
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    return np.column_stack((turn * scale, offset))
+
+
+def _object(value: object) -> Json:
+    return value if isinstance(value, dict) else {}

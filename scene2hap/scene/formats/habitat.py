@@ -1,0 +1,401 @@
+"""Habitat scenes (`*.scene_instance.json`: HSSD, ReplicaCAD, conversions of AI2-THOR) as authored trees.
+
+1. Every row of `object_instances` is one object: the whole model of its template, with all its nodes. Every row of
+   `articulated_object_instances` is one object too: all links of its URDF, with their joints at 0. Y is up.
+2. The nodes of the stage (walls, floors) are grouped like those of any file.
+3. An object has the frame of its model. `translation_origin`, of the row or else of the scene, is "asset_local", "COM"
+   or missing. With "asset_local", `translation` is the position of the model's origin. Otherwise it is the position of
+   the centre of mass: `COM` of the configuration times its scale, or else the middle of the model's box. As in Habitat,
+   that box joins the boxes of the model's nodes, each rotated by its node's transform. With rotated nodes it is larger
+   than the box of their vertices. An articulated object is placed by the origin of its URDF.
+4. Scale is that of the configuration times `uniform_scale` and `non_uniform_scale`. `mass` of a configuration is
+   multiplied by the product of this scale, unless `apply_scale_to_mass` is false, and by `mass_scale`. The mass is
+   unknown without `mass`; a mass in `default_attributes`, which all objects share, does not count. The mass of an
+   articulated object is the sum over its links, if all links with geometry have one.
+5. Left out with a warning: shapes without a file, which Habitat generates. Left out without a warning: rows whose
+   `is_instance_visible` is false. As in Habitat, a translation or rotation of the stage is not applied; it causes a
+   warning, and so do joints that do not begin at 0.
+6. The name of an object comes from `scene2hap.scene.formats.habitat_names`, else from its template. The model of a
+   template is read once.
+
+Sources: "Using JSON Files to configure Attributes" (https://aihabitat.org/docs/habitat-sim/attributesJSON.html), and in
+habitat-sim's src/esp: metadata/managers/SceneInstanceAttributesManager.cpp (fields; `rotation` begins with w),
+metadata/attributes/SceneInstanceAttributes.cpp (defaults), sim/Simulator.cpp (`defaultCOMCorrection`, the stage),
+physics/PhysicsManager.cpp (`addObjectInstance`: scale and mass), physics/RigidObject.cpp (`finalizeObject`,
+`resetStateFromSceneInstanceAttr`: the centre of mass), scene/SceneNode.cpp (`computeCumulativeBB`).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap import checks
+from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
+from scene2hap.printable import writable
+from scene2hap.scene import limits
+from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object
+from scene2hap.scene.formats.habitat_names import Names, ObjectNames
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.scene_warning import warn_of
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
+
+_Box = NDArray[np.float64]
+"""Lowest and highest corner (2, 3) of a box."""
+
+_INSTANCES: dict[Kind, str] = {
+    "objects": "object_instances",
+    "articulated_objects": "articulated_object_instances",
+}
+_NO_STAGE = ("", "none")
+_ORIGINS = {"com": True, "asset_local": False, "default": None, "unknown": None}
+_MOST_NAMED = 5
+# Most files counted for one articulated object (assumed: ten times those of a kitchen).
+_MOST_PARTS = 1_000
+_LFS = b"version https://git-lfs"
+
+
+def read_habitat(
+    path: Path, assets_root: Path | None, names: Names | None, read_model: Callable[[Path, Path], AuthoredScene]
+) -> AuthoredScene:
+    """Return the scene with its stage and objects. `read_model(file, root)` reads a model file, and files beside it in
+    a root.
+
+    Parameters: assets_root : the dataset's folder; None means the folder of the dataset file above the scene, else the
+        scene's own. names : object names by template, or the path of a table of them.
+    Raises: SceneFormatError, SceneError: the scene, a configuration or a model is broken, missing, or outside the root.
+    Warns: SceneWarning: something is left out.
+    """
+    document = _document(path)
+    dataset = Dataset(path, assets_root)
+    dataset.count(path)
+    reader = _Reader(path.name, document, dataset, ObjectNames(names, dataset), read_model)
+    with np.errstate(all="ignore"):  # overflows are refused when meshes are placed
+        roots = [*reader.stage(), *reader.objects()]
+    reader.warn()
+    return AuthoredScene(tuple(roots), "y", left_out=tuple(reader.left_out))
+
+
+def referenced_files(path: Path, assets_root: Path | None) -> list[Path]:
+    """Return the files of a scene: itself, configurations, tables and models.
+
+    Raises: SceneFormatError, SceneError: as `read_habitat`.
+    """
+    document = _document(path)
+    dataset = Dataset(path, assets_root)
+    dataset.count(path)
+    ObjectNames(None, dataset)
+    for kind, place, row in _rows(path.name, document):
+        template = _template(dataset, kind, place, row)
+        if template is not None and template.model is not None:
+            for file in _with_parts(template.model):
+                dataset.count(file)
+    return list(dict.fromkeys(dataset.files))
+
+
+@dataclass(frozen=True, eq=False)
+class _Model:
+    """The nodes of a model file, and the numbers of its triangles and nodes."""
+
+    roots: tuple[AuthoredNode, ...]
+    n_triangles: int
+    n_nodes: int
+
+
+class _Reader:
+    """Reader that places the models of a scene. It reads each model file once."""
+
+    def __init__(
+        self,
+        name: str,
+        document: Json,
+        dataset: Dataset,
+        names: ObjectNames,
+        read_model: Callable[[Path, Path], AuthoredScene],
+    ) -> None:
+        self._name, self._document, self._dataset, self._names = name, document, dataset, names
+        self._read_model = read_model
+        self._models: dict[Path, _Model] = {}
+        self._middles: dict[Template, NDArray[np.float64]] = {}
+        self._n_triangles = self._n_nodes = 0
+        # Each model may have some triangles for which the file has no bytes. Thousands of small files may not.
+        self._stored = limits.Budget("the triangles of its models", 1_000_000, 1.0)
+        self._primitives: Counter[str] = Counter()
+        self._bent: Counter[str] = Counter()
+        self.left_out: dict[str, None] = {}
+
+    def stage(self) -> list[AuthoredNode]:
+        """Return the stage's node, if there is a stage."""
+        found = []
+        for kind, place, row in _rows(self._name, self._document):
+            template = _template(self._dataset, kind, place, row) if kind == "stages" else None
+            if template is None or template.model is None:
+                continue
+            if np.any(_translation(row, place)) or not np.allclose(_rotation(row, place), np.eye(3)):
+                warn_of(f"{place} is moved or turned, which Habitat does not apply to stages; neither is it here.")
+            model = self._drawn(template.model, place)
+            # The node has no name, so that the stage's own nodes keep their names.
+            found.append(
+                AuthoredNode("", template.frame * _column(_scale(row, place) * template.scale), (), model.roots)
+            )
+        return found
+
+    def objects(self) -> list[AuthoredNode]:
+        """Return the nodes of all object instances."""
+        is_com = _is_com(self._document, self._name, None) is not False
+        found = []
+        for kind, place, row in _rows(self._name, self._document):
+            template = None if kind == "stages" else _template(self._dataset, kind, place, row)
+            if template is None:
+                continue
+            if template.model is None:
+                self._primitives[template.place] += 1
+            elif _flag(row, "is_instance_visible", place):
+                found.append(self._object(row, place, template, template.model, is_com))
+                if kind == "articulated_objects" and _is_bent(row.get("initial_joint_pose")):
+                    self._bent[row["template_name"]] += 1
+        return found
+
+    def _object(self, row: Json, place: str, template: Template, file: Path, is_com: bool) -> AuthoredNode:
+        model = self._drawn(file, place)
+        scale = _scale(row, place) * template.scale
+        rotation = _rotation(row, place)
+        origin = _translation(row, place)
+        # Habitat places articulated objects by their origin and ignores `translation_origin`.
+        if file.suffix != ".urdf" and _is_com(row, place, is_com):
+            middle = self._middle(template, model) if template.com is None else template.com
+            origin = origin - rotation @ (scale * middle)
+        matrix: Matrix = np.eye(4)
+        matrix[:3, :3] = rotation @ (template.frame[:3, :3] * scale[:, None])
+        matrix[:3, 3] = origin
+        name = self._names.of(row["template_name"])
+        mass_kg = _mass(row, place, template.mass_kg or _links_kg(model), float(np.prod(scale)))
+        return AuthoredNode(name, matrix, (), model.roots, is_object=True, mass_kg=mass_kg)
+
+    def _middle(self, template: Template, model: _Model) -> NDArray[np.float64]:
+        if template not in self._middles:
+            box = _joined_box([_turned_box(_node_box(root), root.matrix) for root in model.roots])
+            turned = _turned_box(box, template.frame)
+            self._middles[template] = np.zeros(3) if turned is None else turned.mean(axis=0)
+        return self._middles[template]
+
+    def _drawn(self, file: Path, place: str) -> _Model:
+        """Return the model in a file, and count its triangles and nodes once more."""
+        if file not in self._models:
+            self._models[file] = self._read(file, place)
+        model = self._models[file]
+        self._n_triangles += model.n_triangles
+        self._n_nodes += model.n_nodes
+        limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+        limits.at_most("the number of nodes", self._n_nodes, "MAX_NODES")
+        return model
+
+    def _read(self, file: Path, place: str) -> _Model:
+        self._dataset.count(file)
+        try:
+            authored = self._read_model(file, self._dataset.root)
+        except MissingExtra:
+            raise
+        except SceneError as error:
+            hint = " It is a pointer of Git LFS; run `git lfs pull`." if _is_pointer(file) else ""
+            raise type(error)(f"{place}: its model {file.name!r} cannot be read: {error}{hint}") from error
+        # Many models may use one picture. Each sentence names the model that lacks the picture.
+        for sentence in authored.left_out:
+            self.left_out[f"{file.name}: {sentence}"] = None
+        number, seen = len(self._models), dict[int, Piece]()
+        roots = tuple(_keyed(root, number, seen) for root in authored.roots)
+        nodes = [node for root in roots for node in root.walk()]
+        n_triangles = sum(len(piece.faces) for node in nodes for piece in node.pieces)
+        self._stored.stored += sum(one.stat().st_size for one in _with_parts(file))
+        self._stored.spend(sum(len(piece.faces) for piece in seen.values()), place)
+        return _Model(roots, n_triangles, len(nodes))
+
+    def warn(self) -> None:
+        """Warn of everything that is left out."""
+        if self._bent:
+            warn_of(
+                f"{self._name!r} has {self._bent.total()} articulated objects that begin with joints turned "
+                f"({_some(self._bent)}); they are read with all joints at 0."
+            )
+        if self._primitives:
+            warn_of(
+                f"{self._name!r} is read without {self._primitives.total()} shapes that have no model file "
+                f"({_some(self._primitives)}): Habitat makes these itself."
+            )
+
+
+# -- rows ------------------------------------------------------------------------------------------------------------
+
+
+def _document(path: Path) -> Json:
+    document = read_object(path)
+    if not {"stage_instance", "object_instances"} & document.keys():
+        raise SceneFormatError(
+            f"{path.name!r} is no Habitat scene: it has neither stage_instance nor object_instances. Scenes of "
+            "scene2hap itself are named NAME.json."
+        )
+    n_rows = sum(len(_list(document, key, path.name)) for key in _INSTANCES.values())
+    limits.at_most("the number of object instances", n_rows, "MAX_OBJECTS")
+    return document
+
+
+def _rows(name: str, document: Json) -> list[tuple[Kind, str, Json]]:
+    """Return the stage's row and those of objects, each with its kind and its place for messages."""
+    stage = document.get("stage_instance")
+    found: list[tuple[Kind, str, object]] = [] if stage is None else [("stages", f"{name}: stage_instance", stage)]
+    for kind, key in _INSTANCES.items():
+        found += [(kind, f"{name}: {key}[{i}]", row) for i, row in enumerate(_list(document, key, name))]
+    for _, place, row in found:
+        if not isinstance(row, dict):
+            raise SceneFormatError(f"{place} is {checks.represented(row)}; it must be an object.")
+    return [(kind, place, row) for kind, place, row in found if isinstance(row, dict)]
+
+
+def _template(dataset: Dataset, kind: Kind, place: str, row: Json) -> Template | None:
+    """Return the template of a row; None if the row says that there is no stage."""
+    name = row.get("template_name", "" if kind == "stages" else None)
+    if kind == "stages" and isinstance(name, str) and name.lower() in _NO_STAGE:
+        return None
+    if not isinstance(name, str) or not name:
+        raise SceneFormatError(f"{place}.template_name is {checks.represented(name)}; it must be a template's name.")
+    return dataset.template(kind, writable(name), place)
+
+
+def _list(document: Json, key: str, name: str) -> list[object]:
+    rows = document.get(key)
+    if rows is not None and not isinstance(rows, list):
+        raise SceneFormatError(f"{name}: {key} is {checks.represented(rows)}; it must be a list of objects.")
+    return rows or []
+
+
+def _translation(row: Json, place: str) -> NDArray[np.float64]:
+    given = row.get("translation", (0.0, 0.0, 0.0))
+    return np.array(checks.vector(f"{place}.translation", given, "m", size=3, error=SceneFormatError))
+
+
+def _rotation(row: Json, place: str) -> NDArray[np.float64]:
+    """Return the rotation (3, 3) of a row, whose quaternion begins with w."""
+    given = row.get("rotation", (1.0, 0.0, 0.0, 0.0))
+    w, x, y, z = checks.vector(f"{place}.rotation", given, "-", size=4, error=SceneFormatError)
+    try:
+        return Pose(rotation_xyzw=(x, y, z, w)).rotation
+    except SceneError as cause:
+        raise SceneFormatError(f"{place}.rotation (w, x, y, z): {cause}") from cause
+
+
+def _scale(row: Json, place: str) -> NDArray[np.float64]:
+    """Return the scale (3,) of a row, to be multiplied by its template's."""
+    given = row.get("uniform_scale", 1.0)
+    uniform = checks.number(f"{place}.uniform_scale", given, "-", above=0.0, error=SceneFormatError)
+    given = row.get("non_uniform_scale", (1.0, 1.0, 1.0))
+    each = checks.vector(f"{place}.non_uniform_scale", given, "-", size=3, above=0.0, error=SceneFormatError)
+    return uniform * np.array(each)
+
+
+def _column(scale: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a scale (3,) as factors of the rows of a transform (4, 1)."""
+    return np.append(scale, 1.0)[:, None]
+
+
+def _is_com(row: Json, place: str, default: bool | None) -> bool | None:
+    """Return True if a translation places the centre of mass; `default` if the row does not say."""
+    given = row.get("translation_origin", "default")
+    known = _ORIGINS.get(given.lower(), "") if isinstance(given, str) else ""
+    if isinstance(known, str):
+        raise SceneFormatError(
+            f"{place}: translation_origin is {checks.represented(given)}; it must be 'COM' or 'asset_local'."
+        )
+    return default if known is None else known
+
+
+def _flag(row: Json, key: str, place: str) -> bool:
+    return checks.flag(f"{place}.{key}", row.get(key, True), error=SceneFormatError)
+
+
+def _mass(row: Json, place: str, mass_kg: float | None, volume: float) -> float | None:
+    """Return the mass [kg] of an instance, scaled `volume` times, from its template's mass; None if unknown."""
+    given = row.get("mass_scale", 1.0)
+    factor = checks.number(f"{place}.mass_scale", given, "-", at_least=0.0, error=SceneFormatError)
+    if _flag(row, "apply_scale_to_mass", place):
+        factor *= volume
+    if mass_kg is None or factor == 0.0:
+        return None
+    return checks.number(f"{place}: its mass", mass_kg * factor, "kg", at_most=1e9, error=SceneFormatError)
+
+
+# -- models ----------------------------------------------------------------------------------------------------------
+
+
+def _keyed(node: AuthoredNode, number: int, seen: dict[int, Piece]) -> AuthoredNode:
+    """Copy a node so that the keys of its pieces differ from those of other files."""
+    pieces = []
+    for piece in node.pieces:
+        if id(piece) not in seen:
+            seen[id(piece)] = replace(piece, key=(number, piece.key))
+        pieces.append(seen[id(piece)])
+    children = tuple(_keyed(child, number, seen) for child in node.children)
+    return replace(node, pieces=tuple(pieces), children=children)
+
+
+def _node_box(node: AuthoredNode) -> _Box | None:
+    """Return the box of a node and all nodes below it, in the node's own frame."""
+    boxes: list[_Box | None] = [
+        np.array([piece.vertices.min(axis=0), piece.vertices.max(axis=0)]) for piece in node.pieces
+    ]
+    return _joined_box([*boxes, *(_turned_box(_node_box(child), child.matrix) for child in node.children)])
+
+
+def _turned_box(box: _Box | None, matrix: Matrix) -> _Box | None:
+    """Return the box around the corners of a transformed box."""
+    if box is None:
+        return None
+    corners = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
+    moved = corners @ matrix[:3, :3].T + matrix[:3, 3]
+    return np.array([moved.min(axis=0), moved.max(axis=0)])
+
+
+def _joined_box(boxes: list[_Box | None]) -> _Box | None:
+    there = [box for box in boxes if box is not None]
+    if not there:
+        return None
+    return np.array([np.min([box[0] for box in there], axis=0), np.max([box[1] for box in there], axis=0)])
+
+
+def _with_parts(file: Path) -> list[Path]:
+    """Return a model file and its parts: the buffer beside a .gltf, all files below the folder of a .urdf."""
+    if file.suffix == ".urdf":
+        return sorted(one for one in islice(file.parent.rglob("*"), _MOST_PARTS) if one.is_file())
+    return [
+        one for one in (file, file.with_suffix(".bin")) if one == file or (file.suffix == ".gltf" and one.is_file())
+    ]
+
+
+def _links_kg(model: _Model) -> float | None:
+    """Return the mass of a model whose roots are links [kg]; None if any link with geometry has none."""
+    masses = [root.mass_kg for root in model.roots if root.with_geometry() is not None]
+    return None if None in masses else sum(mass for mass in masses if mass is not None) or None
+
+
+def _is_bent(pose: object) -> bool:
+    """Return True if any initial joint position, in a list or in a table by name, is not 0."""
+    values = list(pose.values()) if isinstance(pose, dict) else pose
+    return isinstance(values, list) and any(value not in (0, None) for value in values)
+
+
+def _is_pointer(file: Path) -> bool:
+    try:
+        with file.open("rb") as opened:
+            return opened.read(len(_LFS)) == _LFS
+    except OSError:
+        return False
+
+
+def _some(names: Counter[str]) -> str:
+    more = len(names) - _MOST_NAMED
+    return ", ".join(list(names)[:_MOST_NAMED]) + (f" and {more} more" if more > 0 else "")

@@ -1,0 +1,161 @@
+"""Wavefront OBJ files as authored trees: one node for each `o`, or for each `g` if a file has no `o`.
+
+We do not use trimesh's reader (5.2). It merges objects of one name and returns them in reverse order. It counts
+negative vertex numbers from the end of the file instead of from the current line.
+
+Source: Wavefront, Advanced Visualizer manual (1990s), appendix B1, "Object files".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scene2hap.errors import SceneFormatError
+from scene2hap.scene import limits
+from scene2hap.scene.formats.mtl import MtlLibraries
+from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
+
+_Faces = list[tuple[int, int, int]]
+"""Corners of triangles, each packed into one number for speed: vertex number from 0, shifted, plus coordinates number.
+
+Coordinates are counted from 1; 0 stands for none.
+"""
+_SHIFT = 32
+_Table = NDArray[np.float64]
+
+
+@dataclass
+class _Part:
+    """Faces under one `o` or `g` by material, in the order of first use."""
+
+    name: str
+    faces: dict[str, _Faces] = field(default_factory=dict)
+
+
+def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> AuthoredScene:
+    """Return the objects of an OBJ text; `name` is for faces outside any object.
+
+    Without `textures`, material libraries are not read, and materials are distinguished by name only.
+    Raises: SceneFormatError: a vertex or face is not made of numbers, or a face uses a vertex that does not exist; the
+    message gives the line.
+    """
+    vertices: list[tuple[float, float, float]] = []
+    coordinates: list[tuple[float, float]] = []
+    libraries = None if textures is None else MtlLibraries(textures)
+    objects, groups = [_Part(name)], {name: _Part(name)}
+    material, group = "", name
+    into_object: _Faces | None = None
+    into_group: _Faces | None = None
+    n_triangles = 0
+    for number, keyword, rest in _statements(text):
+        if keyword == "v":
+            vertices.append(_vertex(rest, number))
+        elif keyword == "f":
+            if into_object is None or into_group is None:
+                into_object = objects[-1].faces.setdefault(material, [])
+                into_group = groups.setdefault(group, _Part(group)).faces.setdefault(material, [])
+            triangles = _fan(rest, len(vertices), len(coordinates), number)
+            into_object += triangles
+            into_group += triangles
+            n_triangles += len(triangles)
+            limits.at_most("the number of triangles", n_triangles, "MAX_TRIANGLES")
+        elif keyword == "vt":
+            coordinates.append(_coordinates(rest))
+        elif keyword == "mtllib" and libraries is not None:
+            libraries.read(rest)
+        elif keyword in ("o", "g", "usemtl"):
+            into_object = into_group = None
+            if keyword == "o":
+                objects.append(_Part(rest))
+            elif keyword == "g":
+                group = rest
+            else:
+                material = rest
+    parts = objects if len(objects) > 1 else list(groups.values())
+    points = np.array(vertices, dtype=np.float64).reshape(-1, 3)
+    # The first row is for corners without coordinates.
+    uv = np.array([(0.0, 0.0), *coordinates], dtype=np.float64)
+    nodes = tuple(_node(i, part, points, uv, libraries) for i, part in enumerate(parts) if part.faces)
+    return AuthoredScene(nodes, left_out=() if textures is None else textures.left_out)
+
+
+def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLibraries | None) -> AuthoredNode:
+    pieces = []
+    for key, faces in part.faces.items():
+        corners = np.array(faces, dtype=np.int64)
+        piece = Piece.checked((number, key), points, corners >> _SHIFT, key, f"object {part.name!r}")
+        material = None if libraries is None else libraries.materials.get(key)
+        if material is not None:
+            mapped = corners & ((1 << _SHIFT) - 1)
+            looks = material.appearance(len(corners), uv[mapped] if mapped.any() else None)
+            piece = replace(piece, appearance=looks)
+        pieces.append(piece)
+    return AuthoredNode(part.name, np.eye(4), tuple(pieces))
+
+
+def _statements(text: str) -> Iterator[tuple[int, str, str]]:
+    """Yield line number, keyword and the rest of each statement."""
+    # Joined once per statement, since a file may be one statement of a hundred thousand lines.
+    continued: list[str] = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        line = line.partition("#")[0]
+        if line.endswith("\\"):
+            continued.append(line[:-1])
+            continue
+        if continued:
+            line = " ".join((*continued, line))
+            continued = []
+        words = line.split(None, 1)
+        if words:
+            yield number, words[0], words[1].strip() if len(words) > 1 else ""
+
+
+def _vertex(rest: str, number: int) -> tuple[float, float, float]:
+    try:
+        x, y, z = map(float, rest.split()[:3])
+    except ValueError as cause:
+        raise SceneFormatError(f"line {number}: 'v {rest}' is no vertex; it must be three numbers.") from cause
+    return x, y, z
+
+
+def _coordinates(rest: str) -> tuple[float, float]:
+    """Return texture coordinates. Invalid ones become 0: only the texture is then misplaced."""
+    try:
+        u, v = map(float, [*rest.split(), "0"][:2])
+    except ValueError:
+        return 0.0, 0.0
+    return u, v
+
+
+def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
+    """Return the triangles of a convex polygon."""
+    words = rest.split()
+    try:
+        vertices = [int(word.partition("/")[0]) for word in words]
+    except ValueError as cause:
+        raise SceneFormatError(f"line {number}: 'f {rest}' is no face; it must be vertex numbers.") from cause
+    vertices = [vertex - 1 if vertex > 0 else n_vertices + vertex for vertex in vertices]
+    if len(vertices) < 3 or not all(0 <= vertex < n_vertices for vertex in vertices):
+        raise SceneFormatError(
+            f"line {number}: 'f {rest}' must name three or more of the {n_vertices} vertices before it (from 1)."
+        )
+    corners = [vertex << _SHIFT for vertex in vertices]
+    if n_coordinates:
+        corners = [corner + _mapped(word, n_coordinates) for corner, word in zip(corners, words, strict=True)]
+    return [(corners[0], b, c) for b, c in pairwise(corners[1:])]
+
+
+def _mapped(word: str, n_coordinates: int) -> int:
+    """Return the number of a corner's texture coordinates from 1; 0 if there are none."""
+    try:
+        number = int(word.split("/", 2)[1])
+    except (ValueError, IndexError):
+        return 0
+    number = number if number >= 0 else n_coordinates + number + 1
+    return number if 0 <= number <= n_coordinates else 0

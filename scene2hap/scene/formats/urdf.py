@@ -1,0 +1,341 @@
+"""URDF files, robots and furniture with joints, as authored trees.
+
+1. Every link with geometry is an object. It has the link's name, and the pose of the link's frame with all joints at 0.
+   Links with a fixed joint stay separate. A link without geometry is a frame, and no object.
+2. The <visual> geometry of a link is drawn; its <collision> geometry only if it has no other.
+3. A mesh keeps its own materials. A mesh without any, such as STL, or a box has that of its <visual>. Meshes are never
+   rotated to another up axis; COLLADA's unit counts. Both are as in ROS.
+4. <inertial> gives the object's mass.
+
+We do not use MuJoCo's reader (4.0). It does not read COLLADA or textures, refuses flat sheets, and opens any file that
+a file names. A model that MuJoCo compiles from the same file has the same names and poses.
+
+Source: URDF XML specification (ROS), `link`, `joint`, `material`; MuJoCo documentation, "URDF extensions".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from xml.etree import ElementTree
+from xml.parsers import expat
+
+import numpy as np
+
+from scene2hap import checks
+from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
+from scene2hap.scene import limits
+from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.engines import solids
+from scene2hap.scene.files import read_bytes
+from scene2hap.scene.formats.urdf_files import UrdfFiles
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
+
+MAX_XML_BYTES = 1 << 24
+"""Largest size of a URDF file [bytes] (assumed: a hundred times a large robot)."""
+_MESHES = (".obj", ".stl", ".dae", ".ply", ".glb", ".gltf")
+
+Element = ElementTree.Element
+
+
+def read_urdf(path: Path, assets_root: Path, read_mesh: Callable[[Path, Path], AuthoredScene]) -> AuthoredScene:
+    """Return the links of a URDF file in metres, Z up, in file order; `read_mesh(file, root)` reads a mesh file.
+
+    Raises: SceneFormatError: the file is not URDF, or broken. SceneError: a mesh is missing, too large or outside
+    `assets_root`; the message names the root that is needed. MissingExtra: a mesh is COLLADA, and pycollada is not
+    installed.
+    """
+    return _Reader(path, assets_root, read_mesh, _parsed(path)).scene()
+
+
+def _parsed(path: Path) -> Element:
+    """Return the root element of a file without a document type. Size and depth are bounded."""
+    data = read_bytes(path)
+    if len(data) > MAX_XML_BYTES:
+        raise SceneError(f"{path.name!r} has {len(data):,} bytes; URDF of up to {MAX_XML_BYTES:,} is read.")
+    builder = ElementTree.TreeBuilder()
+    open_tags: list[str] = []
+    n_elements = 0
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal n_elements
+        n_elements += 1
+        limits.at_most(f"the number of elements in {path.name!r}", n_elements, "MAX_NODES")
+        limits.at_most(f"the depth of {path.name!r}", len(open_tags), "MAX_DEPTH")
+        if not open_tags and tag != "robot":
+            hint = " An MJCF file has the suffix .xml." if tag == "mujoco" else ""
+            raise SceneFormatError(f"{path.name!r} begins with <{tag}>; a URDF file begins with <robot>.{hint}")
+        if tag.startswith("xacro:"):
+            raise SceneFormatError(
+                f"{path.name!r} has <{tag}>, a macro of xacro. Write the file out first: xacro FILE > robot.urdf"
+            )
+        open_tags.append(tag)
+        builder.start(tag, attributes)
+
+    def end(tag: str) -> None:
+        open_tags.pop()
+        builder.end(tag)
+
+    def refuse(*declared: object) -> None:
+        raise SceneFormatError(f"{path.name!r} has a document type, which URDF does not need; remove <!DOCTYPE>.")
+
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler, parser.StartElementHandler, parser.EndElementHandler = refuse, start, end
+    try:
+        parser.Parse(data, True)
+    # ValueError and LookupError: an encoding that does not exist, or that has several bytes per character.
+    except (expat.ExpatError, ValueError, LookupError) as cause:
+        if isinstance(cause, SceneError):
+            raise
+        raise SceneFormatError(f"{path.name!r} is not well-formed XML: {cause}.") from cause
+    return builder.close()
+
+
+@dataclass(eq=False)
+class _Reader:
+    """Reader of one robot. It reads each mesh file once."""
+
+    path: Path
+    root: Path
+    read_mesh: Callable[[Path, Path], AuthoredScene]
+    robot: Element
+    _left_out: list[str] = field(default_factory=list)
+    _meshes: dict[Path, AuthoredNode] = field(default_factory=dict)
+    _paths: dict[str, Path] = field(default_factory=dict)
+    _materials: dict[str, Element] = field(default_factory=dict)
+    _n_bytes: int = 0
+    _n_triangles: int = 0
+
+    def __post_init__(self) -> None:
+        self._textures = TextureFiles(self.path.parent, self.root)
+        self._files = UrdfFiles(self.path, self.root, self.robot.find("mujoco/compiler"))
+        for row in self.robot.iter("material"):
+            # A material without content only refers to another by name.
+            if len(row) and (name := row.get("name")):
+                self._materials.setdefault(name, row)
+
+    def scene(self) -> AuthoredScene:
+        links = self._named("link")
+        limits.at_most("the number of links", len(links), "MAX_OBJECTS")
+        frames = self._frames(links)
+        nodes = tuple(self._link(name, row, frames[name]) for name, row in links.items())
+        return AuthoredScene(nodes, "z", 1.0, (*self._left_out, *self._textures.left_out))
+
+    def _named(self, tag: str) -> dict[str, Element]:
+        """Return the direct children of the root with a tag, by name."""
+        found: dict[str, Element] = {}
+        for row in self.robot.findall(tag):
+            name = _text(row, "name", f"a <{tag}>")
+            if name in found:
+                raise SceneFormatError(f"{self.path.name!r} has two elements <{tag} name={name!r}>; names are unique.")
+            found[name] = row
+        return found
+
+    # -- poses of links ----------------------------------------------------------------------------------------------
+
+    def _frames(self, links: dict[str, Element]) -> dict[str, Matrix]:
+        """Return the world transform of each link's frame, with all joints at 0."""
+        above: dict[str, tuple[str, Matrix]] = {}
+        for name, row in self._named("joint").items():
+            place = f"joint {name!r}"
+            parent, child = (_text(_child(row, tag, place), "link", f"{place}: <{tag}>") for tag in ("parent", "child"))
+            for link in (parent, child):
+                if link not in links:
+                    near = checks.did_you_mean(link, links)
+                    raise SceneFormatError(f"{place} joins link {link!r}, which does not exist. {near}".rstrip())
+            if child in above:
+                raise SceneFormatError(f"{place} hangs link {child!r} on {parent!r}; it hangs on {above[child][0]!r}.")
+            above[child] = parent, _origin(row, place)
+        below: dict[str, list[str]] = {}
+        for child, (parent, _) in above.items():
+            below.setdefault(parent, []).append(child)
+        frames: dict[str, Matrix] = {name: np.eye(4) for name in links if name not in above}
+        todo = list(frames)
+        with np.errstate(all="ignore"):  # overflows are refused when meshes are placed
+            while todo:
+                parent = todo.pop()
+                for child in below.get(parent, ()):
+                    frames[child] = frames[parent] @ above[child][1]
+                    todo.append(child)
+        if len(frames) < len(links):
+            ring = next(name for name in links if name not in frames)
+            raise SceneFormatError(f"link {ring!r} hangs below itself; the links of a robot form a tree.")
+        return frames
+
+    # -- looks of links ----------------------------------------------------------------------------------------------
+
+    def _link(self, name: str, row: Element, frame: Matrix) -> AuthoredNode:
+        place = f"link {name!r}"
+        drawn: list[AuthoredNode] = []
+        for tag in ("visual", "collision"):
+            if not drawn:
+                drawn = [
+                    self._drawn(shape, geometry, f"{place}, <{tag}>", shape.get("name") or name)
+                    for shape in row.findall(tag)
+                    for geometry in shape.findall("geometry")[:1]
+                    if len(geometry)
+                ]
+        mass = row.find("inertial/mass")
+        mass_kg = 0.0 if mass is None else _numbers(mass, "value", f"{place}: <mass>", 1)[0]
+        if mass_kg < 0.0:
+            raise SceneFormatError(f"{place} has a mass of {mass_kg:g} kg; it must be 0 or more.")
+        return AuthoredNode(name, frame, (), tuple(drawn), is_object=True, mass_kg=mass_kg or None)
+
+    def _drawn(self, row: Element, geometry: Element, place: str, name: str) -> AuthoredNode:
+        """Return a node with the geometry of a <visual> or <collision>, in the frame of its link."""
+        shape, origin = geometry[0], _origin(row, place)
+        material = row.find("material")
+        if shape.tag == "mesh":
+            mesh = self._mesh(_text(shape, "filename", f"{place}, <mesh>"), place)
+            with np.errstate(all="ignore"):
+                origin = origin @ np.diag([*_numbers(shape, "scale", f"{place}, <mesh>", 3, "1 1 1"), 1.0])
+        else:
+            piece = self._solid(shape, place)
+            mesh = AuthoredNode(name, np.eye(4), (piece,))
+        self._n_triangles += sum(len(piece.faces) for node in mesh.walk() for piece in node.pieces)
+        limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+        if material is not None:
+            mesh = self._painted(mesh, material, place)
+        return AuthoredNode(name, origin, (), (replace(mesh, name=name),))
+
+    def _solid(self, shape: Element, place: str) -> Piece:
+        place = f"{place}, <{shape.tag}>"
+        sizes: list[float]
+        if shape.tag == "box":
+            sizes = _numbers(shape, "size", place, 3)
+        elif shape.tag in ("cylinder", "capsule"):
+            sizes = [*_numbers(shape, "radius", place, 1), *_numbers(shape, "length", place, 1)]
+        elif shape.tag == "sphere":
+            sizes = _numbers(shape, "radius", place, 1)
+        else:
+            raise SceneFormatError(f"{place}: geometry is a box, cylinder, capsule, sphere or mesh.")
+        if min(sizes) <= 0.0 or max(sizes) > limits.MAX_COORDINATE_M:
+            raise SceneFormatError(f"{place} has sizes {sizes} m; they must be above 0 and sensible.")
+        if shape.tag == "box":
+            vertices, faces = solids.box([edge / 2 for edge in sizes])
+        elif shape.tag == "sphere":
+            vertices, faces = solids.ellipsoid(sizes * 3)
+        else:
+            make = solids.cylinder if shape.tag == "cylinder" else solids.capsule
+            vertices, faces = make(sizes[0], sizes[1] / 2)
+        key = (shape.tag, *sizes)
+        return replace(Piece.checked(key, vertices, faces, "", place), is_made=True)
+
+    def _painted(self, mesh: AuthoredNode, row: Element, place: str) -> AuthoredNode:
+        """Return a node whose pieces without looks of their own have those of a <material>."""
+        name = row.get("name") or ""
+        look = row if len(row) else self._materials.get(name)
+        colour, texture = (None, None) if look is None else (look.find("color"), look.find("texture"))
+        rgba = None
+        if colour is not None:
+            r, g, b, a = (min(max(x, 0.0), 1.0) for x in _numbers(colour, "rgba", f"{place}, <color>", 4))
+            rgba = (r, g, b, a)
+        if texture is not None:
+            rgba = self._mean_rgba(texture, place) or rgba
+        material = None if rgba is None else FaceMaterial(rgba, name=name)
+
+        def painted(node: AuthoredNode) -> AuthoredNode:
+            pieces = tuple(
+                piece
+                if piece.appearance is not None or piece.material
+                else replace(
+                    piece,
+                    material=name,
+                    appearance=None if material is None else Appearance.plain(material, len(piece.faces)),
+                )
+                for piece in node.pieces
+            )
+            return replace(node, pieces=pieces, children=tuple(map(painted, node.children)))
+
+        return painted(mesh)
+
+    def _mean_rgba(self, row: Element, place: str) -> tuple[float, float, float, float] | None:
+        """Return the mean colour of a texture; None if it cannot be read. Shapes of URDF have no texture
+        coordinates."""
+        name = row.get("filename") or ""
+        try:
+            path = self._files.find(name, f"{place}, <texture>")
+        except SceneError as error:
+            self._textures.refuse(name, str(error))
+            return None
+        texture = self._textures.named(str(path), lambda: read_bytes(path), False)
+        texels = None if texture is None else texture.texels
+        if texels is None:
+            return None
+        r, g, b = (texels[..., :3].reshape(-1, 3).mean(axis=0) / 255.0).tolist()
+        return r, g, b, 1.0
+
+    # -- meshes ------------------------------------------------------------------------------------------------------
+
+    def _mesh(self, name: str, place: str) -> AuthoredNode:
+        if name not in self._paths:
+            self._paths[name] = self._files.find(name, f"{place}, <mesh>")
+        path = self._paths[name]
+        if path not in self._meshes:
+            suffix = path.suffix.lower()
+            if suffix not in _MESHES:
+                raise SceneError(f"{place} wants the mesh {name!r}; {', '.join(_MESHES)} are read. Convert it.")
+            self._n_bytes += path.stat().st_size
+            limits.at_most("the bytes of all meshes", self._n_bytes, "MAX_FILE_BYTES")
+            try:
+                scene = self.read_mesh(path, self.root)
+            except (SceneError, MissingExtra) as cause:
+                raise type(cause)(f"{place}, mesh {name!r}: {cause}") from cause
+            self._left_out += scene.left_out
+            unit = scene.unit_m or 1.0
+            node = AuthoredNode("", np.diag([unit, unit, unit, 1.0]), (), scene.roots)
+            # Piece keys are unique only within one file.
+            self._meshes[path] = _with_keys(node, str(path))
+        return self._meshes[path]
+
+
+def _with_keys(node: AuthoredNode, file: str) -> AuthoredNode:
+    """Return the node with piece keys that no other file has."""
+    pieces = tuple(replace(piece, key=(file, piece.key)) for piece in node.pieces)
+    return replace(node, pieces=pieces, children=tuple(_with_keys(child, file) for child in node.children))
+
+
+def _origin(row: Element, place: str) -> Matrix:
+    """Return the matrix of an <origin>: rotations about the fixed axes x, y, z [rad], then a translation [m]."""
+    origin = row.find("origin")
+    if origin is None:
+        return np.eye(4)
+    place = f"{place}: <origin>"
+    pose = Pose.from_euler(_numbers(origin, "xyz", place, 3, "0 0 0"), _numbers(origin, "rpy", place, 3, "0 0 0"))
+    matrix: Matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position_m
+    return matrix
+
+
+def _child(row: Element, tag: str, place: str) -> Element:
+    found = row.find(tag)
+    if found is None:
+        raise SceneFormatError(f"{place} has no <{tag}>.")
+    return found
+
+
+def _text(row: Element, key: str, place: str) -> str:
+    text = (row.get(key) or "").strip()
+    if not text:
+        raise SceneFormatError(f"{place} has no {key}.")
+    return text
+
+
+def _numbers(row: Element, key: str, place: str, n: int, default: str | None = None) -> list[float]:
+    """Return the n numbers of an attribute; `default` is used if it is missing.
+
+    Raises: SceneFormatError: it does not have n finite numbers.
+    """
+    text = row.get(key, default)
+    words = [] if text is None else text.split()
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        numbers = []
+    if len(numbers) != n or not np.isfinite(numbers).all():
+        wanted = "a finite number" if n == 1 else f"{n} finite numbers"
+        raise SceneFormatError(f"{place}.{key} is {checks.represented(text)}; it must be {wanted}.")
+    return numbers

@@ -1,0 +1,393 @@
+"""The dominant surface of a mesh: the plate that a person would name first, such as the top of a table.
+
+1. Box the mesh in a fitted frame (`_frame`). So a shelf authored at 30 degrees has the measures of a straight one.
+2. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
+   largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
+   thin flat horizontal plate comes first. The bottom of the object is no such plate.
+3. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
+   back-rests, so these do not change the median. A mesh that is open below has no such solid. Its thickness reaches
+   from its top, or from the sheet that forms most of it, down to its lowest rim. If the surface is no rectangle (a
+   round top), its outline is the section through the middle of that solid.
+4. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
+   (`plate_edge`). If the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen along
+   the normal.
+
+Source: Scene2Hap, section "Automatic Data Extraction": the size of an object is that of its dominant surface, "by
+raycasting within the 3D mesh's bounding box and calculating its median values".
+Differs: the paper does not say in which frame or on which side the rays start; steps 1, 3 and 4 decide it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import DominantSurface, SurfaceFlag, TriMesh
+from scene2hap.scene.surface.cuboid import cuboid_bounds_m
+from scene2hap.scene.surface.outline import Outline
+from scene2hap.scene.surface.plate_edge import windows
+from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
+from scene2hap.scene.surface.section import section_outline
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+RAYS_PER_SIDE = 32
+"""Rays along each side of the bounding box. The resolution is about 1/32 of the box (tuned: 5 ms an object)."""
+
+# All of these are tuned on real scenes; a factor of two in any of them matters little.
+_SAME_DEPTH = 1e-6  # surfaces closer than this share of the object's size are one
+_OPEN_SHARE = 0.02  # a mesh is open if more than this share of rays enters and does not leave
+_FLAT_SHARE = 0.5  # a plate is flat if this share of its rays meets it at one height
+_SAME_LEVEL = 0.1  # an open plate is flat if its rays meet it within this share of its box's height
+_FILLED_CUT = 0.75  # least area of a cut's rectangle, as a share of the level area that rays see (a disc's is 0.95)
+_FILLED_OUTLINE = 0.5  # least area of an outline's rectangle, as a share of the whole area that rays see
+_PAIRED_SHARE = 0.5  # a plate has a thickness if this share of its rays leaves the mesh again
+_OWN_FRAME_GAIN = 0.95  # another frame replaces the author's axes only if its box is smaller than this share
+_SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal is chosen
+_UPRIGHT = 0.9  # least cosine between the vertical and a horizontal plate's normal (26 degrees)
+_THIN = 1 / 3  # greatest thickness of a horizontal plate, as a share of its width. It replaces the largest side ...
+_LYING_AREA = 0.6  # ... if its area is this share of that side's area (chairs 0.71-0.93) ...
+# ... and if that side is level in less than this share of its rectangle (chairs <= 0.58, cupboards >= 0.74).
+_FILLED_PLATE = 2 / 3
+# a plate may be no rectangle if fewer than this share of the rays in its box meet it. An outline is used if ...
+_FULL = 0.97
+_SEEN = 0.1  # ... its area differs from the level area that rays see by less than this share of its box ...
+_LIKE = 0.5, 1.5  # ... and its area is between these multiples of the rectangle of medians
+_SAME_DIRECTION_RAD = np.deg2rad(1.0)
+_SIDES_TRIED = 12
+# Fixed cost of a mesh and cost of each triangle, in tests of a ray against a triangle (measured: 1.5 ms, 1 us and
+# 0.1 us).
+_WORK_OF_A_MESH, _WORK_OF_A_FACE = 15_000, 10
+
+
+class _Side(NamedTuple):
+    """A mesh seen along one axis: its projected area [m2], a frame whose w is that axis, and the hits of rays."""
+
+    area_m2: float
+    own_to_plate: Floats
+    hits: Hits
+
+    def level_area_m2(self, size_m: float) -> float:
+        """Return the area at one level, within half the plate's thickness; the whole area for a sheet [m2]."""
+        solids = first_solids(self.hits, _SAME_DEPTH * size_m)
+        thickness = (solids.top - solids.bottom)[np.isfinite(solids.bottom)]
+        if len(thickness) < _PAIRED_SHARE * len(solids.top):
+            return self.area_m2
+        level = np.abs(solids.top - np.median(solids.top)) <= np.median(thickness) / 2
+        return self.area_m2 * float(level.mean())
+
+
+def dominant_surface(
+    mesh: TriMesh, *, up: ArrayLike | None = None, spend: Callable[[int], None] | None = None
+) -> DominantSurface:
+    """Return length, width, thickness and pose of the mesh's dominant surface, in the mesh's own frame.
+
+    Parameters: up : (3,) upward direction in the own frame; the plate's normal points along rather than against it.
+        Without it, normals point along the axes of the own frame. spend : called before the work with its size, in
+        tests of a ray against a triangle; may raise to prevent the work.
+    Returns: length_m >= width_m; exact for boxes and for slabs on legs, else to about a ray's spacing. Flags:
+        "open-mesh": rays enter and never leave. "zero-thickness": a sheet. "box-fallback": too few rays met the surface
+        twice, so its thickness is that of the box around it, or reaches from its sheet to the lowest rim; or no
+        rectangle of medians fits, so that length and width are the box's.
+    """
+    bounds_m = cuboid_bounds_m(mesh)
+    if bounds_m is not None and np.ptp(bounds_m, axis=0).min() > _SAME_DEPTH * np.ptp(bounds_m, axis=0).max():
+        return _cuboid(bounds_m, up)
+    spend = spend or (lambda work: None)
+    spend(_WORK_OF_A_MESH + _WORK_OF_A_FACE * len(mesh.faces))
+    used, faces = np.unique(mesh.faces, return_inverse=True)
+    points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
+    axes = _pointing(_frame(points, faces), up)
+    is_open = False
+    best: _Side | None = None
+    most_upright: _Side | None = None
+    for axis in _by_uprightness(axes, up):
+        own_to_plate = _facing(axes, axis)
+        placed = own_to_plate @ points
+        hits = cast_grid(placed[:, faces], RAYS_PER_SIDE, spend)
+        area = float(np.prod(np.ptp(placed[:2], axis=1))) * len(hits.starts) / RAYS_PER_SIDE**2
+        is_open |= share_open(hits) > _OPEN_SHARE
+        if len(hits.ray):
+            most_upright = _Side(area, own_to_plate, hits)
+            if best is None or area > best.area_m2 * _SAME_AREA:
+                best = most_upright
+    flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if is_open else ()
+    if best is None or most_upright is None:
+        return _box(points, axes, flags)
+    plate = _side_plate(best, points, faces, flags)
+    if up is None or most_upright is best:
+        return plate
+    is_upright = abs(float(most_upright.own_to_plate[2] @ np.asarray(up, dtype=np.float64))) > _UPRIGHT
+    return (is_upright and _lying_plate(most_upright, best, plate, points, faces)) or plate
+
+
+def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
+    return _plate((side.own_to_plate @ points)[:, faces], side.own_to_plate, side.hits, flags)
+
+
+def _lying_plate(
+    side: _Side, largest: _Side, standing: DominantSurface, points: Floats, faces: Ints
+) -> DominantSurface | None:
+    """Return the horizontal plate of an object whose largest side is no plate, such as a chair's seat; else None.
+
+    A chair's projected area is larger from the front than from above: legs, rungs and back are beside and behind each
+    other. But the level part in front fills too little of its rectangle. From above there is one thin flat plate, and
+    it is not the bottom of the whole object, unlike the bottom of a cup.
+    """
+    size_m = float(np.ptp(points, axis=1).max())
+    is_plate = largest.level_area_m2(size_m) >= _FILLED_PLATE * standing.length_m * standing.width_m
+    is_flat = side.level_area_m2(size_m) >= _FLAT_SHARE * side.area_m2
+    if is_plate or not is_flat or side.area_m2 < _LYING_AREA * largest.area_m2:
+        return None
+    flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if "open-mesh" in standing.flags else ()
+    plate = _side_plate(side, points, faces, flags)
+    is_thin = plate.thickness_m <= _THIN * plate.width_m
+    middle_m = float(plate.pose.rotation[:, 2] @ np.asarray(plate.pose.position_m))
+    is_raised = middle_m - float((side.own_to_plate[2] @ points).min()) > 1.5 * plate.thickness_m
+    return plate if is_thin and is_raised and "box-fallback" not in plate.flags else None
+
+
+def _cuboid(bounds_m: Floats, up: ArrayLike | None) -> DominantSurface:
+    """Return the result that rays would give for a box between bounds (2, 3) [m]."""
+    low, high = bounds_m
+    edges = high - low
+    axes = _pointing(np.eye(3), up)
+    areas = np.prod(edges) / edges
+    best, *others = _by_uprightness(axes, up)
+    for axis in others:
+        if areas[axis] > areas[best] * _SAME_AREA:
+            best = axis
+    own_to_plate = _facing(axes, best)
+    return _placed(np.abs(own_to_plate @ edges), own_to_plate @ (low + high) / 2, own_to_plate, ())
+
+
+def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
+    """Return the plate across w. The rows of `own_to_plate` are the axes of triangles (3, 3, m) and hits."""
+    corners = triangles.reshape(3, -1)
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    size = float((high - low).max())
+    solids = first_solids(hits, _SAME_DEPTH * size)
+    paired = np.isfinite(solids.bottom)
+    cell = float(np.prod(high[:2] - low[:2])) / RAYS_PER_SIDE**2
+    spans, outline_m = None, None
+    if paired.mean() >= _PAIRED_SHARE:
+        thickness = float(np.median((solids.top - solids.bottom)[paired]))
+        middle = float(np.median((solids.top + solids.bottom)[paired])) / 2
+        level = np.abs(solids.top - np.median(solids.top)) <= thickness / 2
+        if level.mean() >= _FLAT_SHARE:
+            is_thick = ~(solids.top - solids.bottom < thickness / 2)
+            spans = _flat_spans(cut(triangles, middle), hits.ray[hits.starts], level, is_thick, low, high)
+            if level.sum() < _FULL * RAYS_PER_SIDE**2 and thickness <= _THIN * float((high - low)[:2].min()):
+                outline_m = _seen_outline(triangles, middle, float(level.sum()) * cell)
+    else:
+        bottom, top = float(low[2]), _open_top(solids.top, hits.ray[hits.starts], low, high)
+        thickness, middle = top - bottom, (top + bottom) / 2
+        if thickness > _SAME_DEPTH * size:
+            flags = (*flags, "box-fallback")
+    if thickness <= _SAME_DEPTH * size:
+        thickness, middle = 0.0, float(np.median(solids.top))
+        flags = (*flags, "zero-thickness")
+    spans = spans or _spans(outline(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
+    if spans is None:
+        # No rectangle of medians fits an L, a ring with gaps or a heap, so the one around it is used.
+        spans = (high - low)[:2], (high + low)[:2] / 2
+        flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
+    (u_m, v_m), (u_mid, v_mid) = spans
+    return _placed(np.array([u_m, v_m, thickness]), np.array([u_mid, v_mid, middle]), own_to_plate, flags, outline_m)
+
+
+def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Outline | None:
+    """Return the section at a height, with or without holes, if its area matches the level area that rays see."""
+    outline = section_outline(triangles, middle)
+    if outline is None:
+        return None
+    whole = Outline(outline.rings_m[:1])
+    for found in (outline, whole):
+        if abs(found.area_m2 - level_area_m2) < _SEEN * math.prod(whole.extent_m):
+            return found
+    return None
+
+
+def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:
+    """Return the height of the plate of an open mesh. This is the level that most rays and most of the edge meet, or
+    its top.
+
+    So burners and knobs on a hob do not count as part of the sheet, whose rim extends down.
+    """
+    height, top, n = float(high[2] - low[2]), float(np.median(tops)), RAYS_PER_SIDE
+    level = np.abs(tops - top) <= _SAME_LEVEL * height
+    at_edge = (np.minimum(ray // n, ray % n) == 0) | (np.maximum(ray // n, ray % n) == n - 1)
+    is_sheet = level.mean() >= _FLAT_SHARE and at_edge.any() and level[at_edge].mean() >= _FLAT_SHARE
+    return top if is_sheet and top - low[2] > _SAME_LEVEL * height else float(high[2])
+
+
+def _flat_spans(
+    segments: Floats, ray: Ints, level: Bools, is_thick: Bools, low: Floats, high: Floats
+) -> tuple[Floats, Floats] | None:
+    """Return `_spans` of a cut without objects fixed to the plate's edge.
+
+    `level` marks the rays that meet the plate's level; `is_thick` those that meet about as much solid as the plate is
+    thick.
+    """
+    n = RAYS_PER_SIDE
+    grids = np.zeros((3, n * n), dtype=bool)
+    grids[:, ray] = np.stack((np.ones_like(level), level, level & is_thick))
+    seen, is_level, is_plate = grids.reshape(3, n, n)
+    rows = windows(seen, is_plate)
+    for along, window in enumerate(rows):
+        if not window.is_all:
+            bounds_m = window.bounds_m(segments, along, float(low[along]), float(high[along]))
+            segments = segments.copy()
+            segments[along] = segments[along].clip(*bounds_m)
+    (a, b), (c, d) = (window[:2] for window in rows)
+    cell = float(np.prod(high[:2] - low[:2])) / n**2
+    return _spans(segments, at_least=_FILLED_CUT * cell * is_level[a:b, c:d].sum())
+
+
+def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:
+    """Return median extents and middles (2,) [m] along u and v; None if their rectangle is below `at_least` [m2]."""
+    along_u, along_v = (median_span(segments, axis, RAYS_PER_SIDE) for axis in (0, 1))
+    if along_u is None or along_v is None or along_u[0] * along_v[0] < at_least:
+        return None
+    extents, middles = np.array([along_u, along_v]).T
+    return extents, middles
+
+
+def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
+    """Return the box around points (3, n) as a plate, for meshes that no ray meets: needles, triangles without area."""
+    own_to_plate = _facing(axes, int(np.argmin(np.ptp(axes @ points, axis=1))))
+    placed = own_to_plate @ points
+    size, middle = np.ptp(placed, axis=1), (placed.min(axis=1) + placed.max(axis=1)) / 2
+    flags = (*flags, "box-fallback")
+    if size[2] <= _SAME_DEPTH * size.max():
+        size[2] = 0.0
+        flags = (*flags, "zero-thickness")
+    return _placed(size, middle, own_to_plate, flags)
+
+
+def _placed(
+    size: Floats,
+    middle: Floats,
+    own_to_plate: Floats,
+    flags: tuple[SurfaceFlag, ...],
+    outline: Outline | None = None,
+) -> DominantSurface:
+    """Return the surface with its length along x; size, middle and outline [m] are along the rows of `own_to_plate`."""
+    x, y, normal = own_to_plate
+    is_turned = bool(size[1] > size[0])
+    if is_turned:
+        x, y = y, -x
+        size, middle = size[[1, 0, 2]], middle[[1, 0, 2]] * [1, -1, 1]
+    if outline is not None:
+        outline = _own_outline(outline, size, middle, is_turned=is_turned)
+    frame = np.eye(4)
+    frame[:3, :3] = np.stack((x, y, normal), axis=1)
+    frame[:3, 3] = frame[:3, :3] @ (middle - [size[0] / 2, size[1] / 2, 0.0])
+    return DominantSurface(Pose.from_matrix(frame), float(size[0]), float(size[1]), float(size[2]), flags, outline)
+
+
+def _own_outline(outline: Outline, size: Floats, middle: Floats, *, is_turned: bool) -> Outline | None:
+    """Return the outline from the plate's corner; None if it is a rectangle, or does not fit the plate."""
+    share = outline.area_m2 / math.prod(outline.extent_m)
+    if share > _FULL or not _LIKE[0] < outline.area_m2 / float(size[0] * size[1]) < _LIKE[1]:
+        return None
+    if is_turned:
+        outline = Outline(tuple(tuple((y, -x) for x, y in ring) for ring in outline.rings_m))
+    return outline.placed((1.0, 1.0), (float(size[0] / 2 - middle[0]), float(size[1] / 2 - middle[1])))
+
+
+# -- the frame -------------------------------------------------------------------------------------------------------
+
+
+def _frame(points: Floats, faces: Ints) -> Floats:
+    """Return axes (3, 3), one per row, of the tightest of three boxes around points (3, n) with triangles `faces` (3,
+    m).
+
+    The author's own axes are kept unless another box is clearly smaller, since legs and handles tilt any fitted box a
+    bit.
+    """
+
+    def volume(axes: Floats) -> float:
+        size = np.ptp(axes @ points, axis=1)
+        return float(np.prod(np.maximum(size, 1e-3 * size.max())))
+
+    own = np.eye(3)
+    fitted = min(_fitted_frames(points[:, faces]), key=volume, default=own)
+    return fitted if volume(fitted) < _OWN_FRAME_GAIN * volume(own) else own
+
+
+def _fitted_frames(triangles: Floats) -> Iterator[Floats]:
+    """Yield frames that rotate with triangles (3, 3, m): along the principal axes, and along the largest flat faces."""
+    b, c = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    doubled = np.stack([b[i - 2] * c[i - 1] - b[i - 1] * c[i - 2] for i in range(3)])
+    area = np.sqrt((doubled**2).sum(axis=0))
+    with_area = area > 0
+    if not with_area.any():
+        return
+    area, normals = area[with_area], doubled[:, with_area] / area[with_area]
+    spread = _surface_spread(triangles[:, :, with_area], area)
+    yield np.linalg.eigh(spread)[1].T
+
+    first = _largest_direction(normals, area)
+    across = np.flatnonzero(np.abs(first @ normals) < _SAME_DIRECTION_RAD)
+    level = np.linalg.svd(first[None])[2][1:]
+    if len(across):
+        seconds = (level @ _largest_direction(normals[:, across], area[across]))[:, None]
+    else:
+        # The face of a sheet does not show its rotation, but one of its edges may.
+        sides = level @ (np.roll(triangles, -1, axis=1) - triangles).reshape(3, -1)
+        longest = sides[:, np.argsort(-np.hypot(*sides), kind="stable")[:_SIDES_TRIED]]
+        seconds = np.column_stack((np.linalg.eigh(level @ spread @ level.T)[1], longest[:, longest.any(axis=0)]))
+    for second in (seconds / np.hypot(*seconds)).T @ level:
+        yield np.stack((first, second, np.cross(first, second)))
+
+
+def _surface_spread(triangles: Floats, area: Floats) -> Floats:
+    """Return the second moments (3, 3) of the surface about its centre, independent of its triangulation.
+
+    integral of x x^T over a triangle = A/12 (a a^T + b b^T + c c^T + s s^T), s = a + b + c.
+    """
+    weight = area / area.sum()
+    centre = (triangles.sum(axis=1) @ weight) / 3
+    a, b, c = np.moveaxis(triangles - centre[:, None, None], 1, 0)
+    spread: Floats = sum((x * weight) @ x.T for x in (a, b, c, a + b + c)) / 12
+    return spread
+
+
+def _largest_direction(normals: Floats, area: Floats) -> Floats:
+    """Return the unit direction that most area faces, from normals (3, m). Opposite directions count as one."""
+    strongest = np.abs(normals).argmax(axis=0)
+    one_way = normals * np.sign(normals[strongest, np.arange(len(area))])
+    cell = np.array([1, 2048, 2048**2]) @ np.round(one_way * 500).astype(np.int64)
+    _, group = np.unique(cell, return_inverse=True)
+    seed = one_way[:, group == np.bincount(group, area).argmax()].mean(axis=1)
+    cosine = (seed / np.linalg.norm(seed)) @ one_way
+    direction: Floats = one_way @ (area * np.sign(cosine) * (np.abs(cosine) > np.cos(_SAME_DIRECTION_RAD)))
+    return direction / np.linalg.norm(direction)
+
+
+def _facing(axes: Floats, axis: int) -> Floats:
+    """Return the axes with `axis` as w, in right-handed order u, v, w, one per row."""
+    v, w = axes[axis - 1], axes[axis]
+    return np.stack((np.cross(v, w), v, w))
+
+
+def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
+    """Return the axes, each signed so that it points up. A level axis points along the author's axes."""
+    strongest = axes[np.arange(3), np.abs(axes).argmax(axis=1)]
+    lift = np.zeros(3) if up is None else axes @ np.asarray(up, dtype=np.float64)
+    sign = np.where(np.abs(lift) > 0.1, np.sign(lift), np.sign(strongest))
+    return axes * sign[:, None]
+
+
+def _by_uprightness(axes: Floats, up: ArrayLike | None) -> list[int]:
+    """Return axis numbers, the least upright first. So the most upright of equal areas is tried last and is chosen."""
+    lift = axes @ np.asarray((0.0, 0.0, 0.0) if up is None else up, dtype=np.float64)
+    return [int(axis) for axis in np.argsort(np.abs(lift), kind="stable")]
