@@ -111,6 +111,10 @@ class SceneState:
         """Objects that each of the sources reaches now."""
         return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)
 
+    def touches_a_body(self, object_id: str) -> bool:
+        """Return True if an object touches another one whose material is known."""
+        return any(x in self.bodies for x in self.graph.beside.get(object_id, ()))
+
     def network(self, source_ids: Sequence[str] | None) -> Callable[[Collection[str]], ModelInput]:
         """The model's input for the present state: all objects, or only those that a source reaches.
 

@@ -44,8 +44,8 @@ def struck_later(
     frequencies_hz: Floats,
 ) -> Callable[[], Floats]:
     """A function that prepares the model and returns these gains; it may be called in any thread, and later."""
-    # An object without contacts is in no network of connected objects, so that the whole scene is prepared for it.
-    put_together = state.network([object_id] if state.graph.beside.get(object_id) else None)
+    # An object that is connected with no other is in no network, so that the whole scene is prepared for it.
+    put_together = state.network([object_id] if state.touches_a_body(object_id) else None)
     touched = {touched_id for hand in hands for touched_id, _ in hand}
 
     def prepared() -> Floats:

@@ -133,8 +133,8 @@ class StruckAhead:
     def _order(self, version: int) -> None:
         touched, bodies = tuple(self._touched), self._state.bodies
         self._ordered, self._ordered_at_s = Ordered(touched, version), time.monotonic()
-        # An object without contacts is in no network of connected objects.
-        put_together = self._state.network(touched if all(map(self._state.graph.beside.get, touched)) else None)
+        # An object that is connected with no other is in no network.
+        put_together = self._state.network(touched if all(map(self._state.touches_a_body, touched)) else None)
 
         def work() -> None:
             try:

@@ -308,6 +308,22 @@ def test_struck_object_of_unknown_material_is_felt_on_itself(propagation: str) -
     assert made.strike("block", (0.8, 0.5, 0.6)).felt["left"] > 0.005
 
 
+@pytest.mark.parametrize("settings", [{"prepare": "blocking"}, {"gain_limit_db": None}], ids=["blocking", "ahead"])
+def test_neighbours_of_unknown_material_do_not_change_an_impact(settings: dict[str, Any]) -> None:
+    felt = []
+    for gone in (("phone", "alarm"), ("phone", "alarm", "block")):  # the table stands on the block, or on nothing
+        made = session(propagation="modal_plate", **settings)
+        for object_id in gone:
+            made.remove(object_id)
+        made.update(touches=touches())
+        made.wait_prepared()
+        felt.append(made.strike("table", STRUCK))
+        made.wait_prepared()
+    on_block, alone = (impact.felt for impact in felt)
+    assert on_block == pytest.approx(alone, rel=1e-6)
+    assert on_block["left"] != on_block["right"]
+
+
 def test_worker_prepares_impacts_for_models_without_a_live_field() -> None:
     made = session(propagation="modal_plate")
     made.update(touches=touches())
