@@ -209,10 +209,10 @@ def test_a_compiled_factorisation_solves_what_the_plain_one_leaves_to_dense_syst
     free, pattern = rng.normal(size=(6, 2)), pattern_of(tuple(map(tuple, rows)))
     forces = np.full((6, 2, 6), np.nan, dtype=np.complex128)
     plain, twin = both("propagation.coupled.elimination.factored")
-    assert not plain(elements, diagonal, free, pattern, 1e4, forces).any()
-    assert twin(elements, diagonal, free, pattern, 1e4, forces).all()
+    assert not plain(elements, diagonal, free, pattern, 1e4, forces, {}).any()
+    assert twin(elements, diagonal, free, pattern, 1e4, forces, {}).all()
     np.testing.assert_allclose(forces, dense(elements, diagonal, free, np.arange(6)), rtol=1e-12)
-    assert not twin(elements, diagonal, free, pattern, 1e-9, forces).any()
+    assert not twin(elements, diagonal, free, pattern, 1e-9, forces, {}).any()
     forces[:] = 0.0
     diagonal[:, 2] = np.nan
-    assert twin(elements, diagonal, free, pattern, 1e4, forces).tolist() == [k != 2 for k in range(6)]
+    assert twin(elements, diagonal, free, pattern, 1e4, forces, {}).tolist() == [k != 2 for k in range(6)]
