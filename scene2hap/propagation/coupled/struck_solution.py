@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 MOST_HELD_BYTES = 128_000_000
-"""Of a scene that is prepared for impacts: an object of 120 contacts at a loss of 0.01, or a furnished room."""
+"""Of a scene that is prepared for impacts: an object of 120 contacts at a loss of 0.01, or a furnished group."""
 AT_ONCE_BYTES = 64_000_000
 """Solved at a time; all joints of a room at all frequencies take gigabytes."""
 FEW = 8
@@ -42,10 +42,10 @@ def solve_struck(
 
     Pairs for which there is no memory are left out.
     """
-    rooms = [_Group(bodies, joints, object_ids, touched_ids) for joints in groups if joints]
-    levels = {pair: level for room in rooms for pair, level in room.levels(frequencies_hz[::FEW]).items()}
+    connected = [_Group(bodies, joints, object_ids, touched_ids) for joints in groups if joints]
+    levels = {pair: level for group in connected for pair, level in group.levels(frequencies_hz[::FEW]).items()}
     kept, left_bytes = set[Pair](), MOST_HELD_BYTES
-    n_joints = {key: len(ends.rows) for room in rooms for key, ends in room.ends.items()}
+    n_joints = {key: len(ends.rows) for group in connected for key, ends in group.ends.items()}
 
     def costs(pair: Pair) -> tuple[bool, float, Pair]:
         # Touched objects themselves first. What is felt at full strength is felt no more.
@@ -57,8 +57,8 @@ def solve_struck(
         if levels[touched_id, struck_id] > SILENT and takes <= left_bytes:
             kept |= new
             left_bytes -= takes
-    passed = {pair: held for room in rooms for pair, held in room.passed(kept, frequencies_hz).items()}
-    held = {key: HeldBody(bodies[key], room.ends[key].points_m) for room in rooms for key in room.object_ids}
+    passed = {pair: held for group in connected for pair, held in group.passed(kept, frequencies_hz).items()}
+    held = {key: HeldBody(bodies[key], group.ends[key].points_m) for group in connected for key in group.object_ids}
     silent = frozenset(pair for pair, level in levels.items() if level <= SILENT)
     return StruckScene({x: held[x] for pair in kept for x in pair}, passed, silent, frequencies_hz, hand)
 
