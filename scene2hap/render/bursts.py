@@ -24,7 +24,7 @@ END_DB = -46.0
 MOST_PLAYING = 32
 _STEP = 256
 _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
-"""Time in which the peak of a sum nearly always is [s], and longest first cycle of a wave [s], that of 30 Hz."""
+"""Time in which the peak of a sum is looked for first [s], and longest first cycle of a wave [s], that of 30 Hz."""
 
 
 @lru_cache(maxsize=256)
@@ -33,15 +33,17 @@ def wave_of(frequency_hz: float, decay_s: float, sample_rate_hz: int) -> Samples
     n = round((ATTACK_S + decay_s * math.log(10 ** (-END_DB / 20))) * sample_rate_hz)
     per_frame = (2j * math.pi * frequency_hz - 1 / decay_s) / sample_rate_hz
     # exp of a sum is a product, so two short tables replace an exponential for each sample.
-    coarse = np.exp(per_frame * _STEP * np.arange(-(-n // _STEP)))[:, None]
+    coarse = np.exp(per_frame * _STEP * np.arange(-(-n // _STEP)))
     fine = np.exp(per_frame * np.arange(_STEP))
-    wave = (coarse.real * fine.imag + coarse.imag * fine.real).ravel()[:n]
+    # A product of matrices (n / step, 2) and (2, step), in single precision: a strike waits for it.
+    tables = np.stack([coarse.real, coarse.imag], axis=1), np.stack([fine.imag, fine.real])
+    wave: Samples = np.matmul(*(table.astype(np.float32) for table in tables)).ravel()[:n]
     edge = 0.5 - 0.5 * np.cos(np.pi * np.arange(max(1, round(ATTACK_S * sample_rate_hz))) / (ATTACK_S * sample_rate_hz))
     wave[: len(edge)] *= edge
     wave[-len(edge) :] *= edge[::-1]
-    found: Samples = (wave / np.abs(wave).max()).astype(np.float32)
-    found.setflags(write=False)
-    return found
+    wave /= max(wave.max(), -wave.min())
+    wave.setflags(write=False)
+    return wave
 
 
 def summed(waves: Sequence[Samples], weights: Sequence[float]) -> Samples:
@@ -56,13 +58,14 @@ def peak_of(
     waves: Sequence[Samples], weights: NDArray[np.float64], decays_s: NDArray[np.float64], sample_rate_hz: int
 ) -> float:
     """Return the greatest magnitude of `summed` waves that decay to 1/e within decays_s."""
-    n = round(_FIRST_S * sample_rate_hz)
-    peak = float(np.abs(summed([wave[:n] for wave in waves], weights.tolist())).max())
-    # The peak of a wave is 1 and within its first cycle, so its envelope begins above 1.
-    later = np.abs(weights) * np.exp((_FIRST_CYCLE_S - _FIRST_S) / decays_s)
-    if later.sum() > peak:
-        peak = float(np.abs(summed(waves, weights.tolist())).max())
-    return peak
+    n, n_all = round(_FIRST_S * sample_rate_hz), max(map(len, waves))
+    while True:
+        peak = float(np.abs(summed([wave[:n] for wave in waves], weights.tolist())).max())
+        # The peak of a wave is 1 and within its first cycle, so its envelope begins above 1.
+        later = np.abs(weights) * np.exp((_FIRST_CYCLE_S - n / sample_rate_hz) / decays_s)
+        if n >= n_all or later.sum() <= peak:
+            return peak
+        n *= 2
 
 
 @dataclass(frozen=True, eq=False)
