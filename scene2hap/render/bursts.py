@@ -1,6 +1,6 @@
 """One-shot vibration: decaying sines that are added to the mix, once each.
 
-They are computed when they are started, and added only while they play. A scene without landings pays nothing. Threads:
+The sines are made when a burst starts, and added up while it plays. A scene without landings pays nothing. Threads:
 `start` and `fade` belong to the game or a worker, `add_to` to the audio thread; neither waits for the other.
 """
 
@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -23,6 +22,9 @@ END_DB = -46.0
 """A wave ends at this level [dB], over a last half cosine; full scale is 45 dB over the threshold."""
 MOST_PLAYING = 32
 _STEP = 256
+_STRETCH = 4096
+"""Frames of a burst that are added up at a time."""
+_NONE: Samples = np.empty(0, dtype=np.float32)
 _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
 """Time in which the peak of a sum is looked for first [s], and longest first cycle of a wave [s], that of 30 Hz."""
 
@@ -68,17 +70,33 @@ def peak_of(
         n *= 2
 
 
-@dataclass(frozen=True, eq=False)
 class PlannedBurst:
-    """Samples (n,) of each output, by the output's token, from a frame of the session's clock on."""
+    """Waves (n,) of any lengths that sound once, from a frame of the session's clock on.
 
-    begin: int
-    samples: Mapping[int, Samples]
+    They are added up a stretch at a time while they sound: the sum of half a second is too long for a frame of a game.
+    Parameters: weights : of each wave, by the token of each output that feels the burst.
+    """
 
-    @property
-    def n_frames(self) -> int:
-        """Length [frames]."""
-        return max((len(one) for one in self.samples.values()), default=0)
+    def __init__(self, begin: int, waves: Sequence[Samples], weights: Mapping[int, Sequence[float]]) -> None:
+        self.begin, self._waves, self._weights = begin, waves, weights
+        self.n_frames = max(map(len, waves), default=0)
+        # By token: the first frame of the latest stretch, and its samples.
+        self._stretches: dict[int, tuple[int, Samples]] = {}
+
+    def delayed(self, begin: int) -> PlannedBurst:
+        """Return the same burst from a later frame on."""
+        return PlannedBurst(begin, self._waves, self._weights)
+
+    def samples(self, token: int, begin: int, end: int) -> Samples | None:
+        """Return the samples of an output from `begin` to before `end`, or fewer; None for one without the burst."""
+        if token not in self._weights:
+            return None
+        first, stretch = self._stretches.get(token, (0, _NONE))
+        if begin < first or min(end, self.n_frames) > first + len(stretch):
+            first, last = begin, max(end, begin + _STRETCH)
+            stretch = summed([wave[first:last] for wave in self._waves], self._weights[token])
+            self._stretches[token] = first, stretch
+        return stretch[begin - first : end - first]
 
 
 class Bursts:
@@ -111,16 +129,15 @@ class Bursts:
         """Add to a mix (n_frames, n_outputs) that begins at a frame; `outputs` are the tokens of its columns."""
         while self._incoming:
             burst = self._incoming.popleft()
-            self._playing.append(PlannedBurst(max(burst.begin, position), burst.samples))
+            self._playing.append(burst.delayed(max(burst.begin, position)))
         del self._playing[:-MOST_PLAYING]
         fade, n_frames = self._envelope(position, len(mix)), len(mix)
         for burst in self._playing:
             first = max(0, burst.begin - position)
             for channel, token in enumerate(outputs):
-                samples = burst.samples.get(token)
-                if samples is not None and first < n_frames:
-                    begin = position + first - burst.begin
-                    part = samples[begin : begin + n_frames - first]
+                begin = position + first - burst.begin
+                part = burst.samples(token, begin, begin + n_frames - first) if first < n_frames else None
+                if part is not None:
                     share = 1.0 if fade is None else fade[first : first + len(part)]
                     mix[first : first + len(part), channel] += part * share
         end = position + n_frames

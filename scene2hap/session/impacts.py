@@ -25,7 +25,7 @@ from scene2hap.calls import clear_attributes
 from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
-from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, summed, wave_of
+from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, wave_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.playback import Playback
@@ -165,7 +165,7 @@ class Impacts:
             if len(gains) and gains.max() * PEAK >= LEAST_GAIN:
                 waves, its = self._waves(burst), {i: channels[i] for i in among}
                 levels = self._levels(burst, waves, [*its.values()], profile)
-                self._sound(impact, waves, levels * self._capped(gains), its, begin)
+                self._sound(impact, burst, waves, levels * self._capped(gains), its, begin)
 
         live = self._live()
         if live is not None:
@@ -265,16 +265,22 @@ class Impacts:
         return capped if limit_db is None else np.minimum(capped, 10 ** (limit_db / 20))
 
     def _sound(
-        self, impact: Impact, waves: list[Samples], weights: Floats, channels: Mapping[int, str], at_frame: int
+        self,
+        impact: Impact,
+        burst: Burst,
+        waves: list[Samples],
+        weights: Floats,
+        channels: Mapping[int, str],
+        at_frame: int,
     ) -> None:
-        samples: dict[int, Samples] = {}
+        felt: dict[int, list[float]] = {}
         was_felt = bool(impact.felt)
         for (channel, hand), row in zip(channels.items(), weights, strict=True):
             if row.max() >= LEAST_GAIN:
-                samples[channel] = one = summed(waves, row.tolist())
-                impact.felt[hand] = float(max(one.max(), -one.min()))
-        if samples:
-            self._playback.start_burst(samples, at_frame)
+                felt[channel] = row.tolist()
+                impact.felt[hand] = peak_of(waves, row, burst.decays_s, self._config.sample_rate_hz)
+        if felt:
+            self._playback.start_burst(waves, felt, at_frame)
             if not was_felt:
                 self._recent.append(impact)
                 self.n_felt += 1

@@ -212,12 +212,14 @@ class Playback:
         """Number of bursts that sound, or are about to."""
         return 0 if self._bursts is None else self._bursts.n_playing
 
-    def start_burst(self, samples: Mapping[int, NDArray[np.float32]], at_frame: int) -> None:
-        """Add samples (n,) to some channels, once, from a frame on; nothing in a pause."""
+    def start_burst(
+        self, waves: Sequence[NDArray[np.float32]], weights: Mapping[int, Sequence[float]], at_frame: int
+    ) -> None:
+        """Add weighted waves (n,) to some channels, once, from a frame on; nothing in a pause."""
         if self._paused_from is None:
             self._bursts = self._bursts or Bursts()
-            by_token = {self._hands[channel]: one for channel, one in samples.items() if channel < len(self._hands)}
-            self._bursts.start(PlannedBurst(at_frame, by_token))
+            by_token = {self._hands[channel]: one for channel, one in weights.items() if channel < len(self._hands)}
+            self._bursts.start(PlannedBurst(at_frame, waves, by_token))
 
     def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
         """The routes of some active rows. They are cached, since lifting and putting down a source repeats a few."""

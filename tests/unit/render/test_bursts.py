@@ -61,8 +61,8 @@ def test_a_beat_may_peak_late() -> None:
 @pytest.mark.parametrize("block", [1, 7, 64, 480, 5000])
 def test_bursts_do_not_depend_on_block_size(block: int) -> None:
     wave, bursts = wave_of(100.0, 0.01, RATE), Bursts()
-    bursts.start(PlannedBurst(100, {7: wave}))
-    bursts.start(PlannedBurst(300, {7: wave, 8: 2 * wave}))
+    bursts.start(PlannedBurst(100, [wave], {7: [1.0]}))
+    bursts.start(PlannedBurst(300, [wave], {7: [1.0], 8: [2.0]}))
     found = np.zeros((6000, 3), np.float32)
     for begin in range(0, 6000, block):
         bursts.add_to(found[begin : begin + block], begin, (6, 7, 8))
@@ -73,9 +73,23 @@ def test_bursts_do_not_depend_on_block_size(block: int) -> None:
     assert bursts.are_silent
 
 
+@pytest.mark.parametrize("block", [64, 480, 5000])
+def test_long_burst_of_several_waves_is_their_sum(block: int) -> None:
+    waves, weights = [wave_of(80.0, 0.1, RATE), wave_of(200.0, 0.03, RATE)], [0.5, 0.25]
+    bursts, found = Bursts(), np.zeros((30_000, 2), np.float32)
+    bursts.start(PlannedBurst(10, waves, {1: weights}))
+    for begin in range(0, len(found), block):
+        bursts.add_to(found[begin : begin + block], begin, (0, 1))
+    expected = np.zeros(len(found))
+    for wave, weight in zip(waves, weights, strict=True):
+        expected[10 : 10 + len(wave)] += weight * wave.astype(np.float64)
+    np.testing.assert_allclose(found[:, 1], expected, atol=1e-7)
+    assert not found[:, 0].any()
+
+
 def test_late_burst_starts_with_the_next_frame() -> None:
     wave, bursts, mix = wave_of(100.0, 0.01, RATE), Bursts(), np.zeros((64, 1), np.float32)
-    bursts.start(PlannedBurst(10, {0: wave}))
+    bursts.start(PlannedBurst(10, [wave], {0: [1.0]}))
     bursts.add_to(mix, 1000, (0,))
     np.testing.assert_array_equal(mix[:, 0], wave[:64])
 
@@ -83,7 +97,7 @@ def test_late_burst_starts_with_the_next_frame() -> None:
 def test_number_of_simultaneous_bursts_is_limited() -> None:
     wave, bursts, mix = np.ones(100, np.float32), Bursts(), np.zeros((10, 1), np.float32)
     for _ in range(100):
-        bursts.start(PlannedBurst(0, {0: wave}))
+        bursts.start(PlannedBurst(0, [wave], {0: [1.0]}))
     bursts.add_to(mix, 0, (0,))
     assert mix.max() == MOST_PLAYING
     assert bursts.n_playing == MOST_PLAYING
@@ -91,7 +105,7 @@ def test_number_of_simultaneous_bursts_is_limited() -> None:
 
 def test_fade_ends_all_bursts_without_a_click() -> None:
     bursts, mix = Bursts(), np.zeros((9600, 1), np.float32)
-    bursts.start(PlannedBurst(0, {0: wave_of(100.0, 0.1, RATE)}))
+    bursts.start(PlannedBurst(0, [wave_of(100.0, 0.1, RATE)], {0: [1.0]}))
     bursts.fade(1000, 1500)
     for begin in range(0, 9600, 480):
         bursts.add_to(mix[begin : begin + 480], begin, (0,))
