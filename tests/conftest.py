@@ -1,4 +1,4 @@
-"""Shared by all tests: helpers on the path, and no network."""
+"""Shared by all tests: helpers on the path, no network, and the same examples of Hypothesis in every run."""
 
 import os
 import socket
@@ -8,11 +8,17 @@ from shutil import disk_usage, rmtree
 from tempfile import mkdtemp
 
 import pytest
+from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 MEMORY = Path("/dev/shm")
 LEAST_MEMORY_BYTES = 4 << 30
+
+# A change is judged by the same examples in each run; --hypothesis-profile=search draws others.
+settings.register_profile("same", derandomize=True, deadline=None)
+settings.register_profile("search", deadline=None, print_blob=True)
+settings.load_profile("same")
 
 
 @pytest.hookimpl(tryfirst=True)  # before pytest chooses its folder

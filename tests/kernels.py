@@ -20,7 +20,7 @@ for source in sorted(PACKAGE.rglob("_*.pyx")):
     import_module(module.replace("._", "."))
 
 seeds = st.integers(0, 2**32 - 1)
-steady = settings(derandomize=True, deadline=None, max_examples=60)
+steady = settings(max_examples=60)
 
 
 def both(name: str) -> tuple[Callable[..., Any], Callable[..., Any]]:

@@ -182,7 +182,7 @@ def test_statically_indeterminate_rigid_feet_give_the_right_motion() -> None:
     np.testing.assert_allclose(solved.deflection("r", np.array([[0.0, 0.0]])), 0.25, rtol=1e-6)
 
 
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.integers(0, 10**6), st.sampled_from([pair, chain, loop, three_contacts]))
 def test_reciprocal_and_passive(seed: int, build) -> None:  # type: ignore[no-untyped-def]
     """The coupled receptance between masses hung on anywhere is symmetric, and takes energy from no frequency."""

@@ -119,7 +119,7 @@ def random_scene(seed: int) -> tuple[ContactNetwork, list[Excitation]]:
     return ContactNetwork(bodies, contacts), sources
 
 
-@settings(derandomize=True, deadline=None, max_examples=15)
+@settings(max_examples=15)
 @given(st.integers(0, 10**6), st.sampled_from(MODELS))
 def test_transfer_between_sources_is_reciprocal(seed: int, model: ModalPlate | InfinitePlate) -> None:
     """Reciprocity: a free deflection of 1 is a force of m omega^2, so that attenuations are as the masses."""
@@ -131,7 +131,7 @@ def test_transfer_between_sources_is_reciprocal(seed: int, model: ModalPlate | I
     assert one == pytest.approx(other, rel=1e-7, abs=1e-30)
 
 
-@settings(derandomize=True, deadline=None, max_examples=15)
+@settings(max_examples=15)
 @given(st.integers(0, 10**6), st.sampled_from(MODELS))
 def test_coupled_scene_is_passive(seed: int, model: ModalPlate | InfinitePlate) -> None:
     network, _ = random_scene(seed)
@@ -148,7 +148,7 @@ def test_coupled_scene_is_passive(seed: int, model: ModalPlate | InfinitePlate) 
     assert (np.linalg.eigvalsh(lossy).max(axis=1) <= 1e-9 * np.abs(y).max(axis=(1, 2))).all()
 
 
-@settings(derandomize=True, deadline=None, max_examples=15)
+@settings(max_examples=15)
 @given(
     st.integers(0, 10**6), st.sampled_from(MODELS), st.sampled_from([Bands.dominant(), Bands((10.0, 12.5, 40, 500.0))])
 )
@@ -170,7 +170,7 @@ def test_gains_are_finite_and_do_not_depend_on_order(
         np.testing.assert_allclose(other.attenuation(name, points)[:, ::-1], gains, rtol=1e-7, atol=1e-12)
 
 
-@settings(derandomize=True, deadline=None, max_examples=10)
+@settings(max_examples=10)
 @given(*[st.floats(0.2, 5.0)] * 3)
 def test_gains_do_not_depend_on_units(kg: float, m: float, s: float) -> None:
     """Every quantity told in other units of mass, length and time."""

@@ -177,7 +177,7 @@ def test_control_models_give_full_and_no_propagation(bands: Bands) -> None:
     assert none.attenuation("p2", at)[0, :, 0].tolist() == [0.0, 1.0]
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.floats(0.0, 5.0), st.floats(10.0, 900.0), st.floats(1.01, 4.0))
 def test_band_gain_is_the_rms_over_the_band(length: float, low_hz: float, ratio: float) -> None:
     f = np.linspace(low_hz, low_hz * ratio, 20001)
@@ -207,7 +207,7 @@ FURNITURE = st.builds(
 )
 
 
-@settings(derandomize=True, deadline=None, max_examples=80)
+@settings(max_examples=80)
 @given(FURNITURE, st.floats(10.0, 1000.0))
 def test_scaling_of_the_wavenumber(plate: Plate, f: float) -> None:
     k = float(plate.wavenumber_rad_m(f))
@@ -224,7 +224,7 @@ def test_scaling_of_the_wavenumber(plate: Plate, f: float) -> None:
     assert float(stiffer.wavenumber_rad_m(f)) == pytest.approx(k / 2**0.25, rel=1e-12)
 
 
-@settings(derandomize=True, deadline=None, max_examples=80)
+@settings(max_examples=80)
 @given(FURNITURE, st.floats(10.0, 1000.0), st.floats(0.0, 2.0), st.floats(0.0, 2.0))
 def test_gamma_falls_with_distance_within_0_and_1(plate: Plate, f: float, d1: float, d2: float) -> None:
     near, far, both = ExponentialPlate().plate_transfer(plate, [0, 0], [[d1, 0], [d2, 0], [d1 + d2, 0]], [f])[:, 0].real

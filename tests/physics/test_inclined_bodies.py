@@ -85,7 +85,7 @@ def test_box_on_front_and_rear_feet_pitches() -> None:
     assert (found[0, 0] - found[0, 1]).real == pytest.approx(-2 * 0.2**2 / pitch / (2 * np.pi * 3.0) ** 2, rel=1e-9)
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     length=st.floats(0.02, 3.0),
     width=st.floats(0.02, 3.0),

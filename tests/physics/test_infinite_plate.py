@@ -121,7 +121,7 @@ def test_transfer_depends_only_on_wavenumber_times_distance(change: dict[str, fl
     np.testing.assert_allclose(here, there, rtol=1e-12)
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(plates, st.floats(0.0, 100.0), st.floats(1e-3, 20000.0))
 def test_finite_bounded_and_symmetric_everywhere(plate: Plate, r: float, f: float) -> None:
     with warnings.catch_warnings():

@@ -140,7 +140,7 @@ def test_a_slow_force_moves_a_free_plate_as_a_body() -> None:
     np.testing.assert_allclose(far, -5 / 7, rtol=3e-3)
 
 
-@settings(derandomize=True, deadline=None, max_examples=15)
+@settings(max_examples=15)
 @given(
     boundary=st.sampled_from(["FFFF", "SSSS", "CCCC", "CFFF", "SCFS", "SFFF", "FCSF"]),
     aspect=st.floats(0.2, 1.0),

@@ -160,7 +160,7 @@ def test_averages_to_the_infinite_plate() -> None:
     assert np.mean(mobility) / np.mean(infinite) == pytest.approx(1.0, abs=0.1)
 
 
-@settings(derandomize=True, deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(
     boundary=st.sampled_from(["FFFF", "SSSS", "CCCC", "CFFF", "SCFS", "SFFF", "FCSF"]),
     aspect=st.floats(0.2, 1.0),

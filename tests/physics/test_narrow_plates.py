@@ -89,7 +89,7 @@ def test_energy_gain_by_truncated_near_fields_is_below_the_stated_bound(edges: s
 
 
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
-@settings(derandomize=True, max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=15, suppress_health_check=[HealthCheck.too_slow])
 @given(
     aspect=st.floats(0.0, 1.2).map(lambda x: 10.0**x),
     edges=st.text("FSC", min_size=4, max_size=4),

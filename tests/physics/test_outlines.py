@@ -125,7 +125,7 @@ def test_slot_separates_both_sides() -> None:
         assert set(below.indices).isdisjoint(above.indices) is is_apart
 
 
-@settings(derandomize=True, deadline=None, max_examples=15)
+@settings(max_examples=15)
 @given(
     radii=st.lists(st.floats(0.25, 1.0), min_size=3, max_size=9),
     hole=st.floats(0.0, 0.6),

@@ -175,7 +175,7 @@ def test_hinged_lattice_keeps_its_energy_over_many_steps() -> None:
     assert stepper.energy(state) == pytest.approx(first, rel=3e-11)
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     st.floats(0.0, 1e6),
     st.floats(0.0, 1.0),

@@ -17,7 +17,7 @@ from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.haptics import Bands
 
 RATE = 8000
-quick = settings(derandomize=True, deadline=None, max_examples=25)
+quick = settings(max_examples=25)
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -133,7 +133,7 @@ def test_trimming_is_idempotent_and_never_cuts_sound(x: np.ndarray, before: int,
 
 
 @given(picks=st.permutations([0, 1, 2]), levels=st.lists(st.floats(0.01, 1.0), min_size=3, max_size=3))
-@settings(derandomize=True, deadline=None, max_examples=10)
+@settings(max_examples=10)
 def test_selection_does_not_depend_on_order_or_level(picks: list[int], levels: list[float]) -> None:
     t = np.arange(3 * RATE) / RATE
     rng = np.random.default_rng(0)

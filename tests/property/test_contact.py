@@ -37,7 +37,7 @@ def things(places: dict[str, Pose]) -> list[SceneObject]:
 
 
 @given(st.fixed_dictionaries(dict.fromkeys(SIZES, poses())), PATHS, st.sampled_from([None, None, 0.0, 0.02]))
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 def test_incremental_updates_equal_a_new_graph(
     places: dict[str, Pose], path: list[tuple[dict[str, Pose], str | None]], tolerance_m: float | None
 ) -> None:
@@ -92,7 +92,7 @@ def check_goes_along(objects: list[SceneObject], motion: Pose, tolerance_m: floa
 
 
 @given(stacks(), st.floats(-3, 3), st.tuples(*[st.floats(-5, 5)] * 3))
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_contacts_are_invariant_under_upright_motion(
     objects: list[SceneObject], angle: float, shift: tuple[float, float, float]
 ) -> None:
@@ -100,7 +100,7 @@ def test_contacts_are_invariant_under_upright_motion(
 
 
 @given(stacks(), st.tuples(*[st.integers(-5, 5)] * 4).filter(any), st.tuples(*[st.floats(-5, 5)] * 3))
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_contacts_at_a_stated_tolerance_are_invariant_under_rigid_motion(
     objects: list[SceneObject], rotation: tuple[float, float, float, float], shift: tuple[float, float, float]
 ) -> None:
@@ -108,7 +108,7 @@ def test_contacts_at_a_stated_tolerance_are_invariant_under_rigid_motion(
 
 
 @given(stacks(), st.randoms(use_true_random=False))
-@settings(derandomize=True, deadline=None, max_examples=20)
+@settings(max_examples=20)
 def test_contacts_do_not_depend_on_object_order(objects: list[SceneObject], random: "object") -> None:
     shuffled = list(objects)
     random.shuffle(shuffled)  # type: ignore[attr-defined]
@@ -116,7 +116,7 @@ def test_contacts_do_not_depend_on_object_order(objects: list[SceneObject], rand
 
 
 @given(stacks(), st.sampled_from([None, 0.004, 0.02]))
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_points_lie_between_the_two_surfaces(objects: list[SceneObject], tolerance_m: float | None) -> None:
     by_id = {item.id: item for item in objects}
     for contact in ContactGraph(scene(*objects), tolerance_m=tolerance_m).contacts:

@@ -92,7 +92,7 @@ def stepped(item: SceneObject, step: tuple[float, float, float, float]) -> Scene
 
 
 @given(PATHS)
-@settings(derandomize=True, deadline=None, max_examples=350)
+@settings(max_examples=350)
 def test_incremental_updates_of_a_slide_equal_a_new_graph(
     scene_and_path: tuple[list[SceneObject], list[dict[str, tuple[float, float, float, float]]]],
 ) -> None:
@@ -110,7 +110,7 @@ def test_incremental_updates_of_a_slide_equal_a_new_graph(
 
 
 @given(st.integers(0, 10**6), st.sampled_from([THINGS, INSIDE, CROWD]))
-@settings(derandomize=True, deadline=None, max_examples=12)
+@settings(max_examples=12)
 def test_incremental_updates_of_small_steps_equal_a_new_graph(seed: int, items: list[SceneObject]) -> None:
     """A game's frames: some millimetres each, some things turning, one lifted and put down again now and then."""
     rng = np.random.default_rng(seed)

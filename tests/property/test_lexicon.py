@@ -29,7 +29,7 @@ def answer(component: Component, shape: type[Answer], facts: dict[str, Any]) -> 
     return shape.model_validate_json(reply.text)
 
 
-@settings(derandomize=True, deadline=None, max_examples=300)
+@settings(max_examples=300)
 @given(NAMES)
 def test_any_name_is_read_and_unknown_ones_are_unsure(name: str) -> None:
     reading = read_name(name)
@@ -37,7 +37,7 @@ def test_any_name_is_read_and_unknown_ones_are_unsure(name: str) -> None:
     assert reading.row is not None or reading.confidence <= 0.2
 
 
-@settings(derandomize=True, deadline=None, max_examples=300)
+@settings(max_examples=300)
 @given(NAMES, SIZES, SIZES, SIZES, st.lists(NAMES, max_size=3))
 def test_any_object_gets_a_valid_answer(name: str, length: float, width: float, height: float, near: list[str]) -> None:
     facts = {"object_name": name, "length_m": length, "width_m": width, "thickness_m": height, "neighbour_names": near}
@@ -49,7 +49,7 @@ def test_any_object_gets_a_valid_answer(name: str, length: float, width: float, 
     assert found == answer("object_analyzer", ObjectAnswer, facts)
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(NAMES, st.lists(NAMES, max_size=8), st.randoms(use_true_random=False))
 def test_place_does_not_depend_on_the_order_of_objects(scene_name: str, names: list[str], order: Any) -> None:
     shuffled = order.sample(names, len(names))
@@ -60,7 +60,7 @@ def test_place_does_not_depend_on_the_order_of_objects(scene_name: str, names: l
     assert first == second
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(NAMES, NAMES, NAMES)
 def test_any_state_is_described_within_bounds(category: str, state: str, place: str) -> None:
     facts = {"object_category": category, "state": state, "scene_category": place}
@@ -69,7 +69,7 @@ def test_any_state_is_described_within_bounds(category: str, state: str, place: 
     assert "vibrat" not in f"{found.sentence} {found.keywords}".casefold()
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(st.one_of(NAMES, st.sampled_from([row.material for row in table()])))
 def test_any_material_is_answered_or_refused(word: str) -> None:
     try:

@@ -49,7 +49,7 @@ def play(session: HapticSession, events: list[tuple], blocks: list[int]) -> np.n
     return np.concatenate(parts)
 
 
-@settings(derandomize=True, deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(EVENTS, st.lists(st.integers(1, 4096), min_size=1, max_size=5))
 def test_session_output_does_not_depend_on_block_size(events: list[tuple], blocks: list[int]) -> None:
     whole = play(new_session(), events, [N_FRAMES])
@@ -61,7 +61,7 @@ def test_single_samples_give_the_same_as_one_block() -> None:
     np.testing.assert_allclose(play(new_session(), events, [1]), play(new_session(), events, [N_FRAMES]), atol=1e-6)
 
 
-@settings(derandomize=True, deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(
     EVENTS,
     st.lists(st.floats(-200.0, 120.0), min_size=2, max_size=2),
@@ -82,7 +82,7 @@ def test_every_sample_is_finite_and_within_full_scale(
     assert np.abs(out).max() <= 1.0
 
 
-@settings(derandomize=True, deadline=None, max_examples=15)
+@settings(max_examples=15)
 @given(EVENTS, st.sampled_from([Bands.dominant(), Bands.third_octaves()]))
 def test_silence_in_silence_out(events: list[tuple], bands: Bands) -> None:
     snapshot, bundle = table_with_two_phones()
@@ -108,7 +108,7 @@ def play_edge(session: HapticSession, data: list[tuple[int, int, float]], blocks
 
 
 @pytest.mark.parametrize("name", EDGE_SCENES)
-@settings(derandomize=True, deadline=None, max_examples=8)
+@settings(max_examples=8)
 @given(
     data=st.lists(
         st.tuples(st.integers(0, 59), st.integers(0, 1), st.sampled_from([0.0, 0.3])), min_size=1, max_size=6
@@ -155,7 +155,7 @@ def stack() -> tuple[SceneSnapshot, HapticBundle]:
     return snapshot, HapticBundle(snapshot, "room", inferred, {"phone": {"ringing": tone_loop(180)}})
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda a: np.linalg.norm(a) > 0.1),
     st.floats(-math.pi, math.pi),
@@ -180,7 +180,7 @@ def test_moving_scene_and_hands_together_changes_nothing(
     assert before.gain("left", "phone") > 0.0
 
 
-@settings(derandomize=True, deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(st.floats(-math.pi, math.pi), st.tuples(*[st.floats(-20.0, 20.0)] * 3), X)
 def test_geometric_contacts_are_invariant_under_common_motion(
     angle: float, shift: tuple[float, float, float], x: float
@@ -220,7 +220,7 @@ def rooms(draw: st.DrawFn) -> tuple[SceneSnapshot, HapticBundle]:
     return snapshot, HapticBundle(snapshot, "room", inferred, loops)
 
 
-@settings(derandomize=True, deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(
     rooms(),
     st.lists(st.lists(st.tuples(st.sampled_from(OBJECTS), PLACES), max_size=3), min_size=1, max_size=4),

@@ -85,7 +85,7 @@ _voices = st.lists(
 )
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(_voices)
 def test_spread_keeps_limits_and_the_order_of_levels(drawn: list[tuple[float, float]]) -> None:
     voices = [Voice(own_hz, level_db, str(i)) for i, (own_hz, level_db) in enumerate(drawn)]

@@ -155,7 +155,7 @@ def clips(draw: st.DrawFn) -> HapticClip:
     return HapticClip(Curve(np.array(at), np.array(amplitude)), frequency, transients)
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(clip=clips())
 def test_haptic_round_trip_is_exact(clip: HapticClip, tmp_path_factory: pytest.TempPathFactory) -> None:
     first = compose_haptic(clip)

@@ -55,7 +55,7 @@ def meeting(case: Case) -> MeshPair:
 
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
-@settings(derandomize=True, deadline=None, max_examples=3)
+@settings(max_examples=3)
 def test_distances_and_separations_equal_those_of_triangles(plain: bool, seed: int) -> None:
     several = cases(seed, 30, plain)
     rows, found = gaps(pairs_of(several), 10.0)
@@ -70,7 +70,7 @@ def test_distances_and_separations_equal_those_of_triangles(plain: bool, seed: i
 
 
 @given(seed=SEEDS)
-@settings(derandomize=True, deadline=None, max_examples=4)
+@settings(max_examples=4)
 def test_distances_of_cuboids_apart_are_those_of_bounded_least_squares(seed: int) -> None:
     several = cases(seed, 12, plain=False)
     _, found = gaps(pairs_of(several), 10.0)
@@ -84,7 +84,7 @@ def test_distances_of_cuboids_apart_are_those_of_bounded_least_squares(seed: int
 
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
-@settings(derandomize=True, deadline=None, max_examples=4)
+@settings(max_examples=4)
 def test_a_pair_has_the_same_bits_alone_and_among_others(plain: bool, seed: int) -> None:
     every = pairs_of(cases(seed, 25, plain))
     rows, found = gaps(every, 0.1)
@@ -101,7 +101,7 @@ def test_a_pair_has_the_same_bits_alone_and_among_others(plain: bool, seed: int)
 
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
-@settings(derandomize=True, deadline=None, max_examples=4)
+@settings(max_examples=4)
 def test_stored_ends_give_the_same_points_as_computed_ones(plain: bool, seed: int) -> None:
     every = pairs_of(cases(seed, 40, plain))
     rows, found = gaps(every, 0.1)
@@ -122,7 +122,7 @@ def off_surface(point: Floats, half: Floats) -> float:
 
 @pytest.mark.parametrize("plain", [False, True])
 @given(seed=SEEDS)
-@settings(derandomize=True, deadline=None, max_examples=5)
+@settings(max_examples=5)
 def test_points_lie_midway_between_the_surfaces_as_far_apart_as_by_triangles(plain: bool, seed: int) -> None:
     several = cases(seed, 25, plain)
     pairs = pairs_of(several)

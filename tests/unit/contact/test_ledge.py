@@ -40,7 +40,7 @@ PLACES = st.tuples(st.floats(-1.7, 1.7), st.floats(-1.7, 1.7), st.floats(0.0, 1.
 
 
 @given(PLACES)
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 def test_a_stretch_of_an_l_is_found_where_there_is_one_and_holds_the_foot(
     place: tuple[float, float, float, float],
 ) -> None:
@@ -88,7 +88,7 @@ def test_a_hole_is_no_ledge() -> None:
 
 
 @given(st.floats(0.0, 1.1), st.floats(-math.pi, math.pi), st.floats(0.01, 0.3))
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 def test_a_stretch_of_a_round_table_is_in_its_circle(away: float, bearing: float, half: float) -> None:
     angles = 2 * np.pi * np.arange(64) / 64
     ring = np.stack([np.cos(angles), np.zeros(64), np.sin(angles)], axis=1)

@@ -24,7 +24,7 @@ def block(name: str, size: tuple[float, float, float], at: tuple[float, float, f
 
 
 @given(PLACES, TURNS, TURNS, st.floats(-0.003, 0.03))
-@settings(derandomize=True, deadline=None, max_examples=80)
+@settings(max_examples=80)
 def test_a_block_falls_onto_another_as_its_triangles_do(
     at: tuple[float, float], turn_x: float, turn_y: float, gap: float
 ) -> None:
@@ -50,7 +50,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
 
 
 @given(st.floats(0.4, 0.85), TURNS, TURNS, TURNS, st.floats(-0.4, 0.4))
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 def test_two_blocks_are_apart_as_their_triangles_are(
     apart: float, bearing: float, turn_x: float, turn_y: float, rise: float
 ) -> None:

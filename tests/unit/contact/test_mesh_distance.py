@@ -39,7 +39,7 @@ def surface_gap(size_a: Triple, size_b: Triple, offset: Triple) -> float:
 
 
 @given(SIZES, SIZES, OFFSETS, QUATERNIONS)
-@settings(derandomize=True, deadline=None, max_examples=80)
+@settings(max_examples=80)
 def test_boxes_turned_together_keep_their_closed_form_gap(
     size_a: Triple, size_b: Triple, offset: Triple, rotation: tuple[float, float, float, float]
 ) -> None:
@@ -155,7 +155,7 @@ def heap(seed: int, up_axis: int) -> list[Body]:
 
 @pytest.mark.parametrize("up_axis", [1, 2])
 @given(seed=st.integers(0, 10**6))
-@settings(derandomize=True, deadline=None, max_examples=25)
+@settings(max_examples=25)
 def test_an_object_moved_by_its_fall_distance_touches_the_other(up_axis: int, seed: int) -> None:
     """After its fall distance an object touches the other, as the host or as the guest."""
     bodies, n_fell = heap(seed, up_axis), 0
@@ -181,7 +181,7 @@ def test_an_object_moved_by_its_fall_distance_touches_the_other(up_axis: int, se
 
 
 @given(seed=st.integers(0, 10**6), n=st.integers(1, 300))
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_a_tree_holds_every_triangle_once_and_boxes_hold_their_children(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     triangles = rng.normal(size=(3, 3, n)) * rng.choice([0.0, 1e-3, 1.0], (3, 1, 1))

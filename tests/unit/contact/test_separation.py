@@ -27,7 +27,7 @@ def corners(footprint: Footprint, u: float, v: float) -> np.ndarray:
 
 
 @given(ANGLES, HALVES, HALVES, ANGLES, HALVES, HALVES, PLACES, PLACES)
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 def test_a_separating_line_divides_two_rectangles_by_its_gap(
     a1: float, h1: float, k1: float, a2: float, h2: float, k2: float, u: float, v: float
 ) -> None:

@@ -61,7 +61,7 @@ def is_on(point: Floats, triangle: Floats) -> bool:
 
 
 @given(COORDINATES)
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 @example([0] * 18)
 @example([0, 0, 0, 8, 0, 0, 0, 8, 0, 1, 1, -4, 1, 1, 4, 1, 1, 4])
 def test_any_two_triangles_are_as_far_apart_as_least_squares_says(numbers: list[int]) -> None:
@@ -75,7 +75,7 @@ def test_any_two_triangles_are_as_far_apart_as_least_squares_says(numbers: list[
 
 
 @given(SMOOTH)
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_general_triangles_are_as_far_apart_as_least_squares_says(seed: int) -> None:
     p, q = np.random.default_rng(seed).normal(size=(2, 3, 3)) + np.array([[[0.0]], [[1.0]]])
     distance, on_p, on_q = one(p, q)
@@ -126,7 +126,7 @@ def test_every_corner_of_two_faces_on_each_other_is_found() -> None:
 
 
 @given(SMOOTH)
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_a_clearance_is_a_lower_bound_of_the_distance(seed: int) -> None:
     rng = np.random.default_rng(seed)
     p, q = rng.integers(-3, 4, size=(2, 50, 3, 3))
@@ -139,7 +139,7 @@ def test_parallel_faces_are_separated_by_their_planes() -> None:
 
 
 @given(SMOOTH)
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_height_range_is_the_optimum_of_the_linear_program(seed: int) -> None:
     rng = np.random.default_rng(seed)
     p, q = rng.normal(size=(2, 3, 3))

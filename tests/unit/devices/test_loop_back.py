@@ -40,7 +40,7 @@ def take(*channels: NDArray[np.float64], block: int = 40, burst: int = 1, lost: 
     return Take("line", RATE, samples[: n_heard[-1]], at_s[last_of_burst], n_heard, block / RATE)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     frame=st.integers(0, 4000),
     gain=st.floats(1e-4, 10.0),
@@ -58,7 +58,7 @@ def test_sweep_gives_delay_level_and_polarity_of_a_quiet_line(
     assert match.gain == pytest.approx(gain, rel=1e-2)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(frame=st.integers(0, 4000), seed=st.integers(0, 2**32 - 1))
 def test_sweep_is_found_under_louder_noise(frame: int, seed: int) -> None:
     """White noise of four times its power: r = 1 / sqrt(1 + 4)."""
@@ -118,7 +118,7 @@ def test_clock_converts_a_time_to_its_frame() -> None:
     assert [clock.frame_at(at_s) for at_s in (99.0, 99.50513, 102.00013, 1e6)] == [0, 20, 10000, 16000]
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(delay=st.integers(0, RATE), block=st.integers(1, 150), seed=st.integers(0, 2**32 - 1))
 def test_arrival_is_measured_on_the_clock_of_the_request(delay: int, block: int, seed: int) -> None:
     asked = RATE // 2

@@ -25,7 +25,7 @@ def played(ring: PlaybackRing, n: int) -> NDArray[np.float32]:
     return out
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(st.tuples(st.integers(0, 300), st.integers(1, 300)), min_size=1, max_size=60))
 def test_ring_plays_written_samples_in_order(steps: list[tuple[int, int]]) -> None:
     ring = PlaybackRing(700, 2, 1)
@@ -41,7 +41,7 @@ def test_ring_plays_written_samples_in_order(steps: list[tuple[int, int]]) -> No
     assert ring.gaps == 0
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(
     st.lists(st.tuples(st.integers(0, 200), st.integers(1, 200)), min_size=1, max_size=40),
     st.integers(0, 40),

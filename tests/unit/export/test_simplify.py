@@ -19,7 +19,7 @@ def test_a_line_needs_its_ends_and_a_corner_one_more() -> None:
     assert simplified(t, np.abs(t - 0.3), plain, 1e-6, per_second=40).tolist() == [0, 30, 100]
 
 
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.integers(0, 10_000), st.sampled_from([0.05, 0.2, 1.0]), st.floats(0.3, 4.0))
 def test_no_point_is_missed_by_more_than_the_tolerance(seed: int, tolerance: float, duration_s: float) -> None:
     rng = np.random.default_rng(seed)
@@ -30,7 +30,7 @@ def test_no_point_is_missed_by_more_than_the_tolerance(seed: int, tolerance: flo
     assert missed.max() <= tolerance + 1e-12
 
 
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.integers(0, 10_000), st.integers(4, 60), st.floats(0.5, 4.0))
 def test_no_second_has_more_points_than_allowed(seed: int, per_second: int, duration_s: float) -> None:
     rng = np.random.default_rng(seed)

@@ -17,7 +17,7 @@ _JSON = st.recursive(
 _PROSE = st.text(alphabet="abc \n.,:}[]'`", max_size=30)
 
 
-@settings(derandomize=True, deadline=None, max_examples=80)
+@settings(max_examples=80)
 @given(
     st.dictionaries(st.text(), _JSON, min_size=1, max_size=4),
     st.dictionaries(st.sampled_from("ab"), st.text(alphabet='{}"\\', max_size=4), max_size=2),

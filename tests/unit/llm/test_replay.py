@@ -107,7 +107,7 @@ _JSON = st.recursive(
 )
 
 
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.dictionaries(st.text(), _JSON, max_size=4), st.text(), st.lists(st.binary(), max_size=2))
 def test_round_trip(tmp_path_factory: pytest.TempPathFactory, facts: Any, prompt: str, images: list[bytes]) -> None:
     request = dataclasses.replace(REQUEST, facts=facts, prompt=prompt, images=tuple(images))

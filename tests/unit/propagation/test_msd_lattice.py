@@ -79,7 +79,7 @@ def test_clamps_hold_the_slope() -> None:
     assert errors[2] < 1e-3
 
 
-@settings(derandomize=True, deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 1.0)), min_size=1, max_size=5), st.integers(4, 12))
 def test_interpolation_is_exact_for_cubics(places: list[tuple[float, float]], resolution: int) -> None:
     lattice = bending_lattice(Plate(1.3, 0.7, 0.01, MATERIAL), resolution)

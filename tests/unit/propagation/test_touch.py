@@ -90,7 +90,7 @@ def test_factored_terms_equal_the_receptance(name: str) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     loss=st.floats(1e-4, 2.0),
     n_modes=st.integers(0, 120),

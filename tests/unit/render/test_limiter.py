@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from scene2hap.render.limiter import THRESHOLD, soft_limit
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(st.lists(st.floats(-1e6, 1e6, width=32), min_size=1, max_size=50))
 def test_stays_within_full_scale_and_keeps_order(values: list[float]) -> None:
     y = soft_limit(np.sort(np.array(values, dtype=np.float32)))

@@ -57,7 +57,7 @@ CHANGES = st.lists(
 BLOCKS = st.lists(st.integers(1, 4096), min_size=1, max_size=8)
 
 
-@settings(derandomize=True, deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(CHANGES, BLOCKS, st.sampled_from(RATES))
 def test_equals_the_slow_mixer_for_any_blocks(
     changes: list[tuple[int, list[float]]], blocks: list[int], rate: int
@@ -73,7 +73,7 @@ def test_equals_the_slow_mixer_for_any_blocks(
     np.testing.assert_allclose(out, expected, atol=1e-6)
 
 
-@settings(derandomize=True, deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(CHANGES, BLOCKS, st.sampled_from([*RATES, 11025, 16001]))
 def test_mixer_output_is_bit_identical_for_any_block_size(
     changes: list[tuple[int, list[float]]], blocks: list[int], rate: int

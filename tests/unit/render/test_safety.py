@@ -80,7 +80,7 @@ def test_a_million_random_gain_jumps() -> None:
         assert_safe(np.concatenate([layer.process(x[i : i + 4801]) for i in range(0, len(x), 4801)]), budget)
 
 
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     st.sampled_from([1000, 2000, 8000, 44100, 96000]),
     st.sampled_from(list(BUDGETS.values())),
@@ -102,7 +102,7 @@ def test_steps_and_deaths_at_any_rate(
     assert_safe(np.concatenate(parts), budget, rate)
 
 
-@settings(derandomize=True, deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(
     st.integers(0, 2**32 - 1),
     st.lists(st.integers(0, 5000), min_size=1, max_size=6).filter(any),

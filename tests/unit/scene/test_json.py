@@ -67,7 +67,7 @@ def snapshots(draw: st.DrawFn) -> SceneSnapshot:
 
 
 @given(snapshots())
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_a_round_trip_is_exact(snapshot: SceneSnapshot) -> None:
     assert SceneSnapshot.from_json(snapshot.to_json()) == snapshot
 

@@ -30,7 +30,7 @@ def test_outline_excludes_its_hole() -> None:
     assert outline.distance_m(np.array([[0.7, 0.7], [0.2, 0.125], [0.05, 0.9]])) == pytest.approx([0.2, 0.025, 0.0])
 
 
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=12), st.integers(1, 40), st.integers(1, 40), st.booleans())
 def test_pixel_coverage_sums_to_the_area(radii: list[float], nx: int, ny: int, backwards: bool) -> None:
     """For any star, by the shoelace formula, for any grid of pixels and either direction of the outline."""

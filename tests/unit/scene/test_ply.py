@@ -11,7 +11,7 @@ from scene2hap.errors import SceneFormatError
 from scene2hap.scene.ply import decode_ply, encode_ply
 
 
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 3), min_size=3, max_size=20))
 def test_round_trip_is_exact(vertices: list[tuple[float, float, float]]) -> None:
     mesh = TriMesh(np.array(vertices), np.array([[0, 1, 2], [2, 1, len(vertices) - 1]]))

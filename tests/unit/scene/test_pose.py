@@ -33,26 +33,26 @@ def test_default_pose_is_the_identity() -> None:
 
 
 @given(poses)
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 def test_rotation_is_that_of_scipy(pose: Pose) -> None:
     np.testing.assert_allclose(pose.rotation, Rotation.from_quat(pose.rotation_xyzw).as_matrix(), atol=1e-12)
 
 
 @given(poses, point_lists)
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 def test_to_own_inverts_to_world(pose: Pose, points: list[tuple[float, float, float]]) -> None:
     np.testing.assert_allclose(pose.to_own(pose.to_world(points)), points, atol=1e-10)
 
 
 @given(poses, poses, point_lists)
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 def test_compose_applies_inner_then_outer(outer: Pose, inner: Pose, points: list[tuple[float, float, float]]) -> None:
     together = outer.compose(inner).to_world(points)
     np.testing.assert_allclose(together, outer.to_world(inner.to_world(points)), atol=1e-9)
 
 
 @given(poses)
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 def test_from_matrix_restores_the_pose(pose: Pose) -> None:
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position_m

@@ -33,7 +33,7 @@ def group(matrix: Matrix, *pieces: Piece, name: str = "thing") -> Group:
 
 
 @given(seeds)
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_the_rigid_part_is_the_polar_rotation(seed: int) -> None:
     linear = np.random.default_rng(seed).normal(size=(3, 3))
     rotation = rigid_part(affine(linear))[:3, :3]
@@ -46,7 +46,7 @@ def test_the_rigid_part_is_the_polar_rotation(seed: int) -> None:
 
 
 @given(seeds)
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_pose_and_mesh_reproduce_the_transform(seed: int) -> None:
     rng = np.random.default_rng(seed)
     matrix = affine(rng.normal(size=(3, 3)), tuple(rng.normal(size=3)))

@@ -25,7 +25,7 @@ def level_db(samples: np.ndarray, block: int) -> float:
     rest=st.integers(0, RATE),
     block=st.integers(37, 9000),
 )
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_felt_level_of_a_tone_depends_on_its_share_of_the_file_only(start: int, n: int, rest: int, block: int) -> None:
     samples = np.zeros((start + n + rest, 1))
     samples[start : start + n, 0] = 0.3 * np.sin(2 * np.pi * 250 * np.arange(n) / RATE)

@@ -23,7 +23,7 @@ def converted(kind: str, blocks: list[Samples]) -> Samples:
 
 
 @pytest.mark.parametrize("kind", CONVERTERS.kinds())
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(sizes=st.lists(st.integers(1, 4096), min_size=1, max_size=12), seed=st.integers(0, 2**16))
 def test_drawn_blocks_give_the_same_bits(kind: str, sizes: list[int], seed: int) -> None:
     x = np.random.default_rng(seed).uniform(-1, 1, sum(sizes)).astype(np.float32)

@@ -59,7 +59,7 @@ def test_extents_are_shared_by_cameras_at_one_position() -> None:
 
 
 @pytest.mark.skipif(bool(rasteriser_problem()), reason=rasteriser_problem())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     seed=st.integers(0, 2**32 - 1),
     size_m=st.sampled_from([0.01, 0.1, 1.0]),
