@@ -120,9 +120,9 @@ def _modes(plate: Plate, at_m: tuple[float, float] | None, lasts_s: float) -> Fl
     """Frequency [Hz], decay [s] and acceleration per momentum [m/s2 / (N s)] of the strongest modes (3, n)."""
     modes = _supported(plate, lasts_s)
     x, y = (plate.length_m / 2, plate.width_m / 2) if at_m is None else at_m
-    shapes = np.sin(modes.along * x)[:, None] * np.sin(modes.across * y)
+    along, across = np.sin(modes.along * x) ** 2, np.sin(modes.across * y) ** 2
     # By velocity, since the threshold of touch rises about as frequency does.
-    velocities: Floats = (shapes * shapes * modes.velocities).ravel()
+    velocities: Floats = (along[:, None] * across * modes.velocities).ravel()
     n_weaker = len(velocities) - MOST_MODES
     strongest = velocities.argpartition(n_weaker)[n_weaker:] if n_weaker > 0 else np.arange(len(velocities))
     strongest = strongest[(-velocities[strongest]).argsort(kind="stable")]

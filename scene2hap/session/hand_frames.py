@@ -77,11 +77,11 @@ class HandFrames:
             self._reach.follow(change)
             self._n_unreachable = None
             if self._sources.need_contacts:
-                self._are_levels_known = False
+                self._are_levels_known = self._is_fresh = False
         if not change:
             return
-        self._is_fresh = False
         if concerns_sources or self._reach.concerns(change):
+            self._is_fresh = False
             self._request_field()
         else:
             self._counts.changes_out_of_reach += 1

@@ -103,8 +103,9 @@ class SceneState:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""
         if object_id not in self.bodies:
             return None
-        poses = PlatePoses(self.objects, self.bodies, self.poses, self._corners)
-        ((x, y),) = ContactNetwork(self.bodies, (), poses).on_body(object_id, [point_m]).tolist()
+        # Not `poses`, which the next move would have to copy.
+        corner = PlatePoses(self.objects, self.bodies, {object_id: self.graph.pose(object_id)}, self._corners)
+        ((x, y),) = ContactNetwork(self.bodies, (), corner).on_body(object_id, [point_m]).tolist()
         return x, y
 
     def reach(self, source_ids: Sequence[str]) -> Reach:

@@ -140,6 +140,22 @@ def test_unchanged_frames(skip: Any) -> None:
     assert not s.update().gains.any()
 
 
+def test_gains_are_kept_when_contacts_change_that_no_source_reaches() -> None:
+    model = Watched()
+    s = session(True, model)
+    s.update({"block": Pose((5.0, 0.45, 5.0))}, [ON_TABLE])
+    gains, n_asked = s.update(touches=[ON_TABLE]).gains, len(model.asked)
+    before = s.stats.skipped
+    frame = s.update({"cup": Pose((5.01, 0.05, 5.0))}, [ON_TABLE])
+    assert s.stats.skipped.changes_out_of_reach == before.changes_out_of_reach + 1
+    assert s.stats.skipped.unchanged_frames == before.unchanged_frames + 1
+    assert len(model.asked) == n_asked
+    np.testing.assert_array_equal(frame.gains, gains)
+    # The cup comes to the table and carries the vibration.
+    on_cup = Touch("right", "cup", (0.8, 0.82, 0.4))
+    assert s.update({"cup": Pose((0.8, 0.77, 0.4))}, [ON_TABLE, on_cup]).gains[1].any()
+
+
 def test_a_skip_that_does_not_exist() -> None:
     with pytest.raises(ConfigError, match="silence"):
         session({"silence": True})
