@@ -103,7 +103,7 @@ def prepared_ahead(kind: str, scene: SceneSnapshot, bundle: HapticBundle, seed: 
     rng, model = np.random.default_rng(seed), MODELS.build({"kind": kind})
     session = HapticSession(scene, bundle, {"propagation": model, "gain_limit_db": None})
     state, spent_ms, errors_db, n_next, n_felt = session._state, [], [], 0, 0
-    ids = [x for x in state.graph.beside if isinstance(state.bodies.get(x), Plate)]
+    ids = sorted(x for x in state.graph.beside if isinstance(state.bodies.get(x), Plate))
     session.update()
     session.wait_prepared()
     ahead = session._impacts._ahead
@@ -130,7 +130,7 @@ def prepared_ahead(kind: str, scene: SceneSnapshot, bundle: HapticBundle, seed: 
             told = ahead.answer(object_id, point, {0: [(touched, hand)]}, f)
             if told is not None:
                 own = struck_later(model, state, object_id, point, [[(touched, hand)]], f)()
-                ratio = (weights * told.gains() ** 2).sum() / (weights * own**2).sum()
+                ratio = (weights * told.gains**2).sum() / (weights * own**2).sum()
                 errors_db.append(abs(10 * np.log10(ratio)))
     p50, p99 = np.percentile(spent_ms, (50, 99))
     level = f"{np.percentile(errors_db, 90):.2f} | {max(errors_db):.2f}" if errors_db else "- | -"

@@ -175,27 +175,15 @@ class Impacts:
         if self._ahead is not None:
             answer = self._ahead.answer(impact.object_id, impact.point_m, touched, f)
             if answer is not None:
-                self._answered(answer.gains, sound, at_frame, answer.among, now=answer.is_quick)
+                sound(answer.gains, at_frame, answer.among)
                 left = {i: hand for i, hand in touched.items() if i not in answer.among}
         if left:
             model, hands_left = self._config.propagation, [*left.values()]
             prepared = struck_later(model, self._state, impact.object_id, impact.point_m, hands_left, f)
-            self._answered(prepared, sound, at_frame, left, now=self._config.prepare == "blocking")
-
-    def _answered(
-        self,
-        gains: Callable[[], Floats],
-        sound: Callable[[Floats, int, Collection[int]], None],
-        at_frame: int,
-        among: Collection[int],
-        *,
-        now: bool,
-    ) -> None:
-        """Let some hands feel an impact, now or once a worker has computed its gains."""
-        if now:
-            sound(gains(), at_frame, among)
-        else:
-            self._order(gains, lambda found, begin: sound(found, begin, among), at_frame)
+            if self._config.prepare == "blocking":
+                sound(prepared(), at_frame, left)
+            else:
+                self._order(prepared, lambda gains, begin: sound(gains, begin, left), at_frame)
 
     def expect(self, felt: Felt) -> None:
         """Prepare for impacts on what hands touch. Call it in every update."""

@@ -34,11 +34,10 @@ MOST = 4
 
 
 class Answer(NamedTuple):
-    """Gains (n_hands, n_frequencies) [-] of some hands, in any thread, and whether an update can spare the time."""
+    """Gains (n_hands, n_frequencies) [-] of some hands."""
 
     among: Collection[int]
-    gains: Callable[[], Floats]
-    is_quick: bool
+    gains: Floats
 
 
 class Ordered(NamedTuple):
@@ -110,11 +109,8 @@ class StruckAhead:
         felt = [(x, self._on_plate(x, at)) for hand in ready.values() for x, at in hand]
         starts = np.cumsum([0, *map(len, ready.values())])[:-1]
 
-        def gains() -> Floats:
-            found = scene.gains(object_id, struck_m, felt, frequencies_hz)
-            return at_least_itself(np.maximum.reduceat(found, starts, axis=0), object_id, [*ready.values()])
-
-        return Answer(ready.keys(), gains, scene.is_quick({x for x, _ in felt}, object_id))
+        gains = np.maximum.reduceat(scene.gains(object_id, struck_m, felt, frequencies_hz), starts, axis=0)
+        return Answer(ready.keys(), at_least_itself(gains, object_id, [*ready.values()]))
 
     def _on_plate(self, object_id: str, point_m: Point) -> Floats:
         return np.array([self._state.on_plate(object_id, point_m)], dtype=np.float64)

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +38,6 @@ lower component, which is not felt, counts as one of 24 Hz."""
 
 DENSITY = 0.6
 """Frequencies over what `sampling` takes by itself, for 0.3 dB: twice exp(-pi 0.6 / 0.55) of a resonance's power."""
-_QUICK = 200_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,11 +78,6 @@ class StruckScene:
     def knows(self, touched_id: str, struck_id: str) -> bool:
         """Whether `gains` has an answer for a touched object and a struck one."""
         return (touched_id, struck_id) in self._passed or (touched_id, struck_id) in self._silent
-
-    def is_quick(self, touched_ids: Collection[str], struck_id: str) -> bool:
-        """True if `gains` takes no longer than a game can spare in a frame, some 2 ms."""
-        pairs = {(struck_id, struck_id), *((x, struck_id) for x in touched_ids)}
-        return sum(self._passed[pair].size for pair in pairs if pair in self._passed) < _QUICK
 
     def gains(
         self, struck_id: str, struck_m: Floats, felt: Sequence[tuple[str, Floats]], frequencies_hz: Floats
@@ -130,7 +125,7 @@ class StruckScene:
         pushed = ports[:1].copy()
         towards = struck.body.receptance(ports, struck.joints_m, f)
         free = towards[:, :1].transpose(0, 2, 1)
-        moved = struck.body.receptance(ports, pushed, f) - towards @ (self._passed[struck_id, struck_id][used] @ free)
+        moved = struck.body.receptance(ports, pushed, f) - towards @ self._forces((struck_id, struck_id), used, free)
         own = _lengths(self._under_hand(struck_id, ports, towards, moved, used), len(on_it))
         found = [own[:, :1]]
         for touched_id, places in points.items():
@@ -140,9 +135,19 @@ class StruckScene:
             touched = self._bodies[touched_id]
             ports = _ports(touched.body, places)
             towards = touched.body.receptance(ports, touched.joints_m, f)
-            moved = towards @ (self._passed[touched_id, struck_id][used] @ free)
+            moved = towards @ self._forces((touched_id, struck_id), used, free)
             found.append(_lengths(self._under_hand(touched_id, ports, towards, moved, used), len(places)))
         return np.concatenate(found, axis=1) * f[:, None] ** 2
+
+    def _forces(self, pair: Pair, used: NDArray[np.intp], free: Complex) -> Complex:
+        """Forces in joints at some frequencies, from free deflections (n_used, n_struck, n): H times these."""
+        held = self._passed[pair]
+        # In runs of frequencies, since a copy of H takes longer than its product.
+        ends = np.flatnonzero(np.diff(used, append=-1) != 1) + 1
+        forces = np.empty((len(used), held.shape[1], free.shape[2]), dtype=np.complex128)
+        for begin, end in pairwise((0, *ends.tolist())):
+            np.matmul(held[used[begin] : used[end - 1] + 1], free[begin:end], out=forces[begin:end])
+        return forces
 
     def _under_hand(
         self, object_id: str, ports: Floats, towards: Complex, moved: Complex, used: NDArray[np.intp]
@@ -150,13 +155,13 @@ class StruckScene:
         """Deflections of ports (n_used, n_ports, 1) with the hand's load, each point alone, as fields of the model."""
         if self._hand is None:
             return moved
-        f, body, held = self._frequencies_hz[used], self._bodies[object_id].body, self._passed[object_id, object_id]
+        f, body, pair = self._frequencies_hz[used], self._bodies[object_id].body, (object_id, object_id)
         stiffness, answer = stiffness_of(self._hand, f), np.empty_like(moved)
         n_points = len(ports) // (3 if isinstance(body, InclinedBody) else 1)
         for i in range(n_points):
             at = slice(i, None, n_points)
             alone = body.receptance(ports[at], ports[at].copy(), f)
-            yielding = alone - towards[:, at] @ held[used] @ towards[:, at].transpose(0, 2, 1)
+            yielding = alone - towards[:, at] @ self._forces(pair, used, towards[:, at].transpose(0, 2, 1))
             answer[:, at] = loaded(stiffness, yielding, moved[:, at])
         return answer
 

@@ -147,7 +147,7 @@ def test_prepared_impact_equals_the_field_of_the_impact_alone() -> None:
         answer = made._impacts._ahead.answer("table", STRUCK, dict(enumerate(hands)), f)
         assert answer is not None
         assert list(answer.among) == [0, 1]
-        found = answer.gains()
+        found = answer.gains
         assert np.abs(20 * np.log10(found / expected)).max() < 0.5
         assert (found[1] > 0.999).all()  # this hand is where it is struck
 
@@ -194,7 +194,7 @@ def test_a_hand_on_another_object_feels_an_impact_with_the_next_block_as_the_mod
     assert made._impacts._ahead is not None
     answer = made._impacts._ahead.answer(struck, places[struck], {0: [(touched, hand)]}, f)
     assert answer is not None
-    expected, found = (float((weights * gains[0] ** 2).sum()) for gains in (own, answer.gains()))
+    expected, found = (float((weights * gains[0] ** 2).sum()) for gains in (own, answer.gains))
     assert abs(10 * math.log10(found / expected)) < 0.5
 
 
@@ -221,7 +221,7 @@ def test_a_hand_on_two_objects_feels_the_larger_answer() -> None:
         ahead.answer("table", STRUCK, {0: hand}, f)
         for hand in ([("table", FAR)], [("phone", phone)], [("table", FAR), ("phone", phone)])
     ]
-    one, other, both = (answer.gains()[0] for answer in answers if answer is not None)
+    one, other, both = (answer.gains[0] for answer in answers if answer is not None)
     np.testing.assert_allclose(both, np.maximum(one, other))
 
 
