@@ -607,34 +607,6 @@ def closest_points(host, guest, turn, shift, double within):
     return search.best, triple(search.on_guest), triple(search.on_host)
 
 
-def surface_distance(host, point, double within):
-    cdef Search search
-    cdef Py_ssize_t column = 0
-    # A triangle without extent has one corner and one edge to test.
-    cdef unsigned char features = 0b001_001
-    cdef double[9] corners
-    cdef double[6] box
-    cdef int k
-    memset(&search, 0, sizeof(Search))
-    corners[0], corners[1], corners[2] = point
-    for k in range(6):
-        corners[k + 3], box[k] = corners[k], corners[k % 3]
-    search.guest.m = search.guest.n_leaves = 1
-    search.guest.nodes, search.guest.corners = box, corners
-    search.guest.columns, search.guest.features = &column, &features
-    search.within = search.best = within
-    search.best_guest = -1
-    try:
-        search.guest.faces, search.guest.is_known = <Face*>malloc(sizeof(Face)), <char*>calloc(1, 1)
-        if search.guest.faces == NULL or search.guest.is_known == NULL:
-            raise MemoryError
-        open_tree(&search.host, host, SURFACE, NULL)
-        find(&search)
-    finally:
-        close(&search)
-    return None if search.best_guest < 0 else search.best
-
-
 def contact_points(host, guest, turn, shift, way, double within):
     cdef Search search
     cdef Py_ssize_t[MAX_POINTS] chosen

@@ -30,8 +30,6 @@ from scene2hap.contact.shape import Shape, boxes_of
 ROUNDING_M = 1e-9
 """Distances below this are rounding errors."""
 
-_POINT = Shape(np.zeros((3, 3, 1)), np.zeros((1, 3)))  # a triangle without extent
-_NOT_TURNED: Rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _BATCH = 4096  # Pairs of triangles that a plain kernel compares at once: some 10 MB.
 
 
@@ -161,13 +159,6 @@ def closest_points(
                 best = key
                 ends = _triple(every.on_p[:, row[k], k]), _triple(every.on_q[:, row[k], k])
     return None if best is None or ends is None else (best[0], *ends)
-
-
-@compiled
-def surface_distance(host: Shape, point: Triple, within: float) -> float | None:
-    """Return the distance of a point in the host's frame from the host's surface, None beyond `within`. All [m]."""
-    found = closest_points(host, _POINT, _NOT_TURNED, point, within)
-    return None if found is None else found[0]
 
 
 @compiled

@@ -108,7 +108,8 @@ class SessionStats:
     material is unknown; field_age_s : for how long the field in use has been out of date, 0 while it is not [s];
     field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed : preparations that
     the model refused, while the last field stayed in use; last_failure : the model's message; touches_off_surface :
-    touches more than 5 cm from the surface of their object, summed over updates; impacts : impacts, reported or found;
+    touches more than 5 cm off the box around their object, in the first 16 updates with touches and in one of 16 later
+    ones; impacts : impacts, reported or found;
     impacts_felt : impacts that a hand felt; impacts_left_out : impacts that came too fast one after the other, or while
     too many sounded.
     """

@@ -70,6 +70,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
 
+class _Progress:
+    """Number of updates, and the position at which the gains changed last. An object of its own, since it changes in
+    every update, and attributes of a read-only class are slow to set."""
+
+    __slots__ = ("last_stamp", "n_updates")
+
+    def __init__(self) -> None:
+        self.last_stamp = self.n_updates = 0
+
+
 @clear_calls
 @read_only
 class HapticSession:
@@ -124,7 +134,7 @@ class HapticSession:
         self._limit: PersonalLimit | None = None
         if user is not None:
             self._use_profile(UserProfile.parse(user))
-        self._last_stamp = self._updates = 0
+        self._progress = _Progress()
 
     @property
     def config(self) -> SessionConfig:
@@ -175,7 +185,8 @@ class HapticSession:
         reports, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
         change, None for the next block.
         A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are taken too.
-        Warns: SceneWarning: a hand touches an object more than 5 cm from its surface, once per hand; nothing vibrates.
+        Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
+        vibrates.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
         before that of the last update, or something else than poses, touches and contacts.
         """
@@ -196,13 +207,13 @@ class HapticSession:
         frame, gained = self._hand_frames.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
-        if self._follows_landings:
+        if self._follows_landings and (moved or self._landings.follow_any):
             for landing in self._landings.look(moved or {}, stamp / self.config.sample_rate_hz):
                 strike = Strike(landing.onto, landing.point_m, landing.object_id, landing.speed_m_s)
                 self._impacts.land(strike, self._hand_frames.felt, self.hands, self._user, stamp)
         if self._prepares_impacts:
             self._impacts.expect(felt)
-        self._updates += 1
+        self._progress.n_updates += 1
         self._output.feed(frame)
         if felt:
             self._mistakes.in_sources(self._sources.ids)
@@ -529,7 +540,7 @@ class HapticSession:
     @property
     def stats(self) -> SessionStats:
         """Counters so far."""
-        stats = self._hand_frames.stats(self._updates, self._playback.rows_not_mixed)
+        stats = self._hand_frames.stats(self._progress.n_updates, self._playback.rows_not_mixed)
         return replace(
             stats,
             touches_off_surface=self._mistakes.n_touches_off,
@@ -558,7 +569,7 @@ class HapticSession:
 
     @property
     def _now(self) -> int:
-        return max(self._playback.position, self._last_stamp)
+        return max(self._playback.position, self._progress.last_stamp)
 
     def _put(
         self,
@@ -590,8 +601,8 @@ class HapticSession:
     def _stamp(self, at_sample: int | None) -> int:
         now = self._now
         if at_sample is not None:
-            now = given_stamp(at_sample, self._last_stamp, self._playback.position, self.config.sample_rate_hz)
-        self._last_stamp = now
+            now = given_stamp(at_sample, self._progress.last_stamp, self._playback.position, self.config.sample_rate_hz)
+        self._progress.last_stamp = now
         return now
 
     def _use_profile(self, user: UserProfile) -> None:
@@ -619,10 +630,11 @@ class HapticSession:
             raise
         except Exception:  # an object of another type may raise any error
             by_hand = self._grouped(given_touches(touches))
+        hands = self._hands
         for hand in by_hand:
-            if hand not in self.hands:
-                raise SessionError(unknown_hand(hand, self.hands))
-        return {i: by_hand[hand] for i, hand in enumerate(self.hands) if hand in by_hand}
+            if hand not in hands:
+                raise SessionError(unknown_hand(hand, hands))
+        return {i: by_hand[hand] for i, hand in enumerate(hands) if hand in by_hand}
 
     def _grouped(self, touches: Sequence[Touch]) -> dict[str, list[Touch]]:
         by_hand: dict[str, list[Touch]] = {}

@@ -111,6 +111,11 @@ class Landings:
         self._tracks: dict[str, _Track] = {}
         self._n_updates = 0
 
+    @property
+    def follow_any(self) -> bool:
+        """True if an object has moved lately."""
+        return bool(self._tracks)
+
     def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
         """Keep the poses of the objects that are about to move. Call it before the graph moves."""
         tracks = self._tracks

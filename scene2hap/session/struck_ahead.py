@@ -63,15 +63,20 @@ class StruckAhead:
         self._job: Future[None] | None = None
         self._expected: Collection[str] = ()
         self._version, self._changed_at_s, self._ordered_at_s = -1, 0.0, 0.0
+        self._settled_version = -1
 
     def expect(self, object_ids: Collection[str]) -> None:
         """Order the scene around these objects unless it is prepared for the present contacts; one at a time."""
-        self._expected, version, now = object_ids, self._state.graph.version, time.monotonic()
+        version = self._state.graph.version
+        if version == self._settled_version and object_ids == self._expected:
+            return
+        self._expected, now = object_ids, time.monotonic()
         if version != self._version:
             self._version, self._changed_at_s = version, now
         if self._job is None or self._job.done():
             rests = now - self._changed_at_s >= AT_REST_S or now - self._ordered_at_s >= EVERY_S
-            self._order_next(version, rests=rests)
+            if not self._order_next(version, rests=rests) and rests:
+                self._settled_version = version
 
     def wait(self, timeout_s: float | None) -> bool:
         """Wait until all that is expected is prepared; false after the timeout [s]."""
