@@ -33,11 +33,7 @@ _LARGE_M = 2.0  # Larger objects are not moved.
 @contextmanager
 def without_free_space() -> Iterator[None]:
     """Disable free space, so that triangles decide all contacts."""
-    with (
-        mock.patch("scene2hap.contact.pair.ledge_under", return_value=None),
-        mock.patch("scene2hap.contact.pair.has_nothing_near", return_value=False),
-        mock.patch("scene2hap.contact.holding.has_nothing_near", return_value=False),
-    ):
+    with mock.patch("scene2hap.contact.free_space._upright", return_value=None):
         yield
 
 

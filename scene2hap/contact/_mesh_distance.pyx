@@ -66,6 +66,15 @@ cdef inline double cut(double share) noexcept:
     return lesser(greater(share, 0.0), 1.0)
 
 
+cdef inline bint is_within(const Box* a, const Box* b, double reach) noexcept:
+    """Return True unless two boxes are farther apart than a distance along an axis."""
+    return (
+        a.low[0] <= b.high[0] + reach and b.low[0] <= a.high[0] + reach
+        and a.low[1] <= b.high[1] + reach and b.low[1] <= a.high[1] + reach
+        and a.low[2] <= b.high[2] + reach and b.low[2] <= a.high[2] + reach
+    )
+
+
 cdef inline double squared_distance(const Box* a, const Box* b) noexcept:
     """Return the squared distance of two boxes, inf if one is empty."""
     cdef double gap, total = 0
@@ -513,6 +522,25 @@ cdef void descend(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
             descend(search, g, 2 * h + 2 - swap)
 
 
+cdef void gather(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
+    """Visit all pairs of leaves below two nodes whose boxes are within reach, in any order."""
+    cdef const Box* box_g = box_of(&search.guest, g)
+    cdef const Box* box_h = box_of(&search.host, h)
+    cdef double reach = search.within + ROUNDING_M
+    cdef int k
+    cdef bint is_leaf_g = g >= search.guest.n_leaves - 1, is_leaf_h = h >= search.host.n_leaves - 1
+    if is_leaf_g and is_leaf_h:
+        visit(search, g - search.guest.n_leaves + 1, h - search.host.n_leaves + 1)
+    elif is_leaf_h or (not is_leaf_g and longest(box_g) > longest(box_h)):
+        for k in range(1, 3):
+            if is_within(box_of(&search.guest, 2 * g + k), box_h, reach):
+                gather(search, 2 * g + k, h)
+    else:
+        for k in range(1, 3):
+            if is_within(box_of(&search.host, 2 * h + k), box_g, reach):
+                gather(search, g, 2 * h + k)
+
+
 cdef inline double longest(const Box* box) noexcept:
     return greater(greater(box.high[0] - box.low[0], box.high[1] - box.low[1]), box.high[2] - box.low[2])
 
@@ -584,7 +612,11 @@ cdef int start(Search* search, host, guest, turn, shift, double within) except -
 cdef void find(Search* search) noexcept:
     if not (search.guest.m and search.host.m):
         return
-    if squared_distance(box_of(&search.guest, 0), box_of(&search.host, 0)) <= reach2(search):
+    if squared_distance(box_of(&search.guest, 0), box_of(&search.host, 0)) > reach2(search):
+        return
+    if search.points.capacity:
+        gather(search, 0, 0)
+    else:
         descend(search, 0, 0)
 
 

@@ -165,10 +165,8 @@ class FatBoxes:
 
     def holds(self, row: int, low: Triple, high: Triple) -> bool:
         """Return True if a box is within the inner box of a row."""
-        lowest, highest = self.inner_box(row)
-        return all(a >= b for a, b in zip(low, lowest, strict=True)) and all(
-            a <= b for a, b in zip(high, highest, strict=True)
-        )
+        (a, b, c), (d, e, f) = self.inner_box(row)
+        return low[0] >= a and low[1] >= b and low[2] >= c and high[0] <= d and high[1] <= e and high[2] <= f
 
     def meeting(self, row: int) -> list[int]:
         """Return the other rows whose fat boxes overlap that of a row, touching included."""

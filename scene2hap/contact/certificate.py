@@ -14,7 +14,7 @@ from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.free_space import free_planes, ledge_under
+from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.free_space import top_face as ledge_face
 from scene2hap.contact.geometry.separation import reach_along, separation
 from scene2hap.contact.geometry.vectors import AABB, Triple
@@ -35,12 +35,15 @@ _ONES = (1.0,) * 4
 
 
 class Resting(NamedTuple):
-    """The support that carries a body's whole base face, the fall distance to it, and the face that bears the body."""
+    """The support that carries a body's whole base face, the fall distance to it, and the face that bears the body.
+
+    `ledge` is the free space in which a ledge of the support bears it, None if the support's top face does.
+    """
 
     support: Body
     rest: Rest
     face: TopFace
-    is_ledge: bool
+    ledge: FreeSpace | None
 
 
 class Extent(NamedTuple):
@@ -138,26 +141,27 @@ class Certificate:
 
 def resting_on(body: Body, support: Body) -> Resting | None:
     """Return how a body rests on `support` with its whole base face and weight 1; None where that is not certain."""
-    up, base_face, face, is_ledge = body.up_axis, body.stance.posed_base_face, support.stance.top_face, False
+    up, base_face, face, ledge = body.up_axis, body.stance.posed_base_face, support.stance.top_face, None
     reach_m = fall_reach_m(body.size_m)
     if body.low[up] - support.high[up] > reach_m:
         return None
     bottom_m = body.position_m[up] + base_face.height
     if face is None or bottom_m - (support.position_m[up] + face.height) < -TOUCH_M:
         guest, host = roles(body, support)
-        known = ledge_under(guest, host) if guest is body else None
+        ledge = FreeSpace(guest, host) if guest is body else None
+        known = ledge.region_below if ledge is not None else None
         if known is None or known.top_m is None:
             return None
-        face, is_ledge = ledge_face(host, known), True
+        face = ledge_face(host, known)
     top_m = support.position_m[up] + face.height
     fall_m = bottom_m - top_m
     if not _SURE_M < fall_m < 2 / 3 * reach_m or not is_over(body, support):
         return None
-    if not is_ledge:
+    if ledge is None:
         rest = rest_on(body, support)
         if rest is None or not rest.wholly:
             return None
-    return Resting(support, Rest(fall_m, True, top_m), face, is_ledge)
+    return Resting(support, Rest(fall_m, True, top_m), face, ledge)
 
 
 def junction_of(body: Body, resting: Resting, normal: Triple | None) -> Junction:
@@ -169,8 +173,8 @@ def junction_of(body: Body, resting: Resting, normal: Triple | None) -> Junction
 def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:
     """Return the planes that bound a resting body, besides the edges of the face; None if they are not known."""
     support, up, planes = resting.support, body.up_axis, tuple[Plane, ...]()
-    if resting.is_ledge:
-        free = free_planes(body, support, stands=True)
+    if resting.ledge is not None:
+        free = resting.ledge.planes(stands=True)
         if free is None:
             return None
         planes += free
@@ -201,7 +205,8 @@ def _standing(body: Body, resting: Resting) -> Standing:
     u, v = support.position_m[0], support.position_m[body.v_axis]
     least_m = resting.rest.top_m + _SURE_M
     # `is_over` is sure if the bottom is clearly higher or the body inside the support (`_all_in`); else middles decide.
-    is_sure = resting.is_ledge and (least_m > support.low[up] + TOUCH_M or least_m < support.high[up] - TOUCH_M)
+    is_beyond = least_m > support.low[up] + TOUCH_M or least_m < support.high[up] - TOUCH_M
+    is_sure = resting.ledge is not None and is_beyond
     return Standing(
         [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in face.edges],
         support.position_m[up] + face.height,

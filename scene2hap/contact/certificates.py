@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Mapping
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate, Extent, Resting, resting_on, separated, standing_planes
-from scene2hap.contact.free_space import free_planes, has_nothing_near
+from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.planes import Plane
 from scene2hap.contact.relative import roles
@@ -176,6 +176,4 @@ class Certificates:
 
 def _free_around(body: Body, host: Body) -> tuple[Plane, ...] | None:
     """Return planes that keep a body clear of a concave host; None where they are not known."""
-    if roles(body, host)[0] is not body or not has_nothing_near(body, host):
-        return None
-    return free_planes(body, host, stands=False)
+    return FreeSpace(body, host).planes(stands=False) if roles(body, host)[0] is body else None

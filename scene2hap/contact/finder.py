@@ -20,6 +20,8 @@ from scene2hap.contact.rule import TOUCH_M, Support, margins_m
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 
+_NEITHER = (None, None)
+
 
 class ContactFinder:
     """Find contacts with the tolerances of `contact.rule`, which depend on the objects' sizes.
@@ -183,11 +185,7 @@ class ContactFinder:
             if y in seen:
                 continue
             body_pair = BodyPair.of(body, other)
-            if (
-                body_pair.rest_a is None
-                and body_pair.rest_b is None
-                and (apart_by(body, other, within_m) or body_pair.has_nothing_near)
-            ):
+            if body_pair.rests == _NEITHER and (apart_by(body, other, within_m) or body_pair.has_nothing_near):
                 if old is not None:
                     del body_pairs[y], self._body_pairs[y][x]
                     dirty.add(pair_of(x, y))

@@ -45,10 +45,6 @@ class FreeRegions:
         self._latest: deque[FreeRegion] = deque(maxlen=_MOST_REGIONS)
         self._of_guests: dict[str, FreeRegion] = {}
 
-    def of(self, guest_id: str) -> FreeRegion | None:
-        """Return the region that a guest used last."""
-        return self._of_guests.get(guest_id)
-
     def find(self, guest_id: str, serves: Callable[[FreeRegion], bool]) -> FreeRegion | None:
         """Return a region for which `serves` is True, the guest's last one first, and store it as the guest's."""
         known = self._of_guests.get(guest_id)

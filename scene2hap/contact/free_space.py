@@ -11,6 +11,7 @@ depends on poses alone.
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 
@@ -33,47 +34,98 @@ _ALL = 1 << 60
 _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 
 
-def ledge_under(guest: Body, host: Body) -> FreeRegion | None:
-    """Return the free region around a guest and the path of its fall, or of the host's fall onto it.
+class FreeSpace:
+    """The free space of a host around a guest, at their present poses. Each result is computed on first use."""
 
-    The region is empty, or has a ledge under the guest's whole base face. None where neither is certain.
-    """
-    own = _upright(host)
-    if own is None:
-        return None
-    taken, foot = _column(guest, host, own), _foot(guest, host, own)
-    low, high = taken[0][2], taken[1][2]
+    __slots__ = ("_column_known", "_empty", "_ledge", "_own", "guest", "host")
 
-    def serves(known: FreeRegion) -> bool:
-        if known.own != own or not known.holds(taken):
-            return False
-        return known.top_m is None or (low <= known.top_m <= high and known.bears(foot))
+    def __init__(self, guest: Body, host: Body) -> None:
+        self.guest, self.host, self._own = guest, host, _upright(host)
+        self._column_known: AABB | None = None
+        self._ledge: FreeRegion | Literal[False] | None = False
+        self._empty: FreeRegion | Literal[False] | None = False
 
-    found = host.free_regions.find(guest.id, serves)
-    if found is None:
-        found = _computed_region(host, own, taken, foot)
-        if found is not None:
+    @property
+    def region_below(self) -> FreeRegion | None:
+        """The free region around the guest and the path of its fall, or of the host's fall onto it.
+
+        The region is empty, or has a ledge under the guest's whole base face. None where neither is certain.
+        """
+        if self._ledge is False:
+            self._ledge = None if self._own is None else self._found_ledge(self._own)
+        return self._ledge
+
+    @property
+    def has_nothing_near(self) -> bool:
+        """True if the host has surely nothing within the distance at which the two could touch or hang."""
+        if self._empty is False:
+            self._empty = None if self._own is None else self._found_empty(self._own)
+        return self._empty is not None
+
+    def planes(self, *, stands: bool) -> tuple[Plane, ...] | None:
+        """Return the planes of the guest's free region in world coordinates; None where no region is certain.
+
+        Parameters: stands : True if the guest stands on the host's ledge, False if the region must be empty.
+        """
+        guest, host, own, lean, up = self.guest, self.host, self._own, self.host.stance.lean, self.host.up_axis
+        if own is None or lean is None or is_over(host, guest):
+            return None
+        known = self.region_below if stands else self._empty if self.has_nothing_near else None
+        if not known or stands != (known.top_m is not None):
+            return None
+        a, b, c, d = _turn(host, own)
+        spare_m = _ROUNDING_M + lean.tilt * host.size_m
+        reach_m = spare_m if stands else spare_m + _reach_m(guest)
+        (u0, v0, h0), (u1, v1, h1) = known.box
+        x, y, h = host.position_m[0], host.position_m[host.v_axis], host.position_m[up]
+        u, v = a * x + b * y, c * x + d * y
+        # Below this height the host might be the body that falls.
+        low_m = max(h + h0 + fall_reach_m(guest.size_m) + TOUCH_M + reach_m, host.low[up] - TOUCH_M + spare_m)
+        return (
+            wall_at(a, b, u + u1 - reach_m, is_square=True),
+            wall_at(-a, -b, -(u + u0 + reach_m), is_square=True),
+            wall_at(c, d, v + v1 - reach_m, is_square=True),
+            wall_at(-c, -d, -(v + v0 + reach_m), is_square=True),
+            floor_at(low_m),
+            roof_at(h + h1 - TOUCH_M - reach_m),
+        )
+
+    def _found_ledge(self, own: Upright) -> FreeRegion | None:
+        guest, host = self.guest, self.host
+        taken, foot = self._column(own), _foot(guest, host, own)
+        low, high = taken[0][2], taken[1][2]
+
+        def serves(known: FreeRegion) -> bool:
+            if known.own != own or not known.holds(taken):
+                return False
+            return known.top_m is None or (low <= known.top_m <= high and known.bears(foot))
+
+        found = host.free_regions.find(guest.id, serves)
+        if found is None:
+            found = _computed_region(host, own, taken, foot)
+            if found is not None:
+                host.free_regions.keep(guest.id, found)
+        return found
+
+    def _found_empty(self, own: Upright) -> FreeRegion | None:
+        guest, host = self.guest, self.host
+        (u0, v0, h0), (u1, v1, h1) = self._column(own)
+        reach_m = _reach_m(guest)
+        taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
+
+        def serves(known: FreeRegion) -> bool:
+            return known.own == own and known.top_m is None and known.holds(taken)
+
+        found = host.free_regions.find(guest.id, serves)
+        if found is None and not len(_triangles_in(host, own, taken, most=1)):
+            found = FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE)
             host.free_regions.keep(guest.id, found)
-    return found
+        return found
 
-
-def has_nothing_near(guest: Body, host: Body) -> bool:
-    """Return True if a host has surely nothing within the distance at which the two could touch or hang."""
-    own = _upright(host)
-    if own is None:
-        return False
-    (u0, v0, h0), (u1, v1, h1) = _column(guest, host, own)
-    reach_m = _reach_m(guest)
-    taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
-
-    def serves(known: FreeRegion) -> bool:
-        return known.own == own and known.top_m is None and known.holds(taken)
-
-    if host.free_regions.find(guest.id, serves) is None:
-        if len(_triangles_in(host, own, taken, most=1)):
-            return False
-        host.free_regions.keep(guest.id, FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE))
-    return True
+    def _column(self, own: Upright) -> AABB:
+        if self._column_known is None:
+            self._column_known = _column(self.guest, self.host, own)
+        return self._column_known
 
 
 def top_face(host: Body, known: FreeRegion) -> TopFace:
@@ -85,38 +137,6 @@ def top_face(host: Body, known: FreeRegion) -> TopFace:
     u0, v0, u1, v1 = known.ledge
     corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
     return TopFace(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
-
-
-def free_planes(guest: Body, host: Body, *, stands: bool) -> tuple[Plane, ...] | None:
-    """Return the planes of a guest's free region in world coordinates; None where no region is known.
-
-    Parameters: stands : True if the guest stands on the host's ledge, False if the region must be empty.
-    """
-    own, lean, up = _upright(host), host.stance.lean, host.up_axis
-    known = None if own is None else _region_of(guest, host, own)
-    if own is None or lean is None or known is None or stands != (known.top_m is not None) or is_over(host, guest):
-        return None
-    a, b, c, d = _turn(host, own)
-    spare_m = _ROUNDING_M + lean.tilt * host.size_m
-    reach_m = spare_m if stands else spare_m + _reach_m(guest)
-    (u0, v0, h0), (u1, v1, h1) = known.box
-    x, y, h = host.position_m[0], host.position_m[host.v_axis], host.position_m[up]
-    u, v = a * x + b * y, c * x + d * y
-    # Below this height the host might be the body that falls.
-    low_m = max(h + h0 + fall_reach_m(guest.size_m) + TOUCH_M + reach_m, host.low[up] - TOUCH_M + spare_m)
-    return (
-        wall_at(a, b, u + u1 - reach_m, is_square=True),
-        wall_at(-a, -b, -(u + u0 + reach_m), is_square=True),
-        wall_at(c, d, v + v1 - reach_m, is_square=True),
-        wall_at(-c, -d, -(v + v0 + reach_m), is_square=True),
-        floor_at(low_m),
-        roof_at(h + h1 - TOUCH_M - reach_m),
-    )
-
-
-def _region_of(guest: Body, host: Body, own: Upright) -> FreeRegion | None:
-    known = host.free_regions.of(guest.id)
-    return known if known is not None and known.own == own else None
 
 
 def _upright(host: Body) -> Upright | None:

@@ -10,7 +10,7 @@ from collections.abc import Collection, Container, Iterable, Mapping
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.free_space import has_nothing_near
+from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.level import Aside, Rest, rest_points
@@ -166,7 +166,7 @@ class Holding:
             if (other := bodies[y]).size_m > size_m
             and y not in self._certified
             and not apart_by(body, other, reach_m)
-            and not has_nothing_near(body, other)
+            and not self._space(body, other).has_nothing_near
         ]
         if not larger:
             return {}
@@ -189,6 +189,11 @@ class Holding:
             return (side.distance_m, side.way_m) if side.points else None
         gap = body_pair.gap(within_m)
         return None if gap is None else (gap.distance_m, gap.way_m)
+
+    def _space(self, guest: Body, host: Body) -> FreeSpace:
+        """Return the free space of a larger body around a smaller one, that of their pair if they have one."""
+        body_pair = self.body_pairs[guest.id].get(host.id)
+        return FreeSpace(guest, host) if body_pair is None else body_pair.space
 
     def _body_pair(self, x: str, y: str) -> BodyPair:
         body_pair = self.body_pairs[x].get(y)

@@ -12,7 +12,7 @@ from typing import Any
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.enclosure import enclosed
-from scene2hap.contact.free_space import has_nothing_near, ledge_under
+from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
@@ -26,13 +26,12 @@ NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 class BodyPair:
     """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id."""
 
-    __slots__ = ("_gap", "_gap_within_m", "_mesh_pair_made", "_results", "a", "b", "rest_a", "rest_b")
+    __slots__ = ("_gap", "_gap_within_m", "_mesh_pair_made", "_rests", "_results", "a", "b", "space")
 
     def __init__(self, a: Body, b: Body) -> None:
         self.a, self.b = a, b
-        # How a may rest on b: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell. Else how b on a.
-        self.rest_a = _rest(a, b)
-        self.rest_b = _rest(b, a) if self.rest_a is None else None
+        self.space = FreeSpace(*roles(a, b))
+        self._rests: tuple[Rest | None, Rest | None] | None = None
         self._mesh_pair_made: MeshPair | None = None
         self._results: dict[object, Any] | None = None
         # The distance up to which the gap was searched; -1 before the first search.
@@ -44,9 +43,49 @@ class BodyPair:
         """Build the pair of two bodies, given in any order."""
         return cls(x, y) if x.id < y.id else cls(y, x)
 
+    def _rest(self, x: Body, y: Body) -> Rest | None:
+        """Return how x may rest on y: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell."""
+        reach_m = fall_reach_m(x.size_m)
+        up, v_axis = x.up_axis, x.v_axis
+        if (
+            x.low[up] - y.high[up] > reach_m
+            or x.low[0] >= y.high[0]
+            or y.low[0] >= x.high[0]
+            or x.low[v_axis] >= y.high[v_axis]
+            or y.low[v_axis] >= x.high[v_axis]
+            or not is_over(x, y)
+        ):
+            return None
+        rest = rest_on(x, y)
+        if rest is None or rest.fall_m < -TOUCH_M:
+            return self._rest_in_free_space(x, y, reach_m)
+        return rest if rest.fall_m <= reach_m else None
+
+    def _rest_in_free_space(self, x: Body, y: Body, reach_m: float) -> Rest | None:
+        """Return the result of `_rest` from the free space of the larger body around the smaller one."""
+        known = self.space.region_below
+        if known is None:
+            return NEEDS_TRIANGLES
+        if known.top_m is None:
+            return None
+        top_m = y.position_m[y.up_axis] + known.top_m
+        fall_m = x.position_m[x.up_axis] + x.stance.posed_base_face.height - top_m
+        if self.space.guest is not x or fall_m < -TOUCH_M:
+            return NEEDS_TRIANGLES
+        return Rest(fall_m, True, top_m) if fall_m <= reach_m else None
+
+    @property
+    def rests(self) -> tuple[Rest | None, Rest | None]:
+        """How a may rest on b, and b on a, of which at least one cannot."""
+        found = self._rests
+        if found is None:
+            rest = self._rest(self.a, self.b)
+            found = self._rests = (rest, self._rest(self.b, self.a) if rest is None else None)
+        return found
+
     def rest(self, x: str) -> Rest | None:
-        """Return how x, one of the two ids, may rest on the other; None if it cannot."""
-        return self.rest_a if x == self.a.id else self.rest_b
+        """Return how x, one of the two ids, may rest on the other; see `_rest`."""
+        return self.rests[x != self.a.id]
 
     def first_fall_m(self, x: str) -> float:
         """Return the least fall distance of x by its triangles [m], inf if it meets nothing."""
@@ -83,7 +122,7 @@ class BodyPair:
         side = self.aside(TOUCH_M, SLACK_M)
         if side is not None:
             return not side.points
-        return has_nothing_near(*roles(self.a, self.b))
+        return self.space.has_nothing_near
 
     def gap(self, within_m: float) -> Gap | None:
         """Return the distance of the surfaces, None beyond `within_m`; see `MeshPair.gap`."""
@@ -137,38 +176,3 @@ def box_distance_m(x: Body, y: Body) -> float:
 def apart_by(x: Body, y: Body, margin_m: float) -> bool:
     """Return True if two AABBs are more than `margin_m` apart along some axis."""
     return box_distance_m(x, y) > margin_m
-
-
-def _rest(x: Body, y: Body) -> Rest | None:
-    """Return how x may rest on y: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell."""
-    reach_m = fall_reach_m(x.size_m)
-    up, v_axis = x.up_axis, x.v_axis
-    if (
-        x.low[up] - y.high[up] > reach_m
-        or x.low[0] >= y.high[0]
-        or y.low[0] >= x.high[0]
-        or x.low[v_axis] >= y.high[v_axis]
-        or y.low[v_axis] >= x.high[v_axis]
-        or not is_over(x, y)
-    ):
-        return None
-    rest = rest_on(x, y)
-    if rest is None or rest.fall_m < -TOUCH_M:
-        return _rest_in_free_space(x, y, reach_m)
-    return rest if rest.fall_m <= reach_m else None
-
-
-def _rest_in_free_space(x: Body, y: Body, reach_m: float) -> Rest | None:
-    """Return the result of `_rest` from the free space of the larger body around the smaller one."""
-    guest, host = roles(x, y)
-    known = ledge_under(guest, host)
-    if known is None:
-        return NEEDS_TRIANGLES
-    if known.top_m is None:
-        return None
-    up = x.up_axis
-    top_m = y.position_m[up] + known.top_m
-    fall_m = x.position_m[up] + x.stance.posed_base_face.height - top_m
-    if guest is not x or fall_m < -TOUCH_M:
-        return NEEDS_TRIANGLES
-    return Rest(fall_m, True, top_m) if fall_m <= reach_m else None

@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
-from scene2hap.contact import free_space, holding
+from scene2hap.contact import free_space
 from scene2hap.contact import pair as narrow_phase
 from scene2hap.contact.body import Body
 from scene2hap.contact.free_region import FreeRegion, FreeRegions
-from scene2hap.contact.free_space import has_nothing_near, ledge_under
+from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.ledge import Upright
 from scene2hap.contact.mesh_distance import MeshPair
@@ -56,7 +56,7 @@ def test_free_space_agrees_with_triangles(
         reach_m = fall_reach_m(guest.size_m)
         meeting = MeshPair(guest, host)
         told = narrow_phase.BodyPair(guest, host).falls("guest")
-        known = ledge_under(guest, host)
+        known = FreeSpace(guest, host).region_below
         if known is not None and known.top_m is None:
             assert told is None
         elif known is not None and known.top_m is not None:
@@ -64,7 +64,7 @@ def test_free_space_agrees_with_triangles(
             if -0.004 <= fall_m <= reach_m - 1e-9:
                 assert told is not None
                 assert told.min() == pytest.approx(fall_m, abs=1e-9)
-        if has_nothing_near(guest, host):
+        if FreeSpace(guest, host).has_nothing_near:
             assert told is None
             assert meeting.gap(hang_reach_m(guest.size_m)) is None
 
@@ -104,9 +104,7 @@ def test_an_object_between_boards_stands_on_the_lower() -> None:
 def alone(*things: SceneObject) -> ContactGraph:
     """The graph from triangles alone, without free regions."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(narrow_phase, "ledge_under", lambda guest, host: None)
-        patch.setattr(narrow_phase, "has_nothing_near", lambda guest, host: False)
-        patch.setattr(holding, "has_nothing_near", lambda guest, host: False)
+        patch.setattr(free_space, "_upright", lambda host: None)
         return ContactGraph(scene(*things))
 
 
@@ -127,23 +125,23 @@ def test_a_step_in_the_floor_gives_no_free_region() -> None:
     on_podium = Body.of(box("a", (0.2, 0.1, 0.2), (-1.1, 0.17, -1.1)), 1)
     beside = Body.of(box("b", (0.2, 0.1, 0.2), (-0.55, 0.05, -1.1)), 1)
     across = Body.of(box("c", (0.2, 0.1, 0.2), (-0.7, 0.17, -1.1)), 1)
-    known = ledge_under(on_podium, host)
+    known = FreeSpace(on_podium, host).region_below
     assert known is not None
     assert known.top_m == pytest.approx(0.12)
-    known = ledge_under(beside, host)
+    known = FreeSpace(beside, host).region_below
     assert known is not None
     assert known.top_m == 0.0
-    assert ledge_under(across, host) is None
-    assert not has_nothing_near(on_podium, host)
+    assert FreeSpace(across, host).region_below is None
+    assert not FreeSpace(on_podium, host).has_nothing_near
 
 
 def test_a_free_region_of_a_floor_serves_other_guests(monkeypatch: pytest.MonkeyPatch) -> None:
     host = Body.of(HOUSE, 1)
-    first = ledge_under(Body.of(box("first", (0.1, 0.1, 0.1), (0.0, 0.05, 0.9)), 1), host)
+    first = FreeSpace(Body.of(box("first", (0.1, 0.1, 0.1), (0.0, 0.05, 0.9)), 1), host).region_below
     monkeypatch.setattr(free_space, "_computed_region", lambda *_: pytest.fail("searched again"))
     for n, x in enumerate((0.1, 0.2, -0.1)):
         guest = Body.of(box(f"copy_{n}", (0.1, 0.1, 0.1), (x, 0.05, 0.9)), 1)
-        assert ledge_under(guest, host) is first
+        assert FreeSpace(guest, host).region_below is first
 
 
 def test_many_guests_keep_few_regions() -> None:
@@ -154,16 +152,15 @@ def test_many_guests_keep_few_regions() -> None:
     found = regions.find("other", lambda known: known.holds(taken))
     assert found is not None
     assert found.box[0][0] == 4990
-    assert regions.of("other") is found
+    assert regions.find("other", lambda known: known is found) is found
     assert regions.find("old", lambda known: known.box[0][0] == 0) is None
-    assert regions.of("copy_0") is None
 
 
 def test_a_leaning_host_has_no_free_region() -> None:
     leaning = Body.of(house((0.05, 0.0, 0.0, 1.0)), 1)
     guest = Body.of(box("a", (0.2, 0.1, 0.2), (0.0, 1.0, 0.0)), 1)
-    assert ledge_under(guest, leaning) is None
-    assert not has_nothing_near(guest, leaning)
+    assert FreeSpace(guest, leaning).region_below is None
+    assert not FreeSpace(guest, leaning).has_nothing_near
 
 
 NAMES = ["crate", "chair", "pot", "stick", "mat"]
