@@ -147,12 +147,13 @@ def resting_on(body: Body, support: Body) -> Resting | None:
         return None
     bottom_m = body.position_m[up] + base_face.height
     if face is None or bottom_m - (support.position_m[up] + face.height) < -TOUCH_M:
-        guest, host = roles(body, support)
-        ledge = FreeSpace(guest, host) if guest is body else None
-        known = ledge.region_below if ledge is not None else None
+        if roles(body, support)[0] is not body:
+            return None
+        ledge = FreeSpace(body, support)
+        known = ledge.region_below
         if known is None or known.top_m is None:
             return None
-        face = ledge_face(host, known)
+        face = ledge_face(support, known)
     top_m = support.position_m[up] + face.height
     fall_m = bottom_m - top_m
     if not _SURE_M < fall_m < 2 / 3 * reach_m or not is_over(body, support):
