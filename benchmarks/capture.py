@@ -20,9 +20,9 @@ import numpy as np
 
 from scene2hap import load_scene
 from scene2hap.scene.capture import capture_images, render_all
-from scene2hap.scene.capture.photographer import Photographer
+from scene2hap.scene.capture.lazy_pictures import Studio
 from scene2hap.scene.capture.protocol import Selection
-from scene2hap.scene.capture.studio import Studio
+from scene2hap.scene.capture.shot_rendering import Photographer
 from scene2hap.scene.snapshot import SceneSnapshot
 
 

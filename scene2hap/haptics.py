@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
+from scene2hap.contact_needs import stated, unmet
 from scene2hap.errors import ConfigError, Scene2HapError
 from scene2hap.materials import Material
-from scene2hap.needs import stated, unmet
 
 LONGEST_PASSAGE_S, LONGEST_TURN_S = 30.0, 86_400.0
 """Bounds of a state's times [s]: slower starts and stops cannot be felt, and no machine cools for a day."""
@@ -33,7 +33,7 @@ class SourceState:
     sentence : at most 15 words that begin with the category; used to generate sounds.
     keywords : "category verb"; used to search for sounds.
     needs_contact : the object that it must touch to vibrate (a pan on a stove), as an id or in everyday words, which
-        are matched by meaning (`scene2hap.needs`). None, "", "none" and "null" mean no condition.
+        are matched by meaning (`scene2hap.contact_needs`). None, "", "none" and "null" mean no condition.
     start_up_s, wind_down_s : times from switching on to full strength, and from switching off to silence, 0..30 [s].
     spins : True if its pitch rises and falls at start and stop, like a motor's; otherwise only its strength changes.
     on_s, off_s : times of alternating operation and rest, as with a thermostat, 0.1..86400 [s]. None, None : it runs as

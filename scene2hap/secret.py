@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from typing import NoReturn
 
-from scene2hap.echoes import masked
 from scene2hap.errors import ConfigError
+from scene2hap.key_search import masked
 
 MASK = "******"
 
@@ -49,7 +49,7 @@ class Secret:
         return value
 
     def scrub(self, text: str) -> str:
-        """Remove the key from a text, in any spelling, in case a server echoed it (`scene2hap.echoes`)."""
+        """Remove the key from a text, in any spelling, in case a server echoed it (`scene2hap.key_search`)."""
         value = self.reveal()
         if len(value) < _SHORTEST_SCRUBBED:
             return text

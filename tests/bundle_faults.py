@@ -18,7 +18,7 @@ from functools import cache
 from pathlib import Path
 
 from scene2hap import HapticBundle
-from scene2hap.bundle import replacing
+from scene2hap.bundle import folder_replacement
 from scenes import table_with_two_phones
 
 OPERATIONS = ("open", "os.", "shutil.", "tempfile.")
@@ -124,7 +124,7 @@ def thesis_is_there() -> bool:
 def main() -> None:
     kind = sys.argv[2]
     if sys.argv[3] == "renames":
-        replacing.exchange = lambda one, other: False  # type: ignore[assignment]  # as where no system exchanges
+        folder_replacement.exchange = lambda one, other: False  # type: ignore[assignment]  # as where no system exchanges
     stride, n_steps = int(sys.argv[4]) if len(sys.argv) > 4 else 1, count_steps()
     rows = []
     for step in sorted({*range(1, n_steps, stride), *range(max(1, n_steps - N_AT_THE_END), n_steps + 2)}):

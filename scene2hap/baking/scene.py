@@ -17,10 +17,10 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings
-from scene2hap.baking.recorded import with_recorded_times
+from scene2hap.baking.recorded_times import with_recorded_times
 from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
-from scene2hap.bundle.given import given_bundle
+from scene2hap.bundle.arguments import given_bundle
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState
@@ -28,8 +28,8 @@ from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import reports
+from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.check import SceneWarning
-from scene2hap.scene.given import given_scene
 from scene2hap.scene.objects import SceneObject, UpAxis
 from scene2hap.scene.snapshot import SceneSnapshot
 

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Iterable
 from typing import Any
 
-from scene2hap.bridge.hosted import HostedSession
+from scene2hap.bridge.hosted_session import HostedSession
 from scene2hap.bridge.pictures import SentPictures
 
 MAX_WAITING = 1000

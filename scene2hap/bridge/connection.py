@@ -8,13 +8,13 @@ import contextlib
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 
-from scene2hap.bridge.answers import answer
 from scene2hap.bridge.client import Client
 from scene2hap.bridge.frames import FRAME, PICTURE, kind_of
 from scene2hap.bridge.host import Host
-from scene2hap.bridge.hosted import error_message
+from scene2hap.bridge.hosted_session import error_message
 from scene2hap.bridge.messages import parse_request, read_document, request_id
 from scene2hap.bridge.pictures import SentPictures
+from scene2hap.bridge.requests import answer
 from scene2hap.errors import BridgeError
 
 TOO_SLOW = 4008

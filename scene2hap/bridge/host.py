@@ -7,7 +7,7 @@ from pathlib import Path
 
 from scene2hap import checks
 from scene2hap.bridge.config import BridgeConfig
-from scene2hap.bridge.hosted import HostedSession
+from scene2hap.bridge.hosted_session import HostedSession
 from scene2hap.bridge.jobs import Jobs
 from scene2hap.errors import BridgeError, UnknownSession
 

@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from scene2hap.bridge.hosted import error_message
+from scene2hap.bridge.hosted_session import error_message
 from scene2hap.errors import BridgeError
 
 MAX_RUNNING = 4

@@ -16,7 +16,7 @@ from scene2hap import __version__, checks
 from scene2hap.bridge.config import BridgeConfig, is_loopback
 from scene2hap.bridge.connection import Connection
 from scene2hap.bridge.host import Host
-from scene2hap.bridge.hosted import error_message
+from scene2hap.bridge.hosted_session import error_message
 from scene2hap.bridge.messages import VERSION, Hello, parse_request, read_document
 from scene2hap.bridge.udp import FrameDatagrams
 from scene2hap.errors import BridgeError, ConfigError, MissingExtra, Scene2HapError

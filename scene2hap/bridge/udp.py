@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable
 from typing import cast
 
-from scene2hap.bridge.hosted import HostedSession, error_message
+from scene2hap.bridge.hosted_session import HostedSession, error_message
 from scene2hap.errors import Scene2HapError
 
 KEY = slice(8, 16)

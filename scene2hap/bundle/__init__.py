@@ -3,10 +3,10 @@
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.differences import Difference, differences
 from scene2hap.bundle.folder import read_overrides
+from scene2hap.bundle.folder_replacement import require_replaceable
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
-from scene2hap.bundle.replacing import require_replaceable
 from scene2hap.bundle.sounds import file_stem
 
 __all__ = [

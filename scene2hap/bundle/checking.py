@@ -8,7 +8,7 @@ from pathlib import Path
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.errors import BundleError
 from scene2hap.haptics import unmet_needs
-from scene2hap.scene import sizes
+from scene2hap.scene import plate_sizes
 
 
 class BundleWarning(UserWarning):
@@ -26,7 +26,7 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
     for object_id, haptics in objects.items():
         # An object without a material is no plate, and earlier versions stored its measured size unchecked.
         if haptics.material is not None:
-            wrong = sizes.faults(haptics.estimated_size_m, scene.object(object_id).size_m)
+            wrong = plate_sizes.faults(haptics.estimated_size_m, scene.object(object_id).size_m)
             if wrong:
                 faults = "; ".join(f"{edge} is {why}" for edge, why in wrong.items())
                 raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {faults}.")

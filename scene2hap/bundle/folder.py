@@ -28,6 +28,7 @@ from pydantic import TypeAdapter, ValidationError
 from scene2hap import checks
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.bundle.contents import BundleContents
+from scene2hap.bundle.folder_replacement import recover, replaced
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import BY_STATE, Override
 from scene2hap.bundle.own_files import (
@@ -41,7 +42,6 @@ from scene2hap.bundle.own_files import (
     read_manifest,
     require_folder,
 )
-from scene2hap.bundle.replacing import recover, replaced
 from scene2hap.bundle.sounds import SoundReader, file_stem, read_credit, write_loops
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError
 from scene2hap.haptics import ObjectHaptics

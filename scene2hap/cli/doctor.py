@@ -26,8 +26,8 @@ from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.cli.console import Console
 from scene2hap.cli.specs import given_spec
 from scene2hap.compiled import are_in_use
-from scene2hap.devices import SINKS, loop_back
-from scene2hap.devices.clock import has_clock
+from scene2hap.devices import SINKS, loopback_latency
+from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
 from scene2hap.export import EXPORTS
@@ -162,7 +162,7 @@ def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: 
         sink.on_event = lambda event: None if event.kind == "connected" else console.warn(event.message)
     sweeps = _Sweeps(len(hands))
     with _recording(listen_to, len(hands)) as recording:
-        latency_s = _play(sink, sweeps, hands, console, tail_s=0.0 if recording is None else loop_back.LONGEST_S)
+        latency_s = _play(sink, sweeps, hands, console, tail_s=0.0 if recording is None else loopback_latency.LONGEST_S)
     stats = sink.stats
     latency = "" if latency_s is None else f", latency {1e3 * latency_s:.0f} ms"
     console.say(f"swept {', '.join(hands)}: {stats.frames} frames, {stats.underruns} underruns{latency}")
@@ -172,11 +172,11 @@ def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: 
     return outcome
 
 
-def _recording(listen_to: str | None, n_hands: int) -> loop_back.Recording | nullcontext[None]:
+def _recording(listen_to: str | None, n_hands: int) -> loopback_latency.Recording | nullcontext[None]:
     if listen_to is None:
         return nullcontext()
-    card = loop_back.find_input(int(listen_to) if listen_to.isdigit() else listen_to or None)
-    return loop_back.Recording(card, RATE_HZ, max(2, n_hands))
+    card = loopback_latency.find_input(int(listen_to) if listen_to.isdigit() else listen_to or None)
+    return loopback_latency.Recording(card, RATE_HZ, max(2, n_hands))
 
 
 def _play(
@@ -211,7 +211,7 @@ def _keep_fed(safety: SafetyLayer, seconds: float) -> None:
 
 
 def _measured(
-    take: loop_back.Take, requested_at_s: list[float | None], hands: tuple[str, ...], console: Console
+    take: loopback_latency.Take, requested_at_s: list[float | None], hands: tuple[str, ...], console: Console
 ) -> dict[str, Any]:
     """Show each hand's latency in the recording, and return it as JSON values."""
     pattern = _wave(np.arange(round(SWEEP_S * take.rate_hz)) / take.rate_hz)
@@ -222,7 +222,7 @@ def _measured(
             by_hand[hand] = None
             console.say(f"  {hand}: the sink requested no samples of it")
             continue
-        found = loop_back.arrival(take, at_s, pattern)
+        found = loopback_latency.arrival(take, at_s, pattern)
         by_hand[hand] = asdict(found)
         console.say(f"  {hand}: {_sentence(found)}")
     if take.gaps:
@@ -230,16 +230,16 @@ def _measured(
     return {
         "input": take.device,
         "measured": MEASURED,
-        "found_from": loop_back.FOUND_FROM,
+        "found_from": loopback_latency.FOUND_FROM,
         "gaps": take.gaps,
         "hands": by_hand,
     }
 
 
-def _sentence(found: loop_back.Arrival) -> str:
+def _sentence(found: loopback_latency.Arrival) -> str:
     if found.latency_s is None:
         return (
-            f"not found: correlation {found.correlation:.2f}, below {loop_back.FOUND_FROM:g}; "
+            f"not found: correlation {found.correlation:.2f}, below {loopback_latency.FOUND_FROM:g}; "
             "no loop-back, the wrong input (--loop-back INPUT), or muted"
         )
     return (

@@ -19,7 +19,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.broad import Boxes
 from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.vectors import Floats, Triple
-from scene2hap.contact.relative import box_in_frame, middle_m, roles
+from scene2hap.contact.host_frame import box_in_frame, middle_m, roles
 from scene2hap.contact.rule import OUTSIDE_SHARE, SIDE_SHARE, play_reach_m, weight
 
 

@@ -13,7 +13,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate, junction_of
 from scene2hap.contact.certificates import Certificates
-from scene2hap.contact.holding import Holding
+from scene2hap.contact.holders import Holders
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.pair import BodyPair, apart_by
 from scene2hap.contact.rule import TOUCH_M, Support, margins_m
@@ -33,12 +33,12 @@ class ContactFinder:
         self._up_axis = up_axis
         self._broad_phase = BroadPhase(up_axis, margins_m)
         certified: dict[str, Certificate] = {}
-        holding = self._holding = Holding(up_axis, self._broad_phase.neighbours, certified)
+        holders = self._holders = Holders(up_axis, self._broad_phase.neighbours, certified)
         self._bodies, self._body_pairs, self._held, self._unsupported = (
-            holding.bodies,
-            holding.body_pairs,
-            holding.held,
-            holding.unsupported,
+            holders.bodies,
+            holders.body_pairs,
+            holders.held,
+            holders.unsupported,
         )
         self._certificates = Certificates(self._bodies, self._unsupported, self._broad_phase, certified)
 
@@ -99,7 +99,7 @@ class ContactFinder:
                 if x in bodies and x not in certificates.of and self._update_holders(x, dirty):
                     pending += certificates.separate_from_neighbours(bodies[x])
             recheck = set()
-        found.update(self._holding.junctions(dirty))
+        found.update(self._holders.junctions(dirty))
         for x, junctions in proven.items():
             if x in certificates.of:
                 found.update(junctions)
@@ -124,7 +124,7 @@ class ContactFinder:
         x, bond = body.id, None
         resting = self._certificates.resting(body, self._held.get(x, ()))
         if resting is not None:
-            bond = self._holding.support(x, resting.support.id, Support(1.0, resting.rest.fall_m), lies=True)
+            bond = self._holders.support(x, resting.support.id, Support(1.0, resting.rest.fall_m), lies=True)
         if not self._certificates.issue(body, resting, None if bond is None else bond.normal):
             return None
         body_pairs = self._body_pairs.get(x, {})
@@ -203,7 +203,7 @@ class ContactFinder:
         Returns True if the body has lost its full support.
         """
         was_unsupported = x in self._unsupported
-        before, now = self._held.get(x), self._holding.holders(x)
+        before, now = self._held.get(x), self._holders.of(x)
         if now:
             self._held[x] = now
         elif before:

@@ -19,7 +19,7 @@ from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
 from scene2hap.contact.stated_tolerance.touch_finder import TouchFinder
 from scene2hap.errors import SceneError, UnknownObject
-from scene2hap.scene.given import given_scene
+from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable

@@ -14,9 +14,9 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.host_frame import roles
 from scene2hap.contact.level import Aside, Rest, aside, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
-from scene2hap.contact.relative import roles
 from scene2hap.contact.rule import SLACK_M, TOUCH_M, fall_reach_m, is_over
 
 NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)

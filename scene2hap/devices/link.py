@@ -19,8 +19,8 @@ from typing import Protocol, Self
 
 import numpy as np
 
-from scene2hap.devices.claims import claim, give_back
-from scene2hap.devices.pace import Pace
+from scene2hap.devices.due_frames import Pace
+from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
 from scene2hap.devices.rate import RateConverter
 from scene2hap.errors import DeviceError, DeviceTimeout

@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.devices.datagrams import Datagrams
+from scene2hap.devices.due_frames import Pace
 from scene2hap.devices.link import CarryOn
-from scene2hap.devices.pace import Pace
 from scene2hap.devices.protocol import Block, SinkFormat
 from scene2hap.errors import MissingExtra
 

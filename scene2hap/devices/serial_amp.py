@@ -9,7 +9,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.calls import clear_calls
-from scene2hap.devices.claims import port_key
+from scene2hap.devices.exclusive_use import port_key
 from scene2hap.devices.framing.frames import FrameParser, FrameType, message, pcm, to_wire
 from scene2hap.devices.framing.link_messages import GREETED, HEARD, Credit, DeviceFormat, Hello, is_newer
 from scene2hap.devices.link import CarryOn, LiveSink

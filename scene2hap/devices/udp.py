@@ -10,10 +10,10 @@ from typing import Literal
 from scene2hap import checks
 from scene2hap.calls import clear_calls
 from scene2hap.devices.datagrams import Datagrams
+from scene2hap.devices.due_frames import Pace
 from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameType, SampleFormat, message, pcm, to_datagram
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.osc import GainFrame, OscLine
-from scene2hap.devices.pace import Pace
 from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
 from scene2hap.errors import ConfigError
 

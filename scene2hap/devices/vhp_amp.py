@@ -13,7 +13,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.calls import clear_calls
-from scene2hap.devices.claims import port_key
+from scene2hap.devices.exclusive_use import port_key
 from scene2hap.devices.framing import vhp
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.protocol import Block, EventCallback, SinkFormat

@@ -10,7 +10,7 @@ import soundfile
 
 from scene2hap import checks
 from scene2hap.calls import clear_calls
-from scene2hap.devices.claims import claim, give_back
+from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError

@@ -12,7 +12,7 @@ from scene2hap.scene.engines.motion import AT_REST_M, AT_REST_RAD, moved
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticSession
-from scene2hap.session.given import require_pose
+from scene2hap.session.arguments import require_pose
 
 Floats = NDArray[np.float64]
 _COS_AT_REST = math.cos(AT_REST_RAD / 2)

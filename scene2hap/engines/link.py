@@ -15,7 +15,7 @@ from scene2hap.errors import ConfigError, SceneError
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 from scene2hap.session import HapticFrame, HapticSession, Touch
-from scene2hap.session.given import given_contacts, given_touches
+from scene2hap.session.arguments import given_contacts, given_touches
 
 _MOST_NAMED = 5
 _SCALE_TOLERANCE = 1e-3

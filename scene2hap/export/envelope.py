@@ -15,7 +15,7 @@ import scipy.fft
 import scipy.signal
 from numpy.typing import NDArray
 
-from scene2hap.export.ridge import ridge_hz
+from scene2hap.export.frequency_ridge import ridge_hz
 
 Signal = NDArray[np.float64]
 

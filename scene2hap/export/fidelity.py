@@ -10,7 +10,7 @@ from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.synthesis import synthesize
 from scene2hap.export.envelope import FLOOR_DB, Signal, amplitude_of, decibels
-from scene2hap.export.ridge import ridge_hz
+from scene2hap.export.frequency_ridge import ridge_hz
 from scene2hap.export.track import ANALYSIS_HZ, Channel
 
 Played = HapticClip | Channel

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from scene2hap.bundle import HapticBundle
-from scene2hap.export.paths import contact_paths
+from scene2hap.export.contact_gains import contact_paths
 from scene2hap.export.report import ExportReport
 from scene2hap.propagation.protocol import PropagationModel
 

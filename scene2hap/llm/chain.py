@@ -23,9 +23,10 @@ from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.config import InferenceConfig
-from scene2hap.llm.lexicon.judging import Measured, judge
-from scene2hap.llm.measured import size_without_answer, surface_size
-from scene2hap.llm.plausible import row_of
+from scene2hap.llm.lexicon.categories import Measured, judge
+from scene2hap.llm.mass_check import bounded_mass_kg, mass_fault
+from scene2hap.llm.material_check import Estimate, from_model, from_table, without_answer
+from scene2hap.llm.plausibility import row_of
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Questions
@@ -33,11 +34,10 @@ from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.sharing import copies, of_any_scene, reachable
-from scene2hap.llm.trust import Estimate, from_model, from_table, without_answer
-from scene2hap.llm.weighing import bounded_mass_kg, mass_fault
+from scene2hap.llm.size_check import size_without_answer, surface_size
 from scene2hap.materials import Material
-from scene2hap.scene.given import given_scene
-from scene2hap.scene.likeness import material_names
+from scene2hap.scene.arguments import given_scene
+from scene2hap.scene.copies import material_names
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 

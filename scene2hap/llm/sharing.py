@@ -7,7 +7,7 @@ from typing import Any
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.llm.quoting import clean
-from scene2hap.scene.likeness import copy_key, name_words
+from scene2hap.scene.copies import copy_key, name_words
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -20,7 +20,7 @@ _BELOW = 0.5
 def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
     """Return, for each object, its representative: the first in scene order with equal kind and equal support.
 
-    Objects of one kind are copies (`scene.likeness`). Supports are compared by kind. So six handles on six equal
+    Objects of one kind are copies (`scene.copies`). Supports are compared by kind. So six handles on six equal
     drawers have one representative, but a pan on the stove and a pan on the table have two. An unsupported object is
     distinguished by all objects that touch it.
     """

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer
-from scene2hap.llm.plausible import implausible
+from scene2hap.llm.plausibility import implausible
 from scene2hap.llm.protocol import Component
 
 ANSWERS: Mapping[Component, type[Answer]] = {

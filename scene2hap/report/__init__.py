@@ -14,13 +14,13 @@ from typing import Any
 from scene2hap import checks
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.account import read_account
-from scene2hap.bundle.given import given_bundle
+from scene2hap.bundle.arguments import given_bundle
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.report.document import document
 from scene2hap.report.felt_map import MODELS
 from scene2hap.report.page import assemble
-from scene2hap.report.patches import MOST_POINTS
+from scene2hap.report.surface_points import MOST_POINTS
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.text_files import write_whole
 

@@ -23,9 +23,9 @@ from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.materials import Material, lookup
 from scene2hap.report.account import account_table
 from scene2hap.report.felt_map import MODELS, FeltMap, felt_map
-from scene2hap.report.left_out import left_out
-from scene2hap.report.patches import MOST_POINTS
+from scene2hap.report.omitted_objects import left_out
 from scene2hap.report.sounds import pair
+from scene2hap.report.surface_points import MOST_POINTS
 from scene2hap.report.walls import Direction, shells, walls
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot

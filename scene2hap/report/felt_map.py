@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from scene2hap.audio.threshold import threshold_db
 from scene2hap.bundle import HapticBundle
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.report.patches import MOST_POINTS, Patch, patches_of
-from scene2hap.report.paths import SourcePaths, paths_of
+from scene2hap.report.felt_paths import SourcePaths, paths_of
+from scene2hap.report.surface_points import MOST_POINTS, Patch, patches_of
 from scene2hap.session import HapticSession, Touch
 
 MODELS: tuple[str, ...] = ("exponential_plate",)

@@ -24,11 +24,11 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.cache import MEMORY
-from scene2hap.scene.capture.paint import BACKGROUND_RGB
+from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.png import png
 from scene2hap.scene.files import inside
-from scene2hap.scene.given import given_scene
 from scene2hap.scene.images import ImageSet, ObjectImages, Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.text_files import read_small, read_small_text

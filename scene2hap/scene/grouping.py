@@ -12,7 +12,7 @@ c. A node without a mesh may hold only one object, directly or through other suc
    and place (`washing_machine` over `washer(Clone)`); the outermost such name is used. Names that exporters give to
    their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never taken.
 d. Every other node without a mesh is a container; its children are grouped one by one.
-e. An object by (a) or (b) is split if it is a collection of separate items (`scene.collection`): a pot, two cups and
+e. An object by (a) or (b) is split if it is a collection of separate items (`scene.group_split`): a pot, two cups and
    their saucers, but not a table with its legs.
 f. A node that the file itself declares to be one object (`AuthoredNode.is_object`) is one, with all nodes below it.
 """
@@ -29,7 +29,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene.collection import Member, split
+from scene2hap.scene.group_split import Member, split
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
 Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]

@@ -19,7 +19,7 @@ from pydantic import TypeAdapter, ValidationError
 from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.printable import read_json
-from scene2hap.scene import limits, sizes
+from scene2hap.scene import limits, plate_sizes
 from scene2hap.scene.files import HABITAT_SUFFIX
 from scene2hap.scene.objects import SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
@@ -129,7 +129,7 @@ def _require_plausible_thickness(item: SceneObject) -> None:
     """Compare a stated thickness with the geometry: no slab is many times thicker than its mesh."""
     normal = np.abs(item.surface.pose.rotation[:, 2])
     extent_m = float(normal @ np.ptp(_bounds_m(item.geometry), axis=0))
-    bound_m = sizes.thickest_m((item.surface.length_m, item.surface.width_m, extent_m))
+    bound_m = plate_sizes.thickest_m((item.surface.length_m, item.surface.width_m, extent_m))
     if item.surface.thickness_m > bound_m:
         raise SceneError(
             f"object {item.id!r}: surface.thickness_m is {item.surface.thickness_m:g} m, but its geometry is "

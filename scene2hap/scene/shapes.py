@@ -14,7 +14,7 @@ from pydantic import PlainSerializer, PlainValidator
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene import sizes
+from scene2hap.scene import plate_sizes
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.surface.outline import Outline
 
@@ -166,7 +166,7 @@ class DominantSurface:
         object.__setattr__(self, "flags", tuple(self.flags))
         if self.outline is not None and not isinstance(self.outline, Outline):
             raise SceneError(f"outline of the surface is {checks.described(self.outline)}; it must be an Outline.")
-        least_m = sizes.NOTHING * min(self.length_m, self.width_m)
+        least_m = plate_sizes.NOTHING * min(self.length_m, self.width_m)
         if "zero-thickness" not in self.flags and self.thickness_m <= least_m:
             raise SceneError(
                 f"thickness_m is {self.thickness_m:g} m; it must be above {least_m:g} [m]. State what the real "

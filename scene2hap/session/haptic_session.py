@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
+from scene2hap.bundle.arguments import given_pair
 from scene2hap.bundle.contents import require_same_scene
 from scene2hap.bundle.differences import changed_objects
-from scene2hap.bundle.given import given_pair
 from scene2hap.calls import clear_calls, read_only
 from scene2hap.contact.graph import ContactChange
 from scene2hap.devices.protocol import ActuatorSink, Block
@@ -35,10 +35,7 @@ from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session.config import SessionConfig
-from scene2hap.session.explain import Explanation
-from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
-from scene2hap.session.given import (
+from scene2hap.session.arguments import (
     MAX_RENDERED_FRAMES,
     given_contacts,
     given_frame,
@@ -53,6 +50,9 @@ from scene2hap.session.given import (
     require_settings,
     swapped_hint,
 )
+from scene2hap.session.config import SessionConfig
+from scene2hap.session.explain import Explanation
+from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts import Impact, Impacts, Strike
@@ -62,7 +62,7 @@ from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.sources import SourceInfo, Sources
-from scene2hap.session.switching import Switching
+from scene2hap.session.starts_and_stops import Switching
 from scene2hap.session.user_profile import PersonalLimit, UserProfile
 
 if TYPE_CHECKING:

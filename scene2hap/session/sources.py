@@ -12,9 +12,9 @@ from scene2hap import checks
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.calls import clear_attributes
+from scene2hap.contact_needs import meets
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics, SourceState
-from scene2hap.needs import meets
 from scene2hap.session.config import MAX_GAIN_DB
 from scene2hap.session.frame import unknown_source
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from scene2hap.devices import SINKS
-from scene2hap.devices.clock import has_clock
+from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat, SinkStats
 from scene2hap.plugins import lacking
 

@@ -58,7 +58,7 @@ SPELLINGS: dict[str, Spelling] = {
 }  # fmt: skip
 
 NOT_COVERED = frozenset({"base85", "ascii85", "uuencode", "rot13", "gzip in base64", "zlib in hex", "hexdump"})
-"""Codes of punctuation, ciphers, packing, and lines of 16 bytes: see `scene2hap.echoes`."""
+"""Codes of punctuation, ciphers, packing, and lines of 16 bytes: see `scene2hap.key_search`."""
 AROUND: dict[str, tuple[str, str]] = {
     "bare": ("", ""), "sentence": ("Incorrect API key provided: ", ". You can find yours at"), "quoted": ('{"error": "', '"}'), "letters": ("abc", "xyz"), "tag": ("<b>", "</b>"),
     "digits": ("12", "34"), "header": ("authorization: Bearer ", "\r\n"), "long": ("word " * 4000, " word" * 4000), "percent": ("%", "%"), "slashes": ("\\" * 9, "\\" * 9), "brackets": ("[b'", "', None]"),

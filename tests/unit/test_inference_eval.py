@@ -22,7 +22,7 @@ from others import SCENES, needed
 from scene2hap import materials
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.lexicon import LexiconBackend
-from scene2hap.llm.lexicon.stand_ins import STAND_INS
+from scene2hap.llm.lexicon.similar_materials import STAND_INS
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 
 

@@ -11,12 +11,12 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 # Bottom to top; packages of one row never import each other.
 LAYERS = [
     {"errors", "printable", "quiet_logs"},
-    {"checks", "compiled", "echoes"},
+    {"checks", "compiled", "key_search"},
     {"calls"},
     {"file_stamp", "html_tables", "plots", "plugins", "secret", "text_files", "web"},
     {"settings"},
     {"scene"},
-    {"contact", "materials", "needs"},
+    {"contact", "materials", "contact_needs"},
     {"haptics"},
     {"propagation", "audio"},
     {"clips"},

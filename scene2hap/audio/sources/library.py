@@ -11,7 +11,7 @@ from pathlib import Path
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
-from scene2hap.audio.sources.words import noun_phrase, stems
+from scene2hap.audio.sources.word_stems import noun_phrase, stems
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.text_files import read_small_text

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from scene2hap.audio.distinctness import FREQUENCY_WEBER, WIDEST_WEBER
-from scene2hap.audio.spreading.programme import Programme
-from scene2hap.audio.spreading.room import Room, SpreadLimits, Voice
-from scene2hap.audio.spreading.yielding import give_way
+from scene2hap.audio.spreading.best_response import give_way
+from scene2hap.audio.spreading.linear_programme import Programme
+from scene2hap.audio.spreading.placements import Room, SpreadLimits, Voice
 from scene2hap.haptics import ActuatorProfile
 
 __all__ = ["Placement", "SpreadLimits", "Voice", "spread"]

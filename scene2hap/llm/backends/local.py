@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import BackendUnavailable, ConfigError
-from scene2hap.llm.backends import chat, served
+from scene2hap.llm.backends import chat, server_models
 from scene2hap.llm.backends.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
 from scene2hap.llm.backends.http_client import Endpoint, HttpReply
 from scene2hap.llm.backends.image_tokens import LostImages
@@ -113,7 +113,7 @@ class LocalBackend:
         Raises: BackendUnavailable: the server does not answer or names no model. ConfigError: it serves several models.
         """
         if self.model is None:
-            self.model = served.only_one(await self._models(), self._endpoint.base_url)
+            self.model = server_models.only_one(await self._models(), self._endpoint.base_url)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the JSON object in the model's answer, or its whole text if there is none.
@@ -151,8 +151,8 @@ class LocalBackend:
         text = f"{request.prompt}\n\n{fields_in_words(request.answer_schema)}"
         return await self._endpoint.post(self._dialect.path, self._dialect.body(request, self.model or "", text, rung))
 
-    async def _models(self) -> tuple[served.Served, ...]:
-        return await (served.ollama_models if self._is_ollama else served.openai_models)(self._endpoint)
+    async def _models(self) -> tuple[server_models.Served, ...]:
+        return await (server_models.ollama_models if self._is_ollama else server_models.openai_models)(self._endpoint)
 
     async def _check_eyes(self) -> None:
         """Check once whether the server reports that the model reads pictures. Without a report, assume that it does.
@@ -162,7 +162,7 @@ class LocalBackend:
         sees: bool | None = None
         try:
             if self._is_ollama:
-                sees = await served.ollama_sees(self._endpoint, self.model or "")
+                sees = await server_models.ollama_sees(self._endpoint, self.model or "")
             else:
                 ours = [model for model in await self._models() if model.name == self.model]
                 sees = ours[0].sees if ours else None

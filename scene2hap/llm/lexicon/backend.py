@@ -10,7 +10,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import BadAnswer, UnknownMaterial
 from scene2hap.llm.answers import Answer, MaterialAnswer, SceneAnswer, VibrationAnswer
-from scene2hap.llm.lexicon import describing, judging, places, stand_ins, table
+from scene2hap.llm.lexicon import categories, descriptions, places, similar_materials, table
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 
 _Facts = Mapping[str, Any]
@@ -40,8 +40,8 @@ def _object(facts: _Facts) -> Answer:
         checks.number(name, facts.get(name), "m", at_least=0.0, error=BadAnswer, hint="The lexicon reads it as a fact.")
         for name in ("length_m", "width_m", "thickness_m")
     )
-    return judging.judge(
-        judging.Measured(
+    return categories.judge(
+        categories.Measured(
             _text(facts, "object_name"),
             (length, width, thickness),
             _texts(facts, "surface_flags"),
@@ -61,7 +61,7 @@ def _height(facts: _Facts) -> float | None:
 def _material(facts: _Facts) -> Answer:
     word = _text(facts, "material_category")
     try:
-        material = stand_ins.constants(word)
+        material = similar_materials.constants(word)
     except UnknownMaterial as cause:
         raise BadAnswer(f"the lexicon cannot estimate a material: {cause}") from cause
     return MaterialAnswer(
@@ -73,7 +73,7 @@ def _material(facts: _Facts) -> Answer:
 
 
 def _vibration(facts: _Facts) -> VibrationAnswer:
-    return describing.describe(
+    return descriptions.describe(
         _text(facts, "object_category"), _text(facts, "state"), _text(facts, "scene_category", default="")
     )
 

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from scene2hap.llm.lexicon import spelling, words
+from scene2hap.llm.lexicon import word_split, words
 from scene2hap.llm.lexicon.table import ObjectRow
 
 # Confidence of a reading. Assumed; the values only rank readings by the part of the name that was understood.
@@ -69,9 +69,9 @@ class _Noun:
 @lru_cache(maxsize=4096)
 def read_name(name: str) -> NameReading:
     """Read one authored name. Never fails."""
-    tokens, trust = spelling.read_words(name)
+    tokens, trust = word_split.read_words(name)
     trust *= _ALL_READ
-    unread = tuple(word for word in tokens if not spelling.is_known(word))
+    unread = tuple(word for word in tokens if not word_split.is_known(word))
     unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread)
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
@@ -105,7 +105,7 @@ def read_name(name: str) -> NameReading:
 
 def places_named(name: str) -> tuple[str, ...]:
     """Return the kinds of place in a name's words, each once."""
-    found = (words.PLACE_WORDS.get(word) for word in spelling.read_words(name)[0])
+    found = (words.PLACE_WORDS.get(word) for word in word_split.read_words(name)[0])
     return tuple(dict.fromkeys(place for place in found if place is not None))
 
 
@@ -129,7 +129,7 @@ def _noun_at(tokens: Sequence[str], start: int, end: int) -> _Noun | None:
     last = tokens[end - 1]
     for form in words.forms(last):
         spelled = (*tokens[start : end - 1], form)
-        entry = spelling.nouns().get("".join(spelled))
+        entry = word_split.nouns().get("".join(spelled))
         # "Table_T" is no tablet: a single letter belongs to a noun only if the table writes it so ("x box").
         if entry is not None and (spelled == entry[1] or min(map(len, spelled)) > 1):
             return _Noun(entry[0], start, end, plural=form != last)
@@ -167,13 +167,13 @@ def _object_first(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun | None
     telling = [
         i
         for i, word in enumerate(tokens)
-        if len(word) > 1 and (word not in spelling.side_words() or any(noun.start <= i < noun.end for noun in nouns))
+        if len(word) > 1 and (word not in word_split.side_words() or any(noun.start <= i < noun.end for noun in nouns))
     ]
     telling = [i for i in telling if tokens[i] not in words.MATERIAL_NOUNS | words.LEFTOVER_NOUNS] or telling
     if len(telling) < 2:
         return None
     first, second = telling[-2:]
-    entry = spelling.nouns().get(tokens[second] + tokens[first])
+    entry = word_split.nouns().get(tokens[second] + tokens[first])
     if entry is None or entry[1] != (tokens[second], tokens[first]) or _noun_at((tokens[first], tokens[second]), 0, 2):
         return None
     return _Noun(entry[0], first, second + 1, plural=False)
@@ -190,5 +190,5 @@ def _whole(tokens: Sequence[str], head: _Noun, nouns: Sequence[_Noun]) -> Object
 def _is_beside(word: str) -> bool:
     """Return True if a word after the noun does not change the object: a side, a room, a material, a serial."""
     return len(word) < 3 or any(
-        form in spelling.side_words() or form in words.MATERIAL_WORDS for form in words.forms(word)
+        form in word_split.side_words() or form in words.MATERIAL_WORDS for form in words.forms(word)
     )

@@ -90,8 +90,8 @@ def version() -> str:
 
 @cache
 def starting_text() -> str:
-    """Return the content of the file of start and stop times; see `lexicon.starting`."""
-    return files(__package__).joinpath("starting.csv").read_text(encoding="utf-8")
+    """Return the content of the file of start and stop times; see `lexicon.start_times`."""
+    return files(__package__).joinpath("start_times.csv").read_text(encoding="utf-8")
 
 
 @cache

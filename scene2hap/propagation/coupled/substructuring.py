@@ -27,13 +27,13 @@ from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, inclined_in
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import HandLoad
+from scene2hap.propagation.coupled.impact_scene import DENSITY, IMPACT_BANDS, StruckScene
+from scene2hap.propagation.coupled.impact_solution import solve_struck
 from scene2hap.propagation.coupled.joints import joints_of, legs_of, source_groups
 from scene2hap.propagation.coupled.legged_body import legged
 from scene2hap.propagation.coupled.object_response import ObjectResponse
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.solved_object import SolvedObject
-from scene2hap.propagation.coupled.struck_scene import DENSITY, IMPACT_BANDS, StruckScene
-from scene2hap.propagation.coupled.struck_solution import solve_struck
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.inclined_body import InclinedBody, inclined
 from scene2hap.propagation.plate import Plate, RigidBody

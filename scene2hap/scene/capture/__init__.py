@@ -21,13 +21,13 @@ from scene2hap import checks
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
 from scene2hap.plugins import PluginGroup
-from scene2hap.scene.capture.alone import SUBJECT, by_itself
+from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.batch import capture_stats, render_all
 from scene2hap.scene.capture.config import CaptureConfig
+from scene2hap.scene.capture.isolated_objects import SUBJECT, by_itself
+from scene2hap.scene.capture.lazy_pictures import CaptureStats, Studio
+from scene2hap.scene.capture.picture_sheets import contact_sheet, plan_view
 from scene2hap.scene.capture.protocol import RendererFactory
-from scene2hap.scene.capture.sheets import contact_sheet, plan_view
-from scene2hap.scene.capture.studio import CaptureStats, Studio
-from scene2hap.scene.given import given_scene
 from scene2hap.scene.images import ImageSet, ObjectImages
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot

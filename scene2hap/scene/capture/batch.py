@@ -15,10 +15,10 @@ from pathlib import Path
 
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.config import CaptureConfig
-from scene2hap.scene.capture.photographer import Photographer
+from scene2hap.scene.capture.lazy_pictures import CaptureStats, Studio
 from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
+from scene2hap.scene.capture.shot_rendering import Photographer
 from scene2hap.scene.capture.stage import Stage
-from scene2hap.scene.capture.studio import CaptureStats, Studio
 from scene2hap.scene.images import ImageSet, Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 

@@ -18,8 +18,8 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
+from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import planes, separates
-from scene2hap.scene.capture.paint import BACKGROUND_RGB, light
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import Extents, extents, in_view, planes, separates
-from scene2hap.scene.capture.paint import BACKGROUND_RGB, light
 from scene2hap.scene.capture.panda3d_screen import Look, Screen
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.stage import Stage

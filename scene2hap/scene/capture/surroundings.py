@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.capture.stage import Actor, Stage
-from scene2hap.scene.likeness import copy_key
+from scene2hap.scene.copies import copy_key
 from scene2hap.scene.objects import SceneObject
 
 Floats = NDArray[np.float64]

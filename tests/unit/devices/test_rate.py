@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import firwin, kaiserord
 
-from scene2hap.devices.pace import Pace
+from scene2hap.devices.due_frames import Pace
 from scene2hap.devices.rate import RateConverter
 
 RATES = [(48000, 4000), (48000, 2000), (44100, 4000), (48000, 8000), (8000, 44100), (48000, 3999), (4000, 8000)]

@@ -3,7 +3,7 @@
 import pytest
 
 from scene2hap.devices import SINKS
-from scene2hap.devices.clock import has_clock
+from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.memory import MemorySink
 from scene2hap.devices.protocol import ActuatorSink, SinkFormat
 from scene2hap.devices.soundcard import SoundCardSink

@@ -18,7 +18,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.report import write_report
 from scene2hap.report.document import document
 from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, felt_map
-from scene2hap.report.patches import patches_of
+from scene2hap.report.surface_points import patches_of
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ from scene2hap import (
     UserProfile,
 )
 from scene2hap.errors import SessionError, UnknownObject
-from scene2hap.propagation.coupled import struck_solution
+from scene2hap.propagation.coupled import impact_solution
 from scene2hap.propagation.coupled.hand import PALM
 from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
@@ -226,7 +226,7 @@ def test_a_hand_on_two_objects_feels_the_larger_answer() -> None:
 
 
 def test_without_memory_for_a_pair_a_worker_prepares_the_impact(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(struck_solution, "MOST_HELD_BYTES", 0)
+    monkeypatch.setattr(impact_solution, "MOST_HELD_BYTES", 0)
     made = session(propagation="modal_plate")
     made.update(touches=touches())
     assert made.wait_prepared(30.0)

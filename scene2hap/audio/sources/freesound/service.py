@@ -12,9 +12,9 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from scene2hap import web
-from scene2hap.audio.sources.freesound.rate import MINUTE_S, RateLimit
+from scene2hap.audio.sources.disk_cache import plain_line
+from scene2hap.audio.sources.freesound.rate_limit import MINUTE_S, RateLimit
 from scene2hap.audio.sources.freesound.sounds import FIELDS, Sound, read_sounds
-from scene2hap.audio.sources.store import plain_line
 from scene2hap.errors import BackendError, BackendUnavailable, BadAnswer
 from scene2hap.secret import Secret
 

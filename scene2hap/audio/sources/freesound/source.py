@@ -12,11 +12,11 @@ from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
+from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, is_long_enough
 from scene2hap.audio.sources.freesound import licences as cc
-from scene2hap.audio.sources.freesound.ladder import ladder
+from scene2hap.audio.sources.freesound.queries import ladder
 from scene2hap.audio.sources.freesound.service import Service
 from scene2hap.audio.sources.freesound.sounds import Sound, read_sounds
-from scene2hap.audio.sources.store import MAX_CLIP_S, Store, digest, is_long_enough
 from scene2hap.errors import AudioError, BackendUnavailable, ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.secret import Secret

@@ -7,7 +7,7 @@ from functools import cache
 
 from scene2hap.audio.sources.synth.patch import Patch
 from scene2hap.audio.sources.synth.table import MOTOR, TABLE
-from scene2hap.audio.sources.words import noun_phrase, stems
+from scene2hap.audio.sources.word_stems import noun_phrase, stems
 
 
 def patch_for(category: str, *phrases: str) -> Patch:

@@ -16,9 +16,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from scene2hap.audio.sources.store import plain_line
-from scene2hap.echoes import masked
+from scene2hap.audio.sources.disk_cache import plain_line
 from scene2hap.errors import BackendUnavailable
+from scene2hap.key_search import masked
 from scene2hap.secret import MASK
 
 MAX_FILES = 1000

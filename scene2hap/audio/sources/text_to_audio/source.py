@@ -17,7 +17,7 @@ from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
-from scene2hap.audio.sources.store import MAX_CLIP_S, Store, digest, plain_line
+from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, plain_line
 from scene2hap.audio.sources.text_to_audio.contract import Reply, Request, read_file, read_reply
 from scene2hap.audio.sources.text_to_audio.process import Allowance, CannotStart, environment, run, scrubbed
 from scene2hap.errors import AudioError, BackendError, BadAnswer, ConfigError

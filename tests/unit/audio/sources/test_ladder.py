@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from scene2hap.audio.sources.freesound.ladder import LONGEST_QUERY, ladder
+from scene2hap.audio.sources.freesound.queries import LONGEST_QUERY, ladder
 from scene2hap.haptics import VibrationDescription
 
 

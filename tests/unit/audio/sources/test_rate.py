@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scene2hap.audio.sources.freesound.rate import RateLimit
+from scene2hap.audio.sources.freesound.rate_limit import RateLimit
 from scene2hap.errors import BackendUnavailable
 
 

@@ -22,7 +22,7 @@ from scene2hap.audio.sources.synth.signals import SAMPLE_RATE_HZ, Signal, Take
 from scene2hap.audio.sources.synth.working import geared, rolling, rotor_slap, stepper
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import VibrationDescription
-from scene2hap.llm.lexicon.describing import describe
+from scene2hap.llm.lexicon.descriptions import describe
 from scene2hap.llm.lexicon.table import table
 
 STATES = [(row.noun, state.name, state.intensity) for row in table() for state in row.states]

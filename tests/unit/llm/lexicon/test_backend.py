@@ -10,7 +10,7 @@ from scene2hap.errors import BadAnswer
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer
 from scene2hap.llm.lexicon import LexiconBackend
-from scene2hap.llm.lexicon.describing import describe
+from scene2hap.llm.lexicon.descriptions import describe
 from scene2hap.llm.lexicon.table import table
 from scene2hap.llm.protocol import Component, LLMBackend, LLMRequest
 

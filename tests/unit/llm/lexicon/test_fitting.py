@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from scene2hap.llm.lexicon.judging import Measured, judge
+from scene2hap.llm.lexicon.categories import Measured, judge
 
 SURE = 0.9
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from scene2hap.llm.lexicon import spelling
+from scene2hap.llm.lexicon import word_split
 from scene2hap.llm.lexicon.names import places_named, read_name
-from scene2hap.llm.lexicon.spelling import split_words
+from scene2hap.llm.lexicon.word_split import split_words
 
 NAMES = {
     # serials, prefixes and suffixes of engines, exporters and modelling tools
@@ -210,4 +210,4 @@ def test_places_in_names() -> None:
     ],
 )
 def test_spelling_errors_are_distinguished_from_other_words(written: str, known: str, slip: bool) -> None:
-    assert spelling._is_slip(written, known) is slip
+    assert word_split._is_slip(written, known) is slip

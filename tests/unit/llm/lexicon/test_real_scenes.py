@@ -9,7 +9,7 @@ import pytest
 from others import SCENES, needed, there
 from rooms import ROOMS
 from scene2hap.demo import kitchen_path
-from scene2hap.llm.lexicon.judging import Measured, judge
+from scene2hap.llm.lexicon.categories import Measured, judge
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.places import kind_of_place
 

@@ -8,7 +8,7 @@ import pytest
 
 from scene2hap import materials
 from scene2hap.errors import UnknownMaterial
-from scene2hap.llm.lexicon import stand_ins, words
+from scene2hap.llm.lexicon import similar_materials, words
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.table import PLACES, ObjectRow, table
 
@@ -121,11 +121,11 @@ def test_every_row_is_plausible() -> None:
 
 def test_every_material_has_constants() -> None:
     for name in {row.material for row in table()} | set(words.PAINT_WORDS.values()):
-        assert stand_ins.constants(name).density_kg_m3 > 0.0
-    for name, stand_in in stand_ins.STAND_INS.items():
+        assert similar_materials.constants(name).density_kg_m3 > 0.0
+    for name, stand_in in similar_materials.STAND_INS.items():
         with pytest.raises(UnknownMaterial):
             materials.lookup(name)
-        assert stand_ins.constants(name) == materials.lookup(stand_in)
+        assert similar_materials.constants(name) == materials.lookup(stand_in)
 
 
 def test_needed_contacts_are_nouns_of_the_table() -> None:

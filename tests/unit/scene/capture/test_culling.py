@@ -7,8 +7,8 @@ import pytest
 
 from scene2hap import SceneObject, SceneSnapshot
 from scene2hap.scene.capture.config import CaptureConfig
-from scene2hap.scene.capture.photographer import Photographer
 from scene2hap.scene.capture.protocol import Selection
+from scene2hap.scene.capture.shot_rendering import Photographer
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.images import Shot
 from scenes import box, scene

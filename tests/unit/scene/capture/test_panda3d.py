@@ -13,7 +13,7 @@ from host import rasteriser_problem
 from scene2hap import SceneSnapshot
 from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.capture import capture_images
-from scene2hap.scene.capture.paint import BACKGROUND_RGB
+from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame

@@ -15,8 +15,8 @@ from others import SCENES, there
 from rooms import room_file
 from scene2hap import SceneSnapshot, load_scene
 from scene2hap.scene.capture import capture_images
+from scene2hap.scene.capture.lazy_pictures import Studio
 from scene2hap.scene.capture.protocol import Selection
-from scene2hap.scene.capture.studio import Studio
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.images import Shot
 

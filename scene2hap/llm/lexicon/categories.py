@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scene2hap.llm.answers import ObjectAnswer, StateAnswer
-from scene2hap.llm.lexicon.fitting import fit
-from scene2hap.llm.lexicon.making import make, painted_with
+from scene2hap.llm.lexicon.materials import make, painted_with
+from scene2hap.llm.lexicon.name_checks import fit
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
-from scene2hap.scene import sizes
+from scene2hap.scene import plate_sizes
 
 UNKNOWN = "unknown"
 
@@ -65,7 +65,7 @@ def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
 
 def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
     words = ", ".join(map(repr, reading.unread)) or "no word for an object"
-    thickness = sizes.with_thickness(item.size_m)[2]
+    thickness = plate_sizes.with_thickness(item.size_m)[2]
     assumed = (
         "" if thickness == item.size_m[2] else f" It was measured without thickness; {thickness:.2g} m is assumed."
     )

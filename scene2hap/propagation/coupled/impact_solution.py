@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, JointForces, couple, ends_of
 from scene2hap.propagation.coupled.hand import Hand
-from scene2hap.propagation.coupled.struck_scene import IMPACT_BANDS, HeldBody, Pair, StruckScene
+from scene2hap.propagation.coupled.impact_scene import IMPACT_BANDS, HeldBody, Pair, StruckScene
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

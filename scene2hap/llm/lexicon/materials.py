@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from scene2hap.llm.lexicon import spelling, words
+from scene2hap.llm.lexicon import word_split, words
 from scene2hap.llm.lexicon.names import NameReading, places_named
 from scene2hap.llm.lexicon.table import ObjectRow
 
@@ -23,7 +23,7 @@ def painted_with(material_names: Sequence[str]) -> str | None:
 
 
 def _painted_with(material_name: str) -> str | None:
-    tokens, _ = spelling.read_words(material_name)
+    tokens, _ = word_split.read_words(material_name)
     return next((words.PAINT_WORDS[word] for word in reversed(tokens) if word in words.PAINT_WORDS), None)
 
 

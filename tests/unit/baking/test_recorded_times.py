@@ -12,7 +12,7 @@ import pytest
 
 from scene2hap import HapticBundle, HapticLoop, ObjectHaptics, SourceState, bake, rebake
 from scene2hap.audio.run_curve import RunCurve
-from scene2hap.baking.recorded import NO_RUNS, RECORDING, shown_runs, with_recorded_times
+from scene2hap.baking.recorded_times import NO_RUNS, RECORDING, shown_runs, with_recorded_times
 from scene2hap.bundle.differences import differences
 from scene2hap.errors import BundleError
 from scenes import haptics, tone_loop

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.audio.spreading.room import Array, Outcome, Room, shortage_oct
+from scene2hap.audio.spreading.placements import Array, Outcome, Room, shortage_oct
 
 _N_X, _N_L = 49, 13
 _SWEEPS = 40

@@ -10,10 +10,10 @@ from collections.abc import Mapping
 from typing import Any, TypeGuard
 
 from scene2hap.errors import UnknownMaterial
+from scene2hap.llm.mass_check import mass_fault
 from scene2hap.llm.protocol import Component
-from scene2hap.llm.weighing import mass_fault
 from scene2hap.materials import MaterialRow, lookup_row
-from scene2hap.scene import sizes
+from scene2hap.scene import plate_sizes
 
 EDGES = ("length", "width", "thickness")
 _WHOLE = ("length", "width", "height")
@@ -94,7 +94,7 @@ def _sizes(answer: Mapping[str, Any], facts: Mapping[str, Any]) -> dict[str, str
         return {}
     stated = [answer.get(f"estimated_{name}_m") for name in EDGES]
     # A value that is not a number is reported elsewhere. The other values are still compared with the bounds.
-    found = sizes.faults(
+    found = plate_sizes.faults(
         [one if _is_number(one) else other for one, other in zip(stated, measured, strict=True)], measured
     )
     return {f"estimated_{edge}_m": why for edge, why in found.items() if _is_number(stated[EDGES.index(edge)])}

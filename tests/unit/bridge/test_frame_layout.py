@@ -2,7 +2,7 @@
 
 import pytest
 
-from scene2hap.bridge.layout import N_KEPT, Layouts
+from scene2hap.bridge.frame_layout import N_KEPT, Layouts
 from scene2hap.errors import BridgeError, UnknownObject
 
 

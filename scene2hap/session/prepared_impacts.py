@@ -1,7 +1,7 @@
 """Scenes prepared in advance around what hands touch, so that an impact is felt with the next block.
 
 A worker solves the joints around the touched objects once, for forces at any point of all that is connected with them
-(`propagation.coupled.struck_solution`), and again after contacts changed or a hand touched something else. Until then
+(`propagation.coupled.impact_solution`), and again after contacts changed or a hand touched something else. Until then
 the last answer stays in use.
 """
 
@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import Scene2HapError
-from scene2hap.propagation.coupled.struck_scene import StruckScene
+from scene2hap.propagation.coupled.impact_scene import StruckScene
 from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Body, CoupledModel
+from scene2hap.session.impact_gains import at_least_itself
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.struck import at_least_itself
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float, float]

@@ -9,7 +9,7 @@ from pathlib import Path
 from scene2hap import checks
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.errors import BundleError
-from scene2hap.scene.given import given_scene
+from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.settings import Settings
 

@@ -10,7 +10,7 @@ from llm_server import GOOD, request
 from scene2hap import FunctionBackend, LLMReply, LLMRequest, RepairBackend, materials
 from scene2hap.llm import chain
 from scene2hap.llm.chain import infer_scene
-from scene2hap.llm.plausible import constants, row_of
+from scene2hap.llm.plausibility import constants, row_of
 from scene2hap.llm.validation import find_fault
 from scene2hap.materials import table
 from scripted_backend import SCENE, Scripted, run

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scene2hap.scene.appearance import FaceMaterial
-from scene2hap.scene.capture.paint import AMBIENT, HEADLIGHT, SKYLIGHT, Palette, PaletteBuilder, light, neutral
+from scene2hap.scene.capture.colour_table import AMBIENT, HEADLIGHT, SKYLIGHT, Palette, PaletteBuilder, light, neutral
 
 
 def palette_of(*materials: FaceMaterial) -> Palette:

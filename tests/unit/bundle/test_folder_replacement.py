@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from scene2hap import HapticBundle
-from scene2hap.bundle import read_overrides, replacing
+from scene2hap.bundle import folder_replacement, read_overrides
 from scene2hap.bundle.checking import BundleWarning
-from scene2hap.bundle.exchange import exchange
+from scene2hap.bundle.folder_swap import exchange
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError
 from scenes import table_with_two_phones
 
@@ -29,7 +29,7 @@ def content(folder: Path) -> dict[str, bytes]:
 def both_ways(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """With the system's exchange, and as where there is none."""
     if request.param == "renames":
-        monkeypatch.setattr(replacing, "exchange", lambda one, other: False)
+        monkeypatch.setattr(folder_replacement, "exchange", lambda one, other: False)
 
 
 # --- what may be replaced ---------------------------------------------------------------------------------------------
@@ -179,7 +179,7 @@ def test_file_saved_by_an_editor_during_a_save_is_kept(tmp_path: Path, monkeypat
     """Editors write beside a file and rename: the name then means another file than the one that was linked."""
     folder = a_bundle().save(tmp_path / "room")
     (folder / "thesis.txt").write_text("ten years")
-    carry_over = replacing.carry_over
+    carry_over = folder_replacement.carry_over
 
     def and_then_edit(old: Path, new: Path) -> None:
         carry_over(old, new)
@@ -187,7 +187,7 @@ def test_file_saved_by_an_editor_during_a_save_is_kept(tmp_path: Path, monkeypat
         (tmp_path / "beside").rename(folder / "thesis.txt")
         (folder / "new.txt").write_text("a chapter")
 
-    monkeypatch.setattr(replacing, "carry_over", and_then_edit)
+    monkeypatch.setattr(folder_replacement, "carry_over", and_then_edit)
     a_bundle().save(folder)
     assert (folder / "new.txt").read_text() == "a chapter"
     assert {(folder / name).read_text() for name in ("thesis.txt", "thesis-kept.txt")} == {"ten years", "eleven years"}
@@ -213,16 +213,16 @@ def test_the_folder_s_mode_stays(tmp_path: Path) -> None:
 
 DIES = """
 import os, sys
-from scene2hap.bundle import folder, replacing
+from scene2hap.bundle import folder, folder_replacement
 from scenes import table_with_two_phones
 if sys.argv[2] == "between":
-    replacing.exchange = lambda one, other: False
-    rename, count = replacing.Path.rename, [0]
+    folder_replacement.exchange = lambda one, other: False
+    rename, count = folder_replacement.Path.rename, [0]
     def dying(self, target):
         if self.suffix == ".new":
             os._exit(9)
         return rename(self, target)
-    replacing.Path.rename = dying
+    folder_replacement.Path.rename = dying
 else:
     def hanging(bundle, draft):
         (draft / "half").write_text("written")
@@ -289,7 +289,7 @@ def test_removed_bundle_is_not_restored(tmp_path: Path) -> None:
 
 def test_failed_second_rename_restores_the_old_bundle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = a_bundle().save(tmp_path / "room")
-    monkeypatch.setattr(replacing, "exchange", lambda one, other: False)
+    monkeypatch.setattr(folder_replacement, "exchange", lambda one, other: False)
     rename = Path.rename
 
     def refuse(self: Path, target: Path) -> Path:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from scene2hap.errors import ConfigError
-from scene2hap.scene.capture.paint import BACKGROUND_RGB
+from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.png import png
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import shells

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scene2hap.scene.appearance import Appearance, FaceMaterial
-from scene2hap.scene.likeness import copy_key, name_words
+from scene2hap.scene.copies import copy_key, name_words
 from scene2hap.scene.pose import Pose
 from scenes import box
 

@@ -85,7 +85,7 @@ def direction(distance_m: float, way_m: Triple) -> Triple | None:
     return (x / length, y / length, z / length)
 
 
-class Holding:
+class Holders:
     """Bodies, their pairs and their holders, all by id; the finder reads and changes these mappings.
 
     Parameters: near : the neighbours of each body; certified : the bodies with a certificate, which neither hang from
@@ -100,7 +100,7 @@ class Holding:
         # Bodies without full support: larger bodies near them may hold them by hanging.
         self.unsupported: set[str] = set()
 
-    def holders(self, x: str) -> dict[str, Bond]:
+    def of(self, x: str) -> dict[str, Bond]:
         """Return the bonds by which other bodies hold a body: by support and, where that is below 1, by hanging."""
         body = self.bodies[x]
         below, lies_on = self._below(body) if self.body_pairs[x] else ({}, ())

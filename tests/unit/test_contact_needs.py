@@ -3,9 +3,9 @@
 import pytest
 
 from scene2hap import SourceState
+from scene2hap.contact_needs import meets
 from scene2hap.haptics import unmet_needs
 from scene2hap.llm.lexicon.table import table
-from scene2hap.needs import meets
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from scene2hap.audio.sources.words import noun_phrase, stems
+from scene2hap.audio.sources.word_stems import noun_phrase, stems
 
 
 @pytest.mark.parametrize(

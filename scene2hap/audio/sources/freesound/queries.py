@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from scene2hap.audio.sources.words import spelled_phrase
+from scene2hap.audio.sources.word_stems import spelled_phrase
 from scene2hap.haptics import VibrationDescription
 
 LONGEST_QUERY = 80

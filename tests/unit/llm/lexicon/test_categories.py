@@ -2,7 +2,7 @@
 
 import re
 
-from scene2hap.llm.lexicon.judging import Measured, judge
+from scene2hap.llm.lexicon.categories import Measured, judge
 from scene2hap.llm.lexicon.table import table
 
 # How they are spoken decides: a you-niform, an em-ar-eye scanner, an our-glass.

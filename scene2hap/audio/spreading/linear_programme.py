@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import csr_array
 
-from scene2hap.audio.spreading.room import LEVEL_STEP_DB, Array, Outcome, Room
+from scene2hap.audio.spreading.placements import LEVEL_STEP_DB, Array, Outcome, Room
 
 _SLACK_WEIGHT = 1000.0
 _NODES = 1000

@@ -26,9 +26,9 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from scene2hap.bundle.checking import BundleWarning
-from scene2hap.bundle.exchange import exchange
+from scene2hap.bundle.folder_swap import exchange
+from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.own_files import MANIFEST, our_files
-from scene2hap.bundle.strangers import carry_over, discard
 from scene2hap.errors import BundleError, BundleIncomplete
 
 try:

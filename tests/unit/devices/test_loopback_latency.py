@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.signal import butter, chirp, sosfilt
 
-from scene2hap.devices import loop_back
-from scene2hap.devices.loop_back import FOUND_FROM, LONGEST_S, Take, arrival, find, find_input
+from scene2hap.devices import loopback_latency
+from scene2hap.devices.loopback_latency import FOUND_FROM, LONGEST_S, Take, arrival, find, find_input
 from scene2hap.devices.portaudio import Card
 from scene2hap.errors import DeviceNotFound
 
@@ -95,7 +95,7 @@ def test_hum_is_not_detected_as_a_sweep(hz: float) -> None:
 
 
 def test_silence_and_short_recordings_contain_no_sweep() -> None:
-    assert find(np.zeros(12000), SWEEP) == find(SWEEP[:-1], SWEEP) == loop_back.Match(0, 0.0, 0.0)
+    assert find(np.zeros(12000), SWEEP) == find(SWEEP[:-1], SWEEP) == loopback_latency.Match(0, 0.0, 0.0)
     after_a_click = np.zeros(20000)
     after_a_click[:100] = 1.0
     assert abs(find(after_a_click, SWEEP).correlation) < FOUND_FROM

@@ -10,8 +10,8 @@ from threading import RLock
 
 from scene2hap.scene.capture.cache import MEMORY, FolderCache
 from scene2hap.scene.capture.config import CaptureConfig
-from scene2hap.scene.capture.photographer import Photographer
 from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
+from scene2hap.scene.capture.shot_rendering import Photographer
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import Copies, supports
 from scene2hap.scene.images import Shot

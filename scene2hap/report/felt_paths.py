@@ -18,7 +18,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.propagation.controls import FullPropagation, NoPropagation
 from scene2hap.propagation.exponential_plate import REFERENCE_HZ, ExponentialPlate
 from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
-from scene2hap.report.patches import Patch
+from scene2hap.report.surface_points import Patch
 from scene2hap.scene.objects import Contact
 from scene2hap.session.network import body_of
 

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from scene2hap.llm.answers import ObjectAnswer
-from scene2hap.llm.plausible import EDGES
-from scene2hap.scene import sizes
+from scene2hap.llm.plausibility import EDGES
+from scene2hap.scene import plate_sizes
 
 
-def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[sizes.Size, tuple[str, ...]]:
+def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[plate_sizes.Size, tuple[str, ...]]:
     """Return length, width and thickness [m] of a surface, and doubts. Replaces edges out of bounds by measured ones.
 
     If the thickness was not measured either, it is assumed.
     """
     stated = (answer.estimated_length_m, answer.estimated_width_m, answer.estimated_thickness_m)
-    wrong = sizes.faults(stated, measured_m)
+    wrong = plate_sizes.faults(stated, measured_m)
     if not wrong:
         return stated, ()
-    known = sizes.with_thickness(measured_m)
+    known = plate_sizes.with_thickness(measured_m)
     # Length and width are replaced together: a mix of stated and measured edges would be a third, wrong plate.
     replaced = {*wrong, *(("length", "width") if {"length", "width"} & {*wrong} else ())}
     length, width, thickness = (
@@ -28,6 +28,6 @@ def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[siz
     return (length, width, thickness), tuple(f"{edge}: {why}; {used[edge]}" for edge, why in wrong.items())
 
 
-def size_without_answer(measured_m: Sequence[float]) -> sizes.Size:
+def size_without_answer(measured_m: Sequence[float]) -> plate_sizes.Size:
     """Return the size [m] of a surface without an answer: as measured, with an assumed thickness if none is known."""
-    return sizes.with_thickness(measured_m)
+    return plate_sizes.with_thickness(measured_m)

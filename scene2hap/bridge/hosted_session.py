@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 
 from scene2hap.bridge.frames import Frame, decode_frame, encode_gains
-from scene2hap.bridge.played import PlayedSession
+from scene2hap.bridge.played_session import PlayedSession
 from scene2hap.bridge.session_warnings import forwarding_warnings
 from scene2hap.errors import BridgeError, Scene2HapError, UnknownSession
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from scene2hap.llm.answers import VibrationAnswer
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.places import UNDEFINED
-from scene2hap.llm.lexicon.starting import starting_of
+from scene2hap.llm.lexicon.start_times import starting_of
 from scene2hap.llm.lexicon.table import StateRow
 
 MAX_WORDS = 15

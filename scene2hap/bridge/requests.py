@@ -12,10 +12,10 @@ from typing import Any, cast
 from scene2hap import checks
 from scene2hap.bridge import messages
 from scene2hap.bridge.client import Client
-from scene2hap.bridge.garbage import settle_garbage
+from scene2hap.bridge.garbage_collection import settle_garbage
 from scene2hap.bridge.host import Host
-from scene2hap.bridge.hosted import HostedSession
-from scene2hap.bridge.played import PlayedSession
+from scene2hap.bridge.hosted_session import HostedSession
+from scene2hap.bridge.played_session import PlayedSession
 from scene2hap.bundle import HapticBundle
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink
