@@ -9,7 +9,9 @@ from libc.math cimport INFINITY, NAN, fabs, sqrt
 from libc.stdlib cimport calloc, free, malloc, realloc
 from libc.string cimport memcpy, memset
 
-# As in `triangles`, `mesh_distance`, `triangle_tree` and `spread`.
+from scene2hap.contact.geometry._spread cimport MAX_POINTS, farthest_points
+
+# As in `triangles`, `mesh_distance` and `triangle_tree`.
 cdef double PARALLEL = 1e-12
 cdef double RIM = 1e-9
 cdef double IN_PLANE_M = 1e-9
@@ -17,12 +19,8 @@ cdef double ROUNDING_M = 1e-9
 cdef double HOLDING = 0.5
 cdef double INSET = 1e-4
 cdef double INSET_M = 1e-4
-cdef double SPREAD_M = 0.005
-cdef double TIE_M = 1e-6
 # A point this far outside an edge, in barycentric units, is outside despite rounding.
 cdef double OUTSIDE = 1e-3
-cdef enum:
-    MAX_POINTS = 4
 
 
 cdef struct Box:
@@ -654,7 +652,7 @@ def contact_points(host, guest, turn, shift, way, double within):
         if search.points.at == NULL:
             raise MemoryError
         find(&search)
-        n = -1 if search.is_full else spread(chosen, search.points.at, search.points.n)
+        n = -1 if search.is_full else choose(chosen, search.points.at, search.points.n)
         if n < 0:
             raise MemoryError
         return [
@@ -668,97 +666,34 @@ cdef triple(const double* point):
     return (point[0], point[1], point[2])
 
 
-# --- farthest-point sampling, as `spread.spread` ---------------------------------------------------------------------
-
-cdef Py_ssize_t spread(Py_ssize_t* chosen, const double* ends, Py_ssize_t n) noexcept:
-    """Choose at most MAX_POINTS rows of the ends (n, 6), by their middles. Returns their number, -1 without memory."""
-    cdef double* points
-    cdef double* apart
-    cdef double[3] place
-    cdef double high
-    cdef Py_ssize_t row, count = 0
-    cdef int axis
-    if n == 0:
-        return 0
-    points = <double*>realloc(NULL, 4 * n * sizeof(double))
-    if points == NULL:
+cdef int choose(Py_ssize_t* chosen, const double* ends, Py_ssize_t n) noexcept:
+    """Choose a few of the ends (n, 6), by their middles. Returns how many, -1 without memory."""
+    cdef double* middles = <double*>malloc(4 * max(n, 1) * sizeof(double))
+    cdef Py_ssize_t row
+    cdef int axis, k, count
+    if middles == NULL:
         return -1
-    apart = points + 3 * n
-    for axis in range(3):
-        place[axis] = 0
-        for row in range(n):
-            points[3 * row + axis] = (ends[6 * row + axis] + ends[6 * row + axis + 3]) / 2
-            place[axis] += points[3 * row + axis]
-        place[axis] /= n
     for row in range(n):
-        apart[row] = apart_by(points + 3 * row, place)
-    chosen[0] = farthest(points, apart, ends, n)
-    count = 1
-    for row in range(n):
-        apart[row] = INFINITY
-    while count < MAX_POINTS:
-        high = 0
+        for axis in range(3):
+            middles[3 * row + axis] = (ends[6 * row + axis] + ends[6 * row + axis + 3]) / 2
+    count = farthest_points(chosen, middles, middles + 3 * n, n, 3)
+    for k in range(count):
+        # Among equal middles the ends decide, so that the order of the search has no effect.
         for row in range(n):
-            apart[row] = lesser(apart[row], apart_by(points + 3 * row, points + 3 * chosen[count - 1]))
-            high = greater(high, apart[row])
-        if high <= SPREAD_M:
-            break
-        chosen[count] = farthest(points, apart, ends, n)
-        count += 1
-    free(points)
+            if compared(middles + 3 * row, middles + 3 * chosen[k], 3) == 0:
+                if compared(ends + 6 * row, ends + 6 * chosen[k], 6) < 0:
+                    chosen[k] = row
+    free(middles)
     return count
 
 
-cdef inline double apart_by(const double* x, const double* y) noexcept:
-    cdef double way[3]
-    less(way, x, y)
-    return sqrt(dot(way, way))
-
-
-cdef Py_ssize_t farthest(const double* points, const double* apart, const double* ends, Py_ssize_t n) noexcept:
-    """Return the row with the largest distance `apart`. Ties, up to rounding, go to the least first coordinate, then
-    the second, then the third; then exact comparison decides."""
-    cdef double[4] limits
-    cdef Py_ssize_t row, best = -1
-    cdef int axis
-    limits[0] = 0
-    for row in range(n):
-        limits[0] = greater(limits[0], apart[row])
-    limits[0] -= TIE_M
-    for axis in range(3):
-        limits[axis + 1] = INFINITY
-        for row in range(n):
-            if is_left(points, apart, row, limits, axis):
-                limits[axis + 1] = lesser(limits[axis + 1], points[3 * row + axis])
-        limits[axis + 1] += TIE_M
-    for row in range(n):
-        if is_left(points, apart, row, limits, 3) and (best < 0 or is_before(points, ends, row, best)):
-            best = row
-    return best
-
-
-cdef inline bint is_left(
-    const double* points, const double* apart, Py_ssize_t row, const double* limits, int n_axes
-) noexcept:
-    cdef int axis
-    if apart[row] < limits[0]:
-        return False
-    for axis in range(n_axes):
-        if points[3 * row + axis] > limits[axis + 1]:
-            return False
-    return True
-
-
-cdef inline bint is_before(const double* points, const double* ends, Py_ssize_t row, Py_ssize_t other) noexcept:
-    """Compare two rows by their middles, then by their ends."""
-    cdef int axis
-    for axis in range(3):
-        if points[3 * row + axis] != points[3 * other + axis]:
-            return points[3 * row + axis] < points[3 * other + axis]
-    for axis in range(6):
-        if ends[6 * row + axis] != ends[6 * other + axis]:
-            return ends[6 * row + axis] < ends[6 * other + axis]
-    return False
+cdef inline int compared(const double* x, const double* y, int n) noexcept:
+    """Return -1, 0 or 1 if one row of coordinates is before, equal to or behind another."""
+    cdef int k
+    for k in range(n):
+        if x[k] != y[k]:
+            return -1 if x[k] < y[k] else 1
+    return 0
 
 
 # --- drops -----------------------------------------------------------------------------------------------------------
