@@ -100,7 +100,10 @@ class Choice:
 
 
 def select_clip(clips: Sequence[AudioClip]) -> AudioClip:
-    """Return the best candidate by the rule above, cut and normalised. Raises: AudioError: see `explain_choice`."""
+    """Return the steadiest and most tonal candidate, without its silent ends, normalised.
+
+    The rule is the paper's (docs/audio.md). Raises: AudioError: see `explain_choice`.
+    """
     return explain_choice(clips).winner
 
 

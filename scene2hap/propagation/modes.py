@@ -170,7 +170,7 @@ class PlateModes:
 
 
 def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: float | None = None) -> PlateModes:
-    """The lowest `n_modes` modes, or all up to `max_frequency_hz`, rigid motions included.
+    """Compute the lowest `n_modes` modes of a plate, or all up to `max_frequency_hz`, rigid motions included.
 
     Frequencies are within 1e-3 of converged ones, from above. Shear and rotary inertia are left out, see
     `domain.THIN_WAVELENGTHS`. Answers are remembered by plate.

@@ -34,7 +34,7 @@ Gains = NDArray[np.float32]
 
 @clear_attributes
 class HapticFrame:
-    """The result of one update: gains of all hands.
+    """The result of one update: the gain of each source at each hand.
 
     Parameters: gains : (n_hands, n_sources, n_bands) float32 [-], or a function that computes them.
     """
@@ -64,7 +64,7 @@ class HapticFrame:
 
     @clear_call
     def gain(self, hand: str, source_id: str) -> float:
-        """The loudest band's gain of a source at a hand [-].
+        """Return the gain of a source at a hand, in its loudest band [-].
 
         Raises: SessionError: no such hand; UnknownObject: no such source.
         """
