@@ -86,7 +86,7 @@ def test_the_band_is_3_db_down_at_the_ends_of_the_pitch() -> None:
 
 
 @pytest.mark.parametrize("kind", ["steady", "noise", "impulses", "silence"])
-def test_what_has_no_pitch_that_moves_keeps_its_band(kind: str) -> None:
+def test_a_sound_without_moving_pitch_keeps_its_band(kind: str) -> None:
     rng = np.random.default_rng(4)
     noise = rng.standard_normal(len(T))
     sound = {
