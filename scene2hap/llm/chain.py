@@ -114,7 +114,9 @@ def infer_haptics(
     user_prompt: str = "",
     config: InferenceConfig | Mapping[str, Any] | None = None,
 ) -> dict[str, ObjectHaptics]:
-    """Return the haptics of each object by id. Where an event loop runs, use `infer_scene`.
+    """Infer category, material and vibration of each object of a scene, without sounds. Returns them by id.
+
+    Where an event loop runs, use `infer_scene`.
 
     Parameters: scene : a snapshot or the path of a scene file; backend : a backend, its kind, or a mapping with a kind.
     """

@@ -127,9 +127,9 @@ class ModeBlock:
 class PlateModes:
     """Modes of a plate, from the lowest: their frequencies and shapes.
 
-    x, y : basis functions of each axis; blocks : modes by symmetry, one block for each pair of symmetries along x and y;
-    block, column : (n_modes,) place of each mode in the blocks; of_modes : numbers of basis functions along length and
-    width that the modes consist of, the first ones.
+    x, y : basis functions of each axis; blocks : modes by symmetry, one block for each pair of symmetries along both
+    axes; block, column : (n_modes,) place of each mode in the blocks; of_modes : numbers of basis functions along
+    length and width that the modes consist of, the first ones.
     """
 
     plate: Plate

@@ -34,7 +34,7 @@ Body = Plate | RigidBody
 @clear_construction
 @dataclass(frozen=True)
 class Excitation:
-    """A vibrating object: its dominant frequency before and after conversion [Hz], and its mass [kg]."""
+    """A source, as input of a model: its dominant frequency before and after conversion [Hz], and its mass [kg]."""
 
     source_id: str
     frequency_raw_hz: float

@@ -103,14 +103,14 @@ class SkipCounts:
 class SessionStats:
     """Counters of a session, as `HapticSession.stats` returns them.
 
-    Parameters: updates : calls of `update`; fields_prepared : fields taken into use, and changes of contacts that a live
-    field followed; gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no
-    vibration, since their material is unknown; field_age_s : time since the field in use went out of date, 0 while it is current [s];
-    field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed : preparations that
-    the model refused, while the last field stayed in use; last_failure : the model's message; touches_off_surface :
-    touches more than 5 cm off the box around their object, in the first 16 updates with touches and in one of 16 later
-    ones; impacts : impacts, reported or found; impacts_felt : impacts that a hand felt; impacts_left_out : impacts that
-    followed one another too fast, or came while too many sounded.
+    Parameters: updates : calls of `update`; fields_prepared : fields taken into use, and changes of contacts that a
+    live field followed; gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no
+    vibration, since their material is unknown; field_age_s : time since the field in use went out of date, 0 while it
+    is current [s]; field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed :
+    preparations that the model refused, while the last field stayed in use; last_failure : the model's message;
+    touches_off_surface : touches more than 5 cm off the box around their object, in the first 16 updates with touches
+    and in one of 16 later ones; impacts : impacts, reported or found; impacts_felt : impacts that a hand felt;
+    impacts_left_out : impacts that followed one another too fast, or came while too many sounded.
     """
 
     updates: int = 0

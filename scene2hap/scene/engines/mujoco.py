@@ -65,8 +65,8 @@ def snapshot(
     Parameters:
     model, data : `mujoco.MjModel` and `mujoco.MjData`.
     name : of the scene; None means the model's.
-    geom_groups : the numbers of the geom groups that are drawn; None draws, of each body, the geoms that cannot collide,
-        or all if it has none of these.
+    geom_groups : the numbers of the geom groups that are drawn; None draws the geoms of a body that cannot collide, or
+        all if it has none of these.
     contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo has none between
         bodies that cannot move against each other, such as a kettle welded to its stove.
     masses : None has them inferred; "engine" takes `model.body_mass`. Use that only if the model's author gave masses:
