@@ -127,7 +127,7 @@ def test_settings_from_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]
         (["bake", str(kitchen_path()), "-o", "b", "--sounds", "none"], "none"),
     ],
 )
-def test_trouble_is_one_line_that_a_person_can_act_on(
+def test_error_is_one_line_with_the_next_step(
     arguments: list[str],
     sentence: str,
     tmp_path: Path,
