@@ -66,7 +66,7 @@ class Candidate:
         )
 
 
-COLUMNS = ("", "sound", "origin", ">s", ">range dB", ">flatness", ">peak Hz", ">felt Hz", "verdict")
+COLUMNS = ("", "sound", "origin", ">s", ">range dB", ">flatness", ">peak Hz", ">10-1000 Hz", "verdict")
 """Headings of `Candidate.cells`; a leading ">" sets a column to the right."""
 
 

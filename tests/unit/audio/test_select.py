@@ -129,7 +129,7 @@ def test_choice_is_printed_as_a_table() -> None:
         "flatness",
         "peak",
         "Hz",
-        "felt",
+        "10-1000",
         "Hz",
         "verdict",
     ]
