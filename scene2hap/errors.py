@@ -4,34 +4,34 @@ Every intentional error of scene2hap is a `Scene2HapError`. Most errors also inh
 that ``except ValueError`` works for callers who do not know the tree::
 
     Scene2HapError
-    ├── CallError (TypeError)               a call with arguments that do not exist, are missing, or are too many
-        ├── UnknownAttribute (AttributeError)   an attribute that does not exist; suggests a similar one
-    ├── ReadOnlyAttribute (AttributeError)  an attribute that cannot be set
-    ├── ConfigError (ValueError)            a setting that cannot work
-    │   ├── UnknownPlugin (LookupError)     a `kind` that is not registered
-    │   └── MissingExtra (ImportError)      an optional dependency is not installed; names the extra
-    ├── SceneError (ValueError)             a scene that cannot be read or makes no sense
-        │   ├── SceneFormatError                the content does not match the file's name or header
-    │   └── UnknownObject (KeyError)        an object id that the scene does not have
-    ├── MaterialError (ValueError)          a material constant outside its bound
-    │   └── UnknownMaterial (LookupError)   no row in the table under that name
-    ├── ModelDomainError (ValueError)       a physical model used outside the range where it holds
-    ├── AudioError (ValueError)             a sound that cannot be used
-    │   └── ClipError                       a haptic clip, or its file, that cannot be used
-    ├── BundleError (ValueError)            a bundle folder that cannot be read or written
-        │   ├── BundleIncomplete                a file is missing, cut short or was only partly changed
-    │   └── BundleVersionError              written by a newer scene2hap
-    ├── ExportError (ValueError)            an export that cannot be made
-        ├── SessionError (ValueError)           invalid input at play time
-        ├── BridgeError (ValueError)            an invalid message of a client
-    │   └── UnknownSession (LookupError)    a session that the bridge does not have, or no longer
-    ├── BackendError                        a language-model or sound service
-        │   ├── BackendUnavailable (ConnectionError)  unreachable, or refuses; states if a retry can help
-    │   ├── BadAnswer (ValueError)          the answer fails its schema; carries the raw text
-        │   │   └── AnswerRefused               the model, or a filter before it, refuses to answer
-        │   ├── BudgetExceeded                  the next call would exceed a limit
-    │   └── ReplayMiss (LookupError)        no recorded answer for this request; carries the key
-    └── DeviceError (OSError)               an actuator
+    ├── CallError (TypeError)                     a call with arguments that do not exist, are missing, or are too many
+    ├── UnknownAttribute (AttributeError)         an attribute that does not exist; suggests a similar one
+    ├── ReadOnlyAttribute (AttributeError)        an attribute that cannot be set
+    ├── ConfigError (ValueError)                  a setting that cannot work
+    │   ├── UnknownPlugin (LookupError)           a `kind` that is not registered
+    │   └── MissingExtra (ImportError)            an optional dependency is not installed; names the extra
+    ├── SceneError (ValueError)                   a scene that cannot be read or makes no sense
+    │   ├── SceneFormatError                      the content does not match the file's name or header
+    │   └── UnknownObject (KeyError)              an object id that the scene does not have
+    ├── MaterialError (ValueError)                a material constant outside its bound
+    │   └── UnknownMaterial (LookupError)         no row in the table under that name
+    ├── ModelDomainError (ValueError)             a physical model used outside the range where it holds
+    ├── AudioError (ValueError)                   a sound that cannot be used
+    │   └── ClipError                             a haptic clip, or its file, that cannot be used
+    ├── BundleError (ValueError)                  a bundle folder that cannot be read or written
+    │   ├── BundleIncomplete                      a file is missing, cut short or was only partly changed
+    │   └── BundleVersionError                    written by a newer scene2hap
+    ├── ExportError (ValueError)                  an export that cannot be made
+    ├── SessionError (ValueError)                 invalid input at play time
+    ├── BridgeError (ValueError)                  an invalid message of a client
+    │   └── UnknownSession (LookupError)          a session that the bridge does not have, or no longer
+    ├── BackendError                              a language-model or sound service
+    │   ├── BackendUnavailable (ConnectionError)  unreachable, or refuses; states if a retry can help
+    │   ├── BadAnswer (ValueError)                the answer fails its schema; carries the raw text
+    │   │   └── AnswerRefused                     the model, or a filter before it, refuses to answer
+    │   ├── BudgetExceeded                        the next call would exceed a limit
+    │   └── ReplayMiss (LookupError)              no recorded answer for this request; carries the key
+    └── DeviceError (OSError)                     an actuator
         ├── DeviceNotFound
         ├── DeviceLost
         └── DeviceTimeout (TimeoutError)

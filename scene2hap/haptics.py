@@ -169,7 +169,7 @@ class VibrationDescription:
 @clear_construction
 @dataclass(frozen=True)
 class ActuatorProfile:
-    """The abilities of an actuator: name, usable band and resonance [Hz], and response.
+    """Properties of an actuator: name, usable band and resonance [Hz], response, and limits.
 
     `q` is the quality factor of the resonance [-]; None, or no resonance, means a flat response. `response_db` is a
     measured response as points (frequency [Hz], level [dB]) in rising order of frequency; it replaces the resonance.

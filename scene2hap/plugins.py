@@ -140,7 +140,7 @@ class PluginGroup:
             if entry.name in self.extras:
                 extra = self.extras[entry.name]
                 raise MissingExtra(
-                    f"{entry.name!r} needs {cause.name or 'a package'} that is not installed. "
+                    f"{entry.name!r} needs the package {cause.name or 'of its extra'}, which is not installed. "
                     f"Run: pip install 'scene2hap[{extra}]'"
                 ) from cause
             raise ConfigError(f"{self.name} kind {entry.name!r} ({entry.value}) does not import: {cause}") from cause

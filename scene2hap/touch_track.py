@@ -100,7 +100,7 @@ Step = Annotated[
 
 @clear_attributes
 class TouchTrack(BaseModel):
-    """Steps in order of time, and the duration of the track."""
+    """Recorded touches, moves and switches in order of time, as a file of touches has them; and their duration [s]."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 

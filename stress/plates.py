@@ -8,7 +8,7 @@ any loss. Queries every model for the receptance among four points, corners and 
 
     not finite     NaN or infinite
     gains energy   a driven point with a positive imaginary part, or the matrix among all points with an eigenvalue of
-                   it above 1e-4 of its largest entry (docs/propagation.md says what a near field leaves out)
+                   it above 1e-4 of its largest entry (docs/physical-models.md: what a near field leaves out)
     negative       a driven point of a held plate that moves against the force far below its first resonance
     slow           more than a second of processor time without a warning
     other          any error outside scene2hap's own tree, or a floating-point warning

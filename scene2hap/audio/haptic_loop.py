@@ -40,7 +40,7 @@ class Sensation:
                 checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError)
 
     def __str__(self) -> str:
-        weaker = f" of {self.asked_level_db:.1f} asked" if self.asked_level_db - self.level_db >= NOTICED_DB else ""
+        weaker = f" ({self.asked_level_db:.1f} dB planned)" if self.asked_level_db - self.level_db >= NOTICED_DB else ""
         moved = f", moved from {self.own_hz:.0f}" if self.own_hz and self.is_moved else ""
         at = f" at {self.target_hz:.0f} Hz{moved}" if self.target_hz else ""
         rough = f", rough at {self.rough_hz:.0f} Hz" if self.rough_hz else ""

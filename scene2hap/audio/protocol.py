@@ -17,7 +17,7 @@ from scene2hap.plugins import Members, lacking
 
 @runtime_checkable
 class AudioSource(Protocol):
-    """A source that finds or generates sounds for a description."""
+    """Interface of sources that find or generate sounds for a description."""
 
     def find(self, description: VibrationDescription) -> list[AudioClip]:
         """Return candidates, best first; an empty list if there are none. Raises: BackendUnavailable, AudioError."""
@@ -27,7 +27,7 @@ class AudioSource(Protocol):
 @clear_construction
 @dataclass(frozen=True)
 class ConversionContext:
-    """The data of a scene that a converter needs.
+    """Data for a converter: the actuator, the intensity, and the frequencies of the source and of its neighbours.
 
     actuator : the profile to convert for; intensity : of the source, 0..1; neighbours_hz : dominant frequencies of the
     scene's other sources [Hz]; unused with a `target_hz`, which takes them into account.
@@ -69,7 +69,10 @@ class TactileStream(Protocol):
 
 @runtime_checkable
 class TactileConverter(Protocol):
-    """Converts sound to a vibrotactile signal. Set `follows_target = True` if it moves a source to `target_hz`."""
+    """Interface of converters from sound to a vibrotactile signal.
+
+    Set `follows_target = True` if it moves a source to `target_hz`.
+    """
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> TactileStream:
         """Start a conversion at a sample rate. Several may run at once, each in its own thread."""

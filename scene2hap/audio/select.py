@@ -66,7 +66,7 @@ class Candidate:
         )
 
 
-COLUMNS = ("", "sound", "origin", ">s", ">range dB", ">flatness", ">peak Hz", ">felt Hz", "verdict")
+COLUMNS = ("", "sound", "origin", ">s", ">range dB", ">flatness", ">peak Hz", ">10-1000 Hz", "verdict")
 """Headings of `Candidate.cells`; a leading ">" sets a column to the right."""
 
 
@@ -100,7 +100,10 @@ class Choice:
 
 
 def select_clip(clips: Sequence[AudioClip]) -> AudioClip:
-    """Return the best candidate by the rule above, cut and normalised. Raises: AudioError: see `explain_choice`."""
+    """Return the steadiest and most tonal candidate, without its silent ends, normalised.
+
+    The rule is the paper's (docs/audio.md). Raises: AudioError: see `explain_choice`.
+    """
     return explain_choice(clips).winner
 
 

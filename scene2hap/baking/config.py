@@ -23,7 +23,7 @@ def _sources(specs: object) -> object:
 
 
 class BakeConfig(InferenceConfig):
-    """Settings of a bake. Every part is chosen by a `kind`, or given ready made.
+    """Settings of a bake, from Python or a TOML or JSON file. A `kind` chooses each exchangeable part.
 
     llm : the backend of inference; `InferenceConfig` has the settings of inference itself. A backend with a network
         address gets retries, repairs and a cache (`standard_stack`), unless it is given ready made.

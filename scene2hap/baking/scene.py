@@ -54,7 +54,9 @@ def bake(
     on_report: OnReport | None = None,
     overrides: Mapping[str, Override] | None = None,
 ) -> HapticBundle:
-    """Bake a scene. Where an event loop runs, use `abake`.
+    """Infer each object's material and vibration, and make the loops of each source. Returns the bundle.
+
+    In a notebook, where an event loop runs, write `bundle = await abake(scene)`.
 
     Parameters:
     scene : a snapshot, or the path of a scene file, which `load_scene` reads.

@@ -39,7 +39,7 @@ _PITCH_HZ = (10.0, 1000.0)
 @clear_construction
 @dataclass(frozen=True)
 class Override:
-    """A correction. A field of None keeps the inferred value.
+    """A person's correction of one object. A field of None keeps the inferred value.
 
     vibrates : True if the object vibrates by itself.
     gain_db : its level at the hand, relative to the inferred one [dB].

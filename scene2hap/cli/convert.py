@@ -88,8 +88,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             missing_db = one.asked_level_db - one.level_db
             if missing_db > _CLOSE_DB:
                 console.warn(
-                    f"{one.output}: is felt {missing_db:.0f} dB weaker than its intensity asks for; its peaks, or what "
-                    "the actuator renders, leave no more."
+                    f"{one.output} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks "
+                    "or the actuator allow no more. Give a smaller --intensity, or a sound that is steadier."
                 )
     for failure in failed:
         console.fail(failure.reason)
@@ -104,7 +104,10 @@ def _show(console: Console, made: list[Conversion]) -> None:
     total = sum(one.duration_s for one in made)
     console.table(
         f"{len(made)} files, {total:.1f} s of sound",
-        ("file", ">s", ">peak in dB", ">out", ">felt dB", ">strongest in Hz", ">out", ">x real time"),
+        (
+            *("file", ">duration s", ">peak before dB", ">peak after dB", ">felt dB"),
+            *(">strongest before Hz", ">strongest after Hz", ">times real time"),
+        ),
         (
             (
                 str(one.output),

@@ -84,5 +84,10 @@ def _show(console: Console, report: ExportReport) -> None:
             )
         )
     console.table(
-        report.folder, ("format", "track", ">s", ">dB off", ">dB off (95 %)", ">JND off", ">points a second"), rows
+        report.folder,
+        (
+            *("format", "track", ">duration s", ">amplitude error dB", ">95 % dB", ">frequency error JND"),
+            ">points per s, amplitude + frequency",
+        ),
+        rows,
     )

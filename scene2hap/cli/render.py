@@ -47,7 +47,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     peaks = {hand: float(highest[i]) for i, hand in enumerate(("left", "right"))}
     console.table(
         arguments.output,
-        ("hand", ">peak"),
+        ("hand", ">peak, 1 is full scale"),
         ((hand, f"{peak:.3f}") for hand, peak in peaks.items()),
     )
     console.say(f"wrote {arguments.output}")

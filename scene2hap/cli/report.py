@@ -116,7 +116,7 @@ def _account(bundle: HapticBundle, object_id: str) -> dict[str, Any]:
         ("material", haptics.material_category, by.get("material", "")),
         (
             "surface",
-            " x ".join(f"{1e3 * edge:.3g}" for edge in haptics.estimated_size_m) + " mm",
+            " x ".join(f"{1e3 * edge:{'.0f' if edge >= 0.1 else '.3g'}}" for edge in haptics.estimated_size_m) + " mm",
             by.get("estimated_size_m", ""),
         ),
         ("usage", haptics.usage, by.get("usage", "")),

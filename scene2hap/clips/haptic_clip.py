@@ -97,7 +97,7 @@ class About:
 @clear_construction
 @dataclass(frozen=True, eq=False)
 class HapticClip:
-    """Vibration as envelopes.
+    """A haptic clip: vibration as curves of amplitude and frequency over time, and pulses.
 
     Parameters:
     amplitude : curve of the peak amplitude of a sine wave, 0..1 [-]; it may begin at any time, and ends with the clip.

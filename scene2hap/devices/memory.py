@@ -12,7 +12,7 @@ from scene2hap.errors import DeviceError
 
 @clear_calls
 class MemorySink(Pulled):
-    """A sink that stores the mix in memory. It has no clock of its own: `pull` requests the next frames."""
+    """Store the mix in memory, where `samples` has it. It has no clock of its own: `pull` requests the next frames."""
 
     def __init__(self) -> None:
         self._format: SinkFormat | None = None

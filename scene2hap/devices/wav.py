@@ -18,7 +18,9 @@ from scene2hap.errors import ConfigError, DeviceError
 
 @clear_calls
 class WavSink(Pulled):
-    """A sink that writes the mix as 24-bit PCM. It has no clock of its own: `pull` requests the next frames.
+    """Write the mix to a WAV file of 24 bits, one channel per hand.
+
+    It has no clock of its own: `pull` requests the next frames, `pull_s` the next seconds.
 
     The file appears under its name when the sink is closed; a run that fails leaves none. Samples are integers: the
     header of a float file contains a time stamp, so equal runs would give different files.

@@ -18,7 +18,7 @@ from scene2hap.session.frame import unknown_hand
 
 @clear_calls
 class MuJoCoLink(EngineLink):
-    """Follow a model: call `link.update()` after each `mj_step`.
+    """Let a session follow a running MuJoCo model: call `link.update()` after each `mj_step`.
 
     Parameters:
     model, data, geom_groups, unit_m : as for `scene.engines.mujoco.snapshot`.

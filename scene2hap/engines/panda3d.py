@@ -14,7 +14,7 @@ from scene2hap.session import HapticSession
 
 @clear_calls
 class Panda3DLink(EngineLink):
-    """Follow the nodes below a NodePath: call `link.update(touches)` once per frame.
+    """Let a session follow the nodes below a Panda3D NodePath: call `link.update(touches)` once per frame.
 
     Nodes are looked up once, in the constructor. If the game removes a node from the graph, its object keeps its pose
     until `session.remove(id)`. Panda3D reports no contacts and no hands, so contacts are found from geometry, and the

@@ -32,7 +32,8 @@ class FileReport:
         points = ""
         if self.fidelity is not None and self.fidelity.amplitude_points:
             amplitude, frequency = self.points_per_s
-            points = f"; {amplitude:.1f} + {frequency:.1f} points a second, {self.fidelity.transients} transients"
+            points = f"; {amplitude:.1f} amplitude and {frequency:.1f} frequency points a second"
+            points += f", {self.fidelity.transients} transients"
         return f"{self.kind} {name}: {fidelity}{points}"
 
 

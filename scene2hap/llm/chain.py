@@ -114,7 +114,9 @@ def infer_haptics(
     user_prompt: str = "",
     config: InferenceConfig | Mapping[str, Any] | None = None,
 ) -> dict[str, ObjectHaptics]:
-    """Return the haptics of each object by id. Where an event loop runs, use `infer_scene`.
+    """Infer category, material and vibration of each object of a scene, without sounds. Returns them by id.
+
+    Where an event loop runs, use `infer_scene`.
 
     Parameters: scene : a snapshot or the path of a scene file; backend : a backend, its kind, or a mapping with a kind.
     """
@@ -262,7 +264,7 @@ class _Chain:
     async def _estimate(self, word: str) -> Estimate:
         if word in UNKNOWN:
             self._report.skipped["unknown_material"] += 1
-            return Estimate(None, "not asked: the material is unknown")
+            return Estimate(None, "no estimate: the material is unknown")
         if self._settings.materials == "table" and (known := from_table(word)) is not None:
             self._report.skipped["table_material"] += 1
             return known
@@ -390,7 +392,7 @@ def _word(category: str) -> str:
 
 
 def _unreached(word: str) -> Estimate:
-    return from_table(word) or Estimate(None, "not asked: no source reaches it")
+    return from_table(word) or Estimate(None, "no estimate: no source reaches it")
 
 
 def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:

@@ -17,12 +17,12 @@ COMPONENTS: tuple[Component, ...] = get_args(Component)
 @clear_construction
 @dataclass(frozen=True)
 class LLMRequest:
-    """One question.
+    """One question to a language model; its answer must be JSON of `answer_schema`.
 
-    `prompt` is the filled template. `facts` are its values (JSON values), for backends that do not read prose.
-    `answer_schema` is the JSON schema of the answer. `subject` is the object's id, "" for the scene.
-    `images` are PNG files in the order in which the prompt names them. They may be rendered only when they are read, so
-    that a backend without vision causes no rendering.
+    `component` names the kind of question. `prompt` is the filled template. `facts` are its values (JSON values), for
+    backends that do not read prose. `answer_schema` is the JSON schema of the answer. `subject` is the object's id, ""
+    for the scene. `images` are PNG files in the order in which the prompt names them. They may be rendered only when
+    they are read, so that a backend without vision causes no rendering.
     """
 
     component: Component
@@ -38,7 +38,7 @@ class LLMRequest:
 @clear_construction
 @dataclass(frozen=True)
 class LLMReply:
-    """One answer: `text` is a JSON document; `model` is its author; `usage` counts tokens if known.
+    """One answer of a language model: `text` is a JSON document; `model` is its author; `usage` counts tokens if known.
 
     `usage` has prompt_tokens, completion_tokens and cached_tokens, the prompt tokens from the service's prompt cache.
     `service_tier` is the tier that the service billed, "" for its standard one.
@@ -57,7 +57,7 @@ class LLMReply:
 
 @runtime_checkable
 class LLMBackend(Protocol):
-    """Answer requests. A backend may get several at the same time."""
+    """Interface of language models: `complete` answers a request. Several requests may run at the same time."""
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the answer. Raises: BackendUnavailable, BadAnswer, ReplayMiss."""

@@ -1,9 +1,9 @@
 """AutoFidelity: for each object the cheapest physical model within a stated error, with its reason.
 
-A rung of `auto_rungs` is chosen for every plate that a source can reach, before anything is solved, and all are coupled
-as `substructuring` does. The dearest is `ModalPlate` itself, so that a scene never costs more than with it. Along a
-chain of plates errors know nothing of one another: those of real scenes keep the tolerance without a share for each
-(docs/propagation.md). A fifth of the tolerance goes to sampling bands more thinly than `sampling` does for itself:
+A rung of `auto_rungs` is chosen for every plate that a source can reach, before anything is solved. All plates are then
+coupled by `substructuring`. The most expensive rung is `ModalPlate` itself, so a scene never costs more than with it.
+Errors along a chain of plates are independent, so each plate may use the whole tolerance: the total error of real
+scenes stays within it (docs/figures/propagation.md). A fifth of the tolerance allows coarser sampling of bands:
 
     error = 2 exp(-pi / d) of a resonance's power, sampled at d half-power widths
 
@@ -53,10 +53,10 @@ class AutoField(CoupledField):
 @clear_construction
 @dataclass(frozen=True)
 class AutoFidelity:
-    """The cheapest rung for each object.
+    """Physical model that picks the cheapest of six plate models for each object, within a stated error.
 
-    Parameters: tolerance_db : 0.1..6 [dB], error of a band's gain that is allowed, against `ModalPlate`; gains below
-    -40 dB re the source count as -40 dB. It held in all of 1,570 touches in real scenes (docs/propagation.md).
+    Parameters: tolerance_db : 0.1..6 [dB], allowed error of a band's gain against `ModalPlate`; gains below -40 dB re
+    the source count as -40 dB. It held in all of 1,570 touches in real scenes (docs/figures/propagation.md).
     loss_floor, contact, outside_domain, hand : as of `ModalPlate`.
     Raises: ConfigError: out of bounds.
     """

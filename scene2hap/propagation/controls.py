@@ -22,12 +22,12 @@ from scene2hap.propagation.protocol import ContactNetwork, Excitation, require_i
 @clear_construction
 @dataclass(frozen=True)
 class NoPropagation:
-    """Only the source itself vibrates."""
+    """Control condition of the paper: only the source itself vibrates."""
 
     kind: Literal["no_propagation"] = "no_propagation"
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
-        """The field in which every source reaches itself alone."""
+        """Prepare the field in which every source reaches itself alone."""
         require_input(network, excitations, bands)
         return ReachField(tuple((item.source_id, frozenset({item.source_id})) for item in excitations), bands.n_bands)
 
@@ -35,14 +35,16 @@ class NoPropagation:
 @clear_construction
 @dataclass(frozen=True)
 class FullPropagation:
-    """Every object that a source reaches over contacts vibrates as strongly as the source; `max_hops` as in the paper's
-    law."""
+    """Control condition of the paper: every object connected to a source vibrates as strongly as the source.
+
+    Parameters: max_hops : contacts that vibration may cross, None for any number.
+    """
 
     max_hops: int | None = None
     kind: Literal["full_propagation"] = "full_propagation"
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
-        """The field in which every source reaches all that it is connected with by contacts of weight above 0."""
+        """Prepare the field in which every source reaches all objects connected to it by contacts of weight above 0."""
         require_input(network, excitations, bands)
         touching = [contact for contact in network.contacts if contact.weight > 0]
         source_ids = [item.source_id for item in excitations]

@@ -41,16 +41,16 @@ REFERENCE_HZ = 250.0
 @clear_construction
 @dataclass(frozen=True)
 class ExponentialPlate:
-    """The paper's exponential law over any number of objects.
+    """The paper's law, the default model: amplitude falls exponentially with distance, over any number of objects.
 
     Parameters:
-    frequency : which dominant frequency of a source counts under `Bands.dominant()`: "tactile", the peak after the
-        band-pass, which is what the hand feels; or "raw", the peak of the audio file, as in the paper.
+    frequency : dominant frequency of a source under `Bands.dominant()`: "tactile", the peak after conversion, at which
+        the hand feels it; or "raw", the peak of the audio file, as in the paper.
     max_hops : contacts that vibration may cross, None for any number; 1 (phone to desk) is the paper's reach.
-    interface_loss_db : what crossing a contact costs at 250 Hz, >= 0 [dB]; at other frequencies it follows the law like
-        any distance. 0, the default, is the paper's.
-    floor_db : least attenuation wherever a source arrives at all, <= 0 [dB], so that a thin sheet of metal, which the
-        law silences within a hand's breadth, may still be felt; None for the bare law.
+    interface_loss_db : loss of a contact at 250 Hz, >= 0 [dB]; at other frequencies it follows the law like any
+        distance. 0, the default, is the paper's.
+    floor_db : lower bound of the level wherever a source arrives at all, <= 0 [dB]; None for the law without a bound.
+        The law silences a thin sheet of metal within 10 cm; with a bound the sheet is felt.
     outside_domain : "warn" once per object, "raise" or "ignore" where the wavelength is below six thicknesses
         (`domain.THIN_WAVELENGTHS`). The law is a style that may be applied to anything, so it ignores by default.
     Raises: ConfigError: a setting out of bounds.
@@ -78,7 +78,7 @@ class ExponentialPlate:
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
-        """Amplitude at points of one plate over the amplitude at the driven point: Gamma, real and positive.
+        """Return the amplitude at points of one plate over that at the driven point: Gamma, real and positive.
 
         Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
         frequencies_hz : (n_frequencies,) [Hz], >= 0.
@@ -92,7 +92,7 @@ class ExponentialPlate:
         return gamma
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ExponentialField:
-        """The field of a scene: the cheapest path from every source to every object.
+        """Prepare the field of a scene: the cheapest path from every source to every object.
 
         Since k = c sqrt(omega) on every plate, the cheapest path is the same at all frequencies, and one search per
         source serves all bands. A rigid body passes vibration on undiminished.
@@ -110,7 +110,7 @@ class ExponentialPlate:
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
     ) -> LiveLaw:
-        """The same law over a contact graph that changes between queries; see `LiveModel`.
+        """Return the law's field over a contact graph that changes between queries; see `LiveModel`.
 
         Raises, warns: as `prepare`, but of all bodies at once.
         """

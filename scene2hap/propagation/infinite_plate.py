@@ -73,7 +73,9 @@ def spreading(kr: NDArray[np.complex128]) -> NDArray[np.complex128]:
 @clear_construction
 @dataclass(frozen=True)
 class InfinitePlate:
-    """The damped Green's function of the infinite plate; it ignores length, width and edges of a plate.
+    """Physical model of a plate without edges: the damped Green's function of an infinite plate.
+
+    It ignores the length and the width of a plate, and has no resonances.
 
     Parameters: contact : stiffness of contacts, or its settings; outside_domain : what to do about an object of a scene
     that is thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or
@@ -93,7 +95,7 @@ class InfinitePlate:
         object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
-        """The field of a scene: all bodies coupled at their contacts, see `substructuring`.
+        """Prepare the field of a scene: all bodies coupled at their contacts, see `substructuring`.
 
         Raises: ModelDomainError: an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
         """
@@ -102,13 +104,13 @@ class InfinitePlate:
         )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody:
-        """A plate, ready to be coupled at any frequency."""
+        """Return a plate as a body that can be coupled to others at any frequency."""
         return InfiniteBody(plate, plate.material.loss_factor)
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
-        """Amplitude at points of one plate over the amplitude at the driven point: Pi(k_c r).
+        """Return the amplitude at points of one plate over that at the driven point: Pi(k_c r).
 
         Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
         frequencies_hz : (n_frequencies,) [Hz], >= 0.
@@ -123,7 +125,7 @@ class InfinitePlate:
     def plate_receptance(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
-        """Deflection at points over the force at the driven point: -j Pi(k_c r) / (8 D_c k_c^2).
+        """Return the deflection at points over the force at the driven point: -j Pi(k_c r) / (8 D_c k_c^2).
 
         Parameters, errors and warnings as `plate_transfer`, with frequencies above 0.
         Returns: (n_points, n_frequencies) complex128 [m/N].

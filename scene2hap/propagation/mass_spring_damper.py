@@ -69,7 +69,7 @@ class CoarsenedWarning(UserWarning):
 @clear_construction
 @dataclass(frozen=True)
 class MassSpringDamper:
-    """The bending lattice of a plate.
+    """Physical model of a plate as a lattice in bending, within any outline; it can be stepped in time.
 
     Parameters: resolution : fewest cells along the shorter side, 4..256; a plate whose waves are shorter than
     `CELLS_PER_WAVE` of them gets as many as they need; loss_floor, contact, outside_domain, hand : as of
@@ -96,7 +96,7 @@ class MassSpringDamper:
         object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
-        """The field of a scene: all lattices coupled at their contacts, see `substructuring`.
+        """Prepare the field of a scene: all lattices coupled at their contacts, see `substructuring`.
 
         Raises: ModelDomainError: a plate that takes too many nodes for its lowest modes; no loss at all; an object
         outside the domain, or a plate that is coarsened (`elastic_body`), if so configured. Warns: ThinPlateWarning,
@@ -107,7 +107,7 @@ class MassSpringDamper:
         )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
-        """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; see `lattice_body`.
+        """Return a plate as a body that can be coupled to others up to `max_frequency_hz` [Hz]; see `lattice_body`.
 
         A plate whose lattice would take more cells, nodes or modes than can be solved in seconds, as a rug's, is a
         `SplitBody`: a lattice as high as can be, and a plate without edges above.
@@ -135,7 +135,7 @@ class MassSpringDamper:
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
-        """Amplitude at points of one plate over the amplitude at the driven point; above 1 where the plate resonates.
+        """Return the amplitude at points of one plate over that at the driven point; above 1 where the plate resonates.
 
         Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
         frequencies_hz : (n_frequencies,) [Hz], >= 0; 0 is answered as a limit.
@@ -155,7 +155,7 @@ class MassSpringDamper:
     def plate_receptance(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
-        """Deflection at points over the force at the driven point.
+        """Return the deflection at points over the force at the driven point.
 
         Parameters, errors and warnings as `plate_transfer`, but that a held point answers 0, and that 0 Hz is refused
         for a plate that nothing holds in place.
@@ -166,7 +166,7 @@ class MassSpringDamper:
         return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
 
     def natural_frequencies_hz(self, plate: Plate, n_modes: int) -> NDArray[np.float64]:
-        """The lattice's lowest natural frequencies (n_modes,) float64 [Hz], rising, 0 for rigid motions.
+        """Return the lattice's lowest natural frequencies (n_modes,) float64 [Hz], rising, 0 for rigid motions.
 
         Their error falls as the fourth power of the cell; at a resolution of 8 the first six are within 0.4 %.
         """
@@ -184,10 +184,10 @@ class MassSpringDamper:
         max_frequency_hz: float = 1000.0,
         stepper: Literal["exact", "newmark"] = "exact",
     ) -> NDArray[np.float64]:
-        """Deflection in time under a force at the driven point, from rest.
+        """Compute the deflection in time under a force at the driven point, from rest.
 
         Modes up to `max_frequency_hz` are stepped with viscous damping of ratio eta/2 (`stepping`), which needs no
-        loss; what is stiffer follows the force at once.
+        loss; higher modes follow the force at once.
 
         Parameters: force_n : (n_samples,) [N], straight between samples; the rest as `plate_transfer`.
         Returns: (n_points, n_samples) float64 [m], the first at rest but for the static share.

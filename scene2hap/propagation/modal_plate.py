@@ -47,7 +47,7 @@ from scene2hap.propagation.ritz import products
 @clear_construction
 @dataclass(frozen=True)
 class ModalPlate:
-    """The finite plate as a sum over its modes.
+    """Physical model of a finite plate: a sum over its modes, with edges and resonances.
 
     Parameters: loss_floor : 0..2 [-], smallest loss factor of a plate. Tables give the loss of the bare material, 1e-4
     for a metal, while joints and supports bring assembled objects to 0.005-0.02; the default 0.01 lies between.
@@ -70,7 +70,7 @@ class ModalPlate:
         object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
-        """The field of a scene: all bodies coupled at their contacts, see `substructuring`.
+        """Prepare the field of a scene: all bodies coupled at their contacts, see `substructuring`.
 
         Raises: ModelDomainError: too many modes (`plate_modes`); no loss at all, since a resonance is then infinite;
         an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
@@ -80,14 +80,14 @@ class ModalPlate:
         )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
-        """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; see `modal_body`."""
+        """Return a plate as a body that can be coupled to others up to `max_frequency_hz` [Hz]; see `modal_body`."""
         _require_rectangle(plate)
         return modal_body(plate, max_frequency_hz, self._loss_factor(plate))
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
-        """Amplitude at points of one plate over the amplitude at the driven point; above 1 where the plate resonates.
+        """Return the amplitude at points of one plate over that at the driven point; above 1 where the plate resonates.
 
         Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
         frequencies_hz : (n_frequencies,) [Hz], >= 0; 0 is answered as a limit.
@@ -108,7 +108,7 @@ class ModalPlate:
     def plate_receptance(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
-        """Deflection at points over the force at the driven point.
+        """Return the deflection at points over the force at the driven point.
 
         Parameters, errors and warnings as `plate_transfer`, but that a held point answers 0, and that 0 Hz is refused
         for a plate that nothing holds in place.

@@ -125,10 +125,11 @@ class ModeBlock:
 
 @dataclass(frozen=True, eq=False)
 class PlateModes:
-    """Modes of a plate, from the lowest.
+    """Modes of a plate, from the lowest: their frequencies and shapes.
 
-    x, y : the bases of each axis; blocks : modes by symmetry, one for each of their pairs; block, column : (n_modes,)
-    where in them each mode is; of_modes : functions along length and width that modes are made of, the first ones.
+    x, y : basis functions of each axis; blocks : modes by symmetry, one block for each pair of symmetries along both
+    axes; block, column : (n_modes,) place of each mode in the blocks; of_modes : numbers of basis functions along
+    length and width that the modes consist of, the first ones.
     """
 
     plate: Plate
@@ -170,7 +171,7 @@ class PlateModes:
 
 
 def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: float | None = None) -> PlateModes:
-    """The lowest `n_modes` modes, or all up to `max_frequency_hz`, rigid motions included.
+    """Compute the lowest `n_modes` modes of a plate, or all up to `max_frequency_hz`, rigid motions included.
 
     Frequencies are within 1e-3 of converged ones, from above. Shear and rotary inertia are left out, see
     `domain.THIN_WAVELENGTHS`. Answers are remembered by plate.

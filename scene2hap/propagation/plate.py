@@ -96,7 +96,7 @@ class Plate:
 
     @classmethod
     def of_outline(cls, outline: Outline, thickness_m: float, material: Material, **others: Any) -> Plate:
-        """The plate that an outline makes, its corner that of the outline's box; other parameters as of `Plate`.
+        """Make the plate of an outline; its corner is that of the outline's box. Other parameters as of `Plate`.
 
         The outline is shifted so that its box starts at (0, 0): points on the plate are measured from there.
         """
@@ -145,7 +145,9 @@ class Plate:
         return math.sqrt(math.sqrt(rho * h / self.bending_stiffness_nm))
 
     def wavenumber_rad_m(self, frequency_hz: ArrayLike) -> NDArray[np.float64]:
-        """Wavenumber of free bending waves, k^4 = rho h omega^2 / D [rad/m]; same shape as `frequency_hz`, >= 0 [Hz].
+        """Return the wavenumber of free bending waves, k^4 = rho h omega^2 / D [rad/m].
+
+        Parameters: frequency_hz : of any shape, >= 0 [Hz]; the wavenumbers have the same shape.
 
         Source: Scene2Hap, CHI 2026, second equation of the propagation model.
         """
@@ -169,7 +171,7 @@ def require_plate(plate: object) -> None:
 @clear_construction
 @dataclass(frozen=True)
 class RigidBody:
-    """A compact body that moves as a whole.
+    """A compact body, such as a mug, that moves as a whole and does not bend.
 
     Parameters: mass_kg > 0 [kg]; size_m : length, width, thickness > 0 [m] of the box whose inertia it has when it
     rocks, None for a body that does not; material : of its surface where others touch it, None if unknown.

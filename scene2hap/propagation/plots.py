@@ -38,7 +38,7 @@ def plot_field(
     title: str = "",
     path: str | os.PathLike[str] | None = None,
 ) -> Figure:
-    """Attenuation over a plate as a map in dB, with the contacts of the source and a touch.
+    """Draw the attenuation over a plate as a map in dB, with the contacts of the source and a touch.
 
     Parameters: field : prepared from `network`, by any model; object_id : a plate of it; source_id : one of the
     field's, its first by default; band : which of the field's bands; touch_m : (3,) or (n, 3) [m], world;

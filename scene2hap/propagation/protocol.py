@@ -34,7 +34,7 @@ Body = Plate | RigidBody
 @clear_construction
 @dataclass(frozen=True)
 class Excitation:
-    """A vibrating object: its dominant frequency before and after the tactile band-pass [Hz], and its mass [kg]."""
+    """A source, as input of a model: its dominant frequency before and after conversion [Hz], and its mass [kg]."""
 
     source_id: str
     frequency_raw_hz: float
@@ -52,7 +52,7 @@ class Excitation:
 @clear_construction
 @dataclass(frozen=True)
 class ContactNetwork:
-    """The bodies of a scene, where they touch (world points [m]) and where they are.
+    """Input of a propagation model: the bodies of a scene by object id, their contacts and their poses.
 
     An object without a body, because its material is unknown, does not carry vibration; it may still be a source.
     `poses` puts the frame of a body into the world: its origin in a corner of the plate's mid-plane, x along the
@@ -72,14 +72,14 @@ class ContactNetwork:
             )
 
     def on_body(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
-        """World points as (n_points, 2) [m] along length and width of a body, from its corner.
+        """Convert world points to (n_points, 2) [m] along length and width of a body, from its corner.
 
-        Points beside a body are taken to its nearest edge, as if a rigid leg led there; a body without size keeps them.
+        Points beside a body are moved to its nearest edge, as if a rigid leg led there; a body without size keeps them.
         """
         return self.placing(object_id)(as_points(points_m, 3))
 
     def placing(self, object_id: str) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-        """A function that does so for points (n_points, 3) of one body that are already checked."""
+        """Return a function that converts as `on_body` does, for points (n_points, 3) of one body, without checks."""
         pose, body = self.poses.get(object_id), self.bodies.get(object_id)
         size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
         if size_m:
@@ -89,15 +89,15 @@ class ContactNetwork:
 
 @runtime_checkable
 class PropagationField(Protocol):
-    """A prepared scene."""
+    """Interface of a prepared scene: the gain of every source at points of an object."""
 
     @property
     def source_ids(self) -> tuple[str, ...]:
-        """The sources, in the order of the answer's second axis."""
+        """Ids of the sources, in the order of the second axis of `attenuation`."""
         ...
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
-        """Response at points of one object over each source's free vibration.
+        """Return the response at points of one object over each source's free vibration.
 
         Parameters: points_m : (n_points, 3) float64 [m], world, on or near the object as it was when prepared.
         Returns: (n_points, n_sources, n_bands) float64 [-], >= 0; 1 on the source itself, 0 where nothing arrives.
@@ -167,10 +167,10 @@ _FIELD: Members = {"source_ids": None, "attenuation": ("object_id", "points_m")}
 
 @runtime_checkable
 class PropagationModel(Protocol):
-    """Prepares fields."""
+    """Interface of propagation models: `prepare` solves a scene once, the field that it returns is queried often."""
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
-        """The field of a whole scene, over any number of contacts that the model allows."""
+        """Prepare the field of a whole scene, over as many contacts as the model allows."""
         ...
 
 

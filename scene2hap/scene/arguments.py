@@ -26,5 +26,5 @@ def given_scene(scene: object) -> SceneSnapshot:
             f"{wanted} The scene of a bundle or a session is its .snapshot; `rebake` bakes a bundle again."
         )
     if isinstance(scene, list | tuple):
-        raise SceneError(f"{wanted} `SceneSnapshot(name, up_axis, objects)` makes one of objects.")
+        raise SceneError(f"{wanted} `SceneSnapshot.build(objects)` makes one of objects.")
     raise SceneError(f"{wanted} `load_scene(path)` reads one.")

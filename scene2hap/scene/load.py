@@ -42,7 +42,7 @@ def load_scene(
     assets_root: str | os.PathLike[str] | None = None,
     names: Mapping[str, str] | str | os.PathLike[str] | None = None,
 ) -> SceneSnapshot:
-    """Read a scene file.
+    """Read a scene file: glTF, GLB, OBJ, STL, PLY, COLLADA, USD, URDF, MJCF, Habitat or scene JSON.
 
     Parameters:
     up_axis : "y" or "z"; None means the file's own axis, else "y". Nothing is rotated; it only declares which axis is

@@ -52,7 +52,7 @@ _MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # only an endless gener
 @clear_calls
 @dataclass(frozen=True)
 class SceneSnapshot(SceneData):
-    """The state of a scene at one time.
+    """A scene as data that never changes: objects with names, poses and geometry, in metres.
 
     `contacts` is None if the source of the scene has none; they are then found from geometry. `images` are of the whole
     scene, None until `capture_images`.

@@ -37,13 +37,15 @@ def _bands(value: object) -> object:
 
 
 class SkipConfig(Settings):
-    """Switches of the pruning; no pruning is felt. docs/playing.md has each bound, `SessionStats.skipped` the savings.
+    """Switches of the work that a session skips because nobody feels the difference.
+
+    docs/playing.md has the bound of each; `SessionStats.skipped` counts what was saved.
 
     unreachable : objects that no source reaches over contacts are left out of the model's input and are not evaluated.
     below_threshold : sources that are not felt at a hand are left out of its mix.
-    silent_bands : bands in which a source has next to nothing, and loops that nothing lets through, are not mixed.
+    silent_bands : bands below -140 dB, and loops whose gains are all 0, are not mixed.
     idle_hands : hands that touch nothing are not computed.
-    unchanged_frames : nothing is computed again for an update that brings nothing new.
+    unchanged_frames : gains are not computed again for an update without a change.
     """
 
     of_what = "skip"
@@ -63,26 +65,27 @@ def _skip(value: object) -> object:
 
 
 class SessionConfig(Settings):
-    """Settings of a session. Every part with alternatives is chosen by a `kind`, so that a table of TOML will do.
+    """Settings of a session, from Python or a TOML or JSON file. A `kind` chooses each exchangeable part.
 
     propagation : a kind, a mapping with `kind` and settings, or a model; `scene2hap.propagation.MODELS` lists kinds.
     bands : bands of the gains: Bands, their edges [Hz], "dominant" (each source's own frequency, as in the paper),
         "around" (half an octave around it) or "third-octaves" (20 from 10 to 1000 Hz). The default is "around" for a
         model that resonates, else "dominant".
-    reference : "source": gains are re the source's free vibration, as a model says; "felt_near": 0.1 m from where it
-        stands each source is as strong as by the paper's law, so that a model may be swapped for another.
+    reference : "source": gains are relative to the source's free vibration; "felt_near": each source is scaled so that
+        0.1 m from it its level is that of the paper's law, so that models can be exchanged at the same strength.
     prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits;
-        "blocking": `update` waits, so that output depends on input alone. A model with a live field, as
-        `ExponentialPlate`, needs neither.
-    gain_limit_db : upper bound of the gain of one source at a hand by propagation, None for none.
+        "blocking": `update` waits, so that output depends on input alone. A model with a live field, such as
+        `ExponentialPlate`, needs no preparation.
+    gain_limit_db : upper bound of the gain of one source at a hand, None for no bound.
     sample_rate_hz : rate of the samples that `render` and sinks get.
     tactile_rate_hz : rate at which loops are mixed, or the sample rate where that is lower; the mixed hands are
         resampled once. At least 2.5 times the highest band edge.
     control_period_s : usual time between updates; gain changes are spread over it, and over at least 10 ms.
     watchdog_s : time without an update after which a sink with a clock of its own fades to zero.
-    actuator : its limits are those of the safety layer; an ActuatorProfile, or as `audio.actuators` reads it.
-    skip : a SkipConfig or its settings, or true or false for all or nothing.
-    impacts : whether objects that are moved are felt when they land on others; `HapticSession.strike` works anyway.
+    actuator : the actuator in use, which gives the safety layer its limits: a name, a CSV file of Hz and dB, fields, or
+        an ActuatorProfile.
+    skip : work that is left out: True for all of it, False for none, or a SkipConfig or its settings.
+    impacts : True if objects that are moved are felt when they land on others; `HapticSession.strike` works anyway.
     """
 
     of_what = "session"

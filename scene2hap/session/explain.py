@@ -53,7 +53,7 @@ class PathStep:
 
 @dataclass(frozen=True)
 class FeltSource:
-    """A source that is felt at a hand.
+    """A source that arrives at a hand.
 
     Parameters: state, on : its state, and the touched object; gain_db : its gain there, in its strongest band; level_db
     : its volume and the user's; band : that band; steps : from the source to the touched object, empty where the law
@@ -87,13 +87,16 @@ class FeltSource:
         """The path object by object, or the share of the power that each neighbour brings, in words."""
         if self.carriers:
             return _in_words(self.carriers)
-        return " -> ".join(map(str, self.steps)) or "by no way that the paper's law knows"
+        return " -> ".join(map(str, self.steps)) or "no path by the paper's law"
 
 
 @dataclass(frozen=True)
 class Explanation:
-    """The sources that a hand feels now, the strongest first; `is_current` is false while a newer field is being
-    prepared; `impacts` are the impacts that it felt within the last second, the latest first."""
+    """Report of the vibration at one hand, as `HapticSession.explain` returns it. `print(report.text)` shows it.
+
+    `felt` has the sources that arrive, the strongest first. `impacts` are those of the last second, the latest first.
+    `is_current` is false while a worker prepares a newer field.
+    """
 
     hand: str
     touches: tuple[str, ...]
@@ -103,7 +106,7 @@ class Explanation:
 
     @property
     def text(self) -> str:
-        """The same in words, a line for each source."""
+        """The report in words, a line for each source."""
         on = f"touches {', '.join(self.touches)}" if self.touches else "touches nothing"
         late = "" if self.is_current else " (the next field is still being prepared)"
         lines = [f"{self.hand} {on}{late}" + (":" if self.felt or self.impacts else " and feels nothing.")]
@@ -111,7 +114,7 @@ class Explanation:
         return "\n".join([*lines, *(f"  {item}" for item in self.felt), *struck])
 
     def to_data(self) -> dict[str, Any]:
-        """The same as plain data, for JSON."""
+        """Return the report as plain data, for JSON."""
         return {**asdict(self), "text": self.text}
 
     def __str__(self) -> str:

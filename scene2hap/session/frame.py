@@ -34,7 +34,7 @@ Gains = NDArray[np.float32]
 
 @clear_attributes
 class HapticFrame:
-    """The result of one update: gains of all hands.
+    """The result of one update: the gain of each source at each hand.
 
     Parameters: gains : (n_hands, n_sources, n_bands) float32 [-], or a function that computes them.
     """
@@ -64,7 +64,7 @@ class HapticFrame:
 
     @clear_call
     def gain(self, hand: str, source_id: str) -> float:
-        """The loudest band's gain of a source at a hand [-].
+        """Return the gain of a source at a hand, in its loudest band [-].
 
         Raises: SessionError: no such hand; UnknownObject: no such source.
         """
@@ -78,7 +78,7 @@ class HapticFrame:
 @clear_attributes
 @dataclass(frozen=True)
 class SkipCounts:
-    """How often each kind of work was left out; see `SkipConfig`.
+    """How often a session skipped each kind of work; see `SkipConfig`.
 
     Parameters: unreachable_objects : objects left out of the model's input, or without a path from a live field's
     sources, summed over preparations and changes; unreachable_touches : touches that no source reaches;
@@ -101,17 +101,16 @@ class SkipCounts:
 @clear_attributes
 @dataclass(frozen=True)
 class SessionStats:
-    """Counters of a session.
+    """Counters of a session, as `HapticSession.stats` returns them.
 
-    Parameters: fields_prepared : fields taken into use, and changes of contacts that a live field went along with;
-    gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no vibration, since their
-    material is unknown; field_age_s : for how long the field in use has been out of date, 0 while it is not [s];
-    field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed : preparations that
-    the model refused, while the last field stayed in use; last_failure : the model's message; touches_off_surface :
-    touches more than 5 cm off the box around their object, in the first 16 updates with touches and in one of 16 later
-    ones; impacts : impacts, reported or found;
-    impacts_felt : impacts that a hand felt; impacts_left_out : impacts that came too fast one after the other, or while
-    too many sounded.
+    Parameters: updates : calls of `update`; fields_prepared : fields taken into use, and changes of contacts that a
+    live field followed; gains_capped : gains of a source at a hand above the limit; bodiless : objects that carry no
+    vibration, since their material is unknown; field_age_s : time since the field in use went out of date, 0 while it
+    is current [s]; field_latency_s : time from a change to the use of the field that includes it [s]; fields_failed :
+    preparations that the model refused, while the last field stayed in use; last_failure : the model's message;
+    touches_off_surface : touches more than 5 cm off the box around their object, in the first 16 updates with touches
+    and in one of 16 later ones; impacts : impacts, reported or found; impacts_felt : impacts that a hand felt;
+    impacts_left_out : impacts that followed one another too fast, or came while too many sounded.
     """
 
     updates: int = 0

@@ -83,12 +83,17 @@ class _Progress:
 @clear_calls
 @read_only
 class HapticSession:
-    """A session: plays the vibration of a scene at the hands that touch it.
+    """Play a baked scene: turn the moves and touches of each frame into vibration at each hand.
+
+        with HapticSession(scene, bundle, sink="soundcard") as session:  # starts the sink; stops it at the end
+            while game.runs():
+                frame = session.update({"cup": cup_pose}, [Touch("left", "table", point_m)])
+                frame.gain("left", "phone")  # 1 on the phone itself, 0 where nothing arrives
 
     Parameters: scene : objects and their present poses; bundle : the bundle baked for them; config : a SessionConfig,
-    its settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : where
-    `start` sends the mix, None to call `render` oneself; user : levels and limits of the person who plays: a
-    UserProfile, its settings, or the path of a saved one.
+    its settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : the
+    output to which `start` sends the mix: a sink, its kind, or a mapping with a `kind`; None to call `render` yourself;
+    user : levels and limits of the person who plays: a UserProfile, its settings, or the path of a saved one.
     Scene and bundle may be paths, which are read here (`load_scene`, `HapticBundle.load`), and come in either order. A
     bundle alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked
     for.
@@ -148,16 +153,16 @@ class HapticSession:
 
     @property
     def source_ids(self) -> tuple[str, ...]:
-        """The vibrating objects, in the order of `HapticFrame.gains`."""
+        """Ids of the vibrating objects, in the order of `HapticFrame.gains`."""
         return self._sources.ids
 
     def source(self, source_id: str) -> SourceInfo:
-        """A source as it is now. Raises: UnknownObject."""
+        """Return what a source does now: its state, whether it is on, its frequency. Raises: UnknownObject."""
         return self._sources.info(source_id)
 
     @property
     def object_ids(self) -> frozenset[str]:
-        """The objects that are in the scene now; the same set until one comes or goes."""
+        """Ids of the objects that are in the scene now; the same set until one is added or removed."""
         return self._state.ids
 
     @property
@@ -229,12 +234,13 @@ class HapticSession:
         impulse_n_s: float | None = None,
         with_object: str | None = None,
     ) -> Impact:
-        """Strike an object at a point [m], world: felt once, from the next block on, by each hand that touched
-        something at the last update, as strongly as the model lets it arrive there.
+        """Strike an object at a world point [m]. Hands that touched something at the last update feel it once.
 
-        Parameters: speed_m_s : at which they meet, or impulse_n_s : that they exchange; 0.5 m/s without either, a
-        knock; with_object : the striking object, None for a finger. Objects that move strike by themselves when they
+        It is felt from the next block on. The propagation model gives its strength at each hand.
+        Parameters: speed_m_s : at which the objects meet, or impulse_n_s : that they exchange; without either 0.5 m/s,
+        a knock; with_object : the striking object, None for a finger. Objects that move strike by themselves when they
         land, unless `SessionConfig.impacts` is false.
+        Returns: the impact; its `felt` is the largest sample that each hand gets.
         Raises: UnknownObject; SessionError: a speed or impulse that is not above 0, or both.
         """
         self._state.require(object_id)
@@ -359,7 +365,7 @@ class HapticSession:
         mute: bool | None = None,
         profile: UserProfile | Mapping[str, Any] | str | os.PathLike[str] | None = None,
     ) -> None:
-        """Set the level of everything, or the profile of another person; felt from the next update on.
+        """Set the level of all vibration, or the profile of another person; felt from the next update on.
 
         Raises: SessionError: out of bounds; ConfigError: a profile that cannot be read or is out of bounds.
         """
@@ -373,13 +379,13 @@ class HapticSession:
         self._hand_frames.levels_changed()
 
     def pause(self) -> None:
-        """Fade everything out now, and let all loops stand still; updates go on to follow the scene."""
+        """Fade out all vibration now, and stop the clock of all loops. `update` still follows the scene."""
         self._playback.pause(self._now)
         self._hand_frames.levels_changed()
         self._output.show(self._hand_frames.silence(self.hands))
 
     def resume(self) -> None:
-        """Let all loops go on from where they stopped; felt from the next update on."""
+        """Continue all loops from where they stopped; felt from the next update on."""
         self._playback.resume()
         self._hand_frames.levels_changed()
 
@@ -394,7 +400,7 @@ class HapticSession:
 
     @property
     def is_current(self) -> bool:
-        """Whether gains are those of the present scene; false while a worker prepares a newer field."""
+        """True if gains are those of the present scene; false while a worker prepares a newer field."""
         return self._hand_frames.keeper.is_current
 
     @property
@@ -403,10 +409,10 @@ class HapticSession:
         return self._impacts.recent()
 
     def would_feel(self, touches: Sequence[Touch] | None) -> NDArray[np.float64]:
-        """Gains that `update` would report of each of these touches alone; playing is not changed.
+        """Return the gains that `update` would report for each of these touches alone, without playing them.
 
-        They are those of the field in use, with the volume of source, user and hand, also in a pause, and no touch is
-        counted: for maps, and for a game that plans ahead. Call it where `update` is called.
+        For maps, and for a game that plans ahead. The gains are those of the field in use, with the volume of source,
+        user and hand, also in a pause; no touch is counted. Call it on the thread that calls `update`.
         Returns: (n_touches, n_sources, n_bands) float64 [-], in the order of `source_ids`, 0 below -140 dB.
         Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or no touches.
         """
@@ -423,7 +429,7 @@ class HapticSession:
         up_to_m: float | None = None,
         axes: Axes | None = None,
     ) -> Figure | SubFigure:
-        """Draw the scene from above, its surfaces coloured by the level of a source at a hand on them.
+        """Draw the scene from above; colours show the level of a source at a hand on each surface.
 
         A level is the gain that `update` would report of a touch there [dB], by the field in use, with the volume of
         source, user and hand. Playing is not changed: nothing counts as a touch. Call it where `update` is called;
@@ -462,8 +468,10 @@ class HapticSession:
         )
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
-        """Wait until the workers have prepared the scene as it is, and all loops; false after the timeout [s]. For
-        loading screens."""
+        """Wait until workers have prepared the present scene and all loops, for loading screens.
+
+        Returns: False if that took longer than the timeout [s].
+        """
         if timeout_s is not None:
             timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)
         end_s = None if timeout_s is None else time.monotonic() + timeout_s
@@ -472,7 +480,7 @@ class HapticSession:
         return self._hand_frames.wait(None if end_s is None else max(0.0, end_s - time.monotonic()))
 
     def render(self, n_frames: int) -> Block:
-        """The next samples of the mix (n_frames, n_hands) float32 in [-1, 1].
+        """Return the next samples of the mix (n_frames, n_hands) float32 in [-1, 1], without the safety layer.
 
         Raises: SessionError: more than `MAX_RENDERED_FRAMES` at once; the session is started, so that its sink renders.
         """
@@ -484,8 +492,11 @@ class HapticSession:
         return self._rendered(n_frames)
 
     def render_s(self, seconds: float) -> Block:
-        """The next `seconds` [s] of the mix, as `render`, to the sample over any number of calls: fractions of a frame
-        are carried, so that 90 times 1/90 s are one second. Raises: SessionError."""
+        """Return the next `seconds` [s] of the mix, as `render`.
+
+        Fractions of a sample are carried to the next call, so that 90 calls of 1/90 s give exactly one second.
+        Raises: SessionError.
+        """
         return self.render(self._whole.of(seconds))
 
     def _rendered(self, n_frames: int) -> Block:
@@ -500,7 +511,10 @@ class HapticSession:
         return self._playback.position
 
     def position_s(self, source_id: str) -> float:
-        """Position of a source in its loop [s], for a game that plays the audible loop. Raises: UnknownObject."""
+        """Return the position of a source in its loop [s], for a game that plays the audible loop.
+
+        Raises: UnknownObject.
+        """
         return self._playback.position_s(self._sources[source_id].row)
 
     def start(self) -> None:
@@ -539,7 +553,7 @@ class HapticSession:
 
     @property
     def stats(self) -> SessionStats:
-        """Counters so far."""
+        """Counters since the session was made, such as updates, impacts and skipped work."""
         stats = self._hand_frames.stats(self._progress.n_updates, self._playback.rows_not_mixed)
         return replace(
             stats,

@@ -60,12 +60,12 @@ KNOCK_M_S = 0.5
 @clear_attributes
 @dataclass(frozen=True, eq=False)
 class Impact:
-    """An impact that was felt, or not.
+    """One impact: which objects met, where and how fast, and how strongly each hand feels it.
 
-    Parameters: object_id : the struck object, at point_m [m], world; with_object : the striking one, None if unknown;
-    speed_m_s : of their meeting, None if an impulse was given; frequency_hz : of its strongest component; at_sample :
-    when, on the clock of `render`; felt : the largest sample that it adds at each hand [-], hands that feel nothing
-    left out. Models without a live field fill that in once a worker has prepared them.
+    Parameters: object_id : the struck object; point_m : the struck point [m], world; with_object : the striking object,
+    None if unknown; speed_m_s : at which they met, None if an impulse was given; frequency_hz : of the strongest
+    component; at_sample : its time on the clock of `render`; felt : the largest sample that it adds at each hand [-],
+    without hands that feel nothing. With a model that has no live field, a worker fills in `felt` later.
     """
 
     object_id: str

@@ -54,8 +54,8 @@ class LoopRow:
 @clear_attributes
 @dataclass(frozen=True)
 class SourceInfo:
-    """A source as it is now: its state, all of its states, whether it is switched on, and the strongest frequency of
-    its vibration in this state [Hz]."""
+    """Present state of a source: its state, all of its states, whether it is switched on, and the strongest frequency
+    of its vibration in this state [Hz]."""
 
     id: str
     state: str

@@ -56,6 +56,8 @@ class Comfort(Settings):
 class UserProfile(Comfort):
     """Levels and limits of one person. Levels add up, and the smallest limit counts.
 
+    gain_db : level of all vibration [dB].
+    max_amplitude : largest sample at every hand, 0.0001..1 [-].
     curve_db : level against frequency, as points (frequency [Hz], level [dB]) of rising frequency, for people who feel
         some frequencies more or less than others. Between points it is interpolated over the logarithm of frequency,
         beyond them it is constant.
@@ -79,7 +81,7 @@ class UserProfile(Comfort):
         return points
 
     def level_db(self, hand: str, device: str, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
-        """The level added at a hand, on a device, at some frequencies [dB], in their shape."""
+        """Return the level that is added at a hand, on a device, at some frequencies [dB], in their shape."""
         at_hz = np.asarray(frequencies_hz, dtype=np.float64)
         level = self.gain_db + sum(one.gain_db for one in self._special(hand, device))
         if not self.curve_db:
@@ -88,12 +90,12 @@ class UserProfile(Comfort):
         return np.asarray(level + np.interp(np.log(np.maximum(at_hz, 1e-9)), np.log(frequency), curve))
 
     def limits(self, hands: Sequence[str], device: str) -> NDArray[np.float64]:
-        """The largest sample at each hand on a device (n_hands,), in shares of full scale [-]."""
+        """Return the largest sample at each hand on a device (n_hands,), in shares of full scale [-]."""
         return np.array([min(one.max_amplitude for one in (self, *self._special(hand, device))) for hand in hands])
 
     @property
     def is_neutral(self) -> bool:
-        """Whether it changes nothing."""
+        """True if the profile changes nothing."""
         parts = (self, *self.hands.values(), *self.devices.values())
         return not self.curve_db and all(one.gain_db == 0.0 and one.max_amplitude == 1.0 for one in parts)
 

@@ -83,7 +83,7 @@ MODELS: list[tuple[Any, str]] = [
 
 
 @pytest.mark.parametrize(("model", "words"), MODELS)
-def test_propagation_models(model: Any, words: str) -> None:
+def test_broken_propagation_models_fail_the_contract(model: Any, words: str) -> None:
     with pytest.raises((AssertionError, Scene2HapError), match=re.escape(words)):
         check_propagation_model(model)
 
@@ -128,7 +128,7 @@ class Once(MemorySink):
         (Once, "Once was stopped twice"),
     ],
 )
-def test_sinks(make: Any, words: str) -> None:
+def test_broken_sinks_fail_the_contract(make: Any, words: str) -> None:
     with pytest.raises(AssertionError, match=words):
         check_actuator_sink(make, within_s=0.2)
 
@@ -175,7 +175,7 @@ class Deaf(Converter):
         (Deaf(lambda block: block), "takes a sample that is nan"),
     ],
 )
-def test_converters(converter: Any, words: str) -> None:
+def test_broken_converters_fail_the_contract(converter: Any, words: str) -> None:
     with pytest.raises((AssertionError, Scene2HapError), match=words):
         check_tactile_converter(converter)
 
@@ -209,7 +209,7 @@ class Restless(Synthesizer):
         (Restless(), "Restless finds something else"),
     ],
 )
-def test_sources(source: Any, words: str) -> None:
+def test_broken_sources_fail_the_contract(source: Any, words: str) -> None:
     with pytest.raises(AssertionError, match=words):
         check_audio_source(source)
 
@@ -244,7 +244,7 @@ def spoiled(reply: LLMReply, request: LLMRequest) -> LLMReply:
         (Backend(spoiled), "changed the facts"),
     ],
 )
-def test_backends(backend: Any, words: str) -> None:
+def test_broken_backends_fail_the_contract(backend: Any, words: str) -> None:
     with pytest.raises((AssertionError, Scene2HapError), match=words):
         check_llm_backend(backend)
 
@@ -298,6 +298,6 @@ def test_a_plain_renderer_passes() -> None:
         (changed(restless), "when it draws again"),
     ],
 )
-def test_renderers(factory: Any, words: str) -> None:
+def test_broken_renderers_fail_the_contract(factory: Any, words: str) -> None:
     with pytest.raises((AssertionError, Scene2HapError), match=words):
         check_renderer(factory)

@@ -32,7 +32,7 @@ SETTINGS: dict[str, dict[str, Any]] = {"mass_spring_damper": {"resolution": 8}}
 
 @pytest.mark.parametrize("kind", MODELS.kinds())
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
-def test_propagation_models(kind: str) -> None:
+def test_own_propagation_models_pass_the_contract(kind: str) -> None:
     check_propagation_model(MODELS.build({"kind": kind, **SETTINGS.get(kind, {})}))  # type: ignore[arg-type]
 
 
@@ -44,28 +44,28 @@ def test_propagation_models_under_a_hand(kind: str, hand: str) -> None:
 
 
 @pytest.mark.parametrize("kind", CONVERTERS.kinds())
-def test_converters(kind: str) -> None:
+def test_own_converters_pass_the_contract(kind: str) -> None:
     check_tactile_converter(CONVERTERS.build(kind))  # type: ignore[arg-type]
 
 
-def test_sinks(tmp_path: Path) -> None:
+def test_own_sinks_pass_the_contract(tmp_path: Path) -> None:
     check_actuator_sink(MemorySink)
     check_actuator_sink(lambda: WavSink(tmp_path / "mix.wav"))
     check_actuator_sink(lambda: TeeSink([MemorySink(), WavSink(tmp_path / "both.wav")]), channels=("left",))
 
 
-def test_backends(tmp_path: Path) -> None:
+def test_own_backends_pass_the_contract(tmp_path: Path) -> None:
     check_llm_backend(LexiconBackend())
     check_llm_backend(RecordingBackend(LexiconBackend(), tmp_path / "answers.jsonl"))
     check_llm_backend(ReplayBackend(tmp_path / "answers.jsonl"))
 
 
-def test_sources() -> None:
+def test_own_sources_pass_the_contract() -> None:
     check_audio_source(Synthesizer())
 
 
 @pytest.mark.parametrize("kind", RENDERERS.kinds())
-def test_renderers(kind: str) -> None:
+def test_own_renderers_pass_the_contract(kind: str) -> None:
     pytest.importorskip({"embree": "embreex", "panda3d": "panda3d.core"}[kind], exc_type=ImportError)
     if kind == "panda3d" and (problem := rasteriser_problem()):
         pytest.skip(problem)
@@ -73,5 +73,5 @@ def test_renderers(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", EXPORTS.kinds())
-def test_exporters(kind: str) -> None:
+def test_own_exporters_pass_the_contract(kind: str) -> None:
     check_exporter(EXPORTS.build(kind))  # type: ignore[arg-type]

@@ -51,7 +51,7 @@ def test_demo_finds_the_seven_sources_and_no_other(demo: tuple[Path, dict[str, o
     assert outcome["scene_category"] == "kitchen"
 
 
-def test_demo_feels_what_its_tour_is_about(demo: tuple[Path, dict[str, object]]) -> None:
+def test_demo_tour_lets_hands_feel_its_sources(demo: tuple[Path, dict[str, object]]) -> None:
     _, outcome = demo
     felt: list[dict] = outcome["felt"]  # type: ignore[assignment]  # JSON
     touched = {row["on"] for row in felt if row["felt_db"].get(row["on"]) == 0.0}
@@ -127,7 +127,7 @@ def test_settings_from_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]
         (["bake", str(kitchen_path()), "-o", "b", "--sounds", "none"], "none"),
     ],
 )
-def test_trouble_is_one_line_that_a_person_can_act_on(
+def test_error_is_one_line_with_the_next_step(
     arguments: list[str],
     sentence: str,
     tmp_path: Path,

@@ -110,7 +110,9 @@ def squares(values: Any) -> float:
 
 @needs_compiler
 @pytest.mark.parametrize("name", ["loop", "hands"])
-def test_the_pcm_reader(name: str, compiled: dict[str, Path], tmp_path: Path, request: pytest.FixtureRequest) -> None:
+def test_pcm_reader_of_the_page_works(
+    name: str, compiled: dict[str, Path], tmp_path: Path, request: pytest.FixtureRequest
+) -> None:
     header, samples = exported({"kind": "pcm", "sample_rate_hz": 3000}, request.getfixturevalue(name), tmp_path)
     told = json.loads(header.read_text(encoding="utf-8"))
     frames = np.fromfile(samples, dtype="<f4").reshape(-1, len(told["channels"]))
@@ -137,7 +139,7 @@ def test_the_pcm_reader_refuses_samples_of_another_length(
 @needs_compiler
 @pytest.mark.parametrize("profile", ["Simple Parametric", "Main"])
 @pytest.mark.parametrize("name", ["loop", "hands"])
-def test_the_hjif_reader(
+def test_hjif_reader_of_the_page_works(
     name: str, profile: str, compiled: dict[str, Path], tmp_path: Path, request: pytest.FixtureRequest
 ) -> None:
     (path,) = exported({"kind": "hjif", "profile": profile}, request.getfixturevalue(name), tmp_path)

@@ -28,7 +28,9 @@ def demo() -> tuple[SceneSnapshot, HapticBundle]:
         ("auto", "dominant"),
     ],
 )
-def test_the_demo_kitchen(demo: tuple[SceneSnapshot, HapticBundle], kind: str, bands: str | Bands) -> None:
+def test_every_object_of_the_demo_kitchen_has_finite_gains(
+    demo: tuple[SceneSnapshot, HapticBundle], kind: str, bands: str | Bands
+) -> None:
     scene, bundle = demo
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ThinPlateWarning)

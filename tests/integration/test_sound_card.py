@@ -36,7 +36,7 @@ def wait_for(is_so: Callable[[], object], timeout_s: float = 20.0) -> None:
         time.sleep(0.005)
 
 
-def test_a_take_of_ten_seconds() -> None:
+def test_ten_seconds_are_played_without_a_gap() -> None:
     # A virtual machine may stand still for longer than the latency; a broken player never gives a good take in five.
     for attempt in range(5):
         verdict = take_alone(10.0)

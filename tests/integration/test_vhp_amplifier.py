@@ -56,7 +56,7 @@ def events() -> Iterator[list[SinkEvent]]:
     assert threading.active_count() == before
 
 
-def test_a_slim_board_hears_whole_frames_and_is_left_at_rest(events: list[SinkEvent]) -> None:
+def test_a_slim_board_gets_whole_frames_and_ends_at_rest(events: list[SinkEvent]) -> None:
     with Board(b"100\r\nbuffer_copied\r\n", 100) as board:
         with VhpSink(board.terminal.name, on_event=events.append) as sink:
             sink.open(SinkFormat(2000, ("left", "right")))

@@ -39,7 +39,7 @@ def test_default_preload_is_used_without_masses() -> None:
     assert stiffness(bare[0], TABLE, CORNERS) == pytest.approx(4 * hertz(25.0 * 9.80665 / 4), rel=1e-3)
 
 
-def test_heavier_things_stand_stiffer_by_the_third_root() -> None:
+def test_contact_stiffness_grows_with_the_third_root_of_weight() -> None:
     light, heavy = (stiffness(replace(OVEN, object_mass_kg=m), TABLE, CORNERS) for m in (0.2, 20.0))
     assert heavy / light == pytest.approx(100 ** (1 / 3), rel=1e-3)
     assert math.isfinite(stiffness(replace(OVEN, object_mass_kg=1e-6), TABLE, CORNERS))

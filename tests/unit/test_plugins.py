@@ -48,7 +48,7 @@ def test_settings_without_kind_are_refused() -> None:
         GROUP.build({"numerator": 1})
 
 
-def test_missing_attribute() -> None:
+def test_missing_attribute_is_named() -> None:
     with pytest.raises(ConfigError, match="math:no_such does not exist"):
         GROUP.load("gone")
 

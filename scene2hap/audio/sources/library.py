@@ -27,7 +27,7 @@ class UnreadableSound(UserWarning):
 
 @dataclass(frozen=True)
 class FolderLibrary:
-    """Finds sounds in a folder, and the folders in it, by the words of their names.
+    """Find sounds in a folder, and in its subfolders, by the words of their names.
 
     If the folder holds a `sounds.csv`, its rows are the library instead. Columns: file (relative to the folder),
     keywords (the file's name where empty), title, author, licence, address; all but the first may be missing.

@@ -27,10 +27,10 @@ _OTHER_RHYTHM = 2.2
 
 
 class SpreadLimits(Settings):
-    """How far a source may be moved to be distinct from the others; 0 and 0 leave everything where it is.
+    """How far a source may be moved to be distinct from the others; with 0 and 0 no source is moved.
 
-    octaves : in frequency, up or down.
-    level_db : in level, up or down [dB].
+    octaves : largest change of frequency, up or down [octaves].
+    level_db : largest change of level, up or down [dB].
     """
 
     of_what = "spread"

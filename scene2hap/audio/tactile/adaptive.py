@@ -50,7 +50,7 @@ _SHIFTED = 0.75
 
 @dataclass(frozen=True)
 class Adaptive:
-    """Band-pass around the source's own frequency, shifted to its target.
+    """Keep a band around the source's own frequency, and shift it to the source's target frequency.
 
     Parameters: q 0.5..20 [-] of each of the two filters; shift_octaves 0..1, how far the band may be moved where no
     target is given.

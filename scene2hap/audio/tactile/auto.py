@@ -36,7 +36,7 @@ third of an octave (1.26)."""
 
 @dataclass(frozen=True)
 class Auto(Adaptive):
-    """`Adaptive` with roughness and onsets, and the same settings."""
+    """Convert as `adaptive`, follow the whole sound's level, and add roughness and onsets; the same settings."""
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """Start a conversion at a sample rate."""

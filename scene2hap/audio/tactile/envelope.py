@@ -27,9 +27,9 @@ BEST_FELT_HZ = 250.0
 
 @dataclass(frozen=True)
 class EnvelopeCarrier:
-    """The envelope up to `envelope_hz` on a carrier.
+    """Modulate a carrier by the sound's envelope up to `envelope_hz`.
 
-    `carrier_hz` None takes the frequency that the context asks for, else the actuator's resonance, else 250 Hz.
+    `carrier_hz` None takes the target frequency of the context, else the actuator's resonance, else 250 Hz.
     Raises: ConfigError: not above 0; or, once the rate is known, above 0.49 sample rates.
     """
 

@@ -19,7 +19,7 @@ from scene2hap.errors import ConfigError
 
 @dataclass(frozen=True)
 class FrequencyShift:
-    """Moves `low_hz`..`high_hz` by `shift_hz` (negative is down) and drops the rest.
+    """Shift the band `low_hz`..`high_hz` by `shift_hz` (negative is down) and drop the rest.
 
     The default moves 300..1250 Hz to 50..1000 Hz, in every context. Components that would end below 10 Hz are dropped.
     Raises: ConfigError: bounds that are not rising, or a band that would leave 10 Hz below itself; once the rate is

@@ -21,7 +21,7 @@ _ORDER = 4
 
 @dataclass(frozen=True)
 class Lowpass:
-    """Low-pass at `cutoff_hz` [Hz].
+    """Keep everything below `cutoff_hz` [Hz], by a low-pass of order 4.
 
     Raises: ConfigError: not above 0, or, once the rate is known, above 0.49 sample rates.
     """

@@ -51,8 +51,9 @@ _CONTOUR_DB = (
 
 @dataclass(frozen=True)
 class PerceptionLevel:
-    """Loudness to intensity, roughness to roughness; latency of a frame when played live, none in a loop.
+    """Turn loudness into intensity and roughness into roughness, as sines of 175 and 210 Hz (Lee and Choi 2013).
 
+    Live, it delays the signal by one frame; in a loop it does not.
     `full_scale` is the amplitude A, in the unit of the source's model, that is rendered as 1; assumed, since that unit
     is tied to the actuator it was fitted on.
     Raises: ConfigError: `full_scale` is not above 0, or, once the rate is known, it is below 1 kHz.

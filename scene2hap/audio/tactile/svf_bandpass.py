@@ -37,7 +37,9 @@ _HIGHEST_CENTER = 0.49
 
 @dataclass(frozen=True)
 class SvfBandpass:
-    """Band-pass of second order: 0 dB at `center_hz`, zero at 0 Hz and at half the rate, 6 dB per octave beside.
+    """Filter by a state-variable band-pass of second order at `center_hz`, the paper's conversion.
+
+    0 dB at `center_hz`, 6 dB per octave on both sides, zero at 0 Hz and at half the sample rate.
 
     Parameters: center_hz > 0; q 0.1..100 [-], the bandwidth at -3 dB is center_hz / q. The default of 0.707 passes 129
     to 483 Hz; assumed, since the paper does not tell its resonance.

@@ -41,7 +41,7 @@ class SceneReport:
 @clear_attributes
 @dataclass(frozen=True)
 class ManyReport:
-    """All scenes, in the order given; the duration of the run [s]; the reports of the model's stack of wrappers."""
+    """Report of `bake_many`: all scenes in the order given, the duration [s], and the counts of a model's wrappers."""
 
     scenes: Sequence[SceneReport]
     seconds: float = 0.0

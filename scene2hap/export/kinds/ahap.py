@@ -11,7 +11,7 @@ from scene2hap.export.track import Track
 
 
 class AhapExport:
-    """Curves as AHAP files. Settings: those of `CurveSettings`. Raises: ConfigError."""
+    """Write curves as AHAP files, for iPhone. Settings: those of `CurveSettings`. Raises: ConfigError."""
 
     def __init__(self, **settings: Any) -> None:
         self.settings = CurveSettings(**settings)

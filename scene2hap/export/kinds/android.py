@@ -13,7 +13,7 @@ _FULL = 255
 
 
 class AndroidExport:
-    """Timings, amplitudes and repeat, in the order of the call's arguments. The format has no frequency."""
+    """Write timings, amplitudes and repeat of Android's call, in this order. The format has no frequency."""
 
     def export(self, track: Track) -> Exported:
         """Return one file for each channel."""

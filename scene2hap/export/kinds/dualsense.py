@@ -14,7 +14,10 @@ _ACTUATOR = {"left": 2, "right": 3}
 
 
 class DualSenseExport:
-    """WAV of four channels, 16 bits, 48 kHz, as the card needs it. A track of one channel moves both actuators."""
+    """Write a WAV of four channels, 16 bits, 48 kHz, for the DualSense's sound card.
+
+    A track of one channel moves both actuators.
+    """
 
     def export(self, track: Track) -> Exported:
         """Return one file with all channels. If there is a left or right channel, others are left out."""

@@ -11,7 +11,7 @@ from scene2hap.export.track import Track
 
 
 class HapticExport:
-    """Curves as `.haptic` files. Settings: those of `CurveSettings`. Raises: ConfigError."""
+    """Write curves as `.haptic` files, for Meta Quest. Settings: those of `CurveSettings`. Raises: ConfigError."""
 
     def __init__(self, **settings: Any) -> None:
         self.settings = CurveSettings(**settings)

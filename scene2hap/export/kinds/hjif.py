@@ -30,7 +30,7 @@ _TRANSIENT_HZ = (65.0, 300.0)
 
 
 class HjifExport:
-    """Curves as HJIF.
+    """Write curves as HJIF files of MPEG haptics.
 
     Parameters: profile : "Simple Parametric", with times in milliseconds, or "Main", with times in 1/48,000 s. Other
         settings: those of `CurveSettings`.

@@ -15,7 +15,7 @@ MAX_AMPLITUDES = 4000
 
 
 class OpenXrEnvelopeExport:
-    """Calls of at most 4,000 amplitudes each, to be made one after the other.
+    """Write OpenXR calls with amplitudes, at most 4,000 each, to be made one after the other.
 
     Parameters: step_s : time between two amplitudes [s].
     Raises: ConfigError.

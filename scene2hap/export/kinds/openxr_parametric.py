@@ -27,7 +27,7 @@ Rows = list[dict[str, Any]]
 
 
 class OpenXrParametricExport:
-    """Calls of the parametric extension.
+    """Write OpenXR calls of the parametric extension, with curves of amplitude and frequency.
 
     Parameters:
     first_frame_s, frame_s : least length of the first frame of a stream, and of each later one [s]. A runtime reports

@@ -15,7 +15,7 @@ BUFFER_SIZE = 4000
 
 
 class OpenXrPcmExport:
-    """Samples as little-endian 32-bit floats.
+    """Write samples for OpenXR as little-endian 32-bit floats.
 
     Parameters: sample_rate_hz : the rate from xrGetDeviceSampleRateFB of the runtime; 2,000 in Meta's sample program.
     Raises: ConfigError.

@@ -11,7 +11,7 @@ from scene2hap.export.track import Channel, Track
 
 
 class PcmExport:
-    """Samples as raw floats. Parameters: sample_rate_hz [Hz]. Raises: ConfigError."""
+    """Write samples as raw floats. Parameters: sample_rate_hz [Hz]. Raises: ConfigError."""
 
     def __init__(self, sample_rate_hz: float = 8000.0) -> None:
         self.sample_rate_hz = checks.number(

@@ -15,7 +15,7 @@ from scene2hap.export.track import Track
 
 
 class WavExport:
-    """Samples as 24-bit WAV. Parameters: sample_rate_hz : whole hertz. Raises: ConfigError."""
+    """Write samples as 24-bit WAV. Parameters: sample_rate_hz : whole hertz. Raises: ConfigError."""
 
     def __init__(self, sample_rate_hz: int = 48_000) -> None:
         self.sample_rate_hz = checks.whole(

@@ -33,7 +33,7 @@ _OURS = frozenset({"model", "messages", "images", "response_format", "format", "
 
 @clear_construction
 class LocalBackend:
-    """Answers of a local server.
+    """Answer by a model on a server of your own: Ollama, vLLM, llama.cpp or LM Studio.
 
     Parameters:
     model : its name on the server; None if the server has only one.

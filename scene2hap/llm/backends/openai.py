@@ -47,7 +47,7 @@ _NO_CAPACITY = "resource_unavailable"
 
 @clear_construction
 class OpenAIBackend:
-    """Answers of an OpenAI model.
+    """Answer by a model of OpenAI, or of a service with the same interface.
 
     Parameters:
     model : its name.

@@ -18,8 +18,9 @@ _Facts = Mapping[str, Any]
 
 @clear_construction
 class LexiconBackend:
-    """Answer from `request.facts` alone; ignore prompt, pictures and temperature.
+    """Answer by word lists and tables of everyday objects, without network and key; the default backend.
 
+    Only `request.facts` is read; prompt, pictures and temperature are ignored.
     An object that is not in the table gets the category "unknown", a confidence of at most 0.2, and is silent.
     Raises (from `complete`): BadAnswer: a fact is missing or of the wrong kind, or the requested material is not in the
     material table.

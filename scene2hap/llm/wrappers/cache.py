@@ -45,7 +45,7 @@ class _Entry(BaseModel):
 
 @clear_construction
 class CacheBackend(Wrapper):
-    """Answer from `folder` if possible. Otherwise call `inner`, and store the answer if it is valid.
+    """Answer from a folder of stored answers if possible. Otherwise call `inner`, and store the answer if it is valid.
 
     The key is the key of a recording plus the inner backend's `identity`: model, base address, and other settings that
     affect the answer. A hit reports no usage, since it costs nothing. Equal questions at the same time cause one call,

@@ -24,7 +24,7 @@ from scene2hap.errors import ConfigError
 @clear_construction
 @dataclass(frozen=True)
 class Hand:
-    """A hand as a mechanical load.
+    """A hand as a mechanical load on the touched object: a chain of masses, springs and dampers.
 
     Parameters: masses_kg : at least one, >= 0, [0] is what touches; stiffnesses_n_m, dampings_n_s_m : as many, >= 0, of
     the spring and the damper behind each mass; those of the last lead to a place that does not move. `PALM` and
@@ -53,7 +53,7 @@ class Hand:
             )
 
     def impedance_n_s_m(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """Z at frequencies (n_frequencies,) > 0 [Hz] -> (n_frequencies,) complex128 [N s/m], real part >= 0."""
+        """Return the impedance Z at frequencies (n_frequencies,) > 0 [Hz], complex128 [N s/m], real part >= 0."""
         j_omega = 2j * math.pi * np.asarray(frequencies_hz, dtype=np.float64)
         behind: NDArray[np.complex128] | None = None
         for mass, stiffness, damping in reversed(

@@ -64,7 +64,7 @@ def capture_images(
     config: CaptureConfig | Mapping[str, Any] | None = None,
     alone: bool = False,
 ) -> SceneSnapshot:
-    """Return the scene with images. Each picture is rendered at its first access.
+    """Return the scene with pictures for a multimodal model. Each picture is rendered at its first access.
 
     Parameters:
     object_ids : the objects that get images, None for all. The scene gets its own in any case.

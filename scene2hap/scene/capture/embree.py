@@ -69,7 +69,7 @@ class _Tree:
 
 
 class EmbreeRenderer:
-    """Renderer of a `Stage` by ray casting. See `Renderer`."""
+    """Render a scene by ray casting, with smooth edges; the default. See `Renderer`."""
 
     def __init__(self, stage: Stage, antialias: bool = False) -> None:
         self._stage = stage

@@ -31,7 +31,7 @@ _MOST_DIRECTIONS = 72
 
 
 class Panda3DRenderer:
-    """Renderer of a `Stage` with a software rasteriser, without smooth edges. See `Renderer`."""
+    """Render a scene by a software rasteriser, faster and without smooth edges. See `Renderer`."""
 
     def __init__(self, stage: Stage, antialias: bool = False) -> None:
         self._stage = stage

@@ -58,12 +58,15 @@ def snapshot(
     masses: Literal["engine"] | None = None,
     unit_m: float = 1.0,
 ) -> SceneSnapshot:
-    """Return the scene in its state in `data`: current after `mj_forward`, one time step old after `mj_step`.
+    """Return the scene of a MuJoCo model, with the poses in `data`.
+
+    Poses are current after `mj_forward`, and one time step old after `mj_step`.
 
     Parameters:
     model, data : `mujoco.MjModel` and `mujoco.MjData`.
     name : of the scene; None means the model's.
-    geom_groups : the numbers of the groups that are drawn, instead of rule 3.
+    geom_groups : the numbers of the geom groups that are drawn; None draws the geoms of a body that cannot collide, or
+        all if it has none of these.
     contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo has none between
         bodies that cannot move against each other, such as a kettle welded to its stove.
     masses : None has them inferred; "engine" takes `model.body_mass`. Use that only if the model's author gave masses:

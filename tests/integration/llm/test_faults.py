@@ -55,7 +55,7 @@ def test_permanently_failing_server_ends_with_an_error(name: str, tmp_path: Path
 
 @pytest.mark.parametrize("kind", sorted(set(BACKENDS) - {"openai"}))
 @pytest.mark.parametrize("name", ELSEWHERE)
-def test_local_servers(name: str, kind: str, tmp_path: Path) -> None:
+def test_faults_of_local_servers_end_as_expected(name: str, kind: str, tmp_path: Path) -> None:
     fault = FAULTS[name]
     outcome = run(fault, kind, tmp_path, n=N, sleep=short)
     assert_kept_its_promises(outcome)

@@ -171,7 +171,7 @@ def test_sounds_of_machines_have_no_step_at_the_wrap(sound: Callable[[str], Audi
         assert levels[1:].min() - 1.5 < levels[0] < levels[1:].max() + 1.5
 
 
-def test_the_fade_itself_sample_by_sample() -> None:
+def test_fade_has_the_computed_samples() -> None:
     x = np.arange(20.0)
     linear = apply_seam(x, Seam(2, 8, 4, "linear"))
     assert linear.dtype == np.float32

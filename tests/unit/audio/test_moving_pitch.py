@@ -86,7 +86,7 @@ def test_the_band_is_3_db_down_at_the_ends_of_the_pitch() -> None:
 
 
 @pytest.mark.parametrize("kind", ["steady", "noise", "impulses", "silence"])
-def test_what_has_no_pitch_that_moves_keeps_its_band(kind: str) -> None:
+def test_a_sound_without_moving_pitch_keeps_its_band(kind: str) -> None:
     rng = np.random.default_rng(4)
     noise = rng.standard_normal(len(T))
     sound = {
@@ -99,7 +99,7 @@ def test_what_has_no_pitch_that_moves_keeps_its_band(kind: str) -> None:
     assert found is None or found.band_q is None
 
 
-def test_growth_is_that_of_the_range_of_the_level() -> None:
+def test_growth_is_the_increase_of_the_level_range() -> None:
     """A band that is half as strong in half of the time: 6 dB more than the sound, at any rate."""
     sound = np.sin(2 * np.pi * 100.0 * T)
     band = np.sin(2 * np.pi * 100.0 * T[::4]) * np.where(T[::4] < 8.0, 1.0, 0.5)

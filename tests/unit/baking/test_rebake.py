@@ -88,7 +88,7 @@ def test_correction_of_a_missing_object_is_dropped_with_a_warning() -> None:
     assert not again.overrides
 
 
-def test_an_object_that_is_not_there(bundle: HapticBundle) -> None:
+def test_rebake_refuses_an_unknown_object(bundle: HapticBundle) -> None:
     with pytest.raises(UnknownObject):
         rebake(bundle, {"llm": answering()}, objects=["chair"])
 

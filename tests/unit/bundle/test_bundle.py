@@ -97,7 +97,7 @@ def test_a_failed_save_leaves_the_old_bundle(folder: Path, monkeypatch: pytest.M
     assert [path.name for path in folder.parent.iterdir()] == [folder.name]
 
 
-def test_a_newer_version(folder: Path) -> None:
+def test_a_newer_version_is_refused(folder: Path) -> None:
     manifest = json.loads((folder / "bundle.json").read_text())
     (folder / "bundle.json").write_text(json.dumps({**manifest, "version": 2}))
     with pytest.raises(BundleVersionError, match=r"bundle version 2; this scene2hap reads up to 1\. Upgrade"):
@@ -131,7 +131,7 @@ def test_truncated_mesh_is_reported(tmp_path: Path) -> None:
         HapticBundle.load(folder)
 
 
-def test_not_a_bundle(tmp_path: Path) -> None:
+def test_a_folder_that_is_no_bundle_is_refused(tmp_path: Path) -> None:
     with pytest.raises(BundleIncomplete, match="has no bundle.json"):
         HapticBundle.load(tmp_path)
     (tmp_path / "bundle.json").write_text("{}")

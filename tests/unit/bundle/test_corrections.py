@@ -30,7 +30,7 @@ def test_corrections_have_the_effect_of_overrides(tmp_path: Path) -> None:
     assert not bundle.overrides
 
 
-def test_rebake_and_the_command_take_them_over(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rebake_and_edit_apply_a_file_of_corrections(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     phone = SceneObject("phone", geometry=Box((0.07, 0.01, 0.15)))
     bundle = bake(SceneSnapshot.build([phone], name="room"))
     file = saved(tmp_path / "c.json", {"phone": {"gain_db": -6.0}})

@@ -17,45 +17,45 @@ def test_neighbour_lists_are_complete_and_symmetric() -> None:
     rng = np.random.default_rng(4)
     margin = 0.05
     bodies = {f"b{i}": Body.of(box(f"b{i}", (0.2, 0.1, 0.2), tuple(rng.uniform(0, 2, 3))), 1) for i in range(80)}
-    crowd = BroadPhase(1, lambda _: (margin, 0.0))
-    crowd.update(list(bodies.values()))
+    phase = BroadPhase(1, lambda _: (margin, 0.0))
+    phase.update(list(bodies.values()))
     for step in range(60):
         movers = rng.choice(sorted(bodies), 4, replace=False).tolist()
         if step % 10 == 9:
             gone = movers.pop()
-            neighbours = set(crowd.neighbours[gone])
-            assert crowd.remove(gone) == neighbours
+            neighbours = set(phase.neighbours[gone])
+            assert phase.remove(gone) == neighbours
             del bodies[gone]
         moved = []
         for name in movers:
             at = np.array(bodies[name].position_m) + rng.normal(scale=SKIN_M / 2, size=3)
             bodies[name] = bodies[name].at(Pose(tuple(at.tolist())))
             moved.append(bodies[name])
-        before = {name: set(crowd.neighbours[name]) for name in movers}
-        left = crowd.update(moved)
-        # A pair that parted is told once, on either side.
-        told = {frozenset((x, y)) for x, others in left.items() for y in others}
-        assert told == {frozenset((x, y)) for x in movers for y in before[x] - crowd.neighbours[x]}
-        assert len(told) == sum(map(len, left.values()))
+        before = {name: set(phase.neighbours[name]) for name in movers}
+        left = phase.update(moved)
+        # A pair that parted is reported once, on either side.
+        reported = {frozenset((x, y)) for x, others in left.items() for y in others}
+        assert reported == {frozenset((x, y)) for x in movers for y in before[x] - phase.neighbours[x]}
+        assert len(reported) == sum(map(len, left.values()))
         for x in bodies:
             must = {y for y in bodies if y != x and meet(bodies[x], bodies[y], 2 * margin)}
-            assert must <= crowd.neighbours[x]
-            assert all(x in crowd.neighbours[y] for y in crowd.neighbours[x])
+            assert must <= phase.neighbours[x]
+            assert all(x in phase.neighbours[y] for y in phase.neighbours[x])
             may = {y for y in bodies if y != x and meet(bodies[x], bodies[y], 2 * margin + 2 * (SKIN_M + 0.36) + 1e-9)}
-            assert crowd.neighbours[x] <= may
+            assert phase.neighbours[x] <= may
 
 
 def test_a_body_within_its_inner_box_is_not_searched_again() -> None:
-    crowd = BroadPhase(1, lambda _: (0.01, 0.02))
+    phase = BroadPhase(1, lambda _: (0.01, 0.02))
     body = Body.of(box("b", (0.1, 0.1, 0.1), (0, 0, 0)), 1)
-    assert crowd.update([body]) == {"b": set()}
-    assert crowd.update([body.at(Pose((0.001, 0, 0)))]) == {"b": set()}  # drawn tight at first, wide from now on
-    assert crowd.update([body.at(Pose((0.9 * SKIN_M, 0, 0)))]) == {}
-    assert "b" in crowd.update([body.at(Pose((1.1 * SKIN_M + 0.001, 0, 0)))])
+    assert phase.update([body]) == {"b": set()}
+    assert phase.update([body.at(Pose((0.001, 0, 0)))]) == {"b": set()}  # drawn tight at first, wide from now on
+    assert phase.update([body.at(Pose((0.9 * SKIN_M, 0, 0)))]) == {}
+    assert "b" in phase.update([body.at(Pose((1.1 * SKIN_M + 0.001, 0, 0)))])
     # It may go back again without another list, and be lifted and put down over and over.
-    assert crowd.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
-    assert "b" in crowd.update([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))])
-    assert crowd.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
-    assert crowd.update([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))]) == {}
-    assert "b" in crowd.update([body.at(Pose((0.2 * SKIN_M, 0.5, 0)))])
-    assert "b" in crowd.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))])
+    assert phase.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
+    assert "b" in phase.update([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))])
+    assert phase.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
+    assert phase.update([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))]) == {}
+    assert "b" in phase.update([body.at(Pose((0.2 * SKIN_M, 0.5, 0)))])
+    assert "b" in phase.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))])

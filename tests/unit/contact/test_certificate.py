@@ -61,7 +61,9 @@ def looked_at(monkeypatch: pytest.MonkeyPatch) -> Looked:
         pytest.param([], {"cup": Pose((0.0, 0.75, 0.0)), "table": Pose((2.0, 0.35, 0.0))}, True, id="the table goes"),
     ],
 )
-def test_landing(others: list[SceneObject], moved: dict[str, Pose], is_certified: bool, looked_at: Looked) -> None:
+def test_landing_body_gets_a_certificate_if_nothing_else_is_near(
+    others: list[SceneObject], moved: dict[str, Pose], is_certified: bool, looked_at: Looked
+) -> None:
     objects = [floor(), TABLE, CUP, *others]
     graph = ContactGraph(scene(*objects))
     graph.update(IN_THE_AIR)

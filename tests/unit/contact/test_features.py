@@ -49,11 +49,11 @@ def test_both_sides_of_a_sheet_count_once() -> None:
     assert counts(shape(corners, [(0, 1, 2), (0, 2, 3), (0, 2, 1), (0, 3, 2)])) == (4, 4)
 
 
-def test_of_a_flat_grid_only_the_rim_is_searched() -> None:
+def test_only_the_rim_of_a_flat_grid_is_searched() -> None:
     assert counts(gridded(8)) == (32, 32)
 
 
-def test_a_fold_is_an_edge_and_so_is_a_flap_folded_back() -> None:
+def test_folds_of_any_angle_are_edges() -> None:
     corners = [(0, 0, 0), (1, 0, 0), (0, 0, 1), (1, 0.001, 1)]
     assert counts(shape(corners, [(0, 1, 2), (1, 3, 2)])) == (5, 4)
     back = [(0, 0, 0), (1, 0, 0), (0, 0, 1), (0.2, 0, 0.2)]
@@ -66,7 +66,7 @@ def test_no_edge_of_a_finely_cut_curve_is_flat() -> None:
     assert counts(gridded(n, 1e-4 * np.linspace(-1, 1, n + 1)[:, None] ** 2)) == (3 * n**2 + 2 * n, (n + 1) ** 2)
 
 
-def test_of_a_coarser_curve_the_strips_between_its_bends_are_flat() -> None:
+def test_strips_between_the_bends_of_a_coarse_curve_are_flat() -> None:
     n = 20
     n_edges, n_corners = counts(gridded(n, 0.1 * np.linspace(-1, 1, n + 1)[:, None] ** 2))
     assert (n_edges, n_corners) == ((n + 1) * n + 2 * n, (n + 1) ** 2)

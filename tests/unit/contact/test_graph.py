@@ -154,7 +154,7 @@ def test_bodies_at_rest_are_not_searched(monkeypatch: pytest.MonkeyPatch) -> Non
     assert all(pair == {"cup", "table"} for pair in met)
 
 
-def test_objects_come_and_go() -> None:
+def test_objects_can_be_added_and_removed() -> None:
     graph = room()
     plate = box("plate", (0.2, 0.01, 0.2), (-0.2, 0.705, 0.0))
     assert graph.update({}, added=[plate]) == ContactChange(appeared=frozenset({("plate", "table")}))
@@ -177,7 +177,7 @@ def test_a_removed_object_leaves_no_contacts() -> None:
     assert not graph.beside
 
 
-def test_an_id_may_be_taken_out_and_in_at_once() -> None:
+def test_one_update_may_remove_and_add_the_same_id() -> None:
     graph = room()
     graph.update({}, removed=["cup"], added=[box("cup", (0.3, 0.3, 0.3), (2, 0.15, 2))])
     assert pairs(graph) == {("floor", "table"), ("cup", "floor")}
@@ -210,7 +210,7 @@ def test_neighbours_of_an_unknown_object_are_refused() -> None:
         room().neighbours("tabel")
 
 
-def test_poses_are_read_only_and_of_their_moment() -> None:
+def test_poses_are_read_only_and_not_changed_by_later_updates() -> None:
     graph = room()
     poses = graph.poses
     with pytest.raises(TypeError):
@@ -230,7 +230,7 @@ def given_room() -> ContactGraph:
     return ContactGraph(scene(floor(), TABLE, CUP, contacts=GIVEN))
 
 
-def test_given_contacts_are_taken_as_they_are_but_for_the_order_of_ids() -> None:
+def test_given_contacts_are_kept_except_for_the_order_of_ids() -> None:
     assert given_room().contacts == (
         Contact("cup", "floor", (9.0, 9.0, 9.0)),
         Contact("cup", "table", (0.1, 0.7, 0.1)),
@@ -239,7 +239,7 @@ def test_given_contacts_are_taken_as_they_are_but_for_the_order_of_ids() -> None
     assert ContactGraph(scene(floor(), TABLE, CUP, contacts=reversed(GIVEN))).contacts == given_room().contacts
 
 
-def test_no_contact_given_is_no_contact() -> None:
+def test_an_empty_list_of_contacts_means_that_nothing_touches() -> None:
     assert ContactGraph(scene(floor(), TABLE, CUP, contacts=())).contacts == ()
 
 

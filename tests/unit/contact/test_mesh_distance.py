@@ -53,7 +53,7 @@ def test_boxes_turned_together_keep_their_closed_form_gap(
     assert np.linalg.norm(gap.way_m) == pytest.approx(expected, abs=1e-12)
 
 
-def test_the_way_leads_from_a_to_b_whichever_is_larger() -> None:
+def test_distance_vector_leads_from_a_to_b_whichever_is_larger() -> None:
     small, large = box("a", (0.1, 0.1, 0.1), (0, 0, 0)), box("b", (1, 1, 1), (0.75, 0, 0))
     there, back = meeting(small, large).gap(FAR), meeting(large, small).gap(FAR)
     assert there is not None

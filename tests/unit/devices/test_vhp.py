@@ -9,7 +9,7 @@ from scene2hap.devices.framing import vhp
 from scene2hap.errors import DeviceError
 
 
-def test_slim_frame_by_hand() -> None:
+def test_slim_frame_equals_one_worked_by_hand() -> None:
     block = np.zeros((8, 2), dtype=np.float32)
     block[0] = 1.0, -1.0
     block[1, 1] = 0.5
@@ -25,7 +25,7 @@ def test_slim_ending_fills_the_buffer_of_the_board_with_zero_drive() -> None:
     assert ending == bytes([0xC8, 0xC9, 0x11, 0x80, *[128] * 96]) * 8
 
 
-def test_sleeve_packets_by_hand() -> None:
+def test_sleeve_packets_equal_those_worked_by_hand() -> None:
     packet = vhp.sleeve_packet(np.zeros((8, 12), dtype=np.float32))
     assert packet == bytes([200, 3, 17, 96, *[128] * 96, *[0] * 32])
     amplifiers = vhp.packet(vhp.Message(vhp.MessageType.ENABLE_AMPLIFIERS, recipient=vhp.Recipient.ALL))
@@ -33,7 +33,7 @@ def test_sleeve_packets_by_hand() -> None:
     assert vhp.from_packet(amplifiers) == vhp.Message(15, b"", 1)
 
 
-def test_wireless_by_hand() -> None:
+def test_wireless_packet_equals_one_worked_by_hand() -> None:
     # type 14, no payload: low 1 + 14 = 15, 15 + 0 = 15; high 15, 15 + 15 = 30.
     assert vhp.wireless(vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS)) == bytes([15, 30, 14, 0])
 

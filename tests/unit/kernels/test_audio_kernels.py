@@ -12,7 +12,7 @@ from kernels import both, seeds, steady
 
 @steady
 @given(seed=seeds, n_sections=st.integers(1, 5), n_rows=st.integers(1, 3))
-def test_filters_of_sounds_in_stretches(seed: int, n_sections: int, n_rows: int) -> None:
+def test_kernels_filter_cut_sounds_alike(seed: int, n_sections: int, n_rows: int) -> None:
     """Silence within the sound lets the memory of a filter fade away, and each cut carries it on."""
     rng = np.random.default_rng(seed)
     low, high = np.sort(np.exp(rng.uniform(np.log(20.0), np.log(20_000.0), 2))) * (1.0, 1.05)
@@ -32,7 +32,7 @@ def test_filters_of_sounds_in_stretches(seed: int, n_sections: int, n_rows: int)
 
 @steady
 @given(seed=seeds, n_known=st.sampled_from([0, 5, 23, 24, 1000]))
-def test_the_mean_and_the_loudest_of_late(seed: int, n_known: int) -> None:
+def test_kernels_follow_the_same_mean_and_maximum(seed: int, n_known: int) -> None:
     rng = np.random.default_rng(seed)
     energies = np.exp(rng.uniform(-20.0, 0.0, 200)) * (rng.random(200) < 0.8)
     kinds = both("audio.tactile.onsets.followed")
@@ -43,7 +43,9 @@ def test_the_mean_and_the_loudest_of_late(seed: int, n_known: int) -> None:
 
 @steady
 @given(seed=seeds, n_known=st.sampled_from([0, 20, 1000]), spares=st.booleans(), rate=st.sampled_from([0.02, 0.2]))
-def test_onsets_and_how_far_the_bed_is_lowered(seed: int, n_known: int, spares: bool, rate: float) -> None:
+def test_kernels_find_the_same_onsets_and_lower_the_bed_alike(
+    seed: int, n_known: int, spares: bool, rate: float
+) -> None:
     """Steps of noise with strokes that last for up to eight of them, cut in two."""
     rng = np.random.default_rng(seed)
     n, beyond = 300, 8
@@ -71,7 +73,7 @@ def test_onsets_and_how_far_the_bed_is_lowered(seed: int, n_known: int, spares: 
 
 @steady
 @given(seed=seeds, start=st.integers(0, 10**9), n=st.integers(1, 9000))
-def test_products_with_an_oscillator(seed: int, start: int, n: int) -> None:
+def test_kernels_multiply_by_an_oscillator_alike(seed: int, start: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     cycles = float(rng.uniform(1e-4, 0.5))
     angle = 2.0 * np.pi * cycles * np.arange(4096)
@@ -85,7 +87,7 @@ def test_products_with_an_oscillator(seed: int, start: int, n: int) -> None:
 
 @steady
 @given(seed=seeds, step=st.integers(1, 500), n=st.integers(0, 20))
-def test_energies_and_gains_of_steps(seed: int, step: int, n: int) -> None:
+def test_kernels_find_the_same_step_energies_and_fade_alike(seed: int, step: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     x, gains = rng.standard_normal(step * n), rng.uniform(0.1, 5.0, n + 1)
     plain, compiled = (kernel(x, step) for kernel in both("audio.tactile.step_energies.mean_squares"))
@@ -96,7 +98,7 @@ def test_energies_and_gains_of_steps(seed: int, step: int, n: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_modulation_by_a_low_component(seed: int) -> None:
+def test_kernels_modulate_by_a_low_component_alike(seed: int) -> None:
     """Where the mean is below the least, or below 0 as an overshooting filter makes it, the depth is bounded."""
     rng = np.random.default_rng(seed)
     bed, low = rng.standard_normal((2, 500))

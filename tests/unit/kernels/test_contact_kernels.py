@@ -29,7 +29,7 @@ def turned(rng: np.random.Generator, up_axis: int) -> tuple[float, float, float,
 
 @pytest.mark.parametrize("stands", [True, False])
 @pytest.mark.parametrize("up_axis", [1, 2])
-def test_moves_within_bounds_to_the_last_bit(up_axis: int, stands: bool) -> None:
+def test_kernels_track_moves_bit_for_bit(up_axis: int, stands: bool) -> None:
     kinds, box, n_within = both("contact.track.Track"), Box((0.3, 0.2, 0.1)).mesh, 0
     for seed in range(150):
         rng = np.random.default_rng(seed)
@@ -79,7 +79,7 @@ def mesh_pair(rng: np.random.Generator) -> MeshPair:
 
 @steady
 @given(seed=seeds)
-def test_distances_of_meshes_to_the_last_bit(seed: int) -> None:
+def test_kernels_find_mesh_distances_bit_for_bit(seed: int) -> None:
     for k in range(8):
         rng = np.random.default_rng((seed, k))
         pair = mesh_pair(rng)
@@ -107,7 +107,7 @@ def test_distances_of_meshes_to_the_last_bit(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_weights_of_supports_to_the_last_bit(seed: int) -> None:
+def test_kernels_weigh_supports_bit_for_bit(seed: int) -> None:
     rng = np.random.default_rng(seed)
     plain, twin = both("contact.rule.support_weights")
     n, m = int(rng.integers(1, 5)), int(rng.integers(1, 40))
@@ -119,7 +119,7 @@ def test_weights_of_supports_to_the_last_bit(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_triangles_in_a_box(seed: int) -> None:
+def test_kernels_find_the_same_triangles_in_a_box(seed: int) -> None:
     rng = np.random.default_rng(seed)
     tree = shape_of(mesh(rng)).tree
     plain, twin = both("contact.geometry.triangle_tree.meeting")
@@ -136,7 +136,7 @@ def test_triangles_in_a_box(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_rectangles_covered_by_a_ledge(seed: int) -> None:
+def test_kernels_find_the_same_rectangles_covered_by_a_ledge(seed: int) -> None:
     rng = np.random.default_rng(seed)
     plain, twin = both("contact.ledge.covers")
     k, n = int(rng.integers(0, 6)), int(rng.integers(0, 9))
@@ -150,7 +150,7 @@ def test_rectangles_covered_by_a_ledge(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_outlines_over_each_other_to_the_last_bit(seed: int) -> None:
+def test_kernels_intersect_outlines_bit_for_bit(seed: int) -> None:
     rng = np.random.default_rng(seed)
     outlines = []
     for n in rng.choice([1, 2, 3, 4, 5, 60], 2):
@@ -171,7 +171,7 @@ def test_outlines_over_each_other_to_the_last_bit(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_outlines_beside_each_other_to_the_last_bit(seed: int) -> None:
+def test_kernels_find_outline_gaps_bit_for_bit(seed: int) -> None:
     rng = np.random.default_rng(seed)
     outlines = []
     for n in rng.integers(3, 9, 2):
@@ -189,7 +189,7 @@ def test_outlines_beside_each_other_to_the_last_bit(seed: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(1, 20), n_axes=st.integers(2, 3))
-def test_few_points_that_stand_for_more(seed: int, n: int, n_axes: int) -> None:
+def test_kernels_select_the_same_contact_points(seed: int, n: int, n_axes: int) -> None:
     # On a grid many are equally far; some are nearer to each other than is told apart, or a rounding error away.
     rng = np.random.default_rng(seed)
     places = rng.integers(0, 3, (n, n_axes)) * rng.choice([0.1, 0.003, 1e-7]) + rng.choice([0.0, 1e-12, 0.01], (n, 1))

@@ -24,7 +24,7 @@ def places(rng: np.random.Generator, n: int) -> list[tuple[float, float, float]]
 
 @steady
 @given(seed=seeds, max_hops=st.sampled_from([1, 2, 3, 4, None]))
-def test_cheapest_paths_over_contacts_that_come_and_go_and_move(seed: int, max_hops: int | None) -> None:
+def test_kernels_find_the_same_paths_as_contacts_change(seed: int, max_hops: int | None) -> None:
     rng = np.random.default_rng(seed)
     ids = [f"x{i}" for i in range(9)]
     prices = {x: float(rng.choice([0.0, rng.uniform(0.1, 2)])) for x in ids[:-2]}
@@ -64,7 +64,7 @@ def test_cheapest_paths_over_contacts_that_come_and_go_and_move(seed: int, max_h
 
 @steady
 @given(lengths=st.lists(st.one_of(st.just(0.0), st.just(math.inf), st.floats(1e-6, 1e3)), max_size=9))
-def test_gains_of_bands(lengths: list[float]) -> None:
+def test_kernels_find_the_same_band_gains(lengths: list[float]) -> None:
     plain, compiled = (
         kind(np.geomspace(10.0, 80.0, 21))(lengths) for kind in both("propagation.bands.band_rms.BandRms")
     )
@@ -73,7 +73,7 @@ def test_gains_of_bands(lengths: list[float]) -> None:
 
 @steady
 @given(seed=seeds)
-def test_near_fields(seed: int) -> None:
+def test_near_field_kernels_agree(seed: int) -> None:
     rng = np.random.default_rng(seed)
     drives, cut2 = rng.uniform(0, [1.0, 2 / 3], (4, 2)), rng.uniform(10, 1e4, 4)
     numbers = (drives, rng.normal(size=4), rng.normal(size=4), cut2, (2.0, 3.0, 30.0, 20.0), table())
@@ -87,7 +87,7 @@ def test_near_fields(seed: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3))
-def test_products_of_cosines(seed: int, n: int) -> None:
+def test_kernels_find_the_same_products_of_cosines(seed: int, n: int) -> None:
     points = np.random.default_rng(seed).uniform(-0.1, 1.1, (n, 2))
     found = [np.empty((n, 20)), np.empty((n, 20))]
     for fill, one in zip(both("propagation.plate_terms.fill_cosines"), found, strict=True):
@@ -97,7 +97,7 @@ def test_products_of_cosines(seed: int, n: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3), dtype=st.sampled_from([np.float32, np.float64]))
-def test_forces_folded(seed: int, n: int, dtype: type) -> None:
+def test_kernels_contract_forces_alike(seed: int, n: int, dtype: type) -> None:
     rng = np.random.default_rng(seed)
     n_forces, n_columns, k2 = int(rng.integers(0, 4)), int(rng.integers(0, 5)), rng.uniform(0.1, 5.0, 4)
     drives, cut2 = rng.uniform(0, 1, (n_forces, 2)), rng.uniform(10, 1e4, n_forces)
@@ -117,7 +117,7 @@ def test_forces_folded(seed: int, n: int, dtype: type) -> None:
 
 @steady
 @given(seed=seeds, n_own=st.lists(st.integers(0, 6), min_size=1, max_size=4), n=st.integers(0, 3))
-def test_lengths_in_bands(seed: int, n_own: list[int], n: int) -> None:
+def test_kernels_find_the_same_lengths_in_bands(seed: int, n_own: list[int], n: int) -> None:
     rng = np.random.default_rng(seed)
     factors = [np.triu(rng.normal(size=(n, k, k))) for k in n_own]
     values, mixing = (rng.normal(size=size).astype(np.float32) for size in ((2, 3), (3, sum(n_own))))
@@ -130,7 +130,7 @@ def test_lengths_in_bands(seed: int, n_own: list[int], n: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3), own=st.integers(-1, 4))
-def test_responses_of_an_object(seed: int, n: int, own: int) -> None:
+def test_object_response_kernels_agree(seed: int, n: int, own: int) -> None:
     rng = np.random.default_rng(seed)
     columns = rng.choice(5, int(rng.integers(0, 5)), replace=False)
     arriving = rng.uniform(0, 1, (n, len(columns), 3))
@@ -143,7 +143,7 @@ def test_responses_of_an_object(seed: int, n: int, own: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3), m=st.integers(0, 3))
-def test_sizes_of_complex_numbers(seed: int, n: int, m: int) -> None:
+def test_kernels_find_the_same_magnitudes(seed: int, n: int, m: int) -> None:
     pairs = np.random.default_rng(seed).normal(size=(n, 2 * m))
     told, compiled = (
         kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.coupled.object_response.Magnitudes")
@@ -170,7 +170,7 @@ def test_sizes_of_complex_numbers(seed: int, n: int, m: int) -> None:
     ],
     ids=str,
 )
-def test_points_as_they_mostly_come(points: Any) -> None:
+def test_kernels_read_points_in_usual_forms_alike(points: Any) -> None:
     told, compiled = (take(points, 3) for take in both("propagation.points.of_tuples"))
     if told is None:
         assert compiled is None
@@ -179,7 +179,7 @@ def test_points_as_they_mostly_come(points: Any) -> None:
 
 
 @pytest.mark.parametrize("odd", [0.0, 1e200, -1e308, math.inf, -math.inf, math.nan])
-def test_finite_points(odd: float) -> None:
+def test_kernels_agree_whether_points_are_finite(odd: float) -> None:
     plain, twin = both("propagation.points.are_finite")
     for n in range(3):
         points = np.ones((n, 3))
@@ -189,7 +189,7 @@ def test_finite_points(odd: float) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 4))
-def test_points_in_a_rectangle(seed: int, n: int) -> None:
+def test_kernels_move_points_into_a_rectangle_alike(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     pose = Pose(tuple(rng.normal(size=3).tolist()), tuple(rng.normal(size=4).tolist()))
     points = rng.normal(size=(n, 3))
@@ -197,7 +197,7 @@ def test_points_in_a_rectangle(seed: int, n: int) -> None:
     np.testing.assert_allclose(compiled, told, atol=1e-14)
 
 
-def test_a_compiled_factorisation_solves_what_the_plain_one_leaves_to_dense_systems() -> None:
+def test_compiled_factorisation_solves_systems_that_are_dense_in_plain_python() -> None:
     rng = np.random.default_rng(5)
     rows = [[0, 1, 2, 3], [0, 4], [1, 5], [2, 3, 4, 5]]
     elements = []

@@ -20,7 +20,7 @@ from scene2hap.render.upsampler import Upsampler
 
 @steady
 @given(seed=seeds, begin=st.one_of(st.integers(0, 10**6), st.integers(2**58, 2**60)))
-def test_cells_of_loops(seed: int, begin: int) -> None:
+def test_kernels_read_the_same_cells_of_a_loop(seed: int, begin: int) -> None:
     rng = np.random.default_rng(seed)
     length = int(rng.integers(1, 200))
     samples = rng.normal(size=(length + CELL, 3)).astype(np.float32)
@@ -41,7 +41,7 @@ def test_cells_of_loops(seed: int, begin: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_gains_on_their_way(seed: int) -> None:
+def test_kernels_ramp_gains_alike(seed: int) -> None:
     rng = np.random.default_rng(seed)
     n_loops, n_bands, n_hands, n_slots, ramp = 5, 4, 2, 6, 80
     rise = np.concatenate([np.zeros(CELL), np.linspace(0, 1, ramp), np.ones(CELL)]).astype(np.float32)
@@ -79,7 +79,7 @@ def clips(rng: np.random.Generator, n: int) -> list[AudioClip]:
 
 @pytest.mark.parametrize("rate_hz", [48000, 44100, 8000])
 @pytest.mark.parametrize("is_skipping", [True, False])
-def test_mixes_that_gains_come_to(rate_hz: int, is_skipping: bool) -> None:
+def test_kernels_mix_alike_under_changing_gains(rate_hz: int, is_skipping: bool) -> None:
     rng = np.random.default_rng(rate_hz)
     bank, incoming, playheads, mixes = LoopBank(clips(rng, 4), Bands.dominant(), 8000), [], [], []
     for mix_kind, kind in zip(both("render.tactile_mix.TactileMix"), both("render.mixer.Playhead"), strict=True):
@@ -112,7 +112,7 @@ def test_mixes_that_gains_come_to(rate_hz: int, is_skipping: bool) -> None:
 
 
 @pytest.mark.parametrize(("up", "down"), [(6, 1), (441, 80), (1, 1)])
-def test_outputs_of_cells(up: int, down: int) -> None:
+def test_kernels_upsample_cells_alike(up: int, down: int) -> None:
     rng = np.random.default_rng(up)
     h = rng.normal(size=14 * up).astype(np.float32)
     x = rng.normal(size=(2, 13 + CELL)).astype(np.float32)
@@ -127,7 +127,7 @@ def test_outputs_of_cells(up: int, down: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_the_limiter(seed: int) -> None:
+def test_limiter_kernels_agree(seed: int) -> None:
     mix = np.random.default_rng(seed).normal(size=(2, 50)).astype(np.float32)
     told, compiled = mix.copy(), mix.copy()
     for limit, block in zip(both("render.limiter.limit_in_place"), (told, compiled), strict=True):
@@ -137,7 +137,7 @@ def test_the_limiter(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_turning_down(seed: int) -> None:
+def test_kernels_reduce_loud_mixes_alike(seed: int) -> None:
     rng = np.random.default_rng(seed)
     held = np.zeros((2, 2))
     for _ in range(5):

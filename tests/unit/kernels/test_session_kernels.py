@@ -13,7 +13,7 @@ from kernels import both, seeds, steady
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3))
-def test_sources_within_the_cutoff(seed: int, n: int) -> None:
+def test_kernels_select_the_same_sources_within_the_cut_off(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     prices = rng.choice([0.0, 1.0, 2.0, math.inf], (n, 5)).tolist()
     cutoff = rng.choice([-1.0, 0.0, 1.5, math.inf], 5).tolist()
@@ -24,7 +24,7 @@ def test_sources_within_the_cutoff(seed: int, n: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3))
-def test_silent_bands(seed: int, n: int) -> None:
+def test_kernels_silence_the_same_bands(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     least = rng.choice([0.0, 0.5, np.inf], (4, 5)).astype(np.float32)
     columns = None if rng.random() < 0.3 else sorted(rng.choice(4, int(rng.integers(0, 5)), replace=False).tolist())
@@ -37,7 +37,7 @@ def test_silent_bands(seed: int, n: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3), m=st.integers(0, 4), has_peaks=st.booleans(), has_least=st.booleans())
-def test_audible_sources(seed: int, n: int, m: int, has_peaks: bool, has_least: bool) -> None:
+def test_kernels_select_the_same_audible_sources(seed: int, n: int, m: int, has_peaks: bool, has_least: bool) -> None:
     rng = np.random.default_rng(seed)
     gains = rng.choice([0.0, 1e-9, 0.1, 0.5], (n, m, 5), p=[0.6, 0.1, 0.2, 0.1]).astype(np.float32)
     peaks = rng.uniform(0, 2, (m, 5)).astype(np.float32) if has_peaks else None
@@ -50,7 +50,7 @@ def test_audible_sources(seed: int, n: int, m: int, has_peaks: bool, has_least: 
 
 @steady
 @given(seed=seeds, n=st.integers(0, 3))
-def test_caps(seed: int, n: int) -> None:
+def test_kernels_cap_gains_alike(seed: int, n: int) -> None:
     gains = np.random.default_rng(seed).choice([-1.0, -0.0, 0.0, 0.5, 2.0, 3.0, np.nan, np.inf], (n, 4, 5))
     told, compiled = gains.copy(), gains.copy()
     plain, twin = both("session.hand_gains.cap")
@@ -60,7 +60,7 @@ def test_caps(seed: int, n: int) -> None:
 
 @steady
 @given(seed=seeds, n=st.integers(0, 4), n_theirs=st.integers(0, 5))
-def test_answers_of_the_last_field(seed: int, n: int, n_theirs: int) -> None:
+def test_kernels_answer_alike_from_the_last_field(seed: int, n: int, n_theirs: int) -> None:
     rng = np.random.default_rng(seed)
     own = [rows.tolist() for rows in np.split(rng.permutation(n), sorted(rng.integers(0, n + 1, 2)))]
     answers = [rng.uniform(0, 2, (len(rows), n_theirs, 3)) for rows in own]

@@ -48,13 +48,13 @@ def read(thing: object) -> Reader:
     return Reader(thing._repr_html_())  # type: ignore[attr-defined]
 
 
-def test_a_material() -> None:
+def test_a_material_is_a_table() -> None:
     seen = read(materials.lookup("steel"))
     assert ["Young's modulus [GPa]", "200"] in seen.rows
     assert "Material steel" in seen.text
 
 
-def test_a_scene() -> None:
+def test_a_scene_is_a_table() -> None:
     seen = read(table_with_two_phones()[0])
     assert seen.rows[0][0] == "object"
     assert seen.rows[1] == ["table", "table", "1.6 × 0.8 × 0.02", "0.7", "-"]
@@ -73,7 +73,7 @@ def test_a_bundle_has_each_state_of_its_sources_first() -> None:
 
 
 @pytest.mark.parametrize("model", ["exponential_plate", "infinite_plate"])
-def test_an_explanation(model: str) -> None:
+def test_an_explanation_is_a_table(model: str) -> None:
     session = HapticSession(
         *table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": model, "prepare": "blocking"}
     )

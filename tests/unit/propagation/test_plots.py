@@ -54,6 +54,6 @@ def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
         ({"object_id": "top", "band": 2}, "band is 2"),
     ],
 )
-def test_refusals(question: dict, message: str) -> None:
+def test_invalid_arguments_are_refused(question: dict, message: str) -> None:
     with pytest.raises(ModelDomainError, match=message):
         plot_field(FIELD, NETWORK, **question)

@@ -186,7 +186,7 @@ def test_missing_coordinate_set_falls_back_to_the_first(tmp_path: Path) -> None:
         ("<transparency><float>0</float></transparency>", 1.0),
     ],
 )
-def test_colour_and_opacity(tmp_path: Path, more: str, opacity: float) -> None:
+def test_colour_and_opacity_are_read(tmp_path: Path, more: str, opacity: float) -> None:
     painted, _ = load_scene(textured(tmp_path, "<color>0.1 0.2 0.3 1</color>", more=more), unit_m=1.0).objects
     (material,) = looks(painted).materials
     assert material.color_rgba == pytest.approx((0.1, 0.2, 0.3, opacity))

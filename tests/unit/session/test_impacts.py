@@ -247,7 +247,7 @@ def test_an_object_that_is_touched_next_is_prepared_beside_the_last_ones() -> No
     assert made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0).felt
 
 
-def test_it_sounds_with_the_next_block_and_ends() -> None:
+def test_an_impact_sounds_with_the_next_block_and_ends() -> None:
     made = session()
     made.update(touches=touches())
     made.render(256)

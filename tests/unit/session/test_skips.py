@@ -46,7 +46,7 @@ def only(name: str) -> dict[str, bool]:
 
 
 @pytest.mark.parametrize("skip", [False, only("unreachable")])
-def test_objects_that_no_source_reaches(skip: Any) -> None:
+def test_objects_that_no_source_reaches_are_skipped(skip: Any) -> None:
     model = Watched()
     s = session(skip, model)
     gains = s.update(touches=[ON_TABLE, ON_CUP]).gains
@@ -65,7 +65,7 @@ def test_objects_that_no_source_reaches(skip: Any) -> None:
 
 
 @pytest.mark.parametrize("skip", [False, only("unreachable")])
-def test_contacts_that_no_source_reaches(skip: Any) -> None:
+def test_contact_changes_that_no_source_reaches_prepare_nothing(skip: Any) -> None:
     s = session(skip)
     # The block goes to the cup, where it stands on it, and then the cup is shifted below it.
     s.update({"block": Pose((5.0, 0.45, 5.0))})
@@ -79,7 +79,7 @@ def test_contacts_that_no_source_reaches(skip: Any) -> None:
 @pytest.mark.parametrize(
     "skip", [False, only("below_threshold"), {**only("below_threshold"), "idle_hands": True}], ids=["no", "all", "near"]
 )
-def test_sources_that_are_not_felt(skip: Any) -> None:
+def test_sources_that_are_not_felt_are_not_mixed(skip: Any) -> None:
     s = session(skip)
     # 10 dB below the threshold, shared by two sources, with a decibel to either side.
     peak, edge = 0.3, 10 ** (-10 / 20) / 2 * 10 ** (float(threshold_db(100)) / 20)
@@ -98,7 +98,7 @@ def test_sources_that_are_not_felt(skip: Any) -> None:
 
 
 @pytest.mark.parametrize("skip", [False, only("silent_bands")])
-def test_silent_bands(skip: Any) -> None:
+def test_silent_bands_are_not_mixed(skip: Any) -> None:
     s = session(skip, bands=Bands.third_octaves())
     frame = s.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))])
     assert (frame.gains[0, 0] == 1).all()
@@ -113,7 +113,7 @@ def test_silent_bands(skip: Any) -> None:
 
 
 @pytest.mark.parametrize("skip", [False, only("idle_hands")])
-def test_idle_hands(skip: Any) -> None:
+def test_idle_hands_are_not_computed(skip: Any) -> None:
     s = session(skip)
     s.update(touches=[ON_TABLE])
     s.update()
@@ -121,7 +121,7 @@ def test_idle_hands(skip: Any) -> None:
 
 
 @pytest.mark.parametrize("skip", [False, only("unchanged_frames")])
-def test_unchanged_frames(skip: Any) -> None:
+def test_unchanged_frames_are_not_computed_again(skip: Any) -> None:
     model = Watched()
     s = session(skip, model)
     for _ in range(5):
@@ -156,6 +156,6 @@ def test_gains_are_kept_when_contacts_change_that_no_source_reaches() -> None:
     assert s.update({"cup": Pose((0.8, 0.77, 0.4))}, [ON_TABLE, on_cup]).gains[1].any()
 
 
-def test_a_skip_that_does_not_exist() -> None:
+def test_an_unknown_skip_is_refused() -> None:
     with pytest.raises(ConfigError, match="silence"):
         session({"silence": True})

@@ -90,7 +90,7 @@ def test_slow_motion_off_the_box_is_detected_at_5_cm(session: HapticSession) -> 
     assert session.stats.touches_off_surface == LOOKED_AT - 8  # 50.5 mm and more
 
 
-def test_one_update_in_16_is_looked_at_after_the_first_16(session: HapticSession) -> None:
+def test_one_update_in_16_is_checked_after_the_first_16(session: HapticSession) -> None:
     on, off = ([Touch("left", "table", (0.3, height, 0.1))] for height in (0.72, 1.0))
     for _ in range(LOOKED_AT):
         session.update(touches=on)

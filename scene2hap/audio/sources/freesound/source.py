@@ -47,11 +47,11 @@ class UnusableSound(UserWarning):
 
 
 class Freesound:
-    """Up to five sounds of freesound.org that match the key words, or, failing that, ever fewer of them.
+    """Find up to five sounds on freesound.org by key words; without a hit, by fewer of these words.
 
-    token : else the environment variable `token_env`, read at each search; licences : of "cc0", "by", "by-nc" and
-    "sampling+", those that may be used; candidates : 1..5; max_duration_s : longest sound in a search [s]; sort : the
-    service's order, "score" being relevance; cache : folder that keeps searches, those without hits too, and previews;
+    token : None takes the environment variable `token_env`, read at each search; licences : those that may be used, of
+    "cc0", "by", "by-nc" and "sampling+"; candidates : 1..5; max_duration_s : longest sound in a search [s]; sort : the
+    service's order, "score" being relevance; cache : folder of searches, also those without hits, and of previews;
     timeout_s : for one answer; base_url, transport, clock, sleep : for tests.
     Freesound's API is free for non-commercial use; see its terms.
     Raises: ConfigError: a setting that cannot work.

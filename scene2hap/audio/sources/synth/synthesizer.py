@@ -22,11 +22,11 @@ PEAK = 0.9
 
 @dataclass(frozen=True)
 class Synthesizer:
-    """Makes up a sound for anything: five seconds, mono, 48 kHz, most of it where touch can feel it.
+    """Synthesize a sound for any object: five seconds, mono, 48 kHz, mostly at frequencies that touch can feel.
 
-    The description's category and verb choose a voice, its size shapes frequencies, its intensity brightness and speed.
-    Equal descriptions give equal samples, on every run. `takes` 1..5 is how many variants `find` returns; `mains_hz` is
-    the frequency of the scene's mains, 50 in most of the world, 60 in North America.
+    The description's category and verb choose a voice. Its size sets the frequencies, its intensity the brightness and
+    speed. Equal descriptions give equal samples, on every run. `takes` 1..5 is the number of variants that `find`
+    returns; `mains_hz` is the mains frequency of the scene, 50 in most of the world, 60 in North America.
     Raises: ConfigError: `takes` is not a whole number within 1..5, or `mains_hz` not within 40..70.
     """
 

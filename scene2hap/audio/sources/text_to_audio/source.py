@@ -41,13 +41,13 @@ class UnusableTake(UserWarning):
 
 
 class TextToAudio:
-    """Sounds generated from the description's sentence by a program in a process of its own.
+    """Generate sounds by a text-to-audio model, which a program of your choice runs in its own process.
 
-    command : its words, in which {request} and {folder} stand for the two paths of the contract (at the end, if they
-    are not mentioned); or runner : "audiogen" or "stable_audio", the scripts that come along, started by `python`, the
-    interpreter of the environment that holds the model, with further `options`. count : takes, 1..5; duration_s : of
-    each [s]; timeout_s, max_bytes : after which the program is ended; keep_env : variables that it may see although
-    their names speak of keys; cache : folder that keeps what was generated.
+    command : words of the program's command line; {request} and {folder} stand for the two paths of the contract (at
+    the end, if they are not mentioned); or runner : "audiogen" or "stable_audio", scripts of this package, started by
+    `python`, the interpreter of the model's environment, with further `options`. count : number of takes, 1..5;
+    duration_s : of each [s]; timeout_s, max_bytes : limits at which the program is ended; keep_env : variables that it
+    may see although their names contain key or token; cache : folder of generated sounds.
     Raises: ConfigError: a setting that cannot work.
     """
 

@@ -86,7 +86,7 @@ def test_conversion_reports_peaks_frequencies_and_length(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("seconds", [0.2, 1.0, 2.49, 7.0])
-def test_frequencies_of_short_and_long_sounds(tmp_path: Path, seconds: float) -> None:
+def test_frequency_is_exact_for_short_and_long_sounds(tmp_path: Path, seconds: float) -> None:
     made = audio.convert(write(tmp_path / "a.wav", sound(seconds, 1)), tmp_path / "b.wav")
     assert made.frequency_in_hz == pytest.approx(93.7, abs=0.4 if seconds < 0.5 else 0.03)
 

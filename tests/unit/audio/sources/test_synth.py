@@ -161,7 +161,7 @@ def test_induction_motor_runs_below_mains_frequency_at_any_size(thing: str, main
         assert 0.92 * mains_hz < strongest_hz(clip.samples) < mains_hz
 
 
-def test_intensity_is_brightness() -> None:
+def test_higher_intensity_is_brighter() -> None:
     def centroid_hz(clip: AudioClip) -> float:
         power = np.abs(np.fft.rfft(clip.samples)) ** 2
         return float((np.fft.rfftfreq(len(clip.samples), 1 / SAMPLE_RATE_HZ) * power).sum() / power.sum())

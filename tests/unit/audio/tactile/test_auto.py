@@ -67,7 +67,7 @@ def test_scene_plan_works_with_auto_and_reports_the_felt_level() -> None:
     assert loop.felt.asked_level_db == plan.level_db
     assert loop.felt.own_hz == plan.context.own_hz
     assert loop.felt.level_db < loop.felt.asked_level_db - 3.0
-    assert f"of {plan.level_db:.1f} asked" in str(loop.felt)
+    assert f"({plan.level_db:.1f} dB planned)" in str(loop.felt)
 
 
 def test_sensation_text_states_level_and_moved_frequency() -> None:
@@ -75,6 +75,6 @@ def test_sensation_text_states_level_and_moved_frequency() -> None:
     assert str(Sensation(20.0, 20.0, 98.0, 98.2)) == "20.0 dB over the threshold at 98 Hz"
     rough = "20.0 dB over the threshold at 250 Hz, moved from 49, rough at 49 Hz"
     assert str(Sensation(20.0, 20.0, 49.0, 250.0, 49.0)) == rough
-    assert str(Sensation(14.0, 20.0)) == "14.0 dB over the threshold of 20.0 asked"
+    assert str(Sensation(14.0, 20.0)) == "14.0 dB over the threshold (20.0 dB planned)"
     with pytest.raises(AudioError, match="level_db"):
         Sensation(float("nan"), 20.0)

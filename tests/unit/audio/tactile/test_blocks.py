@@ -25,7 +25,7 @@ def converted(kind: str, blocks: list[Samples]) -> Samples:
 @pytest.mark.parametrize("kind", CONVERTERS.kinds())
 @settings(max_examples=15)
 @given(sizes=st.lists(st.integers(1, 4096), min_size=1, max_size=12), seed=st.integers(0, 2**16))
-def test_drawn_blocks_give_the_same_bits(kind: str, sizes: list[int], seed: int) -> None:
+def test_converters_are_bit_identical_for_random_block_sizes(kind: str, sizes: list[int], seed: int) -> None:
     x = np.random.default_rng(seed).uniform(-1, 1, sum(sizes)).astype(np.float32)
     blocks = np.split(x, np.cumsum(sizes)[:-1])
     np.testing.assert_array_equal(converted(kind, blocks), converted(kind, [x]))

@@ -190,7 +190,7 @@ def test_names_are_split_at_capitals_signs_and_digits() -> None:
     assert split_words("TVCabinet_01-leftDoor2b(Clone)") == ["tv", "cabinet", "left", "door", "b", "clone"]
 
 
-def test_places_in_names() -> None:
+def test_names_mention_places() -> None:
     assert places_named("kitchenFridge") == ("kitchen",)
     assert places_named("fitness_room_garage") == ("gym", "workshop")
     assert places_named("Fridge") == ()

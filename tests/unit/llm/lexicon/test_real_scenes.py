@@ -115,7 +115,7 @@ def test_most_objects_of_authored_rooms_are_recognised(scene: str, vibrating: se
         ),
     ],
 )
-def test_kind_of_place(scene: str, place: str) -> None:
+def test_kind_of_place_of_real_scenes_is_recognised(scene: str, place: str) -> None:
     assert kind_of_place("Scene 1", node_names(scene)) == place
 
 

@@ -45,7 +45,7 @@ def placed(camera: Camera, *corners: tuple[float, float, float]) -> np.ndarray:
     ],
     ids=["plain", "in one pixel", "in one row", "left", "right", "over all", "behind", "through the eye's plane"],
 )
-def test_triangles_at_pixels(corners: list[tuple[float, float, float]], expected: bool) -> None:
+def test_triangle_is_visible_if_it_covers_a_pixel(corners: list[tuple[float, float, float]], expected: bool) -> None:
     assert visible(placed(CENTRE, *corners), CENTRE).tolist() == [expected]
 
 

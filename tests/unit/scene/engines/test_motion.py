@@ -34,7 +34,7 @@ def test_jitter_is_not_motion(pose: Pose, is_moved: bool) -> None:
     assert moved({"a": pose}, {"a": HOME}) == ({"a": pose} if is_moved else {})
 
 
-def test_bounds_may_be_set() -> None:
+def test_motion_within_the_given_bounds_is_ignored() -> None:
     near = Pose((1.05, 2, 3), HOME.rotation_xyzw)
     assert moved({"a": near}, {"a": HOME}, by_m=0.1) == {}
     assert moved({"a": turned(0.1)}, {"a": HOME}, by_rad=0.2) == {}
