@@ -23,15 +23,20 @@ class Difference(NamedTuple):
     other: str
 
 
+_UNTOUCHED = {"gain": "+0.0 dB", "sound": "chosen", "locked": "no", "muted": "no"}
+"""Values of an object without an override."""
+
+
 def differences(one: BundleContents, other: BundleContents) -> tuple[Difference, ...]:
     """List the differences between two bundles, object by object. Loops are compared by their samples."""
     ids = list(dict.fromkeys((*(item.id for item in one.snapshot.objects), *(x.id for x in other.snapshot.objects))))
     sides = [{object_id: dict(_said(bundle, object_id)) for object_id in ids} for bundle in (one, other)]
     return tuple(
-        Difference(object_id, what, sides[0][object_id].get(what, "-"), sides[1][object_id].get(what, "-"))
+        Difference(object_id, what, before, after)
         for object_id in ids
         for what in dict.fromkeys((*sides[0][object_id], *sides[1][object_id]))
-        if sides[0][object_id].get(what) != sides[1][object_id].get(what)
+        for before, after in [[side[object_id].get(what, _UNTOUCHED.get(what, "-")) for side in sides]]
+        if before != after
     )
 
 

@@ -103,7 +103,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 def _show(console: Console, made: list[Conversion]) -> None:
     total = sum(one.duration_s for one in made)
     console.table(
-        f"{len(made)} files, {total:.1f} s of sound",
+        f"{len(made)} file{'' if len(made) == 1 else 's'}, {total:.1f} s of sound",
         (
             *("file", ">duration s", ">peak before dB", ">peak after dB", ">felt dB"),
             *(">strongest before Hz", ">strongest after Hz", ">times real time"),

@@ -35,7 +35,7 @@ def test_command_converts_a_file_and_prints_a_table(
     source, output = hum(Path("hum.wav")), Path("felt.flac")
     assert main(["convert", str(source), "-o", str(output), "--picture"]) == 0
     shown = capsys.readouterr().out
-    assert "1 files, 3.0 s of sound" in shown
+    assert "1 file, 3.0 s of sound" in shown
     felt, _ = soundfile.read(output)
     assert len(felt) == 3 * RATE
     # 0.5 is -6.0 dB; the rest is in the file.

@@ -119,6 +119,16 @@ def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.Captur
     assert remade[mine] == {state: ["actuator"] for state in HapticBundle.load(folder).loops[mine]}
 
 
+def test_a_comparison_lists_only_what_an_edit_changed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """An override has values for gain, sound, lock and mute; those that nobody set do not differ."""
+    folder = tmp_path / "kitchen.bundle"
+    assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
+    source = next(iter(HapticBundle.load(folder).loops))
+    assert main(["edit", str(folder), "gain", source, "-3", "-q"]) == 0
+    found = outcome(capsys, "edit", str(folder), "diff", f"{folder}.before", "--json")["differences"]
+    assert found == [[source, "gain", "-3.0 dB", "+0.0 dB"]]
+
+
 def test_undo_without_edits_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = tmp_path / "kitchen.bundle"
     assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
