@@ -3,7 +3,8 @@
 A model with a live field answers at once (`PointField`), and so does one that was prepared for impacts on what hands
 touch (`prepared_impacts`). Others prepare a field of their own for the impact, in which a small source stands on the
 struck point. The gains are relative to that point, so that neither the mass of that source nor the stiffness of its
-contact counts. """
+contact counts.
+"""
 
 from __future__ import annotations
 
