@@ -33,6 +33,7 @@ MOVERS = (
     f"{SCENES}/composed_bathroom_kenney/composed_bathroom_kenney.glb {SCENES}/aws_house_living/aws_house_living.glb "
     f"{SCENES}/furniture_sim/dishwasher.xml"
 )
+IN_OTHER_UNITS = f"{SCENES}/messy_japanese_room/room.glb:0.1 {SCENES}/sketchfab_kitchen/scene.gltf:0.01"
 
 
 @dataclass(frozen=True)

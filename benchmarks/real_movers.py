@@ -1,13 +1,14 @@
 """Time of a whole `HapticSession.update` in real scenes while objects move, as a table in Markdown.
 
-OMP_NUM_THREADS=1 python benchmarks/real_movers.py SCENE [SCENE ...] [--passes 3] [--worst 5] [--only ID]
+OMP_NUM_THREADS=1 python benchmarks/real_movers.py SCENE[:UNIT_M] [...] [--passes 3] [--worst 5] [--only ID]
 
 Each scene is baked with the default backends and played by a default session in 20 bands, with one hand on each of the
 two objects that touch most others. Every object up to 1 m long is a mover. A mover is pushed about its place, carried
 through the room at 0.4 m above its place, and lifted and dropped; then five movers at once do so, for several draws.
 
 Times are of the calling thread's processor time, garbage collection included, the least of several passes for each
-frame. `--worst` lists the movers with the slowest frames, `--profile` prints a profile of them.
+frame. `--worst` lists the movers with the slowest frames, `--profile` prints a profile of them. A colon precedes the
+unit [m] of a file in other units, as in room.glb:0.1.
 """
 
 from __future__ import annotations
@@ -85,15 +86,18 @@ class Room:
     touched: tuple[SceneObject, SceneObject]
 
     @classmethod
-    def read(cls, path: Path) -> Room:
+    def read(cls, given: str) -> Room:
+        name, _, unit_m = given.partition(":")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            scene = load_scene(path)
+            scene = load_scene(name, unit_m=float(unit_m) if unit_m else None)
             bundle = bake(scene)
         movers = tuple(item for item in scene.objects if np.ptp(item.bounds_m, axis=0).max() <= MOVABLE_M)
         graph = ContactGraph(scene)
         first, *others = sorted(scene.objects, key=lambda item: -len(graph.neighbours(item.id)))
-        return cls(path.stem, scene, bundle, movers, (first, others[0] if others else first))
+        path, second = Path(name), others[0] if others else first
+        title = path.parent.name if path.stem in ("scene", "room") else path.stem
+        return cls(title, scene, bundle, movers, (first, second))
 
     def session(self) -> HapticSession:
         with warnings.catch_warnings():
@@ -142,7 +146,7 @@ def groups(room: Room, n_draws: int, seed: int, *, alone: bool) -> Iterator[tupl
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="+", type=Path)
+    parser.add_argument("scenes", nargs="+", metavar="SCENE[:UNIT_M]")
     parser.add_argument("--passes", type=int, default=3)
     parser.add_argument("--draws", type=int, default=5, help="draws of five movers")
     parser.add_argument("--seed", type=int, default=0)
@@ -153,8 +157,8 @@ def main() -> None:
     warnings.simplefilter("ignore", SceneWarning)  # of hands in the middle of touched objects
     print("| scene | movers | path | p50 [ms] | p99 [ms] | worst [ms] | frames over 1 ms | slowest movers |")
     print("|---|---|---|---|---|---|---|---|")
-    for file in args.scenes:
-        room = Room.read(file)
+    for given in args.scenes:
+        room = Room.read(given)
         profile = cProfile.Profile(time.thread_time) if args.profile else None
         for alone in (True, False):
             for name, path in {"pushed": pushed, "carried": carried_through(room.scene), "dropped": dropped}.items():

@@ -96,6 +96,12 @@ cdef enum Role:
     BEARER
 
 
+cdef struct Memory:
+    char* at
+    size_t size
+    bint is_used
+
+
 cdef struct Tree:
     const double* nodes        # (2 n_leaves - 1, 6) lowest and highest corners
     const double* corners      # (n_leaves, 9)
@@ -109,6 +115,14 @@ cdef struct Tree:
     Face* faces
     Box* boxes
     char* is_known
+    Memory* memory
+
+
+# Memory of the last searches, kept for the next ones. For meshes of 10,000 triangles the system would take it back
+# after each search, and its pages would cost a quarter of the time.
+cdef Memory kept[2]
+cdef enum:
+    MOST_KEPT = 1 << 26  # [bytes] of each
 
 
 cdef int open_tree(Tree* tree, shape, Role role, const Placement* at) except -1:
@@ -122,21 +136,46 @@ cdef int open_tree(Tree* tree, shape, Role role, const Placement* at) except -1:
     tree.m, tree.n_leaves = shape.triangles.shape[2], columns.shape[0]
     tree.nodes, tree.corners, tree.columns, tree.features = &nodes[0, 0], &corners[0, 0], &columns[0], &features[0]
     tree.role, tree.is_placed = role, at != NULL
-    # Memory for all nodes, though a search visits few: the system provides pages on first use.
-    tree.faces = <Face*>malloc(tree.n_leaves * sizeof(Face))
-    tree.is_known = <char*>calloc(n_nodes, 1)
     if tree.is_placed:
         tree.at = at[0]
-        tree.boxes = <Box*>malloc(n_nodes * sizeof(Box))
-    if tree.faces == NULL or tree.is_known == NULL or (tree.is_placed and tree.boxes == NULL):
+    # Memory for all nodes, though a search visits few: the system provides pages on first use.
+    tree.memory = reserved(tree.n_leaves * sizeof(Face) + n_nodes * (sizeof(Box) + 1))
+    if tree.memory == NULL or tree.memory.at == NULL:
         raise MemoryError
+    tree.faces = <Face*>tree.memory.at
+    tree.boxes = <Box*>(tree.faces + tree.n_leaves)
+    tree.is_known = <char*>(tree.boxes + n_nodes)
+    memset(tree.is_known, 0, n_nodes)
     return 0
 
 
+cdef Memory* reserved(size_t size) noexcept:
+    """Return memory of at least a size, NULL if there is none; `close_tree` gives it back."""
+    cdef Memory* memory = &kept[0]
+    if memory.is_used:
+        memory = &kept[1]
+    if memory.is_used:  # another thread is within a search
+        memory = <Memory*>calloc(1, sizeof(Memory))
+    if memory != NULL and memory.size < size:
+        free(memory.at)
+        memory.at = <char*>malloc(size)
+        memory.size = 0 if memory.at == NULL else size
+    if memory != NULL:
+        memory.is_used = True
+    return memory
+
+
 cdef void close_tree(Tree* tree) noexcept:
-    free(tree.faces)
-    free(tree.boxes)
-    free(tree.is_known)
+    cdef Memory* memory = tree.memory
+    cdef bint is_kept = memory == &kept[0] or memory == &kept[1]
+    if memory == NULL:
+        return
+    memory.is_used = False
+    if not is_kept or memory.size > MOST_KEPT:
+        free(memory.at)
+        memory.at, memory.size = NULL, 0
+    if not is_kept:
+        free(memory)
 
 
 cdef Placement placement_of(rows, position) except *:
