@@ -104,6 +104,13 @@ FIGURES = {
     "frames-real-scenes": Figure(
         "frames", f"benchmarks/real_movers.py {MOVERS} --passes 3 --draws 3", 20, has_times=True, needs="scenes"
     ),
+    "frames-other-units": Figure(
+        "frames",
+        f"benchmarks/real_movers.py {IN_OTHER_UNITS} --passes 3 --draws 3",
+        5,
+        has_times=True,
+        needs="scenes",
+    ),
     "frames-rooms-3": Figure("frames", "benchmarks/paper_loop.py 200 --defaults --seed 3", 10, has_times=True),
     "frames-rooms-71": Figure("frames", "benchmarks/paper_loop.py 200 --defaults --seed 71", 10, has_times=True),
     "playing-session": Figure("playing", "benchmarks/session.py", 5, has_times=True),

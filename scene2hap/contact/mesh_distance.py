@@ -269,8 +269,8 @@ def _posed(triangles: Floats, turn: Rows, shift: Triple) -> Floats:
 
 def _product(one: Rows, other: Rows) -> Rows:
     """Return the matrix product."""
-    a, b, c = (rotated(transposed(other), row) for row in one)
-    return (a, b, c)
+    columns = transposed(other)
+    return (rotated(columns, one[0]), rotated(columns, one[1]), rotated(columns, one[2]))
 
 
 def upright_frame(up: Triple) -> Rows:
