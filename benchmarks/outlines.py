@@ -157,14 +157,6 @@ def shapes() -> dict[str, tuple[Outline, Any, Corners]]:
     }
     for name, (rings, tips) in rings_of.items():
         found[name] = (*triangulated(*rings), tips or ((9.0, 9.0),))
-    outline, mesh, tips = found["0.8 x 0.5 m, open slot of 500 x 5 mm"]
-    whole = turned(outline.rings_m[0], 30.0)
-    low = np.min(whole, axis=0)
-    found["the same, turned by 30 degrees"] = (
-        Outline(((np.array(whole) - low).tolist(),)),
-        skfem.MeshTri(np.array(turned(mesh.p.T, 30.0)).T - low[:, None], mesh.t),
-        tuple(map(tuple, np.array(turned(tips, 30.0)) - low)),
-    )
     return found
 
 
