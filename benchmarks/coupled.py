@@ -12,6 +12,7 @@ of `contact_stiffness` compare it with Hertz. Errors are those of levels at 12 p
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import time
 import warnings
@@ -56,7 +57,8 @@ Triple = tuple[float, float, float]
 
 @dataclass
 class Case:
-    """Objects, their contacts (pairs and world points), a source, and the object on which it is felt."""
+    """Objects, their contacts (pairs and world points), a source, the object on which it is felt, and the stiffness of
+    contacts."""
 
     bodies: dict[str, Plate | RigidBody]
     touching: list[tuple[str, str, Triple]]
@@ -64,6 +66,7 @@ class Case:
     felt_on: str
     poses: dict[str, Pose] = field(default_factory=dict)
     upright: tuple[str, ...] = ()
+    law: ContactLaw = field(default_factory=ContactLaw)
 
     def network(self) -> ContactNetwork:
         contacts = [Contact(a, b, at, normal=UP) for a, b, at in self.touching]
@@ -148,7 +151,9 @@ class Part:
         self._pose, self._is_upright = pose, is_upright
         self._size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else (0.0, 0.0)
         if isinstance(body, Plate) and not is_upright:
-            cells = round(body.length_m / GRID_M), round(body.width_m / GRID_M)
+            # Three cells in a wave of the top frequency, so that thin plates have truth to 0.1 dB too.
+            finer = math.ceil(3 * GRID_M / (2 * math.pi / float(body.wavenumber_rad_m(FREQUENCIES_HZ[-1]))))
+            cells = finer * round(body.length_m / GRID_M), finer * round(body.width_m / GRID_M)
             self._basis, stiffness, mass, _ = finite_elements(body, cells)
             D = body.bending_stiffness_nm * complex(1, body.material.loss_factor)
             m = body.material.density_kg_m3 * body.thickness_m
@@ -219,7 +224,7 @@ def truth(case: Case, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
 
     network = case.network()
     springs = csc_matrix((n, n), dtype=np.complex128)
-    for joint in joints_of(network, network.bodies.keys() | {source}, ContactLaw()):
+    for joint in joints_of(network, network.bodies.keys() | {source}, case.law):
         at = next(p for p in matching(case, joint.a, joint.b) if is_at(network, joint, p))
         one, other = (spread(key, parts[key].rows(np.array([at]))) for key in (joint.a, joint.b))
         pull = one - other

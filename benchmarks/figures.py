@@ -121,7 +121,9 @@ FIGURES = {
     "masses": Figure("inference", "benchmarks/masses.py", 1, needs="scenes"),
     "coupled": Figure("accuracy", "benchmarks/coupled.py", 5),
     "hand": Figure("propagation", "benchmarks/hand.py", 1, has_times=True),
-    "outlines": Figure("accuracy", "benchmarks/outlines.py", 2, has_times=True),
+    "outlines": Figure("accuracy", "benchmarks/outlines.py", 6, has_times=True),
+    "outlines-order": Figure("accuracy", "benchmarks/outlines.py --order", 0.5),
+    "coupled-draws": Figure("accuracy", "benchmarks/coupled_draws.py 12", 6),
     "auto-scenes": Figure(
         "propagation",
         "benchmarks/auto_scenes.py scene2hap/demo/kitchen.glb "

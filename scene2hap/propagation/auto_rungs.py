@@ -99,8 +99,8 @@ class Situation:
         beam_hz = 22.374 / (longer * self.plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
         if self.plate.edges != "FFFF" or RIGID_DB * (self.top_hz / beam_hz) ** 2 > tolerance_db:
             return math.inf
-        if self.plate.outline is not None and len(self.plate.outline.notches_m):
-            # Arms of an L and tongues beside a slot bend sooner than the rectangle.
+        if self.plate.outline is not None and len(self.plate.outline.inward[0]):
+            # Arms of an L, tongues beside a slot and rings bend sooner than the rectangle.
             return self.top_hz / float(lowest_frequencies_hz(self.plate, _COARSE_CELLS, 4)[3])
         return self.top_hz / first_bending_hz(replace(self.plate, outline=None))
 

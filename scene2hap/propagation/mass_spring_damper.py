@@ -41,7 +41,7 @@ from scene2hap.propagation.domain import (
     warn_if_thick,
 )
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.lattice.bending_lattice import LONGEST
+from scene2hap.propagation.lattice.bending_lattice import LONGEST, narrow_side_m
 from scene2hap.propagation.lattice.lattice_body import lattice_body
 from scene2hap.propagation.lattice.lattice_modes import (
     LatticeModes,
@@ -256,7 +256,7 @@ class MassSpringDamper:
 
 def _needed_resolution(plate: Plate, frequency_hz: float) -> int:
     """Cells along the shorter side that leave every cell a `CELLS_PER_WAVE`th of a wave, at most a thousand million."""
-    widest = max(min(plate.extent_m), max(plate.extent_m) / LONGEST)
+    widest = max(narrow_side_m(plate), max(plate.extent_m) / LONGEST)
     waves = float(plate.wavenumber_rad_m(frequency_hz)) / (2 * math.pi) * widest
     return math.ceil(min(CELLS_PER_WAVE * waves, 1e9))
 

@@ -116,6 +116,65 @@ def test_result_does_not_depend_on_rotation_against_the_grid(outline: Outline, a
     assert p95_db(MassSpringDamper(16).plate_receptance(other, turned[0], turned, f), one) < 0.6
 
 
+def test_a_round_hole_is_fine_enough_at_the_default_resolution() -> None:
+    """Its rim has no notch, and the cells of the box are as large as its radius."""
+    hole = [(0.65 + 0.12 * math.cos(k * math.pi / 12), 0.5 + 0.12 * math.sin(k * math.pi / 12)) for k in range(24)]
+    plate = outlined(Outline((disc(0.45).rings_m[0], hole)))
+    points, f = np.array([[0.2, 0.3], [0.45, 0.1], [0.8, 0.5], [0.45, 0.8]]), np.geomspace(20.0, 400.0, 60)
+    exact = MassSpringDamper(24).plate_receptance(plate, points[0], points, f)
+    assert p95_db(MassSpringDamper().plate_receptance(plate, points[0], points, f), exact) < 1.0
+
+
+@pytest.mark.parametrize("width_m", [0.002, 0.005])
+@pytest.mark.parametrize("degrees", [20, 45])
+def test_a_slanted_slot_answers_as_a_straight_one(degrees: float, width_m: float) -> None:
+    """Also if it is thinner than the pixels of the cells that it crosses, and with no more nodes."""
+    turn = np.radians(degrees)
+    matrix = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
+    slot = [(0.0, 0.25 + width_m), (0.5, 0.25 + width_m), (0.5, 0.25), (0.0, 0.25)]
+    ring = np.array([(0, 0), (0.8, 0), (0.8, 0.5), (0, 0.5), *slot])
+    low = (ring @ matrix.T).min(axis=0)
+    straight, slanted = outlined(Outline((ring.tolist(),))), outlined(Outline(((ring @ matrix.T - low).tolist(),)))
+    assert bending_lattice(slanted, 8).n_nodes <= 1.1 * bending_lattice(straight, 8).n_nodes
+    points, f = np.array([[0.1, 0.1], [0.1, 0.4], [0.7, 0.3], [0.4, 0.2]]), np.geomspace(20.0, 300.0, 40)
+    expected = MassSpringDamper().plate_receptance(straight, points[0], points, f)
+    at = points @ matrix.T - low
+    assert p95_db(MassSpringDamper().plate_receptance(slanted, at[0], at, f), expected) < 0.3
+
+
+def test_a_thin_slot_across_the_grid_separates_its_sides() -> None:
+    """The grid follows the long slot of 100 mm, so the one of 3 mm crosses it aslant."""
+    middle, turn = np.array([0.3, 0.3]), math.radians(25)
+    along, across = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
+    thin = [
+        middle + a * along + b * across for a, b in ((-0.2, -0.0015), (0.2, -0.0015), (0.2, 0.0015), (-0.2, 0.0015))
+    ]
+    wide = [(0.7, 0.1), (0.8, 0.1), (0.8, 0.6), (0.7, 0.6)]
+    plate = outlined(Outline((((0, 0), (1, 0), (1, 0.7), (0, 0.7)), np.array(thin).tolist(), wide)))
+    lattice = bending_lattice(plate, 8)
+    below, above = (lattice.interpolation((middle + side * across)[None]) for side in (-0.02, 0.02))
+    assert set(below.indices).isdisjoint(above.indices)
+    points, f = np.array([[0.1, 0.4], [0.4, 0.2], [0.9, 0.6]]), np.geomspace(20.0, 300.0, 40)
+    exact = MassSpringDamper(24).plate_receptance(plate, points[0], points, f)
+    assert p95_db(MassSpringDamper().plate_receptance(plate, points[0], points, f), exact) < 3.0
+
+
+def test_outline_measures_its_notches_curves_slant_and_width() -> None:
+    corners, radii = disc(0.4).inward
+    assert len(corners) == len(radii) == 0
+    round_hole = Outline((((0, 0), (2, 0), (2, 2), (0, 2)), disc(0.5).rings_m[0]))
+    corners, radii = round_hole.inward
+    assert len(corners) == 256
+    np.testing.assert_allclose(radii, 0.5, rtol=1e-3)
+    assert len(round_hole.notches_m) == 0
+    assert L.slant_rad == pytest.approx(0.0, abs=1e-9)
+    slanted = L.turned(0.3)[0]
+    assert slanted.slant_rad == pytest.approx(0.3)
+    assert slanted.area_m2 == pytest.approx(L.area_m2, rel=1e-3)
+    assert slanted.width_m == pytest.approx(L.width_m)
+    assert SINK.width_m == pytest.approx(0.6)
+
+
 def test_slot_separates_both_sides() -> None:
     """Both sides of a slot of 1 mm have nodes of their own, but for those that reach around its end."""
     comb = Outline((((0, 0), (1.0, 0), (1.0, 0.1), (0.1, 0.1), (0.1, 0.101), (1.0, 0.101), (1.0, 0.2), (0, 0.2)),))

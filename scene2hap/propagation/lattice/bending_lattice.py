@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -15,18 +16,38 @@ from scene2hap.propagation.lattice.outline_lines import outline_lines
 from scene2hap.propagation.lattice.rectangle_lattice import rectangle_lattice
 from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.propagation.plate import Plate
+from scene2hap.scene.surface.outline import Outline
 
 LONGEST = 16
 """Cells along the longer side, in resolutions: on plates more slender than that they are longer than wide."""
+_SLACK = 0.01
+"""How much larger cells of outlines may be, so that a circle of corners has as many as a true one."""
+_STRAIGHT_RAD = 1e-3
 MOST_NODES = 100_000
 """Nodes beyond which a lattice is refused: its factors then fill about a gigabyte."""
 
 
+@lru_cache(maxsize=64)
+def aligned(outline: Outline) -> tuple[Outline, NDArray[np.float64], NDArray[np.float64]]:
+    """The outline as the grid has it: turned so that the sides of its notches run along the lines; see
+    `Outline.turned`. Fine lines around the ends of a slanted slot would cross at four places, not two."""
+    slant = outline.slant_rad
+    if abs(slant) < _STRAIGHT_RAD:
+        return outline, np.eye(2), np.zeros(2)
+    return outline.turned(-slant)
+
+
+def narrow_side_m(plate: Plate) -> float:
+    """Side that `resolution` counts: the shorter one, or the least width of an outline, turned or not [m]."""
+    return min(plate.extent_m) if plate.outline is None else min(plate.outline.width_m, *plate.extent_m)
+
+
 def cells_of(plate: Plate, resolution: int) -> tuple[int, int]:
-    """Cells along length and width: `resolution` along the shorter side and, up to `LONGEST`, square ones."""
-    shorter = min(plate.extent_m)
+    """Cells along length and width: `resolution` along the narrow side and, up to `LONGEST`, square ones."""
+    narrow, slack = narrow_side_m(plate), 1e-9 if plate.outline is None else _SLACK
+    extent_m = plate.extent_m if plate.outline is None else aligned(plate.outline)[0].extent_m
     along, across = (
-        min(math.ceil(side / shorter * resolution * (1 - 1e-9)), LONGEST * resolution) for side in plate.extent_m
+        min(math.ceil(side / narrow * resolution * (1 - slack)), LONGEST * resolution) for side in extent_m
     )
     return along, across
 
@@ -36,7 +57,7 @@ def lines_of(plate: Plate, resolution: int) -> tuple[NDArray[np.float64], NDArra
     """Positions of the lines of a plate's lattice, along length and width [m]."""
     along, across = cells_of(plate, resolution)
     if plate.outline is not None:
-        return outline_lines(plate.outline, (along, across))
+        return outline_lines(aligned(plate.outline)[0], (along, across))
     return np.linspace(0.0, plate.length_m, along + 1), np.linspace(0.0, plate.width_m, across + 1)
 
 
@@ -60,4 +81,10 @@ def bending_lattice(plate: Plate, resolution: int) -> Lattice:
         )
     x, y = lines_of(plate, resolution)
     axes = SplineAxis.of(x), SplineAxis.of(y)
-    return rectangle_lattice(plate, axes) if plate.outline is None else outline_lattice(plate, plate.outline, axes)
+    if plate.outline is None:
+        return rectangle_lattice(plate, axes)
+    outline, turn, shift = aligned(plate.outline)
+    lattice = outline_lattice(plate, outline, axes)
+    if outline is plate.outline:
+        return lattice
+    return replace(lattice, interpolation=lambda points_m: lattice.interpolation(points_m @ turn.T + shift))

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 PIXELS = 8
-"""Pixels along each side of a cell: a slot narrower than that is not seen."""
+"""Pixels along each side of a cell: the rim is known to a fraction of one of them."""
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -34,11 +34,11 @@ class CellPieces:
     shares: Floats
 
     @classmethod
-    def of(cls, coverage: Floats, cells: tuple[int, int]) -> CellPieces:
-        """From the share of each pixel; of a plate in parts, the largest counts."""
+    def of(cls, coverage: Floats, gaps: NDArray[np.bool_], cells: tuple[int, int]) -> CellPieces:
+        """From the share of each pixel and a mask of those in narrow gaps; of a plate in parts, the largest counts."""
         from scipy.ndimage import label
 
-        inside = coverage > 0.5
+        inside = (coverage > 0.5) & ~gaps
         parts, n_parts = label(inside)
         if n_parts > 1:
             largest = np.argmax(np.bincount(parts[inside]))
@@ -61,8 +61,8 @@ class CellPieces:
         return found
 
     def _add_rim(self, coverage: Floats) -> None:
-        """Count the pixels of the rim, less than half of which lies within, with the nearest piece; where that is in
-        another cell, at the piece's nearest pixel."""
+        """Count the pixels of the rim, less than half of which lies within, and those of narrow gaps with the nearest
+        piece; where that is in another cell, at the piece's nearest pixel."""
         rim = np.stack(np.nonzero((coverage > 0.0) & ~self.inside))
         if not rim.size:
             return

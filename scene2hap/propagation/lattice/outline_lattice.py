@@ -38,7 +38,9 @@ def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, Spli
     """The lattice of a plate within its outline, over these lines."""
     x, y = axes
     pixels_x, pixels_y = (PixelProducts.of(axis) for axis in axes)
-    pieces = CellPieces.of(outline.coverage(pixels_x.lines, pixels_y.lines), (len(x.lines) - 1, len(y.lines) - 1))
+    pixels = pixels_x.lines, pixels_y.lines
+    cells = len(x.lines) - 1, len(y.lines) - 1
+    pieces = CellPieces.of(outline.coverage(*pixels), outline.narrow_gaps(*pixels), cells)
     integrals, nu = PieceIntegrals(pieces, pixels_x, pixels_y), plate.material.poisson_ratio
     mass = integrals.of((1.0, ("3", "3"), ("3", "3")))
     elastic = integrals.of(
@@ -53,7 +55,7 @@ def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, Spli
     springs = _Springs.of(nodes, pieces, axes)
 
     def interpolation(points_m: Floats) -> csr_array:
-        piece, at_m = pieces.nearest(points_m, pixels_x.lines, pixels_y.lines)
+        piece, at_m = pieces.nearest(points_m, *pixels)
         share_x, share_y = x.at(at_m[:, 0])[1], y.at(at_m[:, 1])[1]
         node = nodes.of_pieces[piece].ravel()
         shares = (share_x[:, :, None] * share_y[:, None, :]).ravel()

@@ -19,6 +19,7 @@ Ring = tuple[tuple[float, float], ...]
 MOST_CORNERS = 4096
 SHARPEST = math.radians(30.0)
 """A corner whose direction changes by less is part of a curve."""
+_NARROW = 2.0  # pixels; the shares of pixels show any wider gap
 _LINES = 4  # scan lines through a row of pixels; along a line the share is exact
 
 
@@ -63,26 +64,69 @@ class Outline:
         shares = self.coverage(np.array([x0, x1]), np.linspace(y0, y1, 513))
         return float(shares.mean()) * (x1 - x0) * (y1 - y0)
 
-    @cached_property
+    @property
     def notches_m(self) -> Floats:
         """Corners (n, 2) [m] that point into the area by `SHARPEST` or more, such as the inner corner of an L."""
-        corners, ways = [], []
+        corners, radii = self.inward
+        notches: Floats = corners[radii == 0.0]
+        return notches
+
+    @cached_property
+    def inward(self) -> tuple[Floats, Floats]:
+        """Corners (n, 2) [m] that point into the area, and the radius of the curve at each (n,) [m].
+
+        The radius is 0 at notches. Other corners are those of curves that turn by `SHARPEST` or more, such as the rim
+        of a round hole.
+        """
+        corners, ways, turns, radii, starts = [], [], [], [], []
         for ring in self.rings_m:
             at = np.array(ring)
             back, on = np.roll(at, 1, axis=0) - at, np.roll(at, -1, axis=0) - at
-            back, on = (way / np.maximum(np.linalg.norm(way, axis=1), 1e-300)[:, None] for way in (back, on))
-            sharp = np.einsum("ij,ij->i", back, on) > -math.cos(SHARPEST)
-            corners.append(at[sharp])
-            ways.append((back + on)[sharp])
-        found, way = np.concatenate(corners), np.concatenate(ways)
-        beside: Floats = found + 1e-5 * max(self.extent_m) * way
-        return found[~self.holds(beside)]
+            sides_m = [np.maximum(np.linalg.norm(way, axis=1), 1e-300) for way in (back, on)]
+            back, on = (way / side[:, None] for way, side in zip((back, on), sides_m, strict=True))
+            turn = np.pi - np.arccos(np.einsum("ij,ij->i", back, on).clip(-1.0, 1.0))
+            corners.append(at)
+            ways.append(back + on)
+            turns.append(turn)
+            radii.append(np.where(turn > SHARPEST, 0.0, sum(sides_m) / 2 / np.maximum(turn, 1e-9)))
+            starts.append(len(at))
+        found, way, turn = np.concatenate(corners), np.concatenate(ways), np.concatenate(turns)
+        points_in = (turn > 1e-6) & ~self.holds(found + 1e-5 * max(self.extent_m) * way)
+        is_kept = [
+            _in_long_runs(own, angles, SHARPEST)
+            for own, angles in zip(np.split(points_in, np.cumsum(starts)[:-1]), turns, strict=True)
+        ]
+        kept = np.concatenate(is_kept)
+        return found[kept], np.concatenate(radii)[kept]
 
     @property
     def extent_m(self) -> tuple[float, float]:
         """Length and width of the outline's box [m]."""
         x0, y0, x1, y1 = self.box_m
         return x1 - x0, y1 - y0
+
+    @cached_property
+    def slant_rad(self) -> float:
+        """Angle by which the sides of notches are turned against x and y, -pi/4 to pi/4, 0 without notches [rad]."""
+        notches = {tuple(corner) for corner in self.notches_m.tolist()}
+        starts, ends = self._edges
+        is_beside = [
+            tuple(a) in notches or tuple(b) in notches for a, b in zip(starts.tolist(), ends.tolist(), strict=True)
+        ]
+        way = (ends - starts)[is_beside] @ (1.0, 1.0j)
+        # Sides across count as those along.
+        total = (np.abs(way) * (way / np.maximum(np.abs(way), 1e-300)) ** 4).sum()
+        return float(np.angle(total)) / 4
+
+    @cached_property
+    def width_m(self) -> float:
+        """Least distance between two parallel lines that hold the outline between them [m]."""
+        starts, ends = self._edges
+        way = ends - starts
+        # One of the two lies on a side of the convex hull; sides of notches only add directions in which it is wider.
+        normal = np.unique(np.round(_normals(way), 9), axis=0)
+        across = starts @ normal.T
+        return float(np.ptp(across, axis=0).min())
 
     def distance_m(self, points_m: Floats) -> Floats:
         """Return the distances (n,) of points (n, 2) from the area [m], 0 inside."""
@@ -98,6 +142,15 @@ class Outline:
         """Return the outline with each coordinate scaled and then shifted [m]."""
         (a, b), (c, d) = scale, shift_m
         return Outline(tuple(tuple((a * x + c, b * y + d) for x, y in ring) for ring in self.rings_m))
+
+    def turned(self, angle_rad: float) -> tuple[Outline, Floats, Floats]:
+        """Return the outline turned by an angle [rad] and moved so that its box starts at (0, 0), with the matrix R and
+        the shift s [m] that take a point x to R x + s."""
+        c, s = math.cos(angle_rad), math.sin(angle_rad)
+        turn = np.array([[c, -s], [s, c]])
+        rings = [np.array(ring) @ turn.T for ring in self.rings_m]
+        shift = -np.concatenate(rings).min(axis=0)
+        return Outline(tuple(_ring(k, ring + shift) for k, ring in enumerate(rings))), turn, shift
 
     def holds(self, points_m: Floats) -> NDArray[np.bool_]:
         """Return a mask of the points (n, 2) inside the area."""
@@ -123,18 +176,9 @@ class Outline:
         from four scan lines through each row along y.
         """
         nx, ny = len(x_m) - 1, len(y_m) - 1
-        scan = (y_m[:-1, None] + np.diff(y_m)[:, None] * (np.arange(_LINES) + 0.5) / _LINES).ravel()
-        starts, ends = self._edges
-        low, high = np.minimum(starts[:, 1], ends[:, 1]), np.maximum(starts[:, 1], ends[:, 1])
-        first, last = np.searchsorted(scan, low), np.searchsorted(scan, high)
-        count = last - first
-        edge = np.repeat(np.arange(len(starts)), count)
-        line = np.arange(len(edge)) - np.repeat(np.cumsum(count) - count - first, count)
-        (xa, ya), (xb, yb) = starts[edge].T, ends[edge].T
-        x = xa + (scan[line] - ya) / (yb - ya) * (xb - xa)
+        x, line = _crossings(*self._edges, y_m)
         # Along a line, the covered part begins at every second crossing and ends at the next.
-        order = np.lexsort((x, line))
-        x, row = x[order].clip(x_m[0], x_m[-1]), line[order] // _LINES
+        x, row = x.clip(x_m[0], x_m[-1]), line // _LINES
         sign = np.where(np.arange(len(x)) % 2 == 0, 1.0, -1.0)
         pixel = np.clip(np.searchsorted(x_m, x, side="right") - 1, 0, nx - 1)
         rest = (x_m[pixel + 1] - x) / np.diff(x_m)[pixel]
@@ -143,6 +187,61 @@ class Outline:
         np.add.at(changes, (pixel + 1, row), sign * (1 - rest))
         covered: Floats = (changes.cumsum(axis=0)[:-1] / _LINES).clip(0.0, 1.0)
         return covered
+
+    def narrow_gaps(self, x_m: Floats, y_m: Floats) -> NDArray[np.bool_]:
+        """Return a mask (nx, ny) of the pixels in the middle of narrow gaps between two parts of the area.
+
+        A slot thinner than a pixel leaves most of the pixel covered, so its share does not show the gap. Pixels as of
+        `coverage`.
+        """
+        starts, ends = self._edges
+        return _gaps(starts, ends, x_m, y_m) | _gaps(starts[:, ::-1], ends[:, ::-1], y_m, x_m).T
+
+
+def _normals(ways: Floats) -> Floats:
+    """Return the unit normals (n, 2) of edges (m, 2) that have a length."""
+    long = ways[np.linalg.norm(ways, axis=1) > 0.0]
+    unit: Floats = long[:, ::-1] * (1.0, -1.0) / np.linalg.norm(long, axis=1)[:, None]
+    return unit
+
+
+def _crossings(starts: Floats, ends: Floats, y_m: Floats) -> tuple[Floats, NDArray[np.intp]]:
+    """Return where scan lines cross edges, along x (n,) [m], and the lines' numbers (n,), in the order of both."""
+    scan = (y_m[:-1, None] + np.diff(y_m)[:, None] * (np.arange(_LINES) + 0.5) / _LINES).ravel()
+    low, high = np.minimum(starts[:, 1], ends[:, 1]), np.maximum(starts[:, 1], ends[:, 1])
+    first, last = np.searchsorted(scan, low), np.searchsorted(scan, high)
+    count = last - first
+    edge = np.repeat(np.arange(len(starts)), count)
+    line = np.arange(len(edge)) - np.repeat(np.cumsum(count) - count - first, count)
+    (xa, ya), (xb, yb) = starts[edge].T, ends[edge].T
+    x = xa + (scan[line] - ya) / (yb - ya) * (xb - xa)
+    order = np.lexsort((x, line))
+    return x[order], line[order]
+
+
+def _gaps(starts: Floats, ends: Floats, x_m: Floats, y_m: Floats) -> NDArray[np.bool_]:
+    """Return a mask (nx, ny) of the pixels in the middle of gaps of at most `_NARROW` pixels along x."""
+    x, line = _crossings(starts, ends, y_m)
+    is_gap = line[1:-1:2] == line[2::2]
+    row = line[2::2][is_gap] // _LINES
+    low, high = (np.interp(each[is_gap], x_m, np.arange(len(x_m))) for each in (x[1:-1:2], x[2::2]))
+    is_narrow = high - low <= _NARROW
+    mask = np.zeros((len(x_m) - 1, len(y_m) - 1), dtype=bool)
+    middle = ((low + high) / 2).astype(np.intp).clip(0, len(x_m) - 2)
+    mask[middle[is_narrow], row[is_narrow]] = True
+    return mask
+
+
+def _in_long_runs(is_in: NDArray[np.bool_], turns: Floats, least: float) -> NDArray[np.bool_]:
+    """Return a mask of the corners of a ring in runs that turn by `least` or more in total."""
+    if is_in.all():
+        return is_in
+    first = int(np.flatnonzero(~is_in)[0])
+    own, angles = np.roll(is_in, -first), np.roll(turns, -first)
+    run = np.cumsum(~own)
+    total = np.bincount(run, np.where(own, angles, 0.0))
+    kept: NDArray[np.bool_] = np.roll(own & (total[run] > least), first)
+    return kept
 
 
 def _ring(number: int, ring: object) -> Ring:
