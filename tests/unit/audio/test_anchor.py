@@ -173,3 +173,16 @@ def test_a_melody_of_beeps_keeps_every_note_and_every_pause() -> None:
     levels = np.sqrt((felt.reshape(-1, RATE // 2)[:, 800:-400] ** 2).mean(axis=1))
     assert levels[::2].max() < 1.5 * levels[::2].min()
     assert levels[1::2].max() < 0.03 * levels[::2].min()
+
+
+def test_the_level_of_what_is_kept_is_known() -> None:
+    """A band of half the energy; of a beep, all above half its frequency."""
+    rate = 48_000
+    t = np.arange(2 * rate) / rate
+    two = anchor_of(np.sin(2 * np.pi * 150 * t) + np.sin(2 * np.pi * 5000 * t), rate, 15.0, actuator_profile("flat"))
+    assert two is not None
+    assert two.band_db == pytest.approx(-3.0, abs=0.1)
+    beep = anchor_of(0.5 * np.sin(2 * np.pi * 2000 * t), rate, 15.0, actuator_profile("flat"))
+    assert beep is not None
+    assert beep.carrier_hz is not None
+    assert beep.band_db == pytest.approx(-0.26, abs=0.05)
