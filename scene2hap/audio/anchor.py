@@ -1,9 +1,9 @@
 """The anchor of a source: the strong component of its spectrum by which it is felt.
 
 A sound's strongest component may be so low, or so irregular, that no drive below full scale brings it to the planned
-sensation level. The anchor is the strongest component that can reach it. Components are lines, which exceed the noise
-around them; a sound without lines has its strongest bands of noise instead. If no component within 14 dB of the
-strongest can reach the level:
+sensation level. The anchor is the strongest component that comes within 2 dB of it. Components are lines, which exceed
+the noise around them; a sound without lines has its strongest bands of noise instead. If no component within 14 dB of
+the strongest can reach the level:
 
 - the actuator does not render the strongest: its band is shifted to the frequency at which the actuator is felt best;
 - the strongest is below 60 Hz: its band is shifted there as well, and its rate is kept as roughness;
@@ -46,6 +46,9 @@ FAINTEST_BELOW_WHINE_DB = -40.0
 recording's noise."""
 MISSED_DB = 3.0
 """Largest error of a component's level [dB]: about the least difference that is felt."""
+ACCEPTED_DB = 2.0
+"""Error of its level up to which a component is preferred to weaker ones that reach it [dB]. Loops have up to 1 dB less
+than is computed here."""
 CARRIED_DB = 6.0
 """A component that is too high is shifted down if it is felt better by more than this there [dB]. Touch is 4 dB less
 sensitive at 350 Hz than at 250, 19 dB at 500, and feels nothing at 900. A component that is too low keeps its
@@ -182,7 +185,7 @@ class _Needs:
         self._above = np.cumsum(self._power[:0:-1] / self._f[:0:-1] ** 4)[::-1]
 
     def first_met(self, candidates_hz: list[float], q: float | None = None) -> tuple[Anchor | None, float]:
-        """Return the first candidate that reaches the level, or the one that comes nearest, and its error [dB]."""
+        """Return the first candidate that is accepted, or the one that comes nearest to the level; and its error [dB]."""
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
             band, n = self._band(own_hz, q)
@@ -194,7 +197,7 @@ class _Needs:
             missed_db = self.missed_db(anchor)
             if missed_db < best[1]:
                 best = anchor, missed_db
-            if missed_db == 0.0:
+            if missed_db <= ACCEPTED_DB:
                 break
         return best
 

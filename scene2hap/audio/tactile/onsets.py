@@ -9,8 +9,8 @@ means S:
 The irregularity of a machine stays within that factor, and a steady sound is unchanged, bit for bit. The stage has a
 latency of 10 ms, in which it measures the height of an onset.
 
-If the whole sound is known, so is the level of the bed relative to it. Then a burst has the energy of its onset, of 60 ms
-at most, at that level, so that events and bed keep their relation. The latency is 60 ms.
+If the whole sound is known, so is the level of the bed relative to it. Then a burst has the energy of its onset, of
+60 ms at most, at that level, so that events and bed keep their relation. The latency is 60 ms.
 """
 
 from __future__ import annotations

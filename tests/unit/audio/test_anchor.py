@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from scene2hap.audio.actuators import actuator_profile, response_db
-from scene2hap.audio.anchor import anchor_of, best_carrier_hz
+from scene2hap.audio.anchor import HIGHEST_PEAK_DB, anchor_of, best_carrier_hz
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
-from scene2hap.audio.levels import sensation_level_db
+from scene2hap.audio.levels import sensation_level_db, threshold_db
 from scene2hap.audio.tactile import CONVERTERS
 from sound_draws import band_noise, coloured_noise
 
@@ -30,6 +30,16 @@ def test_anchor_is_the_component_that_is_felt_most() -> None:
     found = anchor_of(tones(f40=0.5, f150=0.3, f260=0.2), RATE, level_db, actuator_profile("flat"))
     assert found is not None
     assert found.frequency_hz == pytest.approx(150.0, abs=0.1)
+
+
+def test_anchor_is_the_strongest_component_if_its_level_is_hardly_missed() -> None:
+    """By a decibel and a half it stays; by four the next one is felt instead."""
+    x = tones(f105=0.5, f220=0.15)
+    for missed_db, expected_hz in ((1.5, 105.0), (4.0, 220.0)):
+        level_db = HIGHEST_PEAK_DB + missed_db - float(threshold_db(105.0))
+        found = anchor_of(x, RATE, level_db, actuator_profile("flat"))
+        assert found is not None
+        assert found.frequency_hz == pytest.approx(expected_hz, abs=0.1)
 
 
 def test_anchor_is_not_a_component_14_db_below_the_strongest() -> None:
