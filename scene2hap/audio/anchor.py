@@ -185,7 +185,7 @@ class _Needs:
         self._above = np.cumsum(self._power[:0:-1] / self._f[:0:-1] ** 4)[::-1]
 
     def first_met(self, candidates_hz: list[float], q: float | None = None) -> tuple[Anchor | None, float]:
-        """Return the first candidate that is accepted, or the one that comes nearest to the level; and its error [dB]."""
+        """Return the first candidate that is accepted, or the one that comes nearest; and its error [dB]."""
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
             band, n = self._band(own_hz, q)
