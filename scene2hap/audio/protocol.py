@@ -34,8 +34,8 @@ class ConversionContext:
     own_hz : the source's dominant frequency, from an analysis of the whole sound; None to track it while it plays;
     target_hz : the frequency at which it is felt, None if the converter may choose; rough_hz : a stronger component
     that is too low to be felt as a tone, None without one. All [Hz]. band_q : largest Q of a band that holds the
-    source's moving pitch, with `own_hz` in its middle; None if the pitch does not move [-]. band_db : level of what is
-    kept of the whole sound, relative to it; None if unknown [dB].
+    source's moving pitch, with `own_hz` in its middle; None if the pitch does not move [-]. band_db : level of the
+    band that is kept, relative to the whole sound; None if unknown [dB].
     """
 
     actuator: ActuatorProfile = field(default_factory=ActuatorProfile)

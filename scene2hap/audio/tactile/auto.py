@@ -25,10 +25,14 @@ from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import Following
 from scene2hap.audio.tactile.onsets import WithOnsets
 from scene2hap.audio.tactile.roughness import Roughened
-from scene2hap.audio.tactile.stages import Chain, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream
 
 _CARRIERS_HZ = (100.0, 300.0)
 """Range of carriers [Hz]: a burst of 8 ms still has a frequency, and touch is sensitive."""
+
+_ROOM = 0.5
+"""Gain where the level of the whole sound is known. It is set afterwards; bursts, and the first harmonic of a clipped
+sound, may exceed the peak of the sound."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +58,7 @@ class Auto(Adaptive):
         if is_known:  # the whole sound was analysed, so this is no live stream, and latency is allowed
             bed = Following(bed, sample_rate_hz, context.band_db)
         onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
-        return StageStream(onsets)
+        return StageStream(onsets) if context.band_db is None else StageStream(onsets, Scaled(_ROOM))
 
 
 def _beep_hz(context: ConversionContext) -> float | None:
