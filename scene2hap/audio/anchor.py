@@ -249,11 +249,14 @@ class _Needs:
         return 10.0 * float(np.log10(max(one, 1e-300) / max(other, 1e-300)))
 
     def band_db(self, anchor: Anchor) -> float:
-        """Return the level of what is kept of the sound, relative to it [dB]."""
+        """Return the level of what is kept of the sound, relative to it [dB].
+
+        Rounded, since the last digits of a sum depend on the machine, and so would each sample of a loop.
+        """
         own_hz, q = anchor.frequency_hz, anchor.band_q or BAND_Q
         beep = is_beep(own_hz, anchor.felt_hz)
         kept = 1.0 / (1.0 + (0.5 * own_hz / np.maximum(self._f, 1e-3)) ** 4) if beep else _band(self._f, own_hz, q) ** 2
-        return 10.0 * float(np.log10(max(self._power @ kept, 1e-300) / max(self._power.sum(), 1e-300)))
+        return round(10.0 * float(np.log10(max(self._power @ kept, 1e-300) / max(self._power.sum(), 1e-300))), 2)
 
     def _band(self, own_hz: float, q: float | None = None) -> tuple[NDArray[np.complex128], int]:
         """Return the spectrum of a band divided by its number of samples, and that number, which its peak needs."""
