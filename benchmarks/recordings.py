@@ -71,6 +71,7 @@ def judged(clip: AudioClip, kind: str, actuator: str) -> str:
         target_hz=anchor.carrier_hz,
         rough_hz=anchor.rough_hz,
         band_q=anchor.band_q,
+        band_db=anchor.band_db,
     )
     heard = clip.samples.astype(np.float64)
     felt = convert_clip(clip, CONVERTERS.build(kind), context).samples.astype(np.float64)

@@ -1,9 +1,9 @@
 """The anchor of a source: the strong component of its spectrum by which it is felt.
 
 A sound's strongest component may be so low, or so irregular, that no drive below full scale brings it to the planned
-sensation level. The anchor is the strongest component that can reach it. Components are lines, which exceed the noise
-around them; a sound without lines has its strongest bands of noise instead. If no component within 14 dB of the
-strongest can reach the level:
+sensation level. The anchor is the strongest component that comes within 2 dB of it. Components are lines, which exceed
+the noise around them; a sound without lines has its strongest bands of noise instead. If no component within 14 dB of
+the strongest can reach the level:
 
 - the actuator does not render the strongest: its band is shifted to the frequency at which the actuator is felt best;
 - the strongest is below 60 Hz: its band is shifted there as well, and its rate is kept as roughness;
@@ -46,6 +46,9 @@ FAINTEST_BELOW_WHINE_DB = -40.0
 recording's noise."""
 MISSED_DB = 3.0
 """Largest error of a component's level [dB]: about the least difference that is felt."""
+ACCEPTED_DB = 2.0
+"""Error of its level up to which a component is preferred to weaker ones that reach it [dB]. Loops have up to 1 dB less
+than is computed here."""
 CARRIED_DB = 6.0
 """A component that is too high is shifted down if it is felt better by more than this there [dB]. Touch is 4 dB less
 sensitive at 350 Hz than at 250, 19 dB at 500, and feels nothing at 900. A component that is too low keeps its
@@ -57,6 +60,8 @@ _HIGHEST_HZ = 10_000.0
 _CARRIERS_HZ = np.geomspace(100.0, 300.0, 65)
 """Possible carriers [Hz]: a burst of 8 ms still has a frequency, and touch is sensitive."""
 _OTHER_RATIO = 1.25
+_BEEP_RATIO = 1.5
+"""Moving sources apart changes a frequency by at most a third of an octave (1.26)."""
 _OVERSAMPLED = 16.0
 """Half the rate at which a band's peak is looked for, over its frequency: it is found to 0.04 dB."""
 _GRID = 81
@@ -68,7 +73,8 @@ class Anchor:
 
     rough_hz : the strongest component of the sound, if it is too low for a tone and is kept as roughness, else None
     [Hz]; carrier_hz : the frequency to which the band is shifted, if it cannot be felt at its own, else None [Hz];
-    band_q : Q of a band that holds a moving pitch, `frequency_hz` in its middle; None for `BAND_Q` [-].
+    band_q : Q of a band that holds a moving pitch, `frequency_hz` in its middle; None for `BAND_Q` [-]; band_db : level
+    of the band relative to the whole sound, None if unknown [dB]. Of a beep, the band is all above half its frequency.
     """
 
     frequency_hz: float
@@ -76,6 +82,7 @@ class Anchor:
     rough_hz: float | None = None
     carrier_hz: float | None = None
     band_q: float | None = None
+    band_db: float | None = None
 
     @property
     def felt_hz(self) -> float:
@@ -112,7 +119,13 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     if pitch is not None:
         strongest = strongest._replace(hz=pitch.centre_hz, above_noise_db=LINE_DB)
         found = needs.felt(*needs.first_met([pitch.centre_hz], pitch.q), strongest)
-    return replace(found, rough_hz=_rough_hz(strongest, found, magnitude, sample_rate_hz))
+    rough_hz = _rough_hz(strongest, found, magnitude, sample_rate_hz)
+    return replace(found, rough_hz=rough_hz, band_db=needs.band_db(found))
+
+
+def is_beep(own_hz: float, felt_hz: float) -> bool:
+    """Return True if a component is so far above the frequency at which it is felt that only its envelope is kept."""
+    return own_hz > _BEEP_RATIO * felt_hz
 
 
 def band_of(clip: AudioClip, anchor: Anchor) -> NDArray[np.float64]:
@@ -172,7 +185,7 @@ class _Needs:
         self._above = np.cumsum(self._power[:0:-1] / self._f[:0:-1] ** 4)[::-1]
 
     def first_met(self, candidates_hz: list[float], q: float | None = None) -> tuple[Anchor | None, float]:
-        """Return the first candidate that reaches the level, or the one that comes nearest, and its error [dB]."""
+        """Return the first candidate that is accepted, or the one that comes nearest; and its error [dB]."""
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
             band, n = self._band(own_hz, q)
@@ -184,7 +197,7 @@ class _Needs:
             missed_db = self.missed_db(anchor)
             if missed_db < best[1]:
                 best = anchor, missed_db
-            if missed_db == 0.0:
+            if missed_db <= ACCEPTED_DB:
                 break
         return best
 
@@ -234,6 +247,16 @@ class _Needs:
         """Return the energy of a band relative to another [dB]."""
         one, other = (float(np.sum(np.abs(self._band(hz)[0]) ** 2)) for hz in (one_hz, other_hz))
         return 10.0 * float(np.log10(max(one, 1e-300) / max(other, 1e-300)))
+
+    def band_db(self, anchor: Anchor) -> float:
+        """Return the level of what is kept of the sound, relative to it [dB].
+
+        Rounded, since the last digits of a sum depend on the machine, and so would each sample of a loop.
+        """
+        own_hz, q = anchor.frequency_hz, anchor.band_q or BAND_Q
+        beep = is_beep(own_hz, anchor.felt_hz)
+        kept = 1.0 / (1.0 + (0.5 * own_hz / np.maximum(self._f, 1e-3)) ** 4) if beep else _band(self._f, own_hz, q) ** 2
+        return round(10.0 * float(np.log10(max(self._power @ kept, 1e-300) / max(self._power.sum(), 1e-300))), 2)
 
     def _band(self, own_hz: float, q: float | None = None) -> tuple[NDArray[np.complex128], int]:
         """Return the spectrum of a band divided by its number of samples, and that number, which its peak needs."""

@@ -87,6 +87,7 @@ def plan_scene(
                 placed[i].target_hz if i in placed else None,
                 anchor.rough_hz if anchor is not None else None,
                 anchor.band_q if anchor is not None else None,
+                anchor.band_db if anchor is not None else None,
             ),
             placed[i].level_db if i in placed else levels[i],
         )

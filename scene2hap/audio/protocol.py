@@ -34,7 +34,8 @@ class ConversionContext:
     own_hz : the source's dominant frequency, from an analysis of the whole sound; None to track it while it plays;
     target_hz : the frequency at which it is felt, None if the converter may choose; rough_hz : a stronger component
     that is too low to be felt as a tone, None without one. All [Hz]. band_q : largest Q of a band that holds the
-    source's moving pitch, with `own_hz` in its middle; None if the pitch does not move [-].
+    source's moving pitch, with `own_hz` in its middle; None if the pitch does not move [-]. band_db : level of the
+    band that is kept, relative to the whole sound; None if unknown [dB].
     """
 
     actuator: ActuatorProfile = field(default_factory=ActuatorProfile)
@@ -44,6 +45,7 @@ class ConversionContext:
     target_hz: float | None = None
     rough_hz: float | None = None
     band_q: float | None = None
+    band_db: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("own_hz", "target_hz", "rough_hz"):
@@ -51,6 +53,8 @@ class ConversionContext:
                 checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError)
         if self.band_q is not None:
             checks.number("band_q", self.band_q, "-", at_least=0.1, at_most=100.0, error=AudioError)
+        if self.band_db is not None:
+            checks.number("band_db", self.band_db, "dB", error=AudioError)
         for i, neighbour in enumerate(checks.items("neighbours_hz", self.neighbours_hz, error=AudioError)):
             checks.number(f"neighbours_hz[{i}]", neighbour, "Hz", above=0.0, error=AudioError)
 

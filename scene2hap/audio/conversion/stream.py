@@ -180,6 +180,7 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
         target_hz=anchor.carrier_hz,
         rough_hz=anchor.rough_hz,
         band_q=anchor.band_q,
+        band_db=anchor.band_db,
     )
 
 

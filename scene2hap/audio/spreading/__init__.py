@@ -21,6 +21,7 @@ from scene2hap.haptics import ActuatorProfile
 __all__ = ["Placement", "SpreadLimits", "Voice", "spread"]
 
 _ENOUGH_OCT = 1e-4
+_UNMOVED = 1e-6
 _EXACT_PAIRS = 28
 """Up to this many pairs (eight conflicting voices) are placed exactly, within a second or two."""
 
@@ -47,7 +48,12 @@ def spread(
         if outcome.shortage_oct < _ENOUGH_OCT:
             break
     placed = {
-        voice: stay[voice] if voice.is_placed else Placement(float(2.0**x), float(level_db))
+        voice: stay[voice] if voice.is_placed else _placement(voice, float(2.0**x), float(level_db))
         for voice, x, level_db in zip(room.voices, outcome.x, outcome.level_db, strict=True)
     }
     return tuple(placed[voice] for voice in voices)
+
+
+def _placement(voice: Voice, target_hz: float, level_db: float) -> Placement:
+    """Return where a voice is placed: exactly at its own frequency if it is not moved, so that no shift is made."""
+    return Placement(voice.own_hz if abs(target_hz / voice.own_hz - 1.0) < _UNMOVED else target_hz, level_db)

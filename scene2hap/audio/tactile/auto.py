@@ -18,20 +18,21 @@ from dataclasses import dataclass
 
 from scipy.signal import butter
 
-from scene2hap.audio.anchor import BAND_Q, best_carrier_hz
+from scene2hap.audio.anchor import BAND_Q, best_carrier_hz, is_beep
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import Following
 from scene2hap.audio.tactile.onsets import WithOnsets
 from scene2hap.audio.tactile.roughness import Roughened
-from scene2hap.audio.tactile.stages import Chain, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream
 
 _CARRIERS_HZ = (100.0, 300.0)
 """Range of carriers [Hz]: a burst of 8 ms still has a frequency, and touch is sensitive."""
-_FROM_ABOVE = 1.5
-"""Ratio of own to felt frequency above which a source was too high to be felt. Moving sources apart gives at most a
-third of an octave (1.26)."""
+
+_ROOM = 0.5
+"""Gain where the level of the whole sound is known. It is set afterwards; bursts, and the first harmonic of a clipped
+sound, may exceed the peak of the sound."""
 
 
 @dataclass(frozen=True)
@@ -55,14 +56,15 @@ class Auto(Adaptive):
             bed = Roughened(stages, band, context.rough_hz, sample_rate_hz)
         is_known = context.own_hz is not None
         if is_known:  # the whole sound was analysed, so this is no live stream, and latency is allowed
-            bed = Following(bed, sample_rate_hz)
-        return StageStream(WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known))
+            bed = Following(bed, sample_rate_hz, context.band_db)
+        onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
+        return StageStream(onsets) if context.band_db is None else StageStream(onsets, Scaled(_ROOM))
 
 
 def _beep_hz(context: ConversionContext) -> float | None:
     """Return the own frequency of a source that is felt far below it, else None [Hz]."""
     own_hz, target_hz = context.own_hz, context.target_hz
-    return own_hz if own_hz is not None and target_hz is not None and own_hz > _FROM_ABOVE * target_hz else None
+    return own_hz if own_hz is not None and target_hz is not None and is_beep(own_hz, target_hz) else None
 
 
 def carrier_hz(context: ConversionContext) -> float:

@@ -1,8 +1,8 @@
 """Level follower: make the bed rise and fall with the whole sound, and not by itself.
 
 A narrow band of steady noise, or a few beating partials, has an envelope of its own: a fan whose level stays within
-1 dB would vary by 6 dB. With the levels L of sound and bed in 60 ms, and M the mean of their difference over two
-seconds, weighted by energy:
+1 dB would vary by 6 dB. With the levels L of sound and bed in 60 ms, and M the level of the whole bed relative to the
+whole sound (if that is unknown, the mean of their difference over two seconds, weighted by energy):
 
     difference d = L_bed - L_sound        gain -(d - M) + sign(d - M) `FREE_DB`   where |d - M| > `FREE_DB`, else 0 dB
 
@@ -32,8 +32,8 @@ _NOTHING = 1e-12
 class Following:
     """A `Stage` that keeps a bed at the level of its sound, up to a constant."""
 
-    def __init__(self, bed: Stage, sample_rate_hz: float) -> None:
-        self._bed = bed
+    def __init__(self, bed: Stage, sample_rate_hz: float, bed_db: float | None = None) -> None:
+        self._bed, self._bed_db = bed, bed_db
         self._step = max(1, round(STEP_S * sample_rate_hz))
         self._waiting = np.empty(0)
         self._heard = StepEnergies(self._step), StepEnergies(self._step)
@@ -75,19 +75,28 @@ class Following:
         """Return the gain at the beginnings of n steps (n,), each in the middle of a window."""
         # Sums of shifted rows, since the rounding of a convolution depends on the block size.
         around = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
-        share = [1.0 - self._forget], [1.0, -self._forget]
-        means, self._means = lfilter(*share, around, axis=1, zi=self._means)
-        now, usual = (10.0 * np.log10((e[1] + _NOTHING) / (e[0] + _NOTHING)) for e in (around, means))
-        beyond = now - usual
+        beyond = _ratio_db(around) - self._usual_db(around)
         beyond -= np.clip(beyond, -FREE_DB, FREE_DB)
         gains: Signal = 10.0 ** (np.clip(-beyond, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
         return gains
+
+    def _usual_db(self, around: Signal) -> Signal | float:
+        if self._bed_db is not None:
+            return self._bed_db
+        share = [1.0 - self._forget], [1.0, -self._forget]
+        means, self._means = lfilter(*share, around, axis=1, zi=self._means)
+        return _ratio_db(means)
 
     def _released(self, gains: Signal) -> Signal:
         """Return the n - 1 steps between gains (n,), each faded from one gain to the next."""
         n = (len(gains) - 1) * self._step
         y, self._waiting = self._waiting[:n], self._waiting[n:]
         return faded(y, gains, self._step)
+
+
+def _ratio_db(energies: Signal) -> Signal:
+    """Return the level of the bed relative to its sound [dB], from the energies of sound and bed (2, n)."""
+    return np.asarray(10.0 * np.log10((energies[1] + _NOTHING) / (energies[0] + _NOTHING)))
 
 
 @compiled

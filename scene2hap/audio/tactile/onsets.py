@@ -8,6 +8,9 @@ means S:
 
 The irregularity of a machine stays within that factor, and a steady sound is unchanged, bit for bit. The stage has a
 latency of 10 ms, in which it measures the height of an onset.
+
+If the whole sound is known, so is the level of the bed relative to it. Then a burst has the energy of its onset, of
+60 ms at most, at that level, so that events and bed keep their relation. The latency is 60 ms.
 """
 
 from __future__ import annotations
@@ -45,8 +48,12 @@ TICKS_HZ = 1000.0
 ABOVE_BED, AROUND_S = 8.0, 0.25
 """Largest ratio of a burst to the bed around it (18 dB), and the extent of that [s]; a stronger burst would use up the
 head-room in which the bed must reach its level."""
+TICK_ABOVE_BED = 3.0
+"""Least ratio of a burst to the bed around it, if a hum hides a tick from the energy of the whole sound (10 dB)."""
 NO_BED = 0.01
 """Ratio of bed to burst below which there is no bed, as between the ticks of a clock."""
+_MEAN_SQUARE = 3.0 / 8.0
+"""Mean square of the shape of a burst."""
 WARM = round(MEAN_S / STEP_S)
 """Number of steps after which the mean of a sound is known."""
 FORGET = float(np.exp(-STEP_S / LATE_S))
@@ -56,11 +63,21 @@ APART, SPARED = round(APART_S / STEP_S), round(SPARED_S / STEP_S)
 class WithOnsets:
     """A `Stage`: the bed through its own stages, without onsets, plus a burst of `carrier_hz` for each onset.
 
-    A bed that follows the level of the sound renders sustained onsets by itself.
+    A bed that follows the level of the sound renders sustained onsets by itself. If the level of the bed relative to
+    the sound is known (`bed_db`), a burst has the energy of its onset, at that level.
     """
 
-    def __init__(self, bed: Stage, carrier_hz: float, sample_rate_hz: float, *, bed_follows: bool = False) -> None:
+    def __init__(
+        self,
+        bed: Stage,
+        carrier_hz: float,
+        sample_rate_hz: float,
+        *,
+        bed_follows: bool = False,
+        bed_db: float | None = None,
+    ) -> None:
         self._bed, self._rate_hz = bed, sample_rate_hz
+        self._share = None if bed_db is None else 10 ** (bed_db / 10)
         self._step = max(1, round(STEP_S * sample_rate_hz))
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
         self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
@@ -79,7 +96,7 @@ class WithOnsets:
         energies = [of.next(heard) for of, heard in zip(self._energies, (x, self._high.run(x)), strict=True)]
         first = self._watch.n_decided
         onsets, shares = self._watch.decided(*energies)
-        self._due += [_Due((first + k) * self._step, height, left) for k, height, left in onsets]
+        self._due += [one._replace(begin=(first + one.begin) * self._step) for one in onsets]
         n = len(shares) * self._step
         spared, self._waiting = self._waiting[:n], self._waiting[n:]
         lowered = np.flatnonzero(shares < 1.0)
@@ -87,8 +104,11 @@ class WithOnsets:
         return self._mixed(self._bed.run(spared))
 
     def rest(self) -> Signal:
-        """Return the last steps, which are not searched for onsets."""
-        return np.concatenate([self._mixed(self._bed.run(self._waiting)), self._mixed(self._bed.rest())])
+        """Return the last samples, as if silence followed."""
+        n_left = len(self._waiting) % self._step
+        parts = [self.run(np.zeros(self._watch.look * self._step))]
+        parts.append(self._mixed(self._bed.run(self._waiting[:n_left])))
+        return np.concatenate([*parts, self._mixed(self._bed.rest())])
 
     def _mixed(self, bed: Signal) -> Signal:
         """Return the next samples of the bed, with their bursts added."""
@@ -110,7 +130,12 @@ class WithOnsets:
 
     def _burst(self, due: _Due, bed_before: Signal) -> Signal:
         n = round((SHARP_S + (DULL_S - SHARP_S) * due.left) * self._rate_hz)
-        amplitude, bed = math.sqrt(2.0 * due.height), float(max(bed_before.max(), -bed_before.min()))
+        bed = float(max(bed_before.max(), -bed_before.min()))
+        amplitude = math.sqrt(2.0 * due.height)
+        if self._share is not None:
+            least = min(amplitude, TICK_ABOVE_BED * bed) if due.is_hidden else 0.0
+            energy = max(due.height, due.energy * self._step / (n * _MEAN_SQUARE))
+            amplitude = max(least, math.sqrt(2.0 * self._share * energy))
         if bed > NO_BED * amplitude:
             amplitude = min(amplitude, ABOVE_BED * bed)
         shape = 0.5 - 0.5 * np.cos(2.0 * np.pi / n * np.arange(n))
@@ -119,11 +144,14 @@ class WithOnsets:
 
 
 class _Due(NamedTuple):
-    """An onset whose burst is not made yet: first sample, energy, and the share of it after `LOOK` steps."""
+    """An onset whose burst is not made yet: begin [samples or steps], energy of its highest step, share of that after
+    `LOOK` steps, sum of the energies of its steps, and True if the energy of the whole sound hardly rises."""
 
     begin: int
     height: float
     left: float
+    energy: float
+    is_hidden: bool
 
 
 @compiled
@@ -198,13 +226,13 @@ class _Watch:
 
     def __init__(self, *, spares_sustained: bool) -> None:
         self._spares_sustained = spares_sustained
-        self._look = LOOK + AFTER[1] if spares_sustained else LOOK
+        self.look = SPARED if spares_sustained else LOOK
         self.n_decided = 0
         self._steps = [np.empty((3, 0)), np.empty((3, 0))]  # energy, slow mean and recent maximum of sound and ticks
         self._means = [(0.0, 0.0), (0.0, 0.0)]
         self._memory = np.array([-float(SPARED), 0.0, 0.0])
 
-    def decided(self, *energies: Signal) -> tuple[list[tuple[int, float, float]], Signal]:
+    def decided(self, *energies: Signal) -> tuple[list[_Due], Signal]:
         """Return what `onsets_among` finds in the steps that these energies (n,) of the sound and its ticks decide."""
         n_known = self.n_decided + self._steps[0].shape[1]
         for band, of_band in enumerate(energies):
@@ -212,8 +240,19 @@ class _Watch:
             self._means[band] = mean, loudest
             self._steps[band] = np.concatenate([self._steps[band], [of_band, means, loudests]], axis=1)
         sound, ticks = self._steps
-        n = max(0, sound.shape[1] - self._look)
-        found = onsets_among(sound, ticks, n, self.n_decided, self._memory, self._spares_sustained)
+        n = max(0, sound.shape[1] - self.look)
+        onsets, shares = onsets_among(sound, ticks, n, self.n_decided, self._memory, self._spares_sustained)
+        due = [_measured(sound, *one) for one in onsets]
         self._steps = [sound[:, n:], ticks[:, n:]]
         self.n_decided += n
-        return found
+        return due, shares
+
+
+def _measured(sound: Signal, k: int, height: float, left: float) -> _Due:
+    """Return an onset at step k of the sound (3, m). It lasts until the energy rises again, at most `SPARED` steps."""
+    before = float(sound[1, k])
+    steps = sound[0, k : k + SPARED]
+    top = int(np.argmax(steps[: LOOK + 1]))
+    again = np.flatnonzero(steps[top:] > RISE * np.minimum.accumulate(steps[top:]))
+    energy = float(np.maximum(steps[: top + int(again[0]) if again.size else None] - before, 0.0).sum())
+    return _Due(k, height, left, energy, is_hidden=float(steps[top]) <= RISE * before)

@@ -118,6 +118,21 @@ class SosStage:
         return np.empty(0)
 
 
+class Scaled:
+    """A `Stage`: a constant gain [-]."""
+
+    def __init__(self, gain: float) -> None:
+        self._gain = gain
+
+    def run(self, x: Signal) -> Signal:
+        """Equally many samples."""
+        return self._gain * x
+
+    def rest(self) -> Signal:
+        """Nothing."""
+        return np.empty(0)
+
+
 class ShiftStage:
     """Single-sideband modulation: moves a band by a number of hertz and keeps its envelope.
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from scene2hap.audio.actuators import actuator_profile, response_db
-from scene2hap.audio.anchor import anchor_of, best_carrier_hz
+from scene2hap.audio.anchor import HIGHEST_PEAK_DB, anchor_of, best_carrier_hz
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
-from scene2hap.audio.levels import sensation_level_db
+from scene2hap.audio.levels import sensation_level_db, threshold_db
 from scene2hap.audio.tactile import CONVERTERS
 from sound_draws import band_noise, coloured_noise
 
@@ -30,6 +30,16 @@ def test_anchor_is_the_component_that_is_felt_most() -> None:
     found = anchor_of(tones(f40=0.5, f150=0.3, f260=0.2), RATE, level_db, actuator_profile("flat"))
     assert found is not None
     assert found.frequency_hz == pytest.approx(150.0, abs=0.1)
+
+
+def test_anchor_is_the_strongest_component_if_its_level_is_hardly_missed() -> None:
+    """By a decibel and a half it stays; by four the next one is felt instead."""
+    x = tones(f105=0.5, f220=0.15)
+    for missed_db, expected_hz in ((1.5, 105.0), (4.0, 220.0)):
+        level_db = HIGHEST_PEAK_DB + missed_db - float(threshold_db(105.0))
+        found = anchor_of(x, RATE, level_db, actuator_profile("flat"))
+        assert found is not None
+        assert found.frequency_hz == pytest.approx(expected_hz, abs=0.1)
 
 
 def test_anchor_is_not_a_component_14_db_below_the_strongest() -> None:
@@ -173,3 +183,16 @@ def test_a_melody_of_beeps_keeps_every_note_and_every_pause() -> None:
     levels = np.sqrt((felt.reshape(-1, RATE // 2)[:, 800:-400] ** 2).mean(axis=1))
     assert levels[::2].max() < 1.5 * levels[::2].min()
     assert levels[1::2].max() < 0.03 * levels[::2].min()
+
+
+def test_the_level_of_what_is_kept_is_known() -> None:
+    """A band of half the energy; of a beep, all above half its frequency."""
+    rate = 48_000
+    t = np.arange(2 * rate) / rate
+    two = anchor_of(np.sin(2 * np.pi * 150 * t) + np.sin(2 * np.pi * 5000 * t), rate, 15.0, actuator_profile("flat"))
+    assert two is not None
+    assert two.band_db == pytest.approx(-3.0, abs=0.1)
+    beep = anchor_of(0.5 * np.sin(2 * np.pi * 2000 * t), rate, 15.0, actuator_profile("flat"))
+    assert beep is not None
+    assert beep.carrier_hz is not None
+    assert beep.band_db == pytest.approx(-0.26, abs=0.05)

@@ -115,14 +115,21 @@ def test_an_edited_intensity_is_felt_after_baking_again(tmp_path: Path) -> None:
     folder = bundle.save(tmp_path / "b")
     objects = json.loads((folder / "objects.json").read_text())
     (state,) = objects["desk_fan"]["states"]
-    before_db = level_db(bundle, "desk_fan")
+    before_db = asked_db(bundle, "desk_fan")
     state["intensity"] /= 2
     (folder / "objects.json").write_text(json.dumps(objects))
     again, told = remade(HapticBundle.load(folder))
     assert told["desk_fan"][state["name"]] == ("intensity",)
     assert set(told) == {"desk_fan"}
     assert level_db(again, "desk_fan") == pytest.approx(before_db - 17.0 * np.log10(2.0), abs=0.1)
+    assert level_db(bundle, "desk_fan") > level_db(again, "desk_fan") + 3.0
     assert again.loops["desk_fan"][state["name"]].audible.credit.origin == "synth"
+
+
+def asked_db(bundle: HapticBundle, object_id: str) -> float:
+    (loop,) = bundle.loops[object_id].values()
+    assert loop.felt is not None
+    return loop.felt.asked_level_db
 
 
 def level_db(bundle: HapticBundle, object_id: str) -> float:

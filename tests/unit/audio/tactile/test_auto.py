@@ -51,6 +51,14 @@ def test_auto_equals_adaptive_without_roughness_and_onsets() -> None:
     np.testing.assert_array_equal(felt(context), felt(context, "adaptive"))
 
 
+def test_a_band_that_exceeds_full_scale_is_not_clipped() -> None:
+    """The first harmonic of a square wave is stronger than the wave."""
+    square = (0.9 * np.sign(np.sin(2 * np.pi * 150 * T + 0.1))).astype(np.float32)
+    stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=150.0, band_db=-0.9))
+    assert np.abs(stream.process(square)).max() > 0.5
+    assert stream.n_clipped == 0
+
+
 def test_silence_stays_silent() -> None:
     stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=150.0, rough_hz=40.0))
     assert not stream.process(np.zeros(RATE, np.float32)).any()

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.following import MOST_LIFTED_DB, Following
+from scene2hap.haptics import ActuatorProfile
 from sound_draws import band_noise, coloured_noise
 
 RATE = 8000
@@ -107,3 +109,18 @@ def test_blocks_of_any_size_give_the_same_bits_with_onsets_over_it() -> None:
     assert len(whole) == len(x)
     for block in (1237, 64, 20_011):
         np.testing.assert_array_equal(through(x, block=block), whole)
+
+
+def test_a_slow_change_outside_the_band_is_felt() -> None:
+    """The usual level of the bed was its mean over two seconds, so that it gave way to the change (r = 0.78)."""
+    rng = np.random.default_rng(4)
+    swell = 10 ** (-1.0 + 2.0 * np.minimum(T, 6.0 - T) / 6.0)
+    x = np.sin(2 * np.pi * 150.0 * T) + 3.0 * swell * band_noise(rng, len(T), RATE, 500.0, 3500.0)
+    anchor = anchor_of(x, RATE, 20.0, ActuatorProfile())
+    assert anchor is not None
+    stream = CONVERTERS.build("auto").stream(
+        RATE, ConversionContext(own_hz=anchor.frequency_hz, band_db=anchor.band_db)
+    )
+    felt = np.concatenate([stream.process((0.1 * x).astype(np.float32)), stream.finish()]).astype(float)
+    envelopes = [10 ** (levels_db(y) / 20) for y in (x, felt)]
+    assert np.corrcoef(*envelopes)[0, 1] > 0.95

@@ -34,8 +34,8 @@ class Silence:
         return np.empty(0)
 
 
-def bursts(sound: Signal, rate: int = RATE) -> Signal:
-    stage = WithOnsets(Silence(), 200.0, rate)
+def bursts(sound: Signal, rate: int = RATE, *, bed_follows: bool = False) -> Signal:
+    stage = WithOnsets(Silence(), 200.0, rate, bed_follows=bed_follows)
     return np.concatenate([stage.run(sound), stage.rest()])
 
 
@@ -131,6 +131,42 @@ def test_sound_that_continues_after_its_onset_keeps_its_envelope() -> None:
     felt = np.concatenate([stream.process(sound.astype(np.float32)), stream.finish()])
     levels = [np.sqrt((y[rate:].reshape(-1, 200).astype(float) ** 2).mean(axis=1)) for y in (sound, felt)]
     assert np.corrcoef(*levels)[0, 1] > 0.95
+
+
+def auto(sound: Signal, rate: int, own_hz: float, band_db: float) -> Signal:
+    stream = CONVERTERS.build("auto").stream(rate, ConversionContext(own_hz=own_hz, band_db=band_db))
+    return np.concatenate([stream.process(sound.astype(np.float32)), stream.finish()]).astype(float)
+
+
+def test_strokes_keep_their_strengths_and_their_relation_to_the_bed() -> None:
+    """Bursts had the height of strokes of the whole sound, though only a part of it is the bed (r = 0.70)."""
+    rng, rate, t = np.random.default_rng(3), 8000, np.arange(8 * 8000) / 8000
+    since, number = t % 0.31, (t / 0.31).astype(int)
+    heights = 10 ** (rng.uniform(-0.7, 0.0, number.max() + 1) - 0.3)[number]
+    decay = 0.6 * heights * np.exp(-since / 0.03)
+    sound = 0.01 * rng.standard_normal(len(t))
+    sound += decay * (0.15 * rng.standard_normal(len(t)) + np.sin(2 * np.pi * 2500 * t))
+    spectrum, f = np.abs(np.fft.rfft(sound)) ** 2, np.fft.rfftfreq(len(sound), 1 / rate)
+    kept = spectrum @ (1 / (1 + (2 * (f / 200 - 200 / np.maximum(f, 1e-3))) ** 2)) ** 2 / spectrum.sum()
+    felt = auto(sound, rate, 200.0, 10 * np.log10(kept))
+    envelopes = [np.sqrt((y[rate:].reshape(-1, rate // 10) ** 2).mean(axis=1)) for y in (sound, felt)]
+    assert np.corrcoef(*envelopes)[0, 1] > 0.95
+
+
+def test_a_tick_that_a_rumble_hides_from_the_energy_is_felt_all_the_same() -> None:
+    """Its energy is small beside that of the sound, but not beside that of the band."""
+    rate, times = 48_000, np.arange(0.5, 4.5, 0.5)
+    t = np.arange(5 * rate) / rate
+    felt = auto(ticks(times, 0.3, 0.2, 5.0, rate) + 0.06 * np.sin(2 * np.pi * 250 * t), rate, 250.0, -13.9)
+    level = 10 * np.log10((felt.reshape(-1, rate // 200) ** 2).mean(axis=1) + 1e-12)
+    for at in np.rint(times / 0.005).astype(int):
+        assert level[at : at + 4].max() - np.median(level[at - 10 : at]) > 5.0
+
+
+def test_a_tick_at_the_very_end_is_kept() -> None:
+    """The last 20 ms were not searched."""
+    found = starts_s(bursts(ticks(np.array([0.5, 1.985]), 0.0, 0.5, 2.0), bed_follows=True))
+    assert found == pytest.approx([0.5, 1.985], abs=0.006)
 
 
 def test_a_recorded_clock_keeps_its_ticks() -> None:
