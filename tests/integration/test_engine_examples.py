@@ -171,8 +171,8 @@ def test_walker_feels_only_touched_objects(tmp_path: Path) -> None:
     ]
     levels, peaks_hz = [], []
     for begin, end, what in found:
-        # Gains come and go within 20 ms, and a session begins with a fade.
-        part = samples[round((begin + 0.1) * rate) : round((end - 0.1) * rate)]
+        # Gains come and go within 20 ms, the DC block settles by 1/e in 35 ms, and a session begins with a fade.
+        part = samples[round((begin + 0.2) * rate) : round((end - 0.1) * rate)]
         if what == "nothing touched":
             assert peak(part) <= SILENT, (begin, end)
             continue
