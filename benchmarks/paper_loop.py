@@ -3,7 +3,8 @@
 OMP_NUM_THREADS=1 python benchmarks/paper_loop.py [n_frames] [--defaults] [--seed N]
 
 `--defaults` measures default settings alone (any number of contacts), in three rooms drawn from a seed, a new one each
-run; the other tables limit `ExponentialPlate` to two contacts, as in the paper's loop.
+run. It also prints the mean time that a frame spends in pairs of meshes, in other work on contacts, and in the rest of
+the session. The other tables limit `ExponentialPlate` to two contacts, as in the paper's loop.
 
 The plain loop, once per frame: compare all bounding boxes with all, draw a networkx graph, follow all paths from every
 touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. It is compared with
@@ -33,6 +34,7 @@ from busy_room import BusyRoom, busy_room, floor_room, furnished_room, shelf_roo
 from scene2hap import Bands, HapticSession, Plate, Pose, Touch
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.propagation.bands.band_rms import BandRms
 from scene2hap.propagation.paths.live_law import LiveLaw, LivePaths
 from scene2hap.session.audibility import Audibility
@@ -164,7 +166,10 @@ def compared(n_objects: int, kind: str, n_frames: int) -> None:
 def default_settings(n_frames: int, seed: int) -> None:
     """Sessions over any number of contacts against the plain loop over two, in rooms drawn from the seed."""
     print(f"\nDefault settings, seed {seed}.\n")
-    print("| room | objects | plain loop [ms] | HapticSession [ms] | ratio | p99 / median |\n|---|---|---|---|---|---|")
+    print(
+        "| room | objects | plain loop [ms] | HapticSession [ms] | ratio | p99 / median | triangles [ms] "
+        "| other contacts [ms] | rest [ms] |\n|---|---|---|---|---|---|---|---|---|"
+    )
     for draw in (shelf_room, furnished_room, floor_room):
         for n_objects in (50, 1000):
             room = draw(n_objects, seed)
@@ -175,9 +180,24 @@ def default_settings(n_frames: int, seed: int) -> None:
             alone = np.array([alone_in(room, frames, n_frames, None) for _ in range(3)])
             print(
                 f"| {draw.__name__} | {n_objects} | {1e3 * slow:.3f} | {1e3 * whole:.4f} | {slow / whole:.1f} | "
-                f"{np.median([worst_of(one) for one in alone]):.2f}, {worst_of(alone.min(axis=0)):.2f} |",
+                f"{np.median([worst_of(one) for one in alone]):.2f}, {worst_of(alone.min(axis=0)):.2f} | "
+                + " | ".join(f"{1e3 * part:.3f}" for part in parts_of(room, frames))
+                + " |",
                 flush=True,
             )
+
+
+def parts_of(room: BusyRoom, frames: Sequence[tuple[dict[str, Pose], list[Touch]]]) -> tuple[float, float, float]:
+    """Mean seconds of a frame in pairs of meshes, in contacts besides, and in the session besides."""
+    session, watch = session_of(room, None), Stopwatch()
+    for moved, touches in frames[:20]:
+        session.update(moved, touches)
+    meshes = {name: (MeshPair, name) for name in ("gap", "patch", "drops", "first_drop_m")}
+    with watch.watch(**meshes, contacts=(ContactGraph, "update"), session=(HapticSession, "update")):
+        for moved, touches in frames[20:]:
+            session.update(moved, touches)
+    each = {name: spent / (len(frames) - 20) for name, spent in watch.spent.items()}
+    return sum(each[name] for name in meshes), each["contacts"], each["session"]
 
 
 def alone_in(
