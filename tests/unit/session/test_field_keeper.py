@@ -374,5 +374,10 @@ def test_interpreter_exit_waits_for_the_worker() -> None:
     tests = Path(__file__).parents[2]
     game = [sys.executable, "-W", "ignore", "-c", A_GAME_THAT_ENDS]
     run = subprocess.run(game, capture_output=True, text=True, check=True, cwd=tests)
-    assert run.stdout.split("\n") == ["the game ends", "prepared", ""]
+    # A worker that comes late takes both requests at once; on a busy machine it may take one after the other.
+    *printed, end = run.stdout.split("\n")
+    assert printed.count("the game ends") == 1
+    assert printed[-1] == "prepared"
+    assert len(printed) <= 3
+    assert end == ""
     assert run.stderr == ""
