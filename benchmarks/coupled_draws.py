@@ -2,9 +2,9 @@
 
 python benchmarks/figures.py coupled-draws      (needs scikit-fem)
 
-The families of `coupled`, with sizes, thicknesses, materials, contacts and sources drawn anew: two plates through 1 to
-5 points, of which many lie on edges and corners; a tray on rubber, felt or hard feet; a small plate near the corner of
-a large one; a plate on legs of any mass and material; an upright board; three plates on one another. Tips of contacts
+The families of `coupled`, with sizes, thicknesses, materials, contacts and sources drawn at random: two plates through 1
+to 5 points, of which many lie on edges and corners; a tray on rubber, felt or hard feet; a small plate near the corner
+of a large one; a plate on legs of any mass and material; an upright board; three plates on one another. Tips of contacts
 have radii of 2 to 20 mm and preloads of 0.2 to 20 N, so that their stiffness varies fifteenfold.
 """
 
@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import warnings
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 import numpy as np
 from coupled import GRID_M, UPRIGHT, Case, Triple, found_by, known, plate, points_on, truth
@@ -74,9 +75,7 @@ def stacked(rng: Rng, plates: Sequence[Plate], n_points: int, felt: int = 0, *, 
     """Plates on one another from the largest up, the source on the topmost."""
     names = ["lower", "middle", "upper"] if len(plates) == 3 else ["lower", "upper"]
     at, poses, touching = (0.0, 0.0), {names[0]: Pose()}, []
-    for (one, below), (other, above) in zip(
-        list(zip(names, plates, strict=True))[:-1], list(zip(names, plates, strict=True))[1:], strict=True
-    ):
+    for (one, below), (other, above) in pairwise(zip(names, plates, strict=True)):
         x, y = place_on(rng, below, above, near_corner=near_corner)
         at = at[0] + x, at[1] + y
         poses[other] = Pose((*at, 0.0))
