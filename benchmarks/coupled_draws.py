@@ -2,10 +2,10 @@
 
 python benchmarks/figures.py coupled-draws      (needs scikit-fem)
 
-The families of `coupled`, with sizes, thicknesses, materials, contacts and sources drawn at random: two plates through 1
-to 5 points, of which many lie on edges and corners; a tray on rubber, felt or hard feet; a small plate near the corner
-of a large one; a plate on legs of any mass and material; an upright board; three plates on one another. Tips of contacts
-have radii of 2 to 20 mm and preloads of 0.2 to 20 N, so that their stiffness varies fifteenfold.
+The families of `coupled`, with sizes, thicknesses, materials, contacts and sources drawn at random: two plates
+through 1 to 5 points, of which many lie on edges and corners; a tray on rubber, felt or hard feet; a small plate near
+the corner of a large one; a plate on legs of any mass and material; an upright board; three plates on one another.
+Tips of contacts have radii of 2 to 20 mm and preloads of 0.2 to 20 N, so that their stiffness varies fifteenfold.
 """
 
 from __future__ import annotations
