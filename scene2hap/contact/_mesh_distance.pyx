@@ -9,7 +9,7 @@ from libc.math cimport INFINITY, NAN, fabs, sqrt
 from libc.stdlib cimport calloc, free, malloc, realloc
 from libc.string cimport memcpy, memset
 
-from scene2hap.contact.geometry._spread cimport MAX_POINTS, farthest_points
+from scene2hap.contact.geometry._spread cimport MAX_POINTS, SPREAD_M, TIE_M, distance_between, farthest
 
 # As in `triangles`, `mesh_distance` and `triangle_tree`.
 cdef double PARALLEL = 1e-12
@@ -503,8 +503,20 @@ cdef void measure_crossings(double* least, double* most, const Face* p, const Fa
 
 # --- distance and contact points -------------------------------------------------------------------------------------
 
+cdef enum:
+    HEIGHT = 4  # of the nodes of a patch, 16 triangles each: in real scenes 2 and 3 take longer
+
+
+cdef struct Patch:
+    Py_ssize_t guest, host  # two nodes
+    Box around              # a box around the middles of their contact points
+    double most_apart2      # upper bound of the squared distance of such a point from the nearest place
+
+
 cdef struct Points:
-    double* at  # (n, 6) ends on guest and host
+    double* ends     # (n, 6) on guest and host
+    double* middles  # (n, 3)
+    double* apart    # (n,) distance from the nearest place
     Py_ssize_t n, capacity
 
 
@@ -516,10 +528,18 @@ cdef struct Search:
     Py_ssize_t best_guest, best_host
     double on_guest[3]
     double on_host[3]
+    bint is_full
     # contact_points
     double way[3]
+    double[MAX_POINTS][3] places  # the next point is to be far from each of these
+    int n_places
+    double most                   # distance of the farthest point found from the nearest place
     Points points
-    bint is_full
+    Patch* patches                # those not measured at once
+    Py_ssize_t n_patches, patch_capacity
+    Patch** heap                  # (n_left,) those not measured yet, the one with the largest bound first
+    Py_ssize_t n_left
+    bint is_out_of_memory
     # drops
     bint guest_falls
     double bottom, reach, touch, first
@@ -559,23 +579,98 @@ cdef void descend(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
             descend(search, g, 2 * h + 2 - swap)
 
 
-cdef void gather(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
-    """Visit all pairs of leaves below two nodes whose boxes are within reach, in any order."""
+cdef void find_patches(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
+    """Find the pairs of small nodes below two nodes whose boxes are within reach, those far from the place first."""
+    cdef const Box* box_g = box_of(&search.guest, g)
+    cdef const Box* box_h = box_of(&search.host, h)
+    cdef const Box* one
+    cdef const Box* other
+    cdef double reach = search.within + ROUNDING_M
+    cdef bint is_small_g = g >= (search.guest.n_leaves >> HEIGHT) - 1
+    cdef bint is_small_h = h >= (search.host.n_leaves >> HEIGHT) - 1
+    cdef bint swap
+    if is_small_g and is_small_h:
+        add_patch(search, g, h)
+    elif is_small_h or (not is_small_g and longest(box_g) > longest(box_h)):
+        one, other = box_of(&search.guest, 2 * g + 1), box_of(&search.guest, 2 * g + 2)
+        swap = most_apart2(other, search.places[0]) > most_apart2(one, search.places[0])
+        for _ in range(2):
+            if is_within(other if swap else one, box_h, reach):
+                find_patches(search, 2 * g + 1 + swap, h)
+            swap = not swap
+    else:
+        one, other = box_of(&search.host, 2 * h + 1), box_of(&search.host, 2 * h + 2)
+        swap = most_apart2(other, search.places[0]) > most_apart2(one, search.places[0])
+        for _ in range(2):
+            if is_within(other if swap else one, box_g, reach):
+                find_patches(search, g, 2 * h + 1 + swap)
+            swap = not swap
+
+
+cdef inline double most_apart2(const Box* box, const double* place) noexcept:
+    """Return the largest squared distance of a point of a box from a place."""
+    cdef double gap, total = 0
+    cdef int axis
+    for axis in range(3):
+        gap = greater(fabs(box.low[axis] - place[axis]), fabs(box.high[axis] - place[axis]))
+        total += gap * gap
+    return total
+
+
+cdef void add_patch(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
+    """Measure a patch if it may have a farther point than those found; else keep it for later."""
+    cdef const Box* a = box_of(&search.guest, g)
+    cdef const Box* b = box_of(&search.host, h)
+    cdef Patch patch
+    cdef Patch* patches
+    cdef double reach = search.within + ROUNDING_M
+    cdef int axis
+    for axis in range(3):
+        # Each end is within reach of the other box.
+        patch.around.low[axis] = (
+            greater(a.low[axis], b.low[axis] - reach) + greater(b.low[axis], a.low[axis] - reach) - search.way[axis]
+        ) / 2
+        patch.around.high[axis] = (
+            lesser(a.high[axis], b.high[axis] + reach) + lesser(b.high[axis], a.high[axis] + reach) - search.way[axis]
+        ) / 2
+    patch.guest, patch.host, patch.most_apart2 = g, h, most_apart2(&patch.around, search.places[0])
+    if is_promising(search, &patch):
+        measure_patch(search, g, h)
+        return
+    if search.n_patches == search.patch_capacity:
+        search.patch_capacity = 2 * search.patch_capacity + 64
+        patches = <Patch*>realloc(search.patches, search.patch_capacity * sizeof(Patch))
+        if patches == NULL:
+            search.is_out_of_memory, search.patch_capacity = True, search.n_patches
+            return
+        search.patches = patches
+    search.patches[search.n_patches] = patch
+    search.n_patches += 1
+
+
+cdef inline bint is_promising(const Search* search, const Patch* patch) noexcept:
+    """Return True if a patch may have a point that is farther than those found, or about as far."""
+    # Bounds have other rounding errors than distances.
+    return patch.most_apart2 >= greater(search.most - TIE_M - ROUNDING_M, 0.0) ** 2
+
+
+cdef void measure_patch(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
+    """Collect the contact points below two nodes."""
     cdef const Box* box_g = box_of(&search.guest, g)
     cdef const Box* box_h = box_of(&search.host, h)
     cdef double reach = search.within + ROUNDING_M
     cdef int k
     cdef bint is_leaf_g = g >= search.guest.n_leaves - 1, is_leaf_h = h >= search.host.n_leaves - 1
     if is_leaf_g and is_leaf_h:
-        visit(search, g - search.guest.n_leaves + 1, h - search.host.n_leaves + 1)
+        collect(search, g - search.guest.n_leaves + 1, h - search.host.n_leaves + 1)
     elif is_leaf_h or (not is_leaf_g and longest(box_g) > longest(box_h)):
         for k in range(1, 3):
             if is_within(box_of(&search.guest, 2 * g + k), box_h, reach):
-                gather(search, 2 * g + k, h)
+                measure_patch(search, 2 * g + k, h)
     else:
         for k in range(1, 3):
             if is_within(box_of(&search.host, 2 * h + k), box_g, reach):
-                gather(search, g, 2 * h + k)
+                measure_patch(search, g, 2 * h + k)
 
 
 cdef inline double longest(const Box* box) noexcept:
@@ -590,9 +685,7 @@ cdef inline double reach2(const Search* search) noexcept:
 cdef void visit(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noexcept:
     cdef Meetings found
     meet(&found, face_of(&search.guest, leaf_g), face_of(&search.host, leaf_h), search.best)
-    if found.n and search.points.capacity:
-        collect(search, &found)
-    elif found.n:
+    if found.n:
         compare(search, &found, search.guest.columns[leaf_g], search.host.columns[leaf_h])
 
 
@@ -615,24 +708,49 @@ cdef void compare(Search* search, const Meetings* found, Py_ssize_t i, Py_ssize_
     search.is_full = distance <= ROUNDING_M
 
 
-cdef void collect(Search* search, const Meetings* found) noexcept:
-    """Add the meetings of a pair."""
-    cdef int row, axis
-    cdef double* at
-    cdef double* larger
+cdef void collect(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noexcept:
+    """Add the contact points of a pair of triangles."""
+    cdef Meetings found
+    cdef double[6] ends
+    cdef double[3] middle
+    cdef double apart
+    cdef int row, axis, k
+    meet(&found, face_of(&search.guest, leaf_g), face_of(&search.host, leaf_h), search.within)
     for row in range(found.n):
         if found.distance[row] > search.within:
             continue
-        if search.points.n == search.points.capacity:
-            larger = <double*>realloc(search.points.at, 12 * search.points.capacity * sizeof(double))
-            if larger == NULL:
-                search.is_full = True
-                return
-            search.points.at, search.points.capacity = larger, 2 * search.points.capacity
-        at = search.points.at + 6 * search.points.n
-        search.points.n += 1
         for axis in range(3):
-            at[axis], at[axis + 3] = found.on_p[row][axis] - search.way[axis], found.on_q[row][axis]
+            ends[axis], ends[axis + 3] = found.on_p[row][axis] - search.way[axis], found.on_q[row][axis]
+            middle[axis] = (ends[axis] + ends[axis + 3]) / 2
+        apart = INFINITY
+        for k in range(search.n_places):
+            apart = lesser(apart, distance_between(middle, search.places[k], 3))
+        search.most = greater(search.most, apart)
+        if not append(&search.points, ends, middle, apart):
+            search.is_out_of_memory = True
+
+
+cdef bint append(Points* points, const double* ends, const double* middle, double apart) noexcept:
+    """Append a point. Returns False without memory."""
+    if points.n == points.capacity:
+        points.capacity = 2 * points.capacity + 64
+        if not (grow(&points.ends, 6 * points.capacity) and grow(&points.middles, 3 * points.capacity)
+                and grow(&points.apart, points.capacity)):
+            points.capacity = points.n
+            return False
+    memcpy(points.ends + 6 * points.n, ends, 6 * sizeof(double))
+    memcpy(points.middles + 3 * points.n, middle, 3 * sizeof(double))
+    points.apart[points.n] = apart
+    points.n += 1
+    return True
+
+
+cdef inline bint grow(double** array, Py_ssize_t n) noexcept:
+    cdef double* larger = <double*>realloc(array[0], n * sizeof(double))
+    if larger == NULL:
+        return False
+    array[0] = larger
+    return True
 
 
 cdef int start(Search* search, host, guest, turn, shift, double within) except -1:
@@ -642,25 +760,17 @@ cdef int start(Search* search, host, guest, turn, shift, double within) except -
     open_tree(&search.host, host, SURFACE, NULL)
     search.within = search.best = within
     search.best_guest, search.is_full = -1, False
-    search.points.at, search.points.n, search.points.capacity = NULL, 0, 0
     return 0
-
-
-cdef void find(Search* search) noexcept:
-    if not (search.guest.m and search.host.m):
-        return
-    if squared_distance(box_of(&search.guest, 0), box_of(&search.host, 0)) > reach2(search):
-        return
-    if search.points.capacity:
-        gather(search, 0, 0)
-    else:
-        descend(search, 0, 0)
 
 
 cdef void close(Search* search) noexcept:
     close_tree(&search.guest)
     close_tree(&search.host)
-    free(search.points.at)
+    free(search.patches)
+    free(search.heap)
+    free(search.points.ends)
+    free(search.points.middles)
+    free(search.points.apart)
 
 
 def closest_points(host, guest, turn, shift, double within):
@@ -668,7 +778,9 @@ def closest_points(host, guest, turn, shift, double within):
     memset(&search, 0, sizeof(Search))
     try:
         start(&search, host, guest, turn, shift, within)
-        find(&search)
+        if search.guest.m and search.host.m:
+            if squared_distance(box_of(&search.guest, 0), box_of(&search.host, 0)) <= reach2(&search):
+                descend(&search, 0, 0)
     finally:
         close(&search)
     if search.best_guest < 0:
@@ -678,25 +790,21 @@ def closest_points(host, guest, turn, shift, double within):
 
 def contact_points(host, guest, turn, shift, way, double within):
     cdef Search search
-    cdef Py_ssize_t[MAX_POINTS] chosen
-    cdef Py_ssize_t k, n
+    cdef double[MAX_POINTS][6] chosen
+    cdef Placement at = placement_of(turn, shift)
+    cdef int k, n
     memset(&search, 0, sizeof(Search))
     x, y, z = shift
     u, v, w = way
     try:
         start(&search, host, guest, turn, (x + u, y + v, z + w), within)
         search.way[0], search.way[1], search.way[2] = u, v, w
-        search.points.at = <double*>malloc(6 * 64 * sizeof(double))
-        search.points.capacity = 64
-        if search.points.at == NULL:
-            raise MemoryError
-        find(&search)
-        n = -1 if search.is_full else choose(chosen, search.points.at, search.points.n)
+        # The lowest corner of the guest's box: from its middle, all points of a ball would be about as far.
+        place(search.places[0], search.guest.nodes, &at)
+        n = choose(chosen, &search)
         if n < 0:
             raise MemoryError
-        return [
-            (triple(search.points.at + 6 * chosen[k]), triple(search.points.at + 6 * chosen[k] + 3)) for k in range(n)
-        ]
+        return [(triple(chosen[k]), triple(chosen[k] + 3)) for k in range(n)]
     finally:
         close(&search)
 
@@ -705,25 +813,95 @@ cdef triple(const double* point):
     return (point[0], point[1], point[2])
 
 
-cdef int choose(Py_ssize_t* chosen, const double* ends, Py_ssize_t n) noexcept:
-    """Choose a few of the ends (n, 6), by their middles. Returns how many, -1 without memory."""
-    cdef double* middles = <double*>malloc(4 * max(n, 1) * sizeof(double))
+cdef int choose(double[6]* chosen, Search* search) noexcept:
+    """Choose the ends of contact points, each the farthest from the first place or from those chosen before.
+
+    By branch and bound: only patches that may have such a point are measured. Surfaces of 10,000 triangles that lie on
+    each other have thousands of contact points, which would all be compared for the sake of four. Returns how many are
+    chosen, -1 without memory.
+    """
+    cdef double least = -1.0
     cdef Py_ssize_t row
-    cdef int axis, k, count
-    if middles == NULL:
+    cdef Patch* patch
+    cdef int count, axis
+    search.n_places, search.most = 1, least
+    if not (search.guest.m and search.host.m):
+        return 0
+    if is_within(box_of(&search.guest, 0), box_of(&search.host, 0), search.within + ROUNDING_M):
+        find_patches(search, 0, 0)
+    search.n_left, search.heap = search.n_patches, <Patch**>malloc((search.n_patches + 1) * sizeof(Patch*))
+    if search.heap == NULL:
         return -1
-    for row in range(n):
+    for row in range(search.n_patches):
+        search.heap[row] = search.patches + row
+    for count in range(MAX_POINTS):
+        if count:
+            least, search.n_places = SPREAD_M, count
+            measure_from_last_place(search, least)
+        while search.n_left and is_promising(search, search.heap[0]):
+            patch = search.heap[0]
+            search.n_left -= 1
+            search.heap[0] = search.heap[search.n_left]
+            sift_down(search, 0)
+            measure_patch(search, patch.guest, patch.host)
+        if search.is_out_of_memory:
+            return -1
+        if search.most <= least:
+            return count
+        take_farthest(chosen[count], &search.points)
         for axis in range(3):
-            middles[3 * row + axis] = (ends[6 * row + axis] + ends[6 * row + axis + 3]) / 2
-    count = farthest_points(chosen, middles, middles + 3 * n, n, 3)
-    for k in range(count):
+            search.places[count][axis] = (chosen[count][axis] + chosen[count][axis + 3]) / 2
+    return MAX_POINTS
+
+
+cdef void sift_down(Search* search, Py_ssize_t row) noexcept:
+    """Restore the order of the heap below a row."""
+    cdef Patch* patch
+    cdef Patch** heap = search.heap
+    cdef Py_ssize_t child
+    if row >= search.n_left:
+        return
+    patch = heap[row]
+    while True:
+        child = 2 * row + 1
+        if child + 1 < search.n_left and heap[child + 1].most_apart2 > heap[child].most_apart2:
+            child += 1
+        if child >= search.n_left or heap[child].most_apart2 <= patch.most_apart2:
+            break
+        heap[row] = heap[child]
+        row = child
+    heap[row] = patch
+
+
+cdef void measure_from_last_place(Search* search, double least) noexcept:
+    """Include the last place in the distances of points and patches. The first chosen one replaces the corner."""
+    cdef Points* points = &search.points
+    cdef Patch* patch
+    cdef const double* place = search.places[search.n_places - 1]
+    cdef double apart
+    cdef Py_ssize_t row
+    search.most = least
+    for row in range(points.n):
+        apart = distance_between(points.middles + 3 * row, place, 3)
+        points.apart[row] = apart if search.n_places == 1 else lesser(points.apart[row], apart)
+        search.most = greater(search.most, points.apart[row])
+    for row in range(search.n_left):
+        patch = search.heap[row]
+        apart = most_apart2(&patch.around, place)
+        patch.most_apart2 = apart if search.n_places == 1 else lesser(patch.most_apart2, apart)
+    for row in range(search.n_left // 2 - 1, -1, -1):
+        sift_down(search, row)
+
+
+cdef void take_farthest(double* ends, const Points* points) noexcept:
+    """Copy the ends of the farthest point, by the rule of `spread`."""
+    cdef Py_ssize_t row, best = farthest(points.middles, points.apart, points.n, 3)
+    for row in range(points.n):
         # Among equal middles the ends decide, so that the order of the search has no effect.
-        for row in range(n):
-            if compared(middles + 3 * row, middles + 3 * chosen[k], 3) == 0:
-                if compared(ends + 6 * row, ends + 6 * chosen[k], 6) < 0:
-                    chosen[k] = row
-    free(middles)
-    return count
+        if compared(points.middles + 3 * row, points.middles + 3 * best, 3) == 0:
+            if compared(points.ends + 6 * row, points.ends + 6 * best, 6) < 0:
+                best = row
+    memcpy(ends, points.ends + 6 * best, 6 * sizeof(double))
 
 
 cdef inline int compared(const double* x, const double* y, int n) noexcept:

@@ -8,6 +8,9 @@ compare pairs of triangles whose boxes are within reach. The order has no effect
 with ties broken by coordinates or by the triangles' columns. The compiled kernels find the pairs by descending two
 `TriangleTree`s at once, the plain ones by sorting boxes.
 
+Of many contact points a few are chosen by farthest-point sampling (`spread`), beginning with the one farthest from the
+lowest corner of the guest's box.
+
     turn, shift : rotation matrix in rows and position [m] of the guest in the host's frame
     p, q        : a triangle of the guest, of the host
 """
@@ -168,6 +171,7 @@ def contact_points(
     """Return up to `spread.MAX_POINTS` pairs of points on guest and host that are at most `within` apart once the guest
     has moved by `way`. The points on the guest are given before that movement. All [m], in the host's frame."""
     x, y, z = shift
+    u, v, w = rotated(turn, _triple(guest.low))
     posed = _posed(guest.triangles, turn, (x + way[0], y + way[1], z + way[2]))
     found = [np.empty((6, 0))]
     for i, j in _near(posed, boxes_of(posed), host, within):
@@ -177,7 +181,7 @@ def contact_points(
         found.append(np.concatenate([every.on_p[:, near] - np.array(way)[:, None], every.on_q[:, near]]))
     ends = np.concatenate(found, axis=1)
     ends = ends[:, np.lexsort(ends[::-1])]
-    chosen = spread((ends[:3] + ends[3:]) / 2)
+    chosen = spread((ends[:3] + ends[3:]) / 2, (u + x, v + y, w + z))
     return [(_triple(ends[:3, k]), _triple(ends[3:, k])) for k in chosen]
 
 

@@ -43,7 +43,7 @@ cdef int farthest_points(
             middle[axis] += points[n_axes * row + axis]
         middle[axis] /= n
     for row in range(n):
-        apart[row] = distance(points + n_axes * row, middle, n_axes)
+        apart[row] = distance_between(points + n_axes * row, middle, n_axes)
     chosen[0] = farthest(points, apart, n, n_axes)
     for row in range(n):
         apart[row] = INFINITY
@@ -51,7 +51,7 @@ cdef int farthest_points(
         high = 0
         for row in range(n):
             apart[row] = min(
-                apart[row], distance(points + n_axes * row, points + n_axes * chosen[count - 1], n_axes)
+                apart[row], distance_between(points + n_axes * row, points + n_axes * chosen[count - 1], n_axes)
             )
             high = max(high, apart[row])
         if high <= SPREAD_M:
@@ -61,7 +61,7 @@ cdef int farthest_points(
     return count
 
 
-cdef inline double distance(const double* x, const double* y, int n_axes) noexcept:
+cdef double distance_between(const double* x, const double* y, int n_axes) noexcept:
     cdef double square = 0
     cdef int axis
     for axis in range(n_axes):

@@ -1,6 +1,6 @@
 """Farthest-point sampling: reduce many contact points to a few that are far from each other.
 
-The first is the point farthest from the middle of all. Each further one is the farthest from those chosen before.
+The first is the point farthest from a middle. Each further one is the farthest from those chosen before.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from scene2hap.compiled import compiled
-from scene2hap.contact.geometry.vectors import Floats, Indices, Marks, dot
+from scene2hap.contact.geometry.vectors import Floats, Indices, Marks, Triple, dot
 
 MAX_POINTS = 4
 """Most contact points of one pair: the corners of a patch, few enough for a dense solve over a scene (assumed)."""
@@ -22,11 +22,14 @@ _TIE_M = 1e-6  # Lengths this near count as equal, so that rounding does not cho
 _ASKEW = (0.6180339887, 0.2879190313)
 
 
-def spread(points: Floats) -> list[int]:
-    """Return the columns of at most `MAX_POINTS` of the points (3, n) [m] that are far from each other."""
+def spread(points: Floats, middle: Triple | None = None) -> list[int]:
+    """Return the columns of at most `MAX_POINTS` of the points (3, n) [m] that are far from each other.
+
+    Parameters: middle : the place from which the first is the farthest [m]; their mean if None.
+    """
     if not points.size:
         return []
-    chosen = [_first(points, _apart(points, points.mean(axis=1)))]
+    chosen = [_first(points, _apart(points, points.mean(axis=1) if middle is None else np.array(middle)))]
     apart = _apart(points, points[:, chosen[0]])
     while len(chosen) < MAX_POINTS and apart.max() > _SPREAD_M:
         chosen.append(_first(points, apart))

