@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import FreeSpace
-from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.level import Aside, Rest, rest_points
 from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by, box_distance_m
@@ -26,6 +26,7 @@ from scene2hap.contact.rule import (
     hangs,
     level_supports,
     supports,
+    supports_nearby,
     weight,
 )
 
@@ -128,32 +129,33 @@ class Holders:
         body_pairs, reach_m = self.body_pairs[body.id], fall_reach_m(body.size_m)
         rests = {y: rest for y, body_pair in body_pairs.items() if (rest := body_pair.rest(body.id)) is not None}
         unclear = [y for y, rest in rests.items() if rest is NEEDS_TRIANGLES]
-        if len(unclear) == len(rests) == 1:
-            # With a single candidate its first fall distance decides; no other support could hide parts of the bottom.
-            fall_m = body_pairs[unclear[0]].first_fall_m(body.id)
-            share = weight(fall_m, reach_m)
-            return ({unclear[0]: Support(share, fall_m)} if share > 0 else {}), ()
         rests = {y: rest for y, rest in rests.items() if rest is not NEEDS_TRIANGLES}
-        falls_m = self._falls(body, unclear, min((rest.fall_m for rest in rests.values()), default=math.inf))
-        if rests and not falls_m and (below := level_supports(rests, reach_m)) is not None:
-            return below, rests
-        falls_m |= self._falls(body, rests)
-        return supports(dict(sorted(falls_m.items())), reach_m), ()
+        falls_m = self._first_falls(body, unclear, min((rest.fall_m for rest in rests.values()), default=math.inf))
+        if not falls_m:
+            below = level_supports(rests, reach_m) if rests else {}
+            if below is not None:
+                return below, rests
+        falls_m |= self._first_falls(body, rests, min(falls_m.values(), default=math.inf))
+        falls_m = dict(sorted(falls_m.items()))
+        below = supports_nearby(falls_m, reach_m)
+        if below is None:
+            each_m = {y: self.body_pairs[body.id][y].falls(body.id) for y in falls_m}
+            below = supports({y: falls for y, falls in each_m.items() if falls is not None}, reach_m)
+        return below, ()
 
-    def _falls(self, body: Body, onto: Iterable[str], least_m: float = math.inf) -> dict[str, Floats]:
-        """Return the fall distances [m] of a body's triangles, by the id of each candidate support.
+    def _first_falls(self, body: Body, onto: Iterable[str], least_m: float) -> dict[str, float]:
+        """Return the fall distances of a body by triangles [m], by the id of each candidate support.
 
         Candidates are skipped if they are more than `TOUCH_M` deeper than the nearest one or than `least_m`.
         """
         bodies, body_pairs = self.bodies, self.body_pairs[body.id]
-        found: dict[str, Floats] = {}
+        found: dict[str, float] = {}
         for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
             if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
                 break
-            falls_m = body_pairs[y].falls(body.id)
-            if falls_m is not None and (first_m := float(falls_m.min())) <= least_m + TOUCH_M:
-                found[y], least_m = falls_m, min(least_m, first_m)
-        return found
+            fall_m = found[y] = body_pairs[y].first_fall_m(body.id)
+            least_m = min(least_m, fall_m)
+        return {y: fall_m for y, fall_m in found.items() if fall_m < math.inf and fall_m <= least_m + TOUCH_M}
 
     def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
         """Return the bonds by which larger bodies hold a hanging body, scaled by 1 - `supported`."""

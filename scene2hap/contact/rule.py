@@ -133,6 +133,22 @@ def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support
     return {name: Support(*support) for name, support in zip(falls_m, found, strict=True) if support[0] > 0}
 
 
+def supports_nearby(falls_m: Mapping[str, float], reach_m: float) -> dict[str, Support] | None:
+    """Return what `supports` does, from the fall distance to each object [m].
+
+    None if one object is so much deeper than another that the latter may hide parts of it.
+    """
+    least_m = min(falls_m.values(), default=math.inf)
+    found = {}
+    for name, fall_m in falls_m.items():
+        share = weight(fall_m, reach_m) * weight(fall_m - least_m, TOUCH_M)
+        if share > 0 and weight(fall_m - least_m, _HIDDEN_M) < 1:
+            return None
+        if share > 0:
+            found[name] = Support(share, fall_m)
+    return found
+
+
 @compiled
 def support_weights(
     falls_m: Sequence[Floats], reach_m: float, touch_m: float, hidden_m: float
