@@ -7,8 +7,8 @@ for (K - z A) u = p, where A holds the masses of the nodes. The series is that o
 each term leaves less than half of the error before. One factorisation of K + s A gives the modes,
 by Lanczos' method, and the series; another counts the modes.
 
-The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave, so one solve alone would bury that
-wave in rounding. Each is refined by its own residual, computed from the springs (`Lattice.restoring`).
+The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave. Where one solve alone would bury that
+wave in rounding, it is refined by its own residual, computed from the springs (`Lattice.restoring`).
 
 Letters: k [rad/m] wavenumber, Lambda [m^-4] eigenvalues k^4, Phi [1/m] shapes normalised over the area, p [-] force
 for D = 1, s [m^-4] shift, c complex.
@@ -42,8 +42,8 @@ MARGIN = 1.5
 """Modes are solved up to this many times the top frequency; the series takes over from there."""
 TERMS = 4
 """Terms of the series. Measured on furniture: with them the answer is within 0.02 dB of a direct solve at p95."""
-STIFFEST = 2e-12
-"""Part of the stiffest springs that stands well clear of their rounding."""
+_ABOVE_ROUNDING = 1e4
+"""How far the shift lies above the rounding of K: of a solution a ten thousandth is lost at most."""
 QUICK_NODES = 6_000
 """Nodes whose lowest modes take less than about a second."""
 MOST_WORK = 1e8
@@ -60,7 +60,8 @@ _SMALL = 200
 """Nodes up to which the lowest modes are found in full matrices, where none is missed. Tuned: above, Lanczos' method is
 faster."""
 _BURIED = 1e-6
-"""Part of a solution that rounding may bury in Lanczos' method, since the springs then decide the modes."""
+"""Part of a mode that rounding may bury in full matrices, whose error is that of the stiffest springs; K or the springs
+then decide the modes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,8 +234,8 @@ def _all_below(
 def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, Factors, float]:
     """The lattice, the factors of K + s A, and s, for modes up to k^4."""
     lattice = bending_lattice(plate, resolution)
-    # Large enough beside the stiffest springs for refinement to converge, small beside the modes of interest.
-    shift = max(1e-2 * top_k4, STIFFEST * lattice.stiffest_k4)
+    # Large enough beside the rounding of K for refinement to converge, small beside the modes of interest.
+    shift = max(1e-2 * top_k4, _ABOVE_ROUNDING * lattice.rounding_k4)
     return lattice, positive_factors(_shifted(lattice, shift)), shift
 
 
@@ -248,9 +249,9 @@ def n_modes_below(lattice: Lattice, k4: float) -> int:
     """How many modes lie below k^4: the negative pivots of K - k^4 A, by Sylvester's law of inertia.
 
     Lanczos' method may miss one of a pair of equal modes, as square plates have them; this count shows it. 0 where
-    rounding of the stiffest springs would decide the count.
+    rounding would decide the count.
     """
-    if k4 < STIFFEST * lattice.stiffest_k4:
+    if k4 < _ABOVE_ROUNDING * lattice.rounding_k4:
         return 0
     pivots: NDArray[np.float64] = diagonal_factors(_shifted(lattice, -k4)).U.diagonal()
     return int(np.count_nonzero(pivots < 0))
@@ -259,10 +260,12 @@ def n_modes_below(lattice: Lattice, k4: float) -> int:
 def solve_shifted(
     lattice: Lattice, factors: Factors, shift_k4: float, forces: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined."""
+    """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined where rounding would show."""
     found: NDArray[np.float64] = factors.solve(forces)
-    # Each pass gains the digits that the shift has above the rounding of the stiffest springs.
-    for _ in range(math.ceil(math.log(_EXACT) / math.log(_lost(lattice, shift_k4))) - 1):
+    if lattice.is_clear:
+        return found
+    # Each pass gains the digits that the shift has above the rounding of K.
+    for _ in range(math.ceil(math.log(_EXACT) / math.log(lattice.rounding_k4 / shift_k4)) - 1):
         found += factors.solve(forces - lattice.restoring(found) - shift_k4 * (lattice.masses @ found))
     return found
 
@@ -278,12 +281,11 @@ def _lowest(
     def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
         return solve_shifted(lattice, factors, shift_k4, force)
 
-    is_clear = _lost(lattice, shift_k4) < _BURIED
     if _is_small(lattice, shift_k4):
         shapes = _small_shapes(lattice, subset_by_index=(0, min(count, n) - 1))
     elif count < DENSE_SHARE * n:
-        shapes = largest(factors.solve if is_clear else compliance, masses, count)
-    elif is_clear:
+        shapes = largest(compliance, masses, count)
+    elif _is_clear_in_full(lattice, shift_k4):
         shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd")[1][:, :count]
     else:
         dense = masses @ compliance(masses.toarray())
@@ -314,9 +316,9 @@ def _over_springs(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArra
 
 
 def _is_small(lattice: Lattice, shift_k4: float) -> bool:
-    return lattice.n_nodes <= _SMALL and _lost(lattice, shift_k4) < _BURIED
+    return lattice.n_nodes <= _SMALL and _is_clear_in_full(lattice, shift_k4)
 
 
-def _lost(lattice: Lattice, shift_k4: float) -> float:
-    """Share of a solution that is lost in the rounding of the stiffest springs."""
-    return float(np.finfo(float).eps * lattice.stiffest_k4 / shift_k4)
+def _is_clear_in_full(lattice: Lattice, shift_k4: float) -> bool:
+    """Whether modes are clear of rounding where full matrices are solved."""
+    return bool(np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * shift_k4)
