@@ -11,6 +11,7 @@ Source: G. H. Golub, R. Underwood, The block Lanczos method for computing eigenv
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -28,7 +29,7 @@ less; the error of its value is about the square."""
 _FINEST = 1e-7
 """Part of a value that is the least spread."""
 _FIRST_LOOK, _NEXT_LOOK = 1.5, 1.2
-"""When T is looked at: once it has so many columns per vector wanted, and then so many times as many."""
+"""When T is looked at: once it has so many columns per vector expected, and then so many times as many."""
 _ROUNDING = 1e-14
 _DEPENDENT = 1e-12
 """Part of the largest square by which a vector must differ from the others of its block."""
@@ -36,38 +37,43 @@ _DEPENDENT = 1e-12
 Floats = NDArray[np.float64]
 
 
-def largest(compliance: Callable[[Floats], Floats], masses: csr_array, count: int) -> Floats:
-    """Vectors (n, count) of the largest eigenvalues, the largest first; x^T A x = 1.
+def largest(compliance: Callable[[Floats], Floats], masses: csr_array, least: float, expected: float) -> Floats:
+    """Vectors (n, m) of all eigenvalues above `least`, and of the next one, the largest first; x^T A x = 1.
 
-    Parameters: compliance : C for vectors (n, m); masses : A, sparse, symmetric, positive (n, n); count : below n.
+    Parameters: compliance : C for vectors (n, m); masses : A, sparse, symmetric, positive (n, n); expected : about how
+    many there are.
     """
     n = masses.shape[0]
     basis, weighed, projected = np.empty((n, 0)), np.empty((n, 0)), np.empty((0, 0))
     # A start that has been smoothed once: of stiff waves next to nothing is left to be carried along.
     start = compliance(masses @ np.random.default_rng(0).standard_normal((n, min(WIDTH, n))))
     block, image, beyond = _orthonormal(start, masses)
-    size, look, weight = 0, _FIRST_LOOK * count, float(masses.trace())
+    size, before, look, weight = 0, 0, _FIRST_LOOK * expected + 3 * WIDTH, float(masses.trace())
     while True:
         new = slice(size, size + block.shape[1])
         if new.stop > basis.shape[1]:
-            more = min(3 * max(count, new.stop), n) - basis.shape[1]
+            more = min(2 * new.stop + math.ceil(3 * expected), n) - basis.shape[1]
             basis, weighed = (np.pad(one, ((0, 0), (0, more))) for one in (basis, weighed))
             projected = np.pad(projected, (0, more))
         basis[:, new], weighed[:, new] = block, image
         size = new.stop
         image = compliance(weighed[:, new])
-        least = (_ROUNDING * np.abs(image).max()) ** 2 * weight
-        for _ in range(2):  # rounding of what the first pass takes away is left to the second
-            shares = weighed[:, :size].T @ image
-            image -= basis[:, :size] @ shares
-            projected[:size, new] += shares
+        noise = (_ROUNDING * np.abs(image).max()) ** 2 * weight
+        # But for rounding, an image has shares of this block and of the one before only; a second pass takes away what is
+        # left of all.
+        for first in (before, 0):
+            shares = weighed[:, first:size].T @ image
+            image -= basis[:, first:size] @ shares
+            projected[first:size, new] += shares
+        before = new.start
         projected[new, : new.start] = projected[: new.start, new].T
-        block, image, beyond = _orthonormal(image, masses, least)
+        block, image, beyond = _orthonormal(image, masses, noise)
         is_whole = block.shape[1] == 0
         if size < look and not is_whole:
             continue
         look = _NEXT_LOOK * size
         values, vectors = np.linalg.eigh((projected[:size, :size] + projected[:size, :size].T) / 2)
+        count = np.count_nonzero(values > least) + 1
         values, vectors = values[: -count - 1 : -1], vectors[:, : -count - 1 : -1]
         # Values that hardly differ need more digits to differ.
         scale = np.maximum(np.minimum(values, values[0] - values[-1]), _FINEST * values)

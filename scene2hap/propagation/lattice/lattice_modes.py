@@ -157,23 +157,31 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
         raise ModelDomainError(
             f"n_modes is {n_modes}; a lattice of resolution {resolution} has {n_nodes} modes. Raise the resolution."
         )
-    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
-    k = edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)  # Weyl, free edges
-    lattice, factors, shift = _factorised(plate, resolution, k**4)
-    count = n_modes
+    wanted = _k_of_mode(plate, 1.2 * n_modes + 2) ** 4
+    lattice, factors, shift = _factorised(plate, resolution, wanted)
     while True:
-        count = min(int(1.2 * count) + 2, n_nodes)
-        k4, _ = _lowest(lattice, factors, shift, count)
-        if count == n_nodes or n_modes_below(lattice, k4[n_modes - 1] * (1 - 1e-9)) < n_modes:
+        k4, _ = _all_below(lattice, factors, shift, wanted)
+        if len(k4) >= n_modes:
             break
+        wanted *= 2
     frequencies: NDArray[np.float64] = np.sqrt(k4[:n_modes]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi)
     return frequencies
 
 
 def n_modes_up_to(plate: Plate, frequency_hz: float) -> float:
     """About how many modes a plate with free edges has up to a frequency [Hz] (Weyl)."""
-    k, edge = float(plate.wavenumber_rad_m(frequency_hz)), 2 * sum(plate.extent_m)
-    return (plate.area_m2 * k**2 + edge * k) / (4 * math.pi)
+    return _n_modes_to(plate, float(plate.wavenumber_rad_m(frequency_hz)))
+
+
+def _n_modes_to(plate: Plate, k: float) -> float:
+    """About how many modes a plate with free edges has up to a wavenumber [rad/m] (Weyl)."""
+    return (plate.area_m2 * k**2 + 2 * sum(plate.extent_m) * k) / (4 * math.pi)
+
+
+def _k_of_mode(plate: Plate, n_modes: float) -> float:
+    """The wavenumber [rad/m] at which `_n_modes_to` is `n_modes`."""
+    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
+    return edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)
 
 
 def is_too_much(plate: Plate, resolution: int, top_frequency_hz: float) -> bool:
@@ -207,28 +215,9 @@ def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
     """Modes up to `MARGIN` times a frequency, so many thirds of an octave above that of a half wave along the plate."""
     wanted = MARGIN**2 * (math.pi / max(plate.extent_m)) ** 4 * 4 ** (thirds / 3)
     lattice, factors, shift = _factorised(plate, resolution, wanted)
-    if _is_small(lattice, shift):
-        # Some more than wanted: what rounding adds to a value is taken away with the springs' digits.
-        k4, shapes = _over_springs(lattice, _small_shapes(lattice, subset_by_value=(-np.inf, (1 + _BURIED) * wanted)))
-    else:
-        k4, shapes = _all_below(lattice, factors, shift, wanted)
+    k4, shapes = _all_below(lattice, factors, shift, wanted)
     kept = max(np.count_nonzero(k4 <= wanted), n_rigid_motions(plate))
     return LatticeModes(lattice, k4[:kept], shapes[:, :kept], shift, factors)
-
-
-def _all_below(
-    lattice: Lattice, factors: Factors, shift_k4: float, wanted: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """k^4 and shapes of all modes below a value, and some more, as `_lowest`."""
-    expected = n_modes_below(lattice, wanted)
-    count = max(expected, 7)
-    while True:
-        count += 1
-        k4, shapes = _lowest(lattice, factors, shift_k4, count)
-        enough = k4[-1] > wanted and np.count_nonzero(k4 <= wanted * (1 + 1e-9)) >= expected
-        if enough or len(k4) == lattice.n_nodes:
-            return k4, shapes
-        count += count // 5
 
 
 def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, Factors, float]:
@@ -245,18 +234,6 @@ def _shifted(lattice: Lattice, shift_k4: float) -> csr_array:
     return shifted
 
 
-def n_modes_below(lattice: Lattice, k4: float) -> int:
-    """How many modes lie below k^4: the negative pivots of K - k^4 A, by Sylvester's law of inertia.
-
-    Lanczos' method may miss one of a pair of equal modes, as square plates have them; this count shows it. 0 where
-    rounding would decide the count.
-    """
-    if k4 < _ABOVE_ROUNDING * lattice.rounding_k4:
-        return 0
-    pivots: NDArray[np.float64] = diagonal_factors(_shifted(lattice, -k4)).U.diagonal()
-    return int(np.count_nonzero(pivots < 0))
-
-
 def solve_shifted(
     lattice: Lattice, factors: Factors, shift_k4: float, forces: NDArray[np.float64]
 ) -> NDArray[np.float64]:
@@ -270,10 +247,10 @@ def solve_shifted(
     return found
 
 
-def _lowest(
-    lattice: Lattice, factors: Factors, shift_k4: float, count: int
+def _all_below(
+    lattice: Lattice, factors: Factors, shift_k4: float, wanted_k4: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """k^4 (n,) [m^-4], rising, and shapes (n_nodes, n) [1/m] of at least `count` modes, or of all."""
+    """k^4 (n_modes,) [m^-4], rising, and shapes (n_nodes, n_modes) [1/m] of all modes below a value, and some more."""
     from scipy.linalg import eigh
 
     n, masses = lattice.n_nodes, lattice.masses
@@ -281,26 +258,24 @@ def _lowest(
     def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
         return solve_shifted(lattice, factors, shift_k4, force)
 
-    if _is_small(lattice, shift_k4):
-        shapes = _small_shapes(lattice, subset_by_index=(0, min(count, n) - 1))
-    elif count < DENSE_SHARE * n:
-        shapes = largest(compliance, masses, count)
-    elif _is_clear_in_full(lattice, shift_k4):
-        shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd")[1][:, :count]
-    else:
+    expected = _n_modes_to(lattice.plate, wanted_k4**0.25)
+    is_clear = np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * shift_k4
+    # Some more than wanted: what rounding adds to a value is taken away with the digits of K.
+    limit = (1 + _BURIED) * wanted_k4
+    if expected > DENSE_SHARE * n and is_clear:
+        k4, shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd", check_finite=False)
+        shapes = shapes[:, k4 <= limit]
+    elif expected > DENSE_SHARE * n:
         dense = masses @ compliance(masses.toarray())
-        shapes = eigh((dense + dense.T) / 2, masses.toarray(), driver="gvd")[1][:, : -count - 1 : -1]
+        theta, shapes = eigh((dense + dense.T) / 2, masses.toarray(), driver="gvd", check_finite=False)
+        shapes = shapes[:, theta >= 1 / (limit + shift_k4)]
+    elif n <= _SMALL and is_clear:
+        shapes = eigh(
+            *(lattice.stiffness.toarray(), masses.toarray()), subset_by_value=(-np.inf, limit), check_finite=False
+        )[1]
+    else:
+        shapes = largest(compliance, masses, 1 / (wanted_k4 + shift_k4), expected)
     return _over_springs(lattice, shapes)
-
-
-def _small_shapes(lattice: Lattice, **subset: Any) -> NDArray[np.float64]:
-    """Shapes (n_nodes, n) of a `subset` (`scipy.linalg.eigh`) of all modes."""
-    from scipy.linalg import eigh
-
-    shapes: NDArray[np.float64] = eigh(
-        lattice.stiffness.toarray(), lattice.masses.toarray(), driver="gvx", check_finite=False, **subset
-    )[1]
-    return shapes
 
 
 def _over_springs(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -313,12 +288,3 @@ def _over_springs(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArra
     k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (lattice.masses @ shapes))
     k4[: n_rigid_motions(lattice.plate)] = 0.0
     return k4, shapes @ turned
-
-
-def _is_small(lattice: Lattice, shift_k4: float) -> bool:
-    return lattice.n_nodes <= _SMALL and _is_clear_in_full(lattice, shift_k4)
-
-
-def _is_clear_in_full(lattice: Lattice, shift_k4: float) -> bool:
-    """Whether modes are clear of rounding where full matrices are solved."""
-    return bool(np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * shift_k4)
