@@ -8,8 +8,8 @@ counts, alone and with others, are integrals over the plate: W and A are exact f
 too high, never too low, and its error falls as the fourth power of the cell (measured in
 tests/physics/test_mass_spring_damper.py); at a corner between a clamped and a free edge as the 1.7th.
 
-Rounding of K drowns the longest waves where cells are tiny beside the plate. K u is then computed from the springs, whose
-strains are small for such waves. All other lattices never need their springs, so that these are built at first use.
+Rounding of K drowns the longest waves where cells are tiny beside the plate. K u is then computed from the springs,
+whose strains are small for such waves. Most lattices never need their springs, so that these are built at first use.
 
 Free edges need no equations of their own: what is integrated ends there, be the edge a side of the grid or an outline
 that runs through its cells (`outline_lattice`). A support holds the spline at the grid's side, a clamp its slope, too.
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 _STIFFEST = 100.0
 """Largest k^4 of a spline in cells far from edges (16/3 of linear over 17/315 of cubic ones)."""
 _CLEAR = 1e-5
-"""Rounding of K, beside k^4 of half a wave along the plate, up to which K needs no springs. Measured on plates with fine
-cells at notches: frequencies of the lowest modes then differ by less than 1e-7."""
+"""Rounding of K, beside k^4 of half a wave along the plate, up to which the springs are not needed. Measured on plates
+with fine cells at notches: the lowest frequencies then differ by less than 1e-7."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +49,8 @@ class Lattice:
     """Masses and springs of one plate, for D = 1 and m = 1.
 
     cell_m : sides of the smallest cell [m]; masses : A, sparse, symmetric (n_nodes, n_nodes) [m^2]; stiffness :
-    K = B^T W B, likewise [m^-2], which times D is the force per deflection; rounding_k4 : what rounding of K adds to k^4
-    of long waves [m^-4], about; interpolation : deflection at points (n_points, 2) [m] from what the nodes say, sparse
+    K = B^T W B, likewise [m^-2], which times D is the force per deflection; rounding_k4 : about what rounding of K adds
+    to k^4 of long waves [m^-4]; interpolation : deflection at points (n_points, 2) [m] from what the nodes say, sparse
     (n_points, n_nodes); its transpose spreads a force; build_springs : B and W, see `springs` and `weights`.
     """
 

@@ -4,11 +4,11 @@
     R_j = (G A)^j G p',  G = (K + s A)^-1,  p' = p - A Phi Phi^T p
 
 for (K - z A) u = p, where A holds the masses of the nodes. The series is that of the modes left out, which lie above z;
-each term leaves less than half of the error before. One factorisation of K + s A gives the modes,
-by Lanczos' method, and the series; another counts the modes.
+each term leaves less than half of the error before. One factorisation of K + s A gives the modes, by Lanczos' method,
+and the series.
 
-The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave. Where one solve alone would bury that
-wave in rounding, it is refined by its own residual, computed from the springs (`Lattice.restoring`).
+The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave. Where one solve alone would bury
+that wave in rounding, it is refined by its own residual, computed from the springs (`Lattice.restoring`).
 
 Letters: k [rad/m] wavenumber, Lambda [m^-4] eigenvalues k^4, Phi [1/m] shapes normalised over the area, p [-] force
 for D = 1, s [m^-4] shift, c complex.
@@ -19,21 +19,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
-from scene2hap.materials import Material
 from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
 from scene2hap.propagation.lattice.block_lanczos import largest
-from scene2hap.propagation.lattice.factors import Factors, diagonal_factors, positive_factors
+from scene2hap.propagation.lattice.factors import Factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.unit_plate import of_size_one
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
-from scene2hap.scene.surface.outline import Outline, Ring
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -113,35 +112,9 @@ def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> Lat
     lowest_hz = (math.pi / max(plate.extent_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
     thirds = math.ceil(3 * math.log2(max(top_frequency_hz / lowest_hz, 1.0)) - 1e-9)
     check_work(plate, resolution, n_modes_up_to(plate, MARGIN * lowest_hz * 2 ** (thirds / 3)))
-    alike, size_m = _of_size_one(plate)
+    alike, size_m = of_size_one(plate)
     warn_if_slow(plate, bending_lattice(alike, resolution).n_nodes, QUICK_NODES, "nodes of a lattice")
     return _modes_up_to(alike, resolution, thirds).resized(plate, size_m)
-
-
-def _of_size_one(plate: Plate) -> tuple[Plate, float]:
-    """A plate of the same shape, of 1 m and of a material that has the same Poisson's ratio; and how large the other is
-    [m]. Corners count to a thousand millionth, so that rounding makes no other shape."""
-    size_m = max(plate.extent_m)
-    outline = plate.outline
-    if outline is not None:
-        outline = _outline_of(
-            tuple(tuple((round(x / size_m, 9), round(y / size_m, 9)) for x, y in ring) for ring in outline.rings_m)
-        )
-    material = _material_of(plate.material.poisson_ratio)
-    return Plate(
-        plate.length_m / size_m, plate.width_m / size_m, 1e-3, material, plate.boundary, outline=outline
-    ), size_m
-
-
-@lru_cache(maxsize=32)
-def _outline_of(rings_m: tuple[Ring, ...]) -> Outline:
-    """One outline for all plates of a shape, which checks itself once."""
-    return Outline(rings_m)
-
-
-@lru_cache(maxsize=32)
-def _material_of(poisson_ratio: float) -> Material:
-    return Material("any", 1e3, 1e9, poisson_ratio, 0.0)
 
 
 def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:

@@ -74,8 +74,8 @@ class _Nodes:
     """The nodes of all pieces.
 
     of_pieces : (n_pieces, 16); place : in the grid (n_nodes,), rising; number : of those kept, in the same order, -1 of
-    the others (n_nodes,); scale : what a kept node's value stands for, 0 of the others (n_nodes,); stiffness : diagonal of
-    K without these scales (n_nodes,) [m^-2].
+    the others (n_nodes,); scale : what a kept node's value stands for, 0 of the others (n_nodes,); stiffness : diagonal
+    of K without these scales (n_nodes,) [m^-2].
     """
 
     of_pieces: Ints
@@ -89,7 +89,8 @@ class _Nodes:
         """Those of the pieces, whose matrices (n_pieces, 4, 4, 4, 4) say what they have of the plate."""
         of_pieces, place = nodes_of(pieces)
         masses, alone = (
-            np.bincount(of_pieces.ravel(), np.einsum("niikk->nik", each).ravel()) for each in (mass, elastic)
+            np.bincount(of_pieces.ravel(), np.einsum("niikk->nik", each).ravel()).astype(np.float64)
+            for each in (mass, elastic)
         )
         is_kept = alone > _LEAST * np.median(alone)
         number = np.where(is_kept, is_kept.cumsum() - 1, -1)
