@@ -39,8 +39,7 @@ def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, Spli
     x, y = axes
     pixels_x, pixels_y = (PixelProducts.of(axis) for axis in axes)
     pixels = pixels_x.lines, pixels_y.lines
-    cells = len(x.lines) - 1, len(y.lines) - 1
-    pieces = CellPieces.of(outline.coverage(*pixels), outline.narrow_gaps(*pixels), cells)
+    pieces = CellPieces.of(outline, pixels)
     integrals, nu = PieceIntegrals(pieces, pixels_x, pixels_y), plate.material.poisson_ratio
     mass = integrals.of((1.0, ("3", "3"), ("3", "3")))
     elastic = integrals.of(

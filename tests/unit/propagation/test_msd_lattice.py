@@ -107,6 +107,21 @@ def test_lattice_finds_every_mode(size: tuple[float, float]) -> None:
     np.testing.assert_allclose(modes.shapes.T @ (lattice.masses @ modes.shapes), np.eye(len(modes.k4)), atol=1e-9)
 
 
+@pytest.mark.parametrize("side_m", [0.5, 0.53, 0.61])
+@pytest.mark.parametrize("thickness_m", [0.002, 0.004])
+def test_no_mode_of_a_symmetric_plate_is_missed(side_m: float, thickness_m: float) -> None:
+    """A square with a square hole has pairs of equal modes."""
+    a, b = (side_m - 0.2) / 2, (side_m + 0.2) / 2
+    rings = ([(0, 0), (side_m, 0), (side_m, side_m), (0, side_m)], [(a, a), (b, a), (b, b), (a, b)])
+    plate = Plate.of_outline(Outline(rings), thickness_m, MATERIAL)
+    modes = lattice_modes(plate, 8, 400.0)
+    lattice = modes.lattice
+    k4 = eigh(lattice.stiffness.toarray(), lattice.masses.toarray(), eigvals_only=True)
+    n = len(modes.k4)
+    np.testing.assert_allclose(modes.k4[3:], k4[3:n], rtol=1e-5)
+    assert modes.k4[-1] < k4[n]
+
+
 def test_plates_of_one_shape_share_their_modes() -> None:
     """Two discs of other sizes, thicknesses and materials: solved once, each with its own frequencies and shapes."""
     turn = np.linspace(0.0, 2 * np.pi, 48, endpoint=False)
