@@ -48,19 +48,16 @@ QUICK_NODES = 6_000
 MOST_WORK = 1e8
 """Nodes times modes squared beyond which modes are not solved for: that is what Lanczos' method costs. A plate then
 takes some seconds at most."""
-_EXACT = 1e-7
-"""Relative error at which a solution is good: that of a frequency is its square."""
 QUICK_WORK = 5e7
 """Of these, what takes less than about a second."""
-DENSE_SHARE = 0.2
+_EXACT = 1e-7
+"""Relative error at which a solution is good: that of a frequency is its square."""
+DENSE_SHARE = 0.25
 """Share of its modes from which a lattice is solved for all of them at once, which is then faster than Lanczos' method.
 Tuned."""
-_SMALL = 200
-"""Nodes up to which the lowest modes are found in full matrices, where none is missed. Tuned: above, Lanczos' method is
-faster."""
-_BURIED = 1e-6
-"""Part of a mode that rounding may bury in full matrices, whose error is that of the stiffest springs; K or the springs
-then decide the modes."""
+_BURIED = 1e-8
+"""Part of the largest value wanted that rounding may add to each if all are found at once: their error is that of the
+stiffest springs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,27 +229,17 @@ def _all_below(
         return solve_shifted(lattice, factors, shift_k4, force)
 
     expected = _n_modes_to(lattice.plate, wanted_k4**0.25)
-    is_clear = np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * shift_k4
-    # Some more than wanted: what rounding adds to a value is taken away with the digits of K.
-    limit = (1 + _BURIED) * wanted_k4
-    if expected > DENSE_SHARE * n and is_clear:
+    if expected > DENSE_SHARE * n and np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * wanted_k4:
         k4, shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd", check_finite=False)
-        shapes = shapes[:, k4 <= limit]
-    elif expected > DENSE_SHARE * n:
-        dense = masses @ compliance(masses.toarray())
-        theta, shapes = eigh((dense + dense.T) / 2, masses.toarray(), driver="gvd", check_finite=False)
-        shapes = shapes[:, theta >= 1 / (limit + shift_k4)]
-    elif n <= _SMALL and is_clear:
-        shapes = eigh(
-            *(lattice.stiffness.toarray(), masses.toarray()), subset_by_value=(-np.inf, limit), check_finite=False
-        )[1]
+        # Some more than wanted, since `_ritz` takes away what rounding adds to a value.
+        shapes = shapes[:, k4 <= (1 + _BURIED) * wanted_k4]
     else:
         shapes = largest(compliance, masses, 1 / (wanted_k4 + shift_k4), expected)
-    return _over_springs(lattice, shapes)
+    return _ritz(lattice, shapes)
 
 
-def _over_springs(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The shapes' own modes over the springs (Ritz): exact to the square of what the shapes still miss."""
+def _ritz(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The modes within the span of shapes (Ritz): exact to the square of what the shapes still miss."""
     from scipy.linalg import eigh
 
     if not shapes.shape[1]:
