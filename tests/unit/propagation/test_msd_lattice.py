@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from scene2hap import Material, Outline, Plate
-from scene2hap.propagation.lattice.bending_lattice import LONGEST, bending_lattice, cells_of
+from scene2hap.propagation.lattice.bending_lattice import LONGEST, bending_lattice, cells_of, lines_of
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.lattice.lattice_modes import _modes_up_to, lattice_modes, lowest_frequencies_hz
 
@@ -49,6 +49,21 @@ def test_free_lattices_hold_the_mass_and_do_not_resist_planes() -> None:
     assert np.abs(lattice.restoring(plane)).max() < 1e-9 * np.abs(lattice.stiffness).max()
     curved = nodes_of(lattice, lambda x, y: x * x * y)
     np.testing.assert_allclose(lattice.restoring(curved), lattice.stiffness @ curved, atol=1e-7)
+
+
+def test_springs_keep_the_digits_that_rounding_of_the_stiffness_takes() -> None:
+    """The longest wave along a strip of 1000 to 1; a table needs no springs."""
+    table, strip = (bending_lattice(Plate(1.0, width_m, 0.01, MATERIAL), 8) for width_m in (0.5, 0.001))
+    assert table.is_clear
+    assert not strip.is_clear
+    assert table.rounding_k4 < 1e-9 * strip.rounding_k4
+    knots = np.pad(lines_of(strip.plate, 8)[0], 3, mode="edge")
+    along = (knots[1:-3] + knots[2:-2] + knots[3:-1]) / 3  # what nodes say of x
+    w = np.repeat(along, strip.n_nodes // len(along))
+    area = strip.plate.area_m2
+    by_springs, by_stiffness = abs(w @ strip.restoring(w)) / area, abs(w @ (strip.stiffness @ w)) / area
+    assert by_springs < 1e-3
+    assert 1e-3 * strip.rounding_k4 < by_stiffness < strip.rounding_k4
 
 
 @pytest.mark.parametrize("nu", [-0.99, 0.0, 0.3, 0.499])
