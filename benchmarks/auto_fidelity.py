@@ -34,7 +34,7 @@ from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, MODAL_DB, Situa
 from scene2hap.propagation.coupled import rigid
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.substructuring import CoupledField, assemble
-from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes
+from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes, unit_plate
 
 REPORTED, CALIBRATING = 0, 100_000
 """First seeds of the draws that are reported and of those that bounds come from."""
@@ -163,10 +163,10 @@ def forget() -> None:
     """Make every plate one that was never seen."""
     for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
-    for kept in (lattice_modes._modes_up_to, lattice_modes._outline_of, lattice_body.lattice_body):
+    for kept in (lattice_modes._modes_up_to, unit_plate.of_size_one, unit_plate.outline_of, lattice_body.lattice_body):
         kept.cache_clear()
-    bending_lattice.bending_lattice.cache_clear()
-    bending_lattice.lines_of.cache_clear()
+    for kept in (bending_lattice.bending_lattice, bending_lattice.lines_of, bending_lattice.aligned):
+        kept.cache_clear()
     infinite_plate._table.cache_clear()
 
 

@@ -15,6 +15,7 @@ from scene2hap.propagation.lattice.outline_lattice import outline_lattice
 from scene2hap.propagation.lattice.outline_lines import outline_lines
 from scene2hap.propagation.lattice.rectangle_lattice import rectangle_lattice
 from scene2hap.propagation.lattice.spline_axis import SplineAxis
+from scene2hap.propagation.lattice.unit_plate import of_size_one
 from scene2hap.propagation.plate import Plate
 from scene2hap.scene.surface.outline import Outline
 
@@ -64,7 +65,7 @@ def lines_of(plate: Plate, resolution: int) -> tuple[NDArray[np.float64], NDArra
 def n_nodes_of(plate: Plate, resolution: int) -> int:
     """Number of nodes of its lattice, those held by edges included."""
     if plate.outline is not None:
-        return math.prod(len(lines) + 2 for lines in lines_of(plate, resolution))
+        return math.prod(len(lines) + 2 for lines in lines_of(of_size_one(plate)[0], resolution))
     return math.prod(n + 3 for n in cells_of(plate, resolution))
 
 

@@ -8,6 +8,9 @@ counts, alone and with others, are integrals over the plate: W and A are exact f
 too high, never too low, and its error falls as the fourth power of the cell (measured in
 tests/physics/test_mass_spring_damper.py); at a corner between a clamped and a free edge as the 1.7th.
 
+Rounding of K drowns the longest waves where cells are tiny beside the plate. K u is then computed from the springs,
+whose strains are small for such waves. Most lattices never need their springs, so that these are built at first use.
+
 Free edges need no equations of their own: what is integrated ends there, be the edge a side of the grid or an outline
 that runs through its cells (`outline_lattice`). A support holds the spline at the grid's side, a clamp its slope, too.
 
@@ -20,8 +23,10 @@ and Engineering 195 (2006) 5257.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,25 +39,47 @@ if TYPE_CHECKING:
 
 _STIFFEST = 100.0
 """Largest k^4 of a spline in cells far from edges (16/3 of linear over 17/315 of cubic ones)."""
+_CLEAR = 1e-5
+"""Rounding of K, beside k^4 of half a wave along the plate, up to which the springs are not needed. Measured on plates
+with fine cells at notches: the lowest frequencies then differ by less than 1e-7."""
 
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
     """Masses and springs of one plate, for D = 1 and m = 1.
 
-    cell_m : sides of the smallest cell [m]; springs : B, sparse (n_springs, n_nodes) [m^-2]; weights : W, sparse,
-    symmetric (n_springs, n_springs) [m^2]; masses : A, sparse, symmetric (n_nodes, n_nodes) [m^2]; stiffness :
-    K = B^T W B, likewise [m^-2], which times D is the force per deflection; interpolation : deflection at points
-    (n_points, 2) [m] from what the nodes say, sparse (n_points, n_nodes); its transpose spreads a force.
+    cell_m : sides of the smallest cell [m]; masses : A, sparse, symmetric (n_nodes, n_nodes) [m^2]; stiffness :
+    K = B^T W B, likewise [m^-2], which times D is the force per deflection; rounding_k4 : about what rounding of K adds
+    to k^4 of long waves [m^-4]; interpolation : deflection at points (n_points, 2) [m] from what the nodes say, sparse
+    (n_points, n_nodes); its transpose spreads a force; build_springs : B and W, see `springs` and `weights`.
     """
 
     plate: Plate
     cell_m: tuple[float, float]
-    springs: csr_array
-    weights: csr_array
     masses: csr_array
     stiffness: csr_array
+    rounding_k4: float
     interpolation: Callable[[NDArray[np.float64]], csr_array]
+    build_springs: Callable[[], tuple[csr_array, csr_array]]
+
+    @cached_property
+    def _springs(self) -> tuple[csr_array, csr_array]:
+        return self.build_springs()
+
+    @property
+    def springs(self) -> csr_array:
+        """B, sparse (n_springs, n_nodes) [m^-2]."""
+        return self._springs[0]
+
+    @property
+    def weights(self) -> csr_array:
+        """W, sparse, symmetric (n_springs, n_springs) [m^2]."""
+        return self._springs[1]
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether K itself keeps the digits of the longest waves."""
+        return self.rounding_k4 < _CLEAR * (math.pi / max(self.plate.extent_m)) ** 4
 
     @property
     def n_nodes(self) -> int:
@@ -71,14 +98,24 @@ class Lattice:
         return Lattice(
             plate,
             (x * times, y * times),
-            self.springs,
-            self.weights,
             self.masses * times**4,
             self.stiffness,
+            self.rounding_k4 / times**4,
             lambda points_m: self.interpolation(points_m / times) * times,
+            lambda: self._springs,
         )
 
     def restoring(self, deflections: NDArray[np.float64]) -> NDArray[np.float64]:
-        """K u by way of the springs, which keeps the digits of long waves that differences of K would lose."""
-        forces: NDArray[np.float64] = self.springs.T @ (self.weights @ (self.springs @ deflections))
+        """K u, by way of the springs where K would lose the digits of long waves."""
+        forces: NDArray[np.float64]
+        if self.is_clear:
+            forces = self.stiffness @ deflections
+        else:
+            forces = self.springs.T @ (self.weights @ (self.springs @ deflections))
         return forces
+
+
+def rounding_k4(diagonal: NDArray[np.float64], area_m2: float) -> float:
+    """What rounding of K adds to k^4 of a plane [m^-4], from the diagonal of K (n_nodes,) [m^-2] for nodes that all say
+    the deflection of a plate that moves as one."""
+    return float(np.finfo(float).eps * diagonal.sum() / area_m2)

@@ -4,11 +4,11 @@
     R_j = (G A)^j G p',  G = (K + s A)^-1,  p' = p - A Phi Phi^T p
 
 for (K - z A) u = p, where A holds the masses of the nodes. The series is that of the modes left out, which lie above z;
-each term leaves less than half of the error before. One factorisation of K + s A gives the modes,
-by Lanczos' method, and the series; another counts the modes.
+each term leaves less than half of the error before. One factorisation of K + s A gives the modes, by Lanczos' method,
+and the series.
 
-The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave, so one solve alone would bury that
-wave in rounding. Each is refined by its own residual, computed from the springs (`Lattice.restoring`).
+The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave. Where one solve alone would bury
+that wave in rounding, it is refined by its own residual, computed from the springs (`Lattice.restoring`).
 
 Letters: k [rad/m] wavenumber, Lambda [m^-4] eigenvalues k^4, Phi [1/m] shapes normalised over the area, p [-] force
 for D = 1, s [m^-4] shift, c complex.
@@ -19,21 +19,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
-from scene2hap.materials import Material
 from scene2hap.propagation.domain import warn_if_slow
 from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
 from scene2hap.propagation.lattice.block_lanczos import largest
-from scene2hap.propagation.lattice.factors import Factors, diagonal_factors, positive_factors
+from scene2hap.propagation.lattice.factors import Factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.unit_plate import of_size_one
 from scene2hap.propagation.modes import n_rigid_motions
 from scene2hap.propagation.plate import Plate
-from scene2hap.scene.surface.outline import Outline, Ring
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -42,25 +41,23 @@ MARGIN = 1.5
 """Modes are solved up to this many times the top frequency; the series takes over from there."""
 TERMS = 4
 """Terms of the series. Measured on furniture: with them the answer is within 0.02 dB of a direct solve at p95."""
-STIFFEST = 2e-12
-"""Part of the stiffest springs that stands well clear of their rounding."""
+_ABOVE_ROUNDING = 1e4
+"""How far the shift lies above the rounding of K: of a solution a ten thousandth is lost at most."""
 QUICK_NODES = 6_000
 """Nodes whose lowest modes take less than about a second."""
 MOST_WORK = 1e8
 """Nodes times modes squared beyond which modes are not solved for: that is what Lanczos' method costs. A plate then
 takes some seconds at most."""
-_EXACT = 1e-7
-"""Relative error at which a solution is good: that of a frequency is its square."""
 QUICK_WORK = 5e7
 """Of these, what takes less than about a second."""
-DENSE_SHARE = 0.2
+_EXACT = 1e-7
+"""Relative error at which a solution is good: that of a frequency is its square."""
+DENSE_SHARE = 0.25
 """Share of its modes from which a lattice is solved for all of them at once, which is then faster than Lanczos' method.
 Tuned."""
-_SMALL = 200
-"""Nodes up to which the lowest modes are found in full matrices, where none is missed. Tuned: above, Lanczos' method is
-faster."""
-_BURIED = 1e-6
-"""Part of a solution that rounding may bury in Lanczos' method, since the springs then decide the modes."""
+_BURIED = 1e-8
+"""Part of the largest value wanted that rounding may add to each if all are found at once: their error is that of the
+stiffest springs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,35 +109,9 @@ def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> Lat
     lowest_hz = (math.pi / max(plate.extent_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
     thirds = math.ceil(3 * math.log2(max(top_frequency_hz / lowest_hz, 1.0)) - 1e-9)
     check_work(plate, resolution, n_modes_up_to(plate, MARGIN * lowest_hz * 2 ** (thirds / 3)))
-    alike, size_m = _of_size_one(plate)
+    alike, size_m = of_size_one(plate)
     warn_if_slow(plate, bending_lattice(alike, resolution).n_nodes, QUICK_NODES, "nodes of a lattice")
     return _modes_up_to(alike, resolution, thirds).resized(plate, size_m)
-
-
-def _of_size_one(plate: Plate) -> tuple[Plate, float]:
-    """A plate of the same shape, of 1 m and of a material that has the same Poisson's ratio; and how large the other is
-    [m]. Corners count to a thousand millionth, so that rounding makes no other shape."""
-    size_m = max(plate.extent_m)
-    outline = plate.outline
-    if outline is not None:
-        outline = _outline_of(
-            tuple(tuple((round(x / size_m, 9), round(y / size_m, 9)) for x, y in ring) for ring in outline.rings_m)
-        )
-    material = _material_of(plate.material.poisson_ratio)
-    return Plate(
-        plate.length_m / size_m, plate.width_m / size_m, 1e-3, material, plate.boundary, outline=outline
-    ), size_m
-
-
-@lru_cache(maxsize=32)
-def _outline_of(rings_m: tuple[Ring, ...]) -> Outline:
-    """One outline for all plates of a shape, which checks itself once."""
-    return Outline(rings_m)
-
-
-@lru_cache(maxsize=32)
-def _material_of(poisson_ratio: float) -> Material:
-    return Material("any", 1e3, 1e9, poisson_ratio, 0.0)
 
 
 def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:
@@ -156,23 +127,31 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
         raise ModelDomainError(
             f"n_modes is {n_modes}; a lattice of resolution {resolution} has {n_nodes} modes. Raise the resolution."
         )
-    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
-    k = edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)  # Weyl, free edges
-    lattice, factors, shift = _factorised(plate, resolution, k**4)
-    count = n_modes
+    wanted = _k_of_mode(plate, 1.2 * n_modes + 2) ** 4
+    lattice, factors, shift = _factorised(plate, resolution, wanted)
     while True:
-        count = min(int(1.2 * count) + 2, n_nodes)
-        k4, _ = _lowest(lattice, factors, shift, count)
-        if count == n_nodes or n_modes_below(lattice, k4[n_modes - 1] * (1 - 1e-9)) < n_modes:
+        k4, _ = _all_below(lattice, factors, shift, wanted)
+        if len(k4) >= n_modes:
             break
+        wanted *= 2
     frequencies: NDArray[np.float64] = np.sqrt(k4[:n_modes]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi)
     return frequencies
 
 
 def n_modes_up_to(plate: Plate, frequency_hz: float) -> float:
     """About how many modes a plate with free edges has up to a frequency [Hz] (Weyl)."""
-    k, edge = float(plate.wavenumber_rad_m(frequency_hz)), 2 * sum(plate.extent_m)
-    return (plate.area_m2 * k**2 + edge * k) / (4 * math.pi)
+    return _n_modes_to(plate, float(plate.wavenumber_rad_m(frequency_hz)))
+
+
+def _n_modes_to(plate: Plate, k: float) -> float:
+    """About how many modes a plate with free edges has up to a wavenumber [rad/m] (Weyl)."""
+    return (plate.area_m2 * k**2 + 2 * sum(plate.extent_m) * k) / (4 * math.pi)
+
+
+def _k_of_mode(plate: Plate, n_modes: float) -> float:
+    """The wavenumber [rad/m] at which `_n_modes_to` is `n_modes`."""
+    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
+    return edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)
 
 
 def is_too_much(plate: Plate, resolution: int, top_frequency_hz: float) -> bool:
@@ -206,35 +185,16 @@ def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
     """Modes up to `MARGIN` times a frequency, so many thirds of an octave above that of a half wave along the plate."""
     wanted = MARGIN**2 * (math.pi / max(plate.extent_m)) ** 4 * 4 ** (thirds / 3)
     lattice, factors, shift = _factorised(plate, resolution, wanted)
-    if _is_small(lattice, shift):
-        # Some more than wanted: what rounding adds to a value is taken away with the springs' digits.
-        k4, shapes = _over_springs(lattice, _small_shapes(lattice, subset_by_value=(-np.inf, (1 + _BURIED) * wanted)))
-    else:
-        k4, shapes = _all_below(lattice, factors, shift, wanted)
+    k4, shapes = _all_below(lattice, factors, shift, wanted)
     kept = max(np.count_nonzero(k4 <= wanted), n_rigid_motions(plate))
     return LatticeModes(lattice, k4[:kept], shapes[:, :kept], shift, factors)
-
-
-def _all_below(
-    lattice: Lattice, factors: Factors, shift_k4: float, wanted: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """k^4 and shapes of all modes below a value, and some more, as `_lowest`."""
-    expected = n_modes_below(lattice, wanted)
-    count = max(expected, 7)
-    while True:
-        count += 1
-        k4, shapes = _lowest(lattice, factors, shift_k4, count)
-        enough = k4[-1] > wanted and np.count_nonzero(k4 <= wanted * (1 + 1e-9)) >= expected
-        if enough or len(k4) == lattice.n_nodes:
-            return k4, shapes
-        count += count // 5
 
 
 def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, Factors, float]:
     """The lattice, the factors of K + s A, and s, for modes up to k^4."""
     lattice = bending_lattice(plate, resolution)
-    # Large enough beside the stiffest springs for refinement to converge, small beside the modes of interest.
-    shift = max(1e-2 * top_k4, STIFFEST * lattice.stiffest_k4)
+    # Large enough beside the rounding of K for refinement to converge, small beside the modes of interest.
+    shift = max(1e-2 * top_k4, _ABOVE_ROUNDING * lattice.rounding_k4)
     return lattice, positive_factors(_shifted(lattice, shift)), shift
 
 
@@ -244,33 +204,23 @@ def _shifted(lattice: Lattice, shift_k4: float) -> csr_array:
     return shifted
 
 
-def n_modes_below(lattice: Lattice, k4: float) -> int:
-    """How many modes lie below k^4: the negative pivots of K - k^4 A, by Sylvester's law of inertia.
-
-    Lanczos' method may miss one of a pair of equal modes, as square plates have them; this count shows it. 0 where
-    rounding of the stiffest springs would decide the count.
-    """
-    if k4 < STIFFEST * lattice.stiffest_k4:
-        return 0
-    pivots: NDArray[np.float64] = diagonal_factors(_shifted(lattice, -k4)).U.diagonal()
-    return int(np.count_nonzero(pivots < 0))
-
-
 def solve_shifted(
     lattice: Lattice, factors: Factors, shift_k4: float, forces: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined."""
+    """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined where rounding would show."""
     found: NDArray[np.float64] = factors.solve(forces)
-    # Each pass gains the digits that the shift has above the rounding of the stiffest springs.
-    for _ in range(math.ceil(math.log(_EXACT) / math.log(_lost(lattice, shift_k4))) - 1):
+    if lattice.is_clear:
+        return found
+    # Each pass gains the digits that the shift has above the rounding of K.
+    for _ in range(math.ceil(math.log(_EXACT) / math.log(lattice.rounding_k4 / shift_k4)) - 1):
         found += factors.solve(forces - lattice.restoring(found) - shift_k4 * (lattice.masses @ found))
     return found
 
 
-def _lowest(
-    lattice: Lattice, factors: Factors, shift_k4: float, count: int
+def _all_below(
+    lattice: Lattice, factors: Factors, shift_k4: float, wanted_k4: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """k^4 (n,) [m^-4], rising, and shapes (n_nodes, n) [1/m] of at least `count` modes, or of all."""
+    """k^4 (n_modes,) [m^-4], rising, and shapes (n_nodes, n_modes) [1/m] of all modes below a value, and some more."""
     from scipy.linalg import eigh
 
     n, masses = lattice.n_nodes, lattice.masses
@@ -278,31 +228,18 @@ def _lowest(
     def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
         return solve_shifted(lattice, factors, shift_k4, force)
 
-    is_clear = _lost(lattice, shift_k4) < _BURIED
-    if _is_small(lattice, shift_k4):
-        shapes = _small_shapes(lattice, subset_by_index=(0, min(count, n) - 1))
-    elif count < DENSE_SHARE * n:
-        shapes = largest(factors.solve if is_clear else compliance, masses, count)
-    elif is_clear:
-        shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd")[1][:, :count]
+    expected = _n_modes_to(lattice.plate, wanted_k4**0.25)
+    if expected > DENSE_SHARE * n and np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * wanted_k4:
+        k4, shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd", check_finite=False)
+        # Some more than wanted, since `_ritz` takes away what rounding adds to a value.
+        shapes = shapes[:, k4 <= (1 + _BURIED) * wanted_k4]
     else:
-        dense = masses @ compliance(masses.toarray())
-        shapes = eigh((dense + dense.T) / 2, masses.toarray(), driver="gvd")[1][:, : -count - 1 : -1]
-    return _over_springs(lattice, shapes)
+        shapes = largest(compliance, masses, 1 / (wanted_k4 + shift_k4), expected)
+    return _ritz(lattice, shapes)
 
 
-def _small_shapes(lattice: Lattice, **subset: Any) -> NDArray[np.float64]:
-    """Shapes (n_nodes, n) of a `subset` (`scipy.linalg.eigh`) of all modes."""
-    from scipy.linalg import eigh
-
-    shapes: NDArray[np.float64] = eigh(
-        lattice.stiffness.toarray(), lattice.masses.toarray(), driver="gvx", check_finite=False, **subset
-    )[1]
-    return shapes
-
-
-def _over_springs(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The shapes' own modes over the springs (Ritz): exact to the square of what the shapes still miss."""
+def _ritz(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The modes within the span of shapes (Ritz): exact to the square of what the shapes still miss."""
     from scipy.linalg import eigh
 
     if not shapes.shape[1]:
@@ -311,12 +248,3 @@ def _over_springs(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArra
     k4, turned = eigh((stiffness + stiffness.T) / 2, shapes.T @ (lattice.masses @ shapes))
     k4[: n_rigid_motions(lattice.plate)] = 0.0
     return k4, shapes @ turned
-
-
-def _is_small(lattice: Lattice, shift_k4: float) -> bool:
-    return lattice.n_nodes <= _SMALL and _lost(lattice, shift_k4) < _BURIED
-
-
-def _lost(lattice: Lattice, shift_k4: float) -> float:
-    """Share of a solution that is lost in the rounding of the stiffest springs."""
-    return float(np.finfo(float).eps * lattice.stiffest_k4 / shift_k4)

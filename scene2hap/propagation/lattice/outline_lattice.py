@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.lattice.assembly import Pattern, copies_of, sparse
 from scene2hap.propagation.lattice.cell_pieces import CellPieces, nodes_of, places
-from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.lattice import Lattice, rounding_k4
 from scene2hap.propagation.lattice.pixel_integrals import PieceIntegrals, PixelProducts
 from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.propagation.plate import Plate
@@ -39,8 +39,7 @@ def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, Spli
     x, y = axes
     pixels_x, pixels_y = (PixelProducts.of(axis) for axis in axes)
     pixels = pixels_x.lines, pixels_y.lines
-    cells = len(x.lines) - 1, len(y.lines) - 1
-    pieces = CellPieces.of(outline.coverage(*pixels), outline.narrow_gaps(*pixels), cells)
+    pieces = CellPieces.of(outline, pixels)
     integrals, nu = PieceIntegrals(pieces, pixels_x, pixels_y), plate.material.poisson_ratio
     mass = integrals.of((1.0, ("3", "3"), ("3", "3")))
     elastic = integrals.of(
@@ -52,7 +51,10 @@ def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, Spli
     )
     nodes = _Nodes.of(pieces, mass, elastic)
     masses, stiffness = nodes.summed(mass, elastic, places(range(4), range(4), pieces.steps))
-    springs = _Springs.of(nodes, pieces, axes)
+
+    def springs() -> tuple[csr_array, csr_array]:
+        found = _Springs.of(nodes, pieces, axes)
+        return found.strains, found.weights(integrals, nu)
 
     def interpolation(points_m: Floats) -> csr_array:
         piece, at_m = pieces.nearest(points_m, *pixels)
@@ -62,7 +64,8 @@ def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, Spli
         return nodes.rows(node, shares, np.full(len(points_m), 16))
 
     cell_m = float(np.diff(x.lines).min()), float(np.diff(y.lines).min())
-    return Lattice(plate, cell_m, springs.strains, springs.weights(integrals, nu), masses, stiffness, interpolation)
+    rounding = rounding_k4(nodes.stiffness[nodes.scale > 0.0], plate.area_m2)
+    return Lattice(plate, cell_m, masses, stiffness, rounding, interpolation, springs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,26 +73,29 @@ class _Nodes:
     """The nodes of all pieces.
 
     of_pieces : (n_pieces, 16); place : in the grid (n_nodes,), rising; number : of those kept, in the same order, -1 of
-    the others (n_nodes,); scale : what a kept node's value stands for, 0 of the others (n_nodes,).
+    the others (n_nodes,); scale : what a kept node's value stands for, 0 of the others (n_nodes,); stiffness : diagonal
+    of K without these scales (n_nodes,) [m^-2].
     """
 
     of_pieces: Ints
     place: Ints
     number: Ints
     scale: Floats
+    stiffness: Floats
 
     @classmethod
     def of(cls, pieces: CellPieces, mass: Floats, elastic: Floats) -> _Nodes:
         """Those of the pieces, whose matrices (n_pieces, 4, 4, 4, 4) say what they have of the plate."""
         of_pieces, place = nodes_of(pieces)
         masses, alone = (
-            np.bincount(of_pieces.ravel(), np.einsum("niikk->nik", each).ravel()) for each in (mass, elastic)
+            np.bincount(of_pieces.ravel(), np.einsum("niikk->nik", each).ravel()).astype(np.float64)
+            for each in (mass, elastic)
         )
         is_kept = alone > _LEAST * np.median(alone)
         number = np.where(is_kept, is_kept.cumsum() - 1, -1)
         scale = np.zeros(len(place))
         scale[is_kept] = np.sqrt(np.median(masses) / masses[is_kept])
-        return cls(of_pieces, place, number, scale)
+        return cls(of_pieces, place, number, scale, alone)
 
     @property
     def n_kept(self) -> int:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.lattice.lattice import Lattice
+from scene2hap.propagation.lattice.lattice import Lattice, rounding_k4
 from scene2hap.propagation.lattice.spline_axis import SplineAxis
 from scene2hap.propagation.plate import Plate
 
@@ -48,7 +48,9 @@ def rectangle_lattice(plate: Plate, axes: tuple[SplineAxis, SplineAxis]) -> Latt
         return csr_array((share[node >= 0], (row, node[node >= 0])), shape=(len(points_m), masses.shape[0]))
 
     cell_m = plate.length_m / (x.n_nodes - 3), plate.width_m / (y.n_nodes - 3)
-    return Lattice(plate, cell_m, springs, weights, masses, csr_array(springs.T @ weights @ springs), interpolation)
+    stiffness = csr_array(springs.T @ weights @ springs)
+    rounding = rounding_k4(stiffness.diagonal(), plate.area_m2)
+    return Lattice(plate, cell_m, masses, stiffness, rounding, interpolation, lambda: (springs, weights))
 
 
 def _sparse(rows: NDArray[np.float64]) -> csr_array:

@@ -60,9 +60,9 @@ class Outline:
     @cached_property
     def area_m2(self) -> float:
         """Area inside the outline [m2], to a thousandth."""
-        x0, y0, x1, y1 = self.box_m
-        shares = self.coverage(np.array([x0, x1]), np.linspace(y0, y1, 513))
-        return float(shares.mean()) * (x1 - x0) * (y1 - y0)
+        _, y0, _, y1 = self.box_m
+        x, _ = _crossings(*self._edges, np.linspace(y0, y1, 513))
+        return float((x[1::2] - x[::2]).sum()) * (y1 - y0) / (512 * _LINES)
 
     @property
     def notches_m(self) -> Floats:
@@ -170,23 +170,34 @@ class Outline:
         return np.concatenate(self.rings_m), np.concatenate(ends)
 
     def coverage(self, x_m: Floats, y_m: Floats) -> Floats:
-        """Return the share (nx, ny), 0..1, of each pixel that is inside the area.
+        """Return the share (nx, ny), 0..1, of each pixel that is inside the area; see `covered`."""
+        return self.covered(x_m, y_m)[0]
 
-        Pixels are between lines x (nx + 1,) and lines y (ny + 1,), both rising [m]. The share is exact along x, and
-        from four scan lines through each row along y.
+    def covered(self, x_m: Floats, y_m: Floats) -> tuple[Floats, Floats]:
+        """Return the share (nx, ny), 0..1, of each pixel that is inside the area, and how far the centroid of that part
+        is from the pixel's middle, in sides of the pixel along x and y (2, nx, ny), -1/2..1/2.
+
+        Pixels are between lines x (nx + 1,) and lines y (ny + 1,), both rising [m]. Both are exact along x, and from
+        four scan lines through each row along y.
         """
         nx, ny = len(x_m) - 1, len(y_m) - 1
         x, line = _crossings(*self._edges, y_m)
         # Along a line, the covered part begins at every second crossing and ends at the next.
-        x, row = x.clip(x_m[0], x_m[-1]), line // _LINES
-        sign = np.where(np.arange(len(x)) % 2 == 0, 1.0, -1.0)
+        x, (row, scan) = x.clip(x_m[0], x_m[-1]), np.divmod(line, _LINES)
+        sign = np.where(np.arange(len(x)) % 2 == 0, 1.0, -1.0) / _LINES
         pixel = np.clip(np.searchsorted(x_m, x, side="right") - 1, 0, nx - 1)
         rest = (x_m[pixel + 1] - x) / np.diff(x_m)[pixel]
-        changes = np.zeros((nx + 1, ny))
-        np.add.at(changes, (pixel, row), sign * rest)
-        np.add.at(changes, (pixel + 1, row), sign * (1 - rest))
-        covered: Floats = (changes.cumsum(axis=0)[:-1] / _LINES).clip(0.0, 1.0)
-        return covered
+        at, off_y = pixel * ny + row, (scan + 0.5) / _LINES - 0.5
+        changes = np.stack(
+            [
+                np.bincount(at, weight * rest, (nx + 1) * ny) + np.bincount(at + ny, weight * (1 - rest), (nx + 1) * ny)
+                for weight in (sign, sign * off_y)
+            ]
+        )
+        shares, moments_y = changes.reshape(2, nx + 1, ny).cumsum(axis=1)[:, :-1]
+        moments_x = np.bincount(at, sign * rest * (1 - rest) / 2, nx * ny).reshape(nx, ny)
+        off = np.stack([moments_x, moments_y]) / np.maximum(shares, 1e-9)
+        return shares.clip(0.0, 1.0), off.clip(-0.5, 0.5)
 
     def narrow_gaps(self, x_m: Floats, y_m: Floats) -> NDArray[np.bool_]:
         """Return a mask (nx, ny) of the pixels in the middle of narrow gaps between two parts of the area.

@@ -12,14 +12,9 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from scene2hap import Material, Outline, Plate
-from scene2hap.propagation.lattice.bending_lattice import LONGEST, bending_lattice, cells_of
+from scene2hap.propagation.lattice.bending_lattice import LONGEST, bending_lattice, cells_of, lines_of
 from scene2hap.propagation.lattice.lattice import Lattice
-from scene2hap.propagation.lattice.lattice_modes import (
-    _modes_up_to,
-    lattice_modes,
-    lowest_frequencies_hz,
-    n_modes_below,
-)
+from scene2hap.propagation.lattice.lattice_modes import _modes_up_to, lattice_modes, lowest_frequencies_hz
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.3)
 Floats = NDArray[np.float64]
@@ -54,6 +49,21 @@ def test_free_lattices_hold_the_mass_and_do_not_resist_planes() -> None:
     assert np.abs(lattice.restoring(plane)).max() < 1e-9 * np.abs(lattice.stiffness).max()
     curved = nodes_of(lattice, lambda x, y: x * x * y)
     np.testing.assert_allclose(lattice.restoring(curved), lattice.stiffness @ curved, atol=1e-7)
+
+
+def test_springs_keep_the_digits_that_rounding_of_the_stiffness_takes() -> None:
+    """The longest wave along a strip of 1000 to 1; a table needs no springs."""
+    table, strip = (bending_lattice(Plate(1.0, width_m, 0.01, MATERIAL), 8) for width_m in (0.5, 0.001))
+    assert table.is_clear
+    assert not strip.is_clear
+    assert table.rounding_k4 < 1e-9 * strip.rounding_k4
+    knots = np.pad(lines_of(strip.plate, 8)[0], 3, mode="edge")
+    along = (knots[1:-3] + knots[2:-2] + knots[3:-1]) / 3  # what nodes say of x
+    w = np.repeat(along, strip.n_nodes // len(along))
+    area = strip.plate.area_m2
+    by_springs, by_stiffness = abs(w @ strip.restoring(w)) / area, abs(w @ (strip.stiffness @ w)) / area
+    assert by_springs < 1e-3
+    assert 1e-3 * strip.rounding_k4 < by_stiffness < strip.rounding_k4
 
 
 @pytest.mark.parametrize("nu", [-0.99, 0.0, 0.3, 0.499])
@@ -106,11 +116,25 @@ def test_lattice_finds_every_mode(size: tuple[float, float]) -> None:
     frequencies = np.sqrt(np.maximum(dense, 0.0)) / plate.wavenumber_per_root_omega**2 / (2 * np.pi)
     found = lowest_frequencies_hz(plate, resolution, 20)
     np.testing.assert_allclose(found[3:], frequencies[3:20], rtol=1e-5)
-    assert n_modes_below(lattice, float(dense[30] + dense[31]) / 2) == 31
     modes = lattice_modes(plate, resolution, found[15])
     np.testing.assert_allclose(modes.frequencies_hz[3:], frequencies[3 : len(modes.k4)], rtol=1e-5)
     assert modes.k4[-1] < dense[len(modes.k4)] * (1 + 1e-9)
     np.testing.assert_allclose(modes.shapes.T @ (lattice.masses @ modes.shapes), np.eye(len(modes.k4)), atol=1e-9)
+
+
+@pytest.mark.parametrize("side_m", [0.5, 0.53, 0.61])
+@pytest.mark.parametrize("thickness_m", [0.002, 0.004])
+def test_no_mode_of_a_symmetric_plate_is_missed(side_m: float, thickness_m: float) -> None:
+    """A square with a square hole has pairs of equal modes."""
+    a, b = (side_m - 0.2) / 2, (side_m + 0.2) / 2
+    rings = ([(0, 0), (side_m, 0), (side_m, side_m), (0, side_m)], [(a, a), (b, a), (b, b), (a, b)])
+    plate = Plate.of_outline(Outline(rings), thickness_m, MATERIAL)
+    modes = lattice_modes(plate, 8, 400.0)
+    lattice = modes.lattice
+    k4 = eigh(lattice.stiffness.toarray(), lattice.masses.toarray(), eigvals_only=True)
+    n = len(modes.k4)
+    np.testing.assert_allclose(modes.k4[3:], k4[3:n], rtol=1e-5)
+    assert modes.k4[-1] < k4[n]
 
 
 def test_plates_of_one_shape_share_their_modes() -> None:

@@ -45,6 +45,37 @@ def test_pixel_coverage_sums_to_the_area(radii: list[float], nx: int, ny: int, b
     assert found == pytest.approx(area, abs=(x1 - x0) * (y1 - y0) / (8 * ny))
 
 
+def test_centroids_of_pixels_are_those_of_the_covered_parts() -> None:
+    """A triangle over four pixels, against the shoelace formula for each part."""
+    outline = Outline((((0.0, 0.0), (2.0, 0.0), (0.0, 2.0)),))
+    lines = np.array([0.0, 1.0, 2.0])
+    shares, off = outline.covered(lines, lines)
+    np.testing.assert_allclose(shares, [[1.0, 0.5], [0.5, 0.0]])
+    np.testing.assert_allclose(off[:, 0, 0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(off[:, 0, 1], -1 / 6, atol=0.02)
+    np.testing.assert_allclose(off[:, 1, 0], -1 / 6, atol=0.02)
+    np.testing.assert_array_equal(off[:, 1, 1], 0.0)
+
+
+@settings(max_examples=50)
+@given(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=12), st.integers(20, 40), st.booleans())
+def test_pixels_keep_the_centroid_of_the_area(radii: list[float], n: int, backwards: bool) -> None:
+    turn = np.arange(len(radii)) * 2 * math.pi / len(radii)
+    star = np.array(radii)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+    outline = Outline(((star[::-1] if backwards else star).tolist(),))
+    x0, y0, x1, y1 = outline.box_m
+    x, y = np.linspace(x0, x1, n + 1), np.linspace(y0, y1, n + 1)
+    shares, off = outline.covered(x, y)
+    assert np.abs(off).max() <= 0.5
+    middle = np.stack(np.meshgrid((x[1:] + x[:-1]) / 2, (y[1:] + y[:-1]) / 2, indexing="ij"))
+    side = np.array([x[1] - x[0], y[1] - y[0]])[:, None, None]
+    found = ((middle + off * side) * shares).sum(axis=(1, 2)) / shares.sum()
+    other = np.roll(star, -1, axis=0)
+    cross = star[:, 0] * other[:, 1] - other[:, 0] * star[:, 1]
+    centroid = ((star + other) * cross[:, None]).sum(axis=0) / (3 * cross.sum())
+    np.testing.assert_allclose(found, centroid, atol=2 / n**2)
+
+
 def test_notches_are_corners_that_point_inwards() -> None:
     assert Outline((SQUARE,)).notches_m.shape == (0, 2)
     assert Outline((L,)).notches_m.tolist() == [[0.5, 0.4]]

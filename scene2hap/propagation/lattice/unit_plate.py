@@ -1,0 +1,36 @@
+"""Plates of one shape: they share a lattice, whatever their size, thickness or material."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from scene2hap.materials import Material
+from scene2hap.propagation.plate import Plate
+from scene2hap.scene.surface.outline import Outline, Ring
+
+
+@lru_cache(maxsize=64)
+def of_size_one(plate: Plate) -> tuple[Plate, float]:
+    """A plate of the same shape, of 1 m and of a material that has the same Poisson's ratio; and how large the other is
+    [m]. Corners count to a thousand millionth, so that rounding makes no other shape."""
+    size_m = max(plate.extent_m)
+    outline = plate.outline
+    if outline is not None:
+        outline = outline_of(
+            tuple(tuple((round(x / size_m, 9), round(y / size_m, 9)) for x, y in ring) for ring in outline.rings_m)
+        )
+    material = _material_of(plate.material.poisson_ratio)
+    return Plate(
+        plate.length_m / size_m, plate.width_m / size_m, 1e-3, material, plate.boundary, outline=outline
+    ), size_m
+
+
+@lru_cache(maxsize=32)
+def outline_of(rings_m: tuple[Ring, ...]) -> Outline:
+    """One outline for all plates of a shape, which checks and measures itself once."""
+    return Outline(rings_m)
+
+
+@lru_cache(maxsize=32)
+def _material_of(poisson_ratio: float) -> Material:
+    return Material("any", 1e3, 1e9, poisson_ratio, 0.0)
