@@ -15,6 +15,7 @@ from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.shape import boxes_of, shape_of
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import TriMesh
 
 FAR = 10.0
 SIZES = st.tuples(*[st.sampled_from([0.1, 0.3, 1.0])] * 3)
@@ -203,3 +204,31 @@ def test_a_tree_holds_every_triangle_once_and_boxes_hold_their_children(seed: in
         else:
             assert (low == np.inf).all()
             assert (high == -np.inf).all()
+
+
+def wavy(name: str, n: int, place: Triple) -> Body:
+    """A sheet of 2 n^2 triangles with waves 3 mm high."""
+    u, v = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-0.3, 0.3, n + 1)] * 2, indexing="ij"))
+    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    faces = [[corner, corner + 1, corner + n + 2], [corner, corner + n + 2, corner + n + 1]]
+    corners = np.stack([u, 0.003 * np.sin(40 * u) * np.cos(30 * v), v], axis=1)
+    mesh = TriMesh(corners, np.concatenate([np.stack(three, axis=1) for three in faces]))
+    return Body(name, shape_of(mesh), Pose(place, (0.0, 0.0, 0.0, 1.0)), 1)
+
+
+def test_contact_points_of_dense_meshes_are_as_far_apart_as_any() -> None:
+    """Each contact point is the farthest of all from those before; here piece by piece."""
+    sheet, other = wavy("a", 50, (0.0, 0.0, 0.0)), wavy("b", 40, (0.11, 0.002, 0.07))
+    chosen = np.array([ends.middle_m for ends in MeshPair(sheet, other).patch((0.0, 0.0, 0.0), 0.001)])
+    assert len(chosen) == MAX_POINTS
+    pieces = [(low, low + 200) for low in range(0, 3200, 200)]
+    candidates = []
+    for low, high in pieces:
+        piece = TriMesh(other.shape.triangles[:, :, low:high].T.reshape(-1, 3), np.arange(600).reshape(200, 3))
+        part = Body("b", shape_of(piece), other.pose, 1)
+        candidates += [ends.middle_m for ends in MeshPair(sheet, part).patch((0.0, 0.0, 0.0), 0.001)]
+    points = np.array(candidates)
+    assert len(points) > 40
+    for k in range(1, MAX_POINTS):
+        apart = np.linalg.norm(points[:, None] - chosen[:k], axis=2).min(axis=1).max()
+        assert np.linalg.norm(chosen[k] - chosen[:k], axis=1).min() >= apart - 1e-6

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from contact_scenes import Triple, box, boxes, chair, floor, found, on_floor, scene, weight
 from scene2hap.contact import rule
@@ -258,3 +260,23 @@ def test_up_may_be_z() -> None:
     assert {(c.a, c.b) for c in graph.contacts} == {("chair", "floor")}
     assert graph.contacts[0].normal == pytest.approx((0, 0, -1))
     assert all(contact.point_m[2] == pytest.approx(0.01) for contact in graph.contacts)
+
+
+@given(seed=st.integers(0, 10**6))
+@settings(max_examples=60)
+def test_first_falls_give_the_supports_of_all_triangles_unless_one_may_hide_another(seed: int) -> None:
+    """Supports by first fall distances equal those by the fall distance of each triangle."""
+    rng = np.random.default_rng(seed)
+    n_known = 0
+    for _ in range(40):
+        n, m = int(rng.integers(1, 5)), int(rng.integers(1, 30))
+        spread_m = float(rng.choice([0.0005, 0.003, 0.01, 0.09]))
+        falls_m = np.where(rng.random((n, m)) < 0.5, rng.uniform(-0.004, spread_m, (n, m)), np.inf)
+        falls_m = falls_m[np.isfinite(falls_m).any(axis=1)] + 0.01 * rng.integers(0, 2)
+        each = {f"x{k}": row for k, row in enumerate(falls_m)}
+        nearby = rule.supports_nearby({name: float(row.min()) for name, row in each.items()}, 0.06)
+        if nearby is not None:
+            n_known += 1
+            assert nearby == rule.supports(each, 0.06)
+    assert n_known > 5
+    assert rule.supports_nearby({}, 0.06) == {}

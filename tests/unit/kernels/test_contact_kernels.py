@@ -60,7 +60,7 @@ def mesh(rng: np.random.Generator) -> TriMesh:
     if kind < 3:
         corners = rng.uniform(-0.3, 0.3, (3 * n, 3)) if kind == 1 else 0.1 * rng.integers(-2, 3, (3 * n, 3))
         return TriMesh(corners, np.arange(3 * n).reshape(n, 3))
-    k = int(rng.integers(1, 12))
+    k = int(rng.integers(1, 12)) if rng.random() < 0.9 else 30
     u, v = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-0.3, 0.3, k + 1)] * 2, indexing="ij"))
     heights = np.round(rng.uniform(0, 0.05, u.size), 2) * rng.integers(0, 2)
     c = (np.arange(k)[:, None] * (k + 1) + np.arange(k)).ravel()
