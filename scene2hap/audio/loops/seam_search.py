@@ -53,6 +53,10 @@ gives this difference."""
 _LONG_SHARES, _WORTH = (0.8, 0.65), 0.5
 """A loop longer than this share of the clip, or one that keeps the beat, is preferred if its dissimilarity exceeds the
 best one's by at most half. In noise all seams are alike, and a longer loop is noticed later. A rhythm has few seams."""
+_UNNOTICED = 0.1
+"""Dissimilarity up to which a seam that keeps the beat is preferred in any case: a tone 26 degrees out of phase, of
+which the fade removes 0.2 dB. Two tones, as those of a sound and of its shifted vibration, are seldom both closer within
+a beat. A ring that is a tenth of a second too long is noticed sooner."""
 _LEVEL_STEP_S, _SHORTEST_PERIOD_S = 0.01, 0.2
 """Resolution of the level; shorter periods lie within the stretches that are compared."""
 _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
@@ -89,7 +93,7 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
     period = _level_period(cut[0], rate)
     found = _refined(cut, weights, fade, _promising(cut, weights, fade, min(1.0, _COARSE_HZ / rate), period))
     if period is not None:
-        found = _preferred([seam for seam in found if _in_beat(seam[1], period)], found)
+        found = _preferred([seam for seam in found if _in_beat(seam[1], period)], found, _UNNOTICED)
     for share in _LONG_SHARES:
         long = _preferred([seam for seam in found if seam[1] >= share * (usable - fade)], found)
         if long is not found:
@@ -108,10 +112,10 @@ def _mean_power(x: Signal, width: int) -> Signal:
     return np.asarray(power / power.max() if power.any() else np.ones_like(power))
 
 
-def _preferred(some: list[Candidate], found: list[Candidate]) -> list[Candidate]:
+def _preferred(some: list[Candidate], found: list[Candidate], unnoticed: float = _AS_GOOD) -> list[Candidate]:
     """Return `some` of the candidates if one of them is about as good as the best, else all that were `found`."""
     best, likest = (max((likeness for likeness, _, _ in seams), default=-1.0) for seams in (found, some))
-    return some if likest >= best - max(_AS_GOOD, _WORTH * (1.0 - best)) else found
+    return some if likest >= best - max(unnoticed, _WORTH * (1.0 - best)) else found
 
 
 def _in_beat(lengths: ArrayLike, period: float) -> NDArray[np.bool_]:
