@@ -1,9 +1,13 @@
 """Search for the seam of a loop: the place where a sound continues as it began.
 
-The similarity of two stretches with spectra A and B is 2 Re sum(W A* B) / (sum(W |A|^2) + sum(W |B|^2)), averaged over
-all signals that share the seam. It is 1 if they are equal, less if shape *or level* differ. W is the sound's mean power
-spectrum. Without this weight, chance similarity of hiss would decide, and a hum under it would wrap out of phase. The
-search takes two steps:
+The similarity of two stretches with spectra A and B is averaged over all signals that share the seam:
+
+    (2 Re sum(W A* B) + e) / (sum(W |A|^2) + sum(W |B|^2) + e)
+
+It is 1 if they are equal, less if shape *or level* differ. W is the sound's mean power spectrum. Without this weight,
+chance similarity of hiss would decide, and a hum under it would wrap out of phase. e is 2 % of the mean energy of a
+stretch. Without it, a seam in a pause would be judged by the shape of what is not heard there. The search takes two
+steps:
 
 1. coarse, at 8 kHz: twelve starts, and every length from half to all of the sound behind them;
 2. at the full rate: those lengths for which a cosine through a peak of the coarse curve is highest at a whole number
@@ -53,10 +57,9 @@ gives this difference."""
 _LONG_SHARES, _WORTH = (0.8, 0.65), 0.5
 """A loop longer than this share of the clip, or one that keeps the beat, is preferred if its dissimilarity exceeds the
 best one's by at most half. In noise all seams are alike, and a longer loop is noticed later. A rhythm has few seams."""
-_UNNOTICED = 0.1
-"""Dissimilarity up to which a seam that keeps the beat is preferred in any case: a tone 26 degrees out of phase, of
-which the fade removes 0.2 dB. Two tones, as those of a sound and of its shifted vibration, are seldom both closer within
-a beat. A ring that is a tenth of a second too long is noticed sooner."""
+_UNNOTICED = 0.01
+"""Dissimilarity up to which a seam that keeps the beat is preferred in any case: a tone 8 degrees out of phase, of
+which the fade removes 0.02 dB. A ring that is a tenth of a second too long is noticed sooner."""
 _LEVEL_STEP_S, _SHORTEST_PERIOD_S = 0.01, 0.2
 """Resolution of the level; shorter periods lie within the stretches that are compared."""
 _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
@@ -64,6 +67,9 @@ _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
 first period may have than the best [-]; assumed."""
 _PERIOD_TOLERANCE = 0.02
 """Largest difference from a whole number of periods [periods]; touch notices 0.18 of a rate."""
+_QUIET = 0.01
+"""Share of the mean energy of a stretch below which its shape is hardly noticed [-] (assumed: 20 dB below the sound's
+level)."""
 _SILENT = 1e-9
 """Share of the whole energy below which the similarity would be a ratio of rounding errors."""
 
@@ -188,8 +194,9 @@ def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -
     products = scipy.fft.irfft(stretches.conj() * scipy.fft.rfft(x, size), size, axis=1)[:, : len(x) - width + 1]
     energies, heard = _moving_energy(x, width), _moving_energy(plain, width)
     has_sound = heard[starts][:, None] + heard > _SILENT * (plain @ plain)
-    total = energies[starts][:, None] + energies
-    return np.asarray(np.where(has_sound, 2.0 * products / np.where(has_sound, total, 1.0), 0.0))
+    quiet = 2.0 * _QUIET * float(energies.mean())
+    total = energies[starts][:, None] + energies + quiet
+    return np.asarray(np.where(has_sound, (2.0 * products + quiet) / np.where(has_sound, total, 1.0), 0.0))
 
 
 def _moving_energy(x: Signal, width: int) -> Signal:
@@ -234,11 +241,13 @@ def _exactly(x: Signal, weights: Signal, width: int, starts: NDArray[np.int64], 
     behind = scipy.fft.rfft(stretches[starts + lengths], axis=1)
     total = _power(ahead, weights)[of_start] + _power(behind, weights)
     is_silent = total <= _SILENT * width * (x @ x) * np.mean(weights)
+    frames = scipy.fft.rfft(stretches[:: max(1, width // 2)], axis=1)
+    quiet = 2.0 * _QUIET * float(_power(frames, weights).mean())
     products = np.empty(len(starts))
     for place, spectrum in enumerate(ahead):  # few starts, many lengths behind each
         mine = of_start == place
         products[mine] = behind.real[mine] @ (spectrum.real * weights) + behind.imag[mine] @ (spectrum.imag * weights)
-    return np.where(is_silent, 0.0, 2.0 * products / np.where(is_silent, 1.0, total))
+    return np.where(is_silent, 0.0, (2.0 * products + quiet) / np.where(is_silent, 1.0, total + quiet))
 
 
 def _power(spectra: NDArray[np.complex128], weights: Signal) -> Signal:

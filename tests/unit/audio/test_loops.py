@@ -141,7 +141,7 @@ def test_loop_of_a_ringing_phone_keeps_the_length_of_rings_and_pauses(
     assert np.minimum(np.abs(lasts_s - on_s), np.abs(lasts_s - off_s)).max() < 0.1 * (on_s + off_s)
 
 
-@pytest.mark.parametrize("felt_hz", [140.6, 144.2, 147.7, 162.0])
+@pytest.mark.parametrize("felt_hz", [140.6, 144.2, 147.7, 162.0, 175.8])
 def test_loop_of_a_ringing_phone_keeps_its_beat_beside_a_shifted_vibration(felt_hz: float) -> None:
     """A seam within a ring fits two tones better than any whole number of periods."""
     t = np.arange(5 * RATE) / RATE
