@@ -277,7 +277,8 @@ def test_takes_of_a_machine_are_felt_at_one_frequency(noun: str) -> None:
     keywords = describe(noun, name).keywords
     felt_hz = []
     for seed in range(20):
-        clip = Synthesizer().find(VibrationDescription(noun, name, "", keywords, intensity, (0.3, 0.4, 0.3), seed=seed))[0]
+        machine = VibrationDescription(noun, name, "", keywords, intensity, (0.3, 0.4, 0.3), seed=seed)
+        clip = Synthesizer().find(machine)[0]
         anchor = anchor_of(clip.samples, clip.sample_rate_hz, level_db, actuator)
         assert anchor is not None
         felt_hz.append(anchor.felt_hz)
