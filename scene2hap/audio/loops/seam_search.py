@@ -70,6 +70,8 @@ _PERIOD_TOLERANCE = 0.02
 _QUIET = 0.01
 """Share of the mean energy of a stretch below which its shape is hardly noticed [-] (assumed: 20 dB below the sound's
 level)."""
+_LEAST_POWER = 0.25
+"""Least power of a loop, as a share of the sound's (assumed). Pauses fit each other; a loop of them would be silent."""
 _SILENT = 1e-9
 """Share of the whole energy below which the similarity would be a ratio of rounding errors."""
 
@@ -176,6 +178,8 @@ def _promising(
         heights, lengths = _at_whole_samples(curve, peaks, shortest, scale)
         found.append(np.stack([heights, np.full(len(peaks), round(start * scale)), lengths], axis=1))
     rows = np.concatenate(found)
+    full = _has_sound(signals, rows[:, 1], rows[:, 2])
+    rows = rows[full] if full.any() else rows
     # Of equal similarity the longer first: a longer loop is noticed later.
     order = np.lexsort((-rows[:, 2], -np.round(rows[:, 0] / _AS_GOOD)))
     length, longest = rows[order, 2], len(signals[0]) - fade
@@ -184,6 +188,17 @@ def _promising(
         wanted += [_in_beat(length, period) & long for long in wanted]
     chosen = [order[mask][:_N_REFINED] for mask in wanted]
     return rows[np.concatenate(chosen), 1:].astype(np.int64)
+
+
+def _has_sound(signals: Sequence[Signal], starts: Signal, lengths: Signal) -> NDArray[np.bool_]:
+    """Return a mask (n,) of the loops with at least `_LEAST_POWER` of the mean power of every signal."""
+    enough = np.ones(len(starts), dtype=bool)
+    for x in signals:
+        energy = np.concatenate([[0.0], np.cumsum(x**2)])
+        first = np.clip(starts.astype(np.int64), 0, len(x))
+        end = np.clip(first + lengths.astype(np.int64), 0, len(x))
+        enough &= (energy[end] - energy[first]) * len(x) >= _LEAST_POWER * lengths * energy[-1]
+    return enough
 
 
 def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -> Signal:

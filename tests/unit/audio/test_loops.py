@@ -153,6 +153,14 @@ def test_loop_of_a_ringing_phone_keeps_its_beat_beside_a_shifted_vibration(felt_
     assert periods == pytest.approx(round(periods), abs=0.025)
 
 
+@pytest.mark.parametrize("at_s", [0.22, 0.25, 2.0, 3.5])
+def test_loop_of_a_single_stroke_holds_the_stroke(at_s: float) -> None:
+    """Two places in the quiet behind a stroke fit each other better than any around it."""
+    t = np.arange(4 * RATE) / RATE - at_s
+    x = np.where(t > 0, np.sin(2 * np.pi * 200 * t) * np.exp(-np.maximum(t, 0.0) / 0.05), 0.0) + 1e-4 * noise(4.0)
+    assert np.abs(apply_seam(x, find_seam(x, RATE))).max() > 0.5 * np.abs(x).max()
+
+
 def test_equal_power_fade_keeps_the_level_of_noise() -> None:
     levels = []
     for seed in range(6):
