@@ -75,7 +75,7 @@ FIGURES = {
         "contacts", f"stress/contacts.py {MOVERS} --moves 1500", 60, is_text=True, needs="scenes"
     ),
     "distinctness": Figure("conversion", "benchmarks/distinctness.py", 1),
-    "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 5", 5),
+    "kinds": Figure("conversion", "benchmarks/kinds.py --seeds 10", 10),
     "kinds-flat": Figure("conversion", "benchmarks/kinds.py --set flat --seeds 2 --first 11", 2),
     "kinds-workshop": Figure("conversion", "benchmarks/kinds.py --set workshop --seeds 2 --first 11", 2),
     "kinds-alike": Figure("conversion", "benchmarks/kinds.py --set compressors --seeds 2 --tactile svf_bandpass", 1),

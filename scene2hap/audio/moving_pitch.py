@@ -49,7 +49,10 @@ def growth_db(sound: Signal, band: Signal, duration_s: float) -> float:
 
 
 def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float], most_q: float) -> MovingPitch | None:
-    """Return the band that holds the strongest line of a sound (n,) in each stretch; None if it has no lines."""
+    """Return the band that holds the strongest line of a sound (n,) in each stretch.
+
+    None if it has no lines, or if a band of quality `most_q` holds them.
+    """
     size = round(STRETCH_S * sample_rate_hz)
     stretches = x[: len(x) // size * size].reshape(-1, size)
     found = [components(magnitudes(one), sample_rate_hz, range_hz, _FAINTEST_DB) for one in stretches]
@@ -58,8 +61,10 @@ def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float]
         return None
     low, high = (float(hz) for hz in np.percentile(lines_hz, (5, 95)))
     r = math.sqrt(high / low)
-    lost = math.sqrt(10 ** (_LOST_DB / 20) - 1.0)
-    return MovingPitch(math.sqrt(low * high), min(max(lost / max(r - 1.0 / r, 1e-9), _LEAST_Q), most_q))
+    q = math.sqrt(10 ** (_LOST_DB / 20) - 1.0) / max(r - 1.0 / r, 1e-9)
+    if q >= most_q:
+        return None  # it stays in the band: the band's level varies by itself, as that of two lines that beat
+    return MovingPitch(math.sqrt(low * high), max(q, _LEAST_Q))
 
 
 def _range_db(x: Signal, n_stretches: int) -> float:

@@ -1,9 +1,13 @@
 """Search for the seam of a loop: the place where a sound continues as it began.
 
-The similarity of two stretches with spectra A and B is 2 Re sum(W A* B) / (sum(W |A|^2) + sum(W |B|^2)), averaged over
-all signals that share the seam. It is 1 if they are equal, less if shape *or level* differ. W is the sound's mean power
-spectrum. Without this weight, chance similarity of hiss would decide, and a hum under it would wrap out of phase. The
-search takes two steps:
+The similarity of two stretches with spectra A and B is averaged over all signals that share the seam:
+
+    (2 Re sum(W A* B) + e) / (sum(W |A|^2) + sum(W |B|^2) + e)
+
+It is 1 if they are equal, less if shape *or level* differ. W is the sound's mean power spectrum. Without this weight,
+chance similarity of hiss would decide, and a hum under it would wrap out of phase. e is 2 % of the mean energy of a
+stretch. Without it, a seam in a pause would be judged by the shape of what is not heard there. The search takes two
+steps:
 
 1. coarse, at 8 kHz: twelve starts, and every length from half to all of the sound behind them;
 2. at the full rate: those lengths for which a cosine through a peak of the coarse curve is highest at a whole number
@@ -53,6 +57,9 @@ gives this difference."""
 _LONG_SHARES, _WORTH = (0.8, 0.65), 0.5
 """A loop longer than this share of the clip, or one that keeps the beat, is preferred if its dissimilarity exceeds the
 best one's by at most half. In noise all seams are alike, and a longer loop is noticed later. A rhythm has few seams."""
+_UNNOTICED = 0.01
+"""Dissimilarity up to which a seam that keeps the beat is preferred in any case: a tone 8 degrees out of phase, of
+which the fade removes 0.02 dB. A ring that is a tenth of a second too long is noticed sooner."""
 _LEVEL_STEP_S, _SHORTEST_PERIOD_S = 0.01, 0.2
 """Resolution of the level; shorter periods lie within the stretches that are compared."""
 _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
@@ -60,6 +67,11 @@ _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
 first period may have than the best [-]; assumed."""
 _PERIOD_TOLERANCE = 0.02
 """Largest difference from a whole number of periods [periods]; touch notices 0.18 of a rate."""
+_QUIET = 0.01
+"""Share of the mean energy of a stretch below which its shape is hardly noticed [-] (assumed: 20 dB below the sound's
+level)."""
+_LEAST_POWER = 0.25
+"""Least power of a loop, as a share of the sound's (assumed). Pauses fit each other; a loop of them would be silent."""
 _SILENT = 1e-9
 """Share of the whole energy below which the similarity would be a ratio of rounding errors."""
 
@@ -89,7 +101,7 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
     period = _level_period(cut[0], rate)
     found = _refined(cut, weights, fade, _promising(cut, weights, fade, min(1.0, _COARSE_HZ / rate), period))
     if period is not None:
-        found = _preferred([seam for seam in found if _in_beat(seam[1], period)], found)
+        found = _preferred([seam for seam in found if _in_beat(seam[1], period)], found, _UNNOTICED)
     for share in _LONG_SHARES:
         long = _preferred([seam for seam in found if seam[1] >= share * (usable - fade)], found)
         if long is not found:
@@ -108,10 +120,10 @@ def _mean_power(x: Signal, width: int) -> Signal:
     return np.asarray(power / power.max() if power.any() else np.ones_like(power))
 
 
-def _preferred(some: list[Candidate], found: list[Candidate]) -> list[Candidate]:
+def _preferred(some: list[Candidate], found: list[Candidate], unnoticed: float = _AS_GOOD) -> list[Candidate]:
     """Return `some` of the candidates if one of them is about as good as the best, else all that were `found`."""
     best, likest = (max((likeness for likeness, _, _ in seams), default=-1.0) for seams in (found, some))
-    return some if likest >= best - max(_AS_GOOD, _WORTH * (1.0 - best)) else found
+    return some if likest >= best - max(unnoticed, _WORTH * (1.0 - best)) else found
 
 
 def _in_beat(lengths: ArrayLike, period: float) -> NDArray[np.bool_]:
@@ -166,6 +178,8 @@ def _promising(
         heights, lengths = _at_whole_samples(curve, peaks, shortest, scale)
         found.append(np.stack([heights, np.full(len(peaks), round(start * scale)), lengths], axis=1))
     rows = np.concatenate(found)
+    full = _has_sound(signals, rows[:, 1], rows[:, 2])
+    rows = rows[full] if full.any() else rows
     # Of equal similarity the longer first: a longer loop is noticed later.
     order = np.lexsort((-rows[:, 2], -np.round(rows[:, 0] / _AS_GOOD)))
     length, longest = rows[order, 2], len(signals[0]) - fade
@@ -176,6 +190,17 @@ def _promising(
     return rows[np.concatenate(chosen), 1:].astype(np.int64)
 
 
+def _has_sound(signals: Sequence[Signal], starts: Signal, lengths: Signal) -> NDArray[np.bool_]:
+    """Return a mask (n,) of the loops with at least `_LEAST_POWER` of the mean power of every signal."""
+    enough = np.ones(len(starts), dtype=bool)
+    for x in signals:
+        energy = np.concatenate([[0.0], np.cumsum(x**2)])
+        first = np.clip(starts.astype(np.int64), 0, len(x))
+        end = np.clip(first + lengths.astype(np.int64), 0, len(x))
+        enough &= (energy[end] - energy[first]) * len(x) >= _LEAST_POWER * lengths * energy[-1]
+    return enough
+
+
 def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -> Signal:
     """Return the similarity (n_starts, n - width + 1) of the stretches of x (n,) at `starts` to all others; 0 where
     `plain` is silent in both."""
@@ -184,8 +209,9 @@ def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -
     products = scipy.fft.irfft(stretches.conj() * scipy.fft.rfft(x, size), size, axis=1)[:, : len(x) - width + 1]
     energies, heard = _moving_energy(x, width), _moving_energy(plain, width)
     has_sound = heard[starts][:, None] + heard > _SILENT * (plain @ plain)
-    total = energies[starts][:, None] + energies
-    return np.asarray(np.where(has_sound, 2.0 * products / np.where(has_sound, total, 1.0), 0.0))
+    quiet = 2.0 * _QUIET * float(energies.mean())
+    total = energies[starts][:, None] + energies + quiet
+    return np.asarray(np.where(has_sound, (2.0 * products + quiet) / np.where(has_sound, total, 1.0), 0.0))
 
 
 def _moving_energy(x: Signal, width: int) -> Signal:
@@ -230,11 +256,13 @@ def _exactly(x: Signal, weights: Signal, width: int, starts: NDArray[np.int64], 
     behind = scipy.fft.rfft(stretches[starts + lengths], axis=1)
     total = _power(ahead, weights)[of_start] + _power(behind, weights)
     is_silent = total <= _SILENT * width * (x @ x) * np.mean(weights)
+    frames = scipy.fft.rfft(stretches[:: max(1, width // 2)], axis=1)
+    quiet = 2.0 * _QUIET * float(_power(frames, weights).mean())
     products = np.empty(len(starts))
     for place, spectrum in enumerate(ahead):  # few starts, many lengths behind each
         mine = of_start == place
         products[mine] = behind.real[mine] @ (spectrum.real * weights) + behind.imag[mine] @ (spectrum.imag * weights)
-    return np.where(is_silent, 0.0, 2.0 * products / np.where(is_silent, 1.0, total))
+    return np.where(is_silent, 0.0, (2.0 * products + quiet) / np.where(is_silent, 1.0, total + quiet))
 
 
 def _power(spectra: NDArray[np.complex128], weights: Signal) -> Signal:

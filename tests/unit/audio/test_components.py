@@ -22,6 +22,14 @@ def test_components_marks_a_hum_in_noise_as_a_line(seed: int) -> None:
     assert strongest.hz == pytest.approx(97.3, abs=0.1)
 
 
+def test_noise_seldom_has_a_line() -> None:
+    """With a bound of 12 dB, one noise in ten had a line, and boiling water was felt at that frequency."""
+    rate = 2400
+    noises = np.random.default_rng(5).standard_normal((200, 5 * rate))
+    found = [components(magnitudes(noise), rate, RANGE, -14.0) for noise in noises]
+    assert sum(any(one.is_line for one in of_noise) for of_noise in found) <= 2
+
+
 def test_strongest_bands_are_sorted_and_faint_bands_left_out() -> None:
     rng = np.random.default_rng(3)
     spectrum = np.fft.rfft(rng.standard_normal(5 * RATE))

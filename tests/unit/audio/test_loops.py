@@ -141,6 +141,26 @@ def test_loop_of_a_ringing_phone_keeps_the_length_of_rings_and_pauses(
     assert np.minimum(np.abs(lasts_s - on_s), np.abs(lasts_s - off_s)).max() < 0.1 * (on_s + off_s)
 
 
+@pytest.mark.parametrize("felt_hz", [140.6, 144.2, 147.7, 162.0, 175.8])
+def test_loop_of_a_ringing_phone_keeps_its_beat_beside_a_shifted_vibration(felt_hz: float) -> None:
+    """A seam within a ring fits two tones better than any whole number of periods."""
+    t = np.arange(5 * RATE) / RATE
+    since_s = t % 1.5
+    speed = np.where(since_s < 1.0, 1 - np.exp(-since_s / 0.05), np.exp(-(since_s - 1.0) / 0.08))
+    turns = np.cumsum(182.6 * speed) / RATE
+    sound, felt = (speed**2 * np.cos(2 * np.pi * (turns + shift * t)) for shift in (0.0, felt_hz - 182.6))
+    periods = find_seam(sound, RATE, felt).length / RATE / 1.5
+    assert periods == pytest.approx(round(periods), abs=0.025)
+
+
+@pytest.mark.parametrize("at_s", [0.22, 0.25, 2.0, 3.5])
+def test_loop_of_a_single_stroke_holds_the_stroke(at_s: float) -> None:
+    """Two places in the quiet behind a stroke fit each other better than any around it."""
+    t = np.arange(4 * RATE) / RATE - at_s
+    x = np.where(t > 0, np.sin(2 * np.pi * 200 * t) * np.exp(-np.maximum(t, 0.0) / 0.05), 0.0) + 1e-4 * noise(4.0)
+    assert np.abs(apply_seam(x, find_seam(x, RATE))).max() > 0.5 * np.abs(x).max()
+
+
 def test_equal_power_fade_keeps_the_level_of_noise() -> None:
     levels = []
     for seed in range(6):

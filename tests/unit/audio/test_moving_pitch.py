@@ -99,6 +99,18 @@ def test_a_sound_without_moving_pitch_keeps_its_band(kind: str) -> None:
     assert found is None or found.band_q is None
 
 
+def test_beating_lines_are_not_a_pitch_that_moves() -> None:
+    """A compressor's second order beats against the magnets at 100 Hz: level and band vary, but no frequency does."""
+    shaft, order, pull = (np.sin(2 * np.pi * hz * T) for hz in (49.8, 99.6, 100.0))
+    sound = 0.6 * (shaft + 0.3 * order + 0.2 * pull)
+    beats = 0.6 * (0.3 * order + 0.2 * pull)
+    assert growth_db(sound, beats, 16.0) > 3.0
+    assert moving_pitch(sound, RATE, (20.0, 1000.0), 2.0) is None
+    found = anchor_of(sound, RATE, sensation_level_db(0.1), actuator_profile("flat"))
+    assert found is not None
+    assert found.felt_hz == pytest.approx(99.6, abs=0.5)
+
+
 def test_growth_is_the_increase_of_the_level_range() -> None:
     """A band that is half as strong in half of the time: 6 dB more than the sound, at any rate."""
     sound = np.sin(2 * np.pi * 100.0 * T)

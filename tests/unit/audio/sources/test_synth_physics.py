@@ -13,7 +13,10 @@ import numpy as np
 import pytest
 from scipy.signal import hilbert
 
+from scene2hap.audio.actuators import actuator_profile
+from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.sources.synth import Synthesizer
 from scene2hap.audio.sources.synth.events import blows, bubbles, music
 from scene2hap.audio.sources.synth.oscillating import combustion, ringing_motor, vibration_motor
@@ -264,6 +267,22 @@ def test_every_state_has_a_voice_of_its_own() -> None:
         (noun, state) for noun, state, _ in STATES if patch_for(noun, describe(noun, state).keywords, state) is MOTOR
     ]
     assert [pair for pair in some_motor if pair[0].split()[-1] != "motor"] == []
+
+
+@pytest.mark.parametrize("noun", ["fan", "kettle"])
+def test_takes_of_a_machine_are_felt_at_one_frequency(noun: str) -> None:
+    """Some takes of a fan were felt at twice its blades' frequency, some of a kettle an octave higher."""
+    name, intensity = next((name, intensity) for one, name, intensity in STATES if one == noun)
+    level_db, actuator = sensation_level_db(intensity), actuator_profile("flat")
+    keywords = describe(noun, name).keywords
+    felt_hz = []
+    for seed in range(20):
+        machine = VibrationDescription(noun, name, "", keywords, intensity, (0.3, 0.4, 0.3), seed=seed)
+        clip = Synthesizer().find(machine)[0]
+        anchor = anchor_of(clip.samples, clip.sample_rate_hz, level_db, actuator)
+        assert anchor is not None
+        felt_hz.append(anchor.felt_hz)
+    assert max(felt_hz) / min(felt_hz) < 2**0.5
 
 
 @pytest.mark.parametrize("number", range(0, len(STATES), 24))
