@@ -8,7 +8,8 @@ of up to 1.2 dB.
 
 If the level changes by T dB from one stretch to the other, a gain of T (i / L - 1/2) dB at sample i of L tilts the loop
 back, so that both stretches are equally loud. Levels are medians over 20 ms, which a single tick does not change. Up to
-1 dB nothing is tilted, so that a tone keeps its amplitude exactly.
+1 dB nothing is tilted, so that a tone keeps its amplitude exactly. A hundredth of the sound's mean power is added to
+both, so that two pauses, of which one is quieter, do not tilt what is heard between them.
 Source: M. Fink, M. Holters, U. Zölzer, "Signal-matched power-complementary cross-fading and dry-wet mixing", DAFx 2016.
 """
 
@@ -30,6 +31,8 @@ _ALIKE = 0.5
 """Correlation above which a fade is linear."""
 _LEVEL_PARTS = 10
 """Parts of a stretch over which the level's median is taken: 20 ms of 200."""
+QUIET = 0.01
+"""Share of a sound's mean power below which a stretch of it is hardly noticed [-] (assumed: 20 dB below its level)."""
 _LEVEL_FREE_DB, _MOST_TILTED_DB = 1.0, 12.0
 """Level differences that are imperceptible and stay, and the largest one that is tilted."""
 _MOST_OPPOSED = -0.5
@@ -70,7 +73,7 @@ class Seam:
         energy = float(np.sqrt((a @ a) * (b @ b)))
         correlation = float(np.clip(a @ b / energy, -1.0, 1.0)) if energy > 0.0 else 1.0
         law: FadeLaw = "linear" if correlation > _ALIKE else "equal-power"
-        return replace(self, law=law, correlation=correlation, tilt_db=_tilt_db(a, b))
+        return replace(self, law=law, correlation=correlation, tilt_db=_tilt_db(a, b, QUIET * float(x.var())))
 
 
 def apply_seam(samples: ArrayLike, seam: Seam) -> Samples:
@@ -83,15 +86,18 @@ def apply_seam(samples: ArrayLike, seam: Seam) -> Samples:
     return loop.astype(np.float32)
 
 
-def _tilt_db(ahead: NDArray[np.float64], behind: NDArray[np.float64]) -> float:
-    """Return how much louder the stretch ahead is than the one behind [dB], 0 if the difference is imperceptible."""
+def _tilt_db(ahead: NDArray[np.float64], behind: NDArray[np.float64], quiet: float) -> float:
+    """Return how much louder the stretch ahead is than the one behind [dB], 0 if the difference is imperceptible.
+
+    Parameters: quiet : power that is hardly noticed.
+    """
     n = len(ahead) // _LEVEL_PARTS
     if n < 1:
         return 0.0
     one, other = (float(np.median((x[: n * _LEVEL_PARTS].reshape(-1, n) ** 2).mean(axis=1))) for x in (ahead, behind))
     if min(one, other) <= 0.0:
         return 0.0
-    difference_db = 10.0 * float(np.log10(one / other))
+    difference_db = 10.0 * float(np.log10((one + quiet) / (other + quiet)))
     return float(np.clip(difference_db, -_MOST_TILTED_DB, _MOST_TILTED_DB)) * (abs(difference_db) > _LEVEL_FREE_DB)
 
 

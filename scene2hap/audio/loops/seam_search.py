@@ -27,7 +27,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
-from scene2hap.audio.loops.seam import Seam
+from scene2hap.audio.loops.seam import QUIET, Seam
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
@@ -67,9 +67,6 @@ _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
 first period may have than the best [-]; assumed."""
 _PERIOD_TOLERANCE = 0.02
 """Largest difference from a whole number of periods [periods]; touch notices 0.18 of a rate."""
-_QUIET = 0.01
-"""Share of the mean energy of a stretch below which its shape is hardly noticed [-] (assumed: 20 dB below the sound's
-level)."""
 _LEAST_POWER = 0.25
 """Least power of a loop, as a share of the sound's (assumed). Pauses fit each other; a loop of them would be silent."""
 _SILENT = 1e-9
@@ -209,7 +206,7 @@ def _likeness(x: Signal, plain: Signal, width: int, starts: NDArray[np.int64]) -
     products = scipy.fft.irfft(stretches.conj() * scipy.fft.rfft(x, size), size, axis=1)[:, : len(x) - width + 1]
     energies, heard = _moving_energy(x, width), _moving_energy(plain, width)
     has_sound = heard[starts][:, None] + heard > _SILENT * (plain @ plain)
-    quiet = 2.0 * _QUIET * float(energies.mean())
+    quiet = 2.0 * QUIET * float(energies.mean())
     total = energies[starts][:, None] + energies + quiet
     return np.asarray(np.where(has_sound, (2.0 * products + quiet) / np.where(has_sound, total, 1.0), 0.0))
 
@@ -257,7 +254,7 @@ def _exactly(x: Signal, weights: Signal, width: int, starts: NDArray[np.int64], 
     total = _power(ahead, weights)[of_start] + _power(behind, weights)
     is_silent = total <= _SILENT * width * (x @ x) * np.mean(weights)
     frames = scipy.fft.rfft(stretches[:: max(1, width // 2)], axis=1)
-    quiet = 2.0 * _QUIET * float(_power(frames, weights).mean())
+    quiet = 2.0 * QUIET * float(_power(frames, weights).mean())
     products = np.empty(len(starts))
     for place, spectrum in enumerate(ahead):  # few starts, many lengths behind each
         mine = of_start == place
