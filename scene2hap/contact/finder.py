@@ -115,6 +115,7 @@ class ContactFinder:
         for y in held or ():
             found[pair_of(x, y)] = None
         self._unsupported.discard(x)
+        self._holders.on_several.discard(x)
 
     def _certify(self, body: Body, dirty: set[Pair], recheck: set[str]) -> dict[Pair, Junction | None] | None:
         """Issue a certificate to a body if possible. Returns its junctions, None without a certificate.

@@ -100,6 +100,8 @@ class Holders:
         self.held: dict[str, dict[str, Bond]] = {}
         # Bodies without full support: larger bodies near them may hold them by hanging.
         self.unsupported: set[str] = set()
+        # Bodies of whose supports one hid parts of another when last searched: the falls of all triangles are needed.
+        self.on_several: set[str] = set()
 
     def of(self, x: str) -> dict[str, Bond]:
         """Return the bonds by which other bodies hold a body: by support and, where that is below 1, by hanging."""
@@ -138,7 +140,9 @@ class Holders:
         falls_m |= self._first_falls(body, rests, min(falls_m.values(), default=math.inf))
         falls_m = dict(sorted(falls_m.items()))
         below = supports_nearby(falls_m, reach_m)
+        self.on_several.discard(body.id)
         if below is None:
+            self.on_several.add(body.id)
             each_m = {y: self.body_pairs[body.id][y].falls(body.id) for y in falls_m}
             below = supports({y: falls for y, falls in each_m.items() if falls is not None}, reach_m)
         return below, ()
@@ -148,11 +152,13 @@ class Holders:
 
         Candidates are skipped if they are more than `TOUCH_M` deeper than the nearest one or than `least_m`.
         """
-        bodies, body_pairs = self.bodies, self.body_pairs[body.id]
+        bodies, body_pairs, needs_each = self.bodies, self.body_pairs[body.id], body.id in self.on_several
         found: dict[str, float] = {}
         for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
             if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
                 break
+            if needs_each:
+                body_pairs[y].falls(body.id)
             fall_m = found[y] = body_pairs[y].first_fall_m(body.id)
             least_m = min(least_m, fall_m)
         return {y: fall_m for y, fall_m in found.items() if fall_m < math.inf and fall_m <= least_m + TOUCH_M}

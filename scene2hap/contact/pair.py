@@ -89,6 +89,9 @@ class BodyPair:
 
     def first_fall_m(self, x: str) -> float:
         """Return the least fall distance of x by its triangles [m], inf if it meets nothing."""
+        if self._results is not None and x in self._results:
+            falls_m = self.falls(x)
+            return math.inf if falls_m is None else float(falls_m.min())
         found: float = self._cached(("first", x), lambda: self._first_fall_m(*self.falling(x)))
         return found
 
