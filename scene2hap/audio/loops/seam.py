@@ -7,9 +7,9 @@ equal-power fade, w_in^2 + w_out^2 = 1. The root is 1 in both cases. Between the
 of up to 1.2 dB.
 
 If the level changes by T dB from one stretch to the other, a gain of T (i / L - 1/2) dB at sample i of L tilts the loop
-back, so that both stretches are equally loud. Levels are medians over 20 ms, which a single tick does not change. Up to
-1 dB nothing is tilted, so that a tone keeps its amplitude exactly. A hundredth of the sound's mean power is added to
-both, so that two pauses, of which one is quieter, do not tilt what is heard between them.
+back, so that both stretches are equally loud. Levels are medians over 20 ms, which a single tick does not change.
+Differences up to 1 dB stay, so that a tone keeps its amplitude exactly. A hundredth of the sound's mean power is added
+to both levels. Otherwise two pauses of unequal noise would tilt the sound between them.
 Source: M. Fink, M. Holters, U. Zölzer, "Signal-matched power-complementary cross-fading and dry-wet mixing", DAFx 2016.
 """
 

@@ -3,7 +3,7 @@
 Each cell is divided into pixels, and a pixel counts by the share of it that lies within. At the rim that share is split
 between the pixel and its neighbours so that its centroid stays where it is. Without this the rim would move outwards,
 by an error of the second order in the pixel. Where a slot or a notch cuts a cell or the reach of a node into parts,
-each part has nodes of its own, so that nothing is passed on across the gap.
+each part has its own nodes, so that the gap transmits nothing.
 
 Source: for the split, C. K. Birdsall, D. Fuss, Journal of Computational Physics 3 (1969) 494 (clouds in cells).
 """
