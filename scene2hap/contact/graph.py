@@ -17,12 +17,11 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.contact.finder import ContactFinder
 from scene2hap.contact.junction import ContactArrays, Junction, Pair, junctions_of, pair_of
-from scene2hap.contact.stated_tolerance.touch_finder import TouchFinder
+from scene2hap.contact.touch_finder import TouchFinder
 from scene2hap.errors import SceneError, UnknownObject
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneSnapshot
 
 if TYPE_CHECKING:
@@ -49,7 +48,6 @@ class ContactChange:
 
 NO_CHANGE = ContactChange()
 
-_MOST_TABLES = 8  # Pose tables that wait at most before their poses are copied.
 _LONGEST_LOG = 16  # Versions for which `changed_since` knows the changes.
 
 
@@ -78,21 +76,17 @@ class ContactGraph:
             hint = "Leave it out to follow the objects."
             tolerance_m = checks.number("tolerance_m", tolerance_m, "m", at_least=0.0, error=SceneError, hint=hint)
         scene = given_scene(scene)
-        self._known_poses = {item.id: item.pose for item in scene.objects}
+        self._poses = {item.id: item.pose for item in scene.objects}
         self._poses_shared = False
-        # Tables of poses that are newer than `_known_poses`.
-        self._newer_tables: list[PoseTable] = []
         self._junctions: dict[Pair, Junction] = {}
         self._beside: dict[str, dict[str, Junction]] = {}
         self._version = self._topology = 0
         self._change_log: deque[list[Pair]] = deque(maxlen=_LONGEST_LOG)
         self._views: dict[str, object] = {}
-        # Whether the junctions are outdated, and whether a caller holds them, so that they must be updated at once.
-        self._is_outdated = self._junctions_shared = False
         self._finder: ContactFinder | TouchFinder | None = None
         if scene.contacts is None:
             up_axis = {"y": 1, "z": 2}[scene.up_axis]
-            self._finder = ContactFinder(up_axis) if tolerance_m is None else TouchFinder(tolerance_m)
+            self._finder = ContactFinder(up_axis) if tolerance_m is None else TouchFinder(up_axis, tolerance_m)
             self._replace({}, scene.objects)
         else:
             self._store(junctions_of(scene.contacts))
@@ -102,7 +96,7 @@ class ContactGraph:
         """All contacts, a < b, sorted by pair; points in world coordinates [m]."""
         found = self._views.get("contacts")
         if found is None:
-            junctions = self._current_junctions()
+            junctions = self._junctions
             found = tuple(one for pair in sorted(junctions) for one in junctions[pair].contacts(pair))
             self._views["contacts"] = found
         return cast("tuple[Contact, ...]", found)
@@ -112,10 +106,7 @@ class ContactGraph:
         """All contacts as arrays, sorted by pair."""
         found = self._views.get("arrays")
         if found is None:
-            ids = tuple(self._known_poses)
-            finder = self._finder
-            found = finder.arrays(ids) if isinstance(finder, TouchFinder) else ContactArrays.of(ids, self._junctions)
-            self._views["arrays"] = found
+            found = self._views["arrays"] = ContactArrays.of(self._poses, self._junctions)
         return cast("ContactArrays", found)
 
     @property
@@ -127,7 +118,7 @@ class ContactGraph:
         if found is None:
             drawn: networkx.Graph[str] = networkx.Graph()
             drawn.add_nodes_from(sorted(self._poses))
-            junctions = self._current_junctions()
+            junctions = self._junctions
             drawn.add_edges_from((*x, {"contacts": list(junctions[x].contacts(x))}) for x in sorted(junctions))
             found = self._views["graph"] = drawn
         return cast("networkx.Graph[str]", found)
@@ -135,14 +126,11 @@ class ContactGraph:
     @property
     def junctions(self) -> Mapping[Pair, Junction]:
         """The junctions by pair; read-only, and changed by later updates. A junction itself never changes."""
-        self._junctions_shared = True
-        return self._current_junctions()
+        return self._junctions
 
     @property
     def beside(self) -> Mapping[str, Mapping[str, Junction]]:
         """For each object with contacts, its junctions by the id of the other; read-only, changed by later updates."""
-        self._junctions_shared = True
-        self._current_junctions()
         return self._beside
 
     @property
@@ -167,7 +155,7 @@ class ContactGraph:
         return MappingProxyType(poses)
 
     def __contains__(self, object_id: object) -> bool:
-        return object_id in self._known_poses
+        return object_id in self._poses
 
     def pose(self, object_id: str) -> Pose:
         """Return the pose of an object. Raises: UnknownObject."""
@@ -186,7 +174,6 @@ class ContactGraph:
         import numpy as np
 
         pose_a, pose_b = self.pose(a), self.pose(b)
-        self._current_junctions()
         junction = self._beside.get(a, {}).get(b)
         points = np.array(junction.points_m if junction else ()).reshape(-1, 3)
         return pose_a.to_own(points), pose_b.to_own(points)
@@ -196,8 +183,7 @@ class ContactGraph:
 
         Raises: UnknownObject: the id is not in the scene.
         """
-        _require_known(object_id, self._known_poses)
-        self._current_junctions()
+        _require_known(object_id, self._poses)
         return tuple(sorted(self._beside.get(object_id, ())))
 
     def update(
@@ -223,8 +209,6 @@ class ContactGraph:
             if isinstance(added, SceneObject) or isinstance(removed, str):
                 raise SceneError("added and removed must be lists, as added=[SceneObject(...)] and removed=['mug'].")
             return self._rebuild(moved, added, removed, contacts)
-        if isinstance(moved, PoseTable) and isinstance(self._finder, TouchFinder):
-            return self._update_from_table(moved)
         stale = {}
         poses = self._poses
         for x, pose in moved.items():
@@ -238,33 +222,11 @@ class ContactGraph:
         if not stale:
             return NO_CHANGE
         if self._poses_shared:
-            self._known_poses, self._poses_shared = dict(poses), False
-        self._known_poses.update(stale)
+            self._poses, self._poses_shared = dict(poses), False
+        self._poses.update(stale)
         if self._finder is None:
             return self._store({pair: None for x in stale for pair in self._pairs_of(x)})
         return self._replace(stale)
-
-    def _update_from_table(self, table: PoseTable) -> ContactChange:
-        """Update from a pose table, whose poses are copied only when they are read."""
-        if not (self._newer_tables and self._newer_tables[-1].ids is table.ids):
-            for x in table:
-                _require_known(x, self._known_poses)
-            if len(self._newer_tables) == _MOST_TABLES:
-                _ = self._poses
-            self._newer_tables.append(table)
-        self._newer_tables[-1] = table
-        return self._replace(table)
-
-    @property
-    def _poses(self) -> dict[str, Pose]:
-        """The poses of all objects, with those of newer tables."""
-        if self._newer_tables:
-            if self._poses_shared:
-                self._known_poses, self._poses_shared = dict(self._known_poses), False
-            for table in self._newer_tables:
-                self._known_poses.update(table)
-            self._newer_tables.clear()
-        return self._known_poses
 
     def _rebuild(
         self,
@@ -290,9 +252,8 @@ class ContactGraph:
             _require_known(contact.a, poses)
             _require_known(contact.b, poses)
 
-        before, self._known_poses, self._poses_shared = self._poses, poses, False
+        before, self._poses, self._poses_shared = self._poses, poses, False
         if contacts is not None:
-            self._current_junctions()
             self._finder = None
             return self._store({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
         stale = {x for x in moved if x in before and poses[x] != before[x]} | {*removed, *(item.id for item in added)}
@@ -307,23 +268,8 @@ class ContactGraph:
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
     ) -> ContactChange:
         """Let the finder update the contacts of these objects. Returns the change."""
-        finder = self._finder
-        if isinstance(finder, ContactFinder):
-            return self._store(finder.replace(moved, added, gone))
-        assert finder is not None
-        changes = finder.replace(moved, added, gone)
-        self._is_outdated = True
-        if self._junctions_shared:
-            self._current_junctions()
-        return self._record(*changes)
-
-    def _current_junctions(self) -> dict[Pair, Junction]:
-        """Return the junctions, updated if they are outdated."""
-        if self._is_outdated:
-            self._is_outdated = False
-            now = cast("TouchFinder", self._finder).junctions()
-            self._apply({**dict.fromkeys(self._junctions), **now})
-        return self._junctions
+        assert self._finder is not None
+        return self._store(self._finder.replace(moved, added, gone))
 
     def _pairs_of(self, object_id: str) -> list[Pair]:
         return [pair_of(object_id, other) for other in self._beside.get(object_id, ())]

@@ -11,15 +11,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from scene2hap.compiled import compiled
-from scene2hap.contact.geometry.vectors import Floats, Indices, Marks, Triple, dot
+from scene2hap.contact.geometry.vectors import Floats, Triple, dot
 
 MAX_POINTS = 4
 """Most contact points of one pair: the corners of a patch, few enough for a dense solve over a scene (assumed)."""
 
 _SPREAD_M = 0.005  # Points of a pair nearer than this count as one (assumed: the width of a chair's foot).
 _TIE_M = 1e-6  # Lengths this near count as equal, so that rounding does not choose between the corners of a square.
-# A skew direction, along which no two corners of a simple shape have equal coordinates, to break ties.
-_ASKEW = (0.6180339887, 0.2879190313)
 
 
 def spread(points: Floats, middle: Triple | None = None) -> list[int]:
@@ -86,39 +84,3 @@ def _least(names: Sequence[int], axes: Sequence[Sequence[float]]) -> int:
         limit = min([values[k] for k in left]) + _TIE_M
         left = [k for k in left if values[k] <= limit]
     return names[min(left, key=lambda k: [values[k] for values in axes])]
-
-
-def spread_each(points: Floats, counts: Marks) -> tuple[Indices, Marks]:
-    """Choose points in n sets at once, from points (3, k, n) [m] of which `counts` (k, n) marks the valid ones.
-
-    Returns the chosen rows (`MAX_POINTS`, n), and marks which of them are valid. The middle is that of the AABB of the
-    points, since numpy's sum would depend on the number of sets.
-    """
-    columns, every = np.arange(points.shape[2]), points.reshape(3, -1)
-    low, high = np.where(counts, points, np.inf).min(axis=1), np.where(counts, points, -np.inf).max(axis=1)
-    some = counts.any(axis=0)
-    middle = np.where(some, low, 0.0) / 2 + np.where(some, high, 0.0) / 2
-    key = points[0] + _ASKEW[0] * points[1] + _ASKEW[1] * points[2]
-    rows, kept = np.zeros((MAX_POINTS, len(columns)), dtype=np.intp), np.zeros((MAX_POINTS, len(columns)), dtype=bool)
-    # Invalid points get a distance below all others.
-    apart = np.where(counts, _distances(points, middle), -1.0)
-    farthest, more = apart.max(axis=0), some
-    for k in range(MAX_POINTS):
-        rows[k] = np.where(apart >= farthest - _TIE_M, key, np.inf).argmin(axis=0)
-        kept[k] = more
-        if k + 1 == MAX_POINTS or not more.any():
-            break
-        away = _distances(points, every.take(rows[k] * len(columns) + columns, axis=1))
-        apart = np.minimum(apart, away) if k else np.where(counts, away, -1.0)
-        farthest = apart.max(axis=0)
-        more = more & (farthest > _SPREAD_M)
-    return rows, kept
-
-
-def _distances(points: Floats, places: Floats) -> Floats:
-    away = points - places[:, None]
-    away *= away
-    lengths: Floats = away[0]
-    lengths += away[1]
-    lengths += away[2]
-    return np.sqrt(lengths, out=lengths)

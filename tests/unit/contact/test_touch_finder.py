@@ -1,4 +1,4 @@
-"""A stated tolerance: tables of poses, added and removed objects, and records made on demand."""
+"""A stated tolerance: tables of poses, added and removed objects, views."""
 
 import numpy as np
 import pytest
@@ -84,7 +84,7 @@ def test_tables_of_several_sets_of_ids_may_take_turns() -> None:
     assert graph.pose("b03") == expected["b03"]
 
 
-def test_a_new_object_may_take_the_column_of_a_removed_one() -> None:
+def test_a_new_object_may_take_the_place_of_a_removed_one() -> None:
     graph = ContactGraph(scene(floor(), *boxes_at(*heap(5))), tolerance_m=0.01)
     change = graph.update({}, removed=IDS, added=[on_floor("new", (0.2, 0.2, 0.2), 0, 0)])
     assert change.appeared == {("floor", "new")}

@@ -1,1 +1,0 @@
-"""Contacts within one stated tolerance, all pairs at once in numpy."""
