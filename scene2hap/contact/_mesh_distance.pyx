@@ -244,13 +244,19 @@ cdef void place_face(Tree* tree, Py_ssize_t leaf, Box* box) noexcept:
     face.is_measured = False
 
 
-cdef inline const Face* face_of(Tree* tree, Py_ssize_t leaf) noexcept:
+cdef inline Py_ssize_t column_of(const Tree* tree, Py_ssize_t node) noexcept:
+    """Return the column of a leaf's triangle in its shape, -1 for an empty leaf."""
+    return tree.columns[node - tree.n_leaves + 1]
+
+
+cdef inline const Face* face_of(Tree* tree, Py_ssize_t node) noexcept:
     """Return the triangle of a leaf in the frame of the search. `box_of` must have visited the leaf before."""
+    cdef Py_ssize_t leaf = node - tree.n_leaves + 1
     cdef Face* face = tree.faces + leaf
     if not tree.is_placed:
-        if tree.is_known[tree.n_leaves - 1 + leaf]:
+        if tree.is_known[node]:
             return face
-        tree.is_known[tree.n_leaves - 1 + leaf] = True
+        tree.is_known[node] = True
         memcpy(&face.corners, tree.corners + 9 * leaf, 9 * sizeof(double))
         face.is_measured = False
     if not face.is_measured:
@@ -507,8 +513,14 @@ cdef enum:
     HEIGHT = 4  # of the nodes of a patch, 16 triangles each: in real scenes 2 and 3 take longer
 
 
+cdef struct Nodes:
+    Py_ssize_t guest, host
+    const Box* of_guest
+    const Box* of_host
+
+
 cdef struct Patch:
-    Py_ssize_t guest, host  # two nodes
+    Nodes nodes
     Box around              # a box around the middles of their contact points
     double most_apart2      # upper bound of the squared distance of such a point from the nearest place
 
@@ -547,64 +559,66 @@ cdef struct Search:
     double* each          # NULL if only the least is needed
 
 
-cdef void descend(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
-    """Visit the pairs of leaves below two nodes whose boxes are within reach, the nearer child first."""
-    cdef const Box* box_g = box_of(&search.guest, g)
-    cdef const Box* box_h = box_of(&search.host, h)
-    cdef double near, far
-    cdef bint split_guest, swap
-    cdef bint is_leaf_g = g >= search.guest.n_leaves - 1, is_leaf_h = h >= search.host.n_leaves - 1
-    if is_leaf_g and is_leaf_h:
-        visit(search, g - search.guest.n_leaves + 1, h - search.host.n_leaves + 1)
+cdef inline Nodes roots_of(Search* search) noexcept:
+    return Nodes(0, 0, box_of(&search.guest, 0), box_of(&search.host, 0))
+
+
+cdef inline bint halve(Nodes* halves, Search* search, const Nodes* whole, int height) noexcept:
+    """Replace the longer of two nodes by its children. Returns False if both are at this height or below."""
+    cdef bint is_low_g = whole.guest >= (search.guest.n_leaves >> height) - 1
+    cdef bint is_low_h = whole.host >= (search.host.n_leaves >> height) - 1
+    cdef int k
+    if is_low_g and is_low_h:
+        return False
+    halves[0] = halves[1] = whole[0]
+    if is_low_h or (not is_low_g and longest(whole.of_guest) > longest(whole.of_host)):
+        for k in range(2):
+            halves[k].guest = 2 * whole.guest + 1 + k
+            halves[k].of_guest = box_of(&search.guest, halves[k].guest)
+    else:
+        for k in range(2):
+            halves[k].host = 2 * whole.host + 1 + k
+            halves[k].of_host = box_of(&search.host, halves[k].host)
+    return True
+
+
+cdef inline double longest(const Box* box) noexcept:
+    return greater(greater(box.high[0] - box.low[0], box.high[1] - box.low[1]), box.high[2] - box.low[2])
+
+
+cdef void descend(Search* search, const Nodes* nodes) noexcept:
+    """Visit the pairs of leaves below two nodes whose boxes are within reach, the nearer half first."""
+    cdef Nodes halves[2]
+    cdef double apart2[2]
+    cdef int k
+    if not halve(halves, search, nodes, 0):
+        visit(search, nodes)
         return
-    split_guest = is_leaf_h or (not is_leaf_g and longest(box_g) > longest(box_h))
-    if split_guest:
-        near = squared_distance(box_of(&search.guest, 2 * g + 1), box_h)
-        far = squared_distance(box_of(&search.guest, 2 * g + 2), box_h)
-    else:
-        near = squared_distance(box_of(&search.host, 2 * h + 1), box_g)
-        far = squared_distance(box_of(&search.host, 2 * h + 2), box_g)
-    swap = far < near
-    if swap:
-        near, far = far, near
-    if near <= reach2(search):
-        if split_guest:
-            descend(search, 2 * g + 1 + swap, h)
-        else:
-            descend(search, g, 2 * h + 1 + swap)
-    if far <= reach2(search):
-        if split_guest:
-            descend(search, 2 * g + 2 - swap, h)
-        else:
-            descend(search, g, 2 * h + 2 - swap)
+    for k in range(2):
+        apart2[k] = squared_distance(halves[k].of_guest, halves[k].of_host)
+    k = apart2[1] < apart2[0]
+    if apart2[k] <= reach2(search):
+        descend(search, &halves[k])
+    if apart2[1 - k] <= reach2(search):
+        descend(search, &halves[1 - k])
 
 
-cdef void find_patches(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
+cdef void find_patches(Search* search, const Nodes* nodes) noexcept:
     """Find the pairs of small nodes below two nodes whose boxes are within reach, those far from the place first."""
-    cdef const Box* box_g = box_of(&search.guest, g)
-    cdef const Box* box_h = box_of(&search.host, h)
-    cdef const Box* one
-    cdef const Box* other
-    cdef double reach = search.within + ROUNDING_M
-    cdef bint is_small_g = g >= (search.guest.n_leaves >> HEIGHT) - 1
-    cdef bint is_small_h = h >= (search.host.n_leaves >> HEIGHT) - 1
-    cdef bint swap
-    if is_small_g and is_small_h:
-        add_patch(search, g, h)
-    elif is_small_h or (not is_small_g and longest(box_g) > longest(box_h)):
-        one, other = box_of(&search.guest, 2 * g + 1), box_of(&search.guest, 2 * g + 2)
-        swap = most_apart2(other, search.places[0]) > most_apart2(one, search.places[0])
-        for _ in range(2):
-            if is_within(other if swap else one, box_h, reach):
-                find_patches(search, 2 * g + 1 + swap, h)
-            swap = not swap
+    cdef Nodes halves[2]
+    cdef const double* place = search.places[0]
+    cdef int k
+    if not halve(halves, search, nodes, HEIGHT):
+        add_patch(search, nodes)
+        return
+    if halves[0].host == halves[1].host:
+        k = most_apart2(halves[1].of_guest, place) > most_apart2(halves[0].of_guest, place)
     else:
-        one, other = box_of(&search.host, 2 * h + 1), box_of(&search.host, 2 * h + 2)
-        swap = most_apart2(other, search.places[0]) > most_apart2(one, search.places[0])
-        for _ in range(2):
-            if is_within(other if swap else one, box_g, reach):
-                find_patches(search, g, 2 * h + 1 + swap)
-            swap = not swap
+        k = most_apart2(halves[1].of_host, place) > most_apart2(halves[0].of_host, place)
+    for _ in range(2):
+        if is_within(halves[k].of_guest, halves[k].of_host, search.within + ROUNDING_M):
+            find_patches(search, &halves[k])
+        k = 1 - k
 
 
 cdef inline double most_apart2(const Box* box, const double* place) noexcept:
@@ -617,10 +631,10 @@ cdef inline double most_apart2(const Box* box, const double* place) noexcept:
     return total
 
 
-cdef void add_patch(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
+cdef void add_patch(Search* search, const Nodes* nodes) noexcept:
     """Measure a patch if it may have a farther point than those found; else keep it for later."""
-    cdef const Box* a = box_of(&search.guest, g)
-    cdef const Box* b = box_of(&search.host, h)
+    cdef const Box* a = nodes.of_guest
+    cdef const Box* b = nodes.of_host
     cdef Patch patch
     cdef Patch* patches
     cdef double reach = search.within + ROUNDING_M
@@ -633,9 +647,9 @@ cdef void add_patch(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
         patch.around.high[axis] = (
             lesser(a.high[axis], b.high[axis] + reach) + lesser(b.high[axis], a.high[axis] + reach) - search.way[axis]
         ) / 2
-    patch.guest, patch.host, patch.most_apart2 = g, h, most_apart2(&patch.around, search.places[0])
+    patch.nodes, patch.most_apart2 = nodes[0], most_apart2(&patch.around, search.places[0])
     if is_promising(search, &patch):
-        measure_patch(search, g, h)
+        measure_patch(search, nodes)
         return
     if search.n_patches == search.patch_capacity:
         search.patch_capacity = 2 * search.patch_capacity + 64
@@ -654,27 +668,16 @@ cdef inline bint is_promising(const Search* search, const Patch* patch) noexcept
     return patch.most_apart2 >= greater(search.most - TIE_M - ROUNDING_M, 0.0) ** 2
 
 
-cdef void measure_patch(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
+cdef void measure_patch(Search* search, const Nodes* nodes) noexcept:
     """Collect the contact points below two nodes."""
-    cdef const Box* box_g = box_of(&search.guest, g)
-    cdef const Box* box_h = box_of(&search.host, h)
-    cdef double reach = search.within + ROUNDING_M
+    cdef Nodes halves[2]
     cdef int k
-    cdef bint is_leaf_g = g >= search.guest.n_leaves - 1, is_leaf_h = h >= search.host.n_leaves - 1
-    if is_leaf_g and is_leaf_h:
-        collect(search, g - search.guest.n_leaves + 1, h - search.host.n_leaves + 1)
-    elif is_leaf_h or (not is_leaf_g and longest(box_g) > longest(box_h)):
-        for k in range(1, 3):
-            if is_within(box_of(&search.guest, 2 * g + k), box_h, reach):
-                measure_patch(search, 2 * g + k, h)
-    else:
-        for k in range(1, 3):
-            if is_within(box_of(&search.host, 2 * h + k), box_g, reach):
-                measure_patch(search, g, 2 * h + k)
-
-
-cdef inline double longest(const Box* box) noexcept:
-    return greater(greater(box.high[0] - box.low[0], box.high[1] - box.low[1]), box.high[2] - box.low[2])
+    if not halve(halves, search, nodes, 0):
+        collect(search, nodes)
+        return
+    for k in range(2):
+        if is_within(halves[k].of_guest, halves[k].of_host, search.within + ROUNDING_M):
+            measure_patch(search, &halves[k])
 
 
 cdef inline double reach2(const Search* search) noexcept:
@@ -682,11 +685,11 @@ cdef inline double reach2(const Search* search) noexcept:
     return -1.0 if search.is_full else reach * reach
 
 
-cdef void visit(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noexcept:
+cdef void visit(Search* search, const Nodes* leaves) noexcept:
     cdef Meetings found
-    meet(&found, face_of(&search.guest, leaf_g), face_of(&search.host, leaf_h), search.best)
+    meet(&found, face_of(&search.guest, leaves.guest), face_of(&search.host, leaves.host), search.best)
     if found.n:
-        compare(search, &found, search.guest.columns[leaf_g], search.host.columns[leaf_h])
+        compare(search, &found, column_of(&search.guest, leaves.guest), column_of(&search.host, leaves.host))
 
 
 cdef void compare(Search* search, const Meetings* found, Py_ssize_t i, Py_ssize_t j) noexcept:
@@ -708,14 +711,14 @@ cdef void compare(Search* search, const Meetings* found, Py_ssize_t i, Py_ssize_
     search.is_full = distance <= ROUNDING_M
 
 
-cdef void collect(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noexcept:
+cdef void collect(Search* search, const Nodes* leaves) noexcept:
     """Add the contact points of a pair of triangles."""
     cdef Meetings found
     cdef double[6] ends
     cdef double[3] middle
     cdef double apart
     cdef int row, axis, k
-    meet(&found, face_of(&search.guest, leaf_g), face_of(&search.host, leaf_h), search.within)
+    meet(&found, face_of(&search.guest, leaves.guest), face_of(&search.host, leaves.host), search.within)
     for row in range(found.n):
         if found.distance[row] > search.within:
             continue
@@ -775,12 +778,14 @@ cdef void close(Search* search) noexcept:
 
 def closest_points(host, guest, turn, shift, double within):
     cdef Search search
+    cdef Nodes roots
     memset(&search, 0, sizeof(Search))
     try:
         start(&search, host, guest, turn, shift, within)
         if search.guest.m and search.host.m:
-            if squared_distance(box_of(&search.guest, 0), box_of(&search.host, 0)) <= reach2(&search):
-                descend(&search, 0, 0)
+            roots = roots_of(&search)
+            if squared_distance(roots.of_guest, roots.of_host) <= reach2(&search):
+                descend(&search, &roots)
     finally:
         close(&search)
     if search.best_guest < 0:
@@ -821,14 +826,16 @@ cdef int choose(double[6]* chosen, Search* search) noexcept:
     chosen, -1 without memory.
     """
     cdef double least = -1.0
+    cdef Nodes roots
     cdef Py_ssize_t row
     cdef Patch* patch
     cdef int count, axis
     search.n_places, search.most = 1, least
     if not (search.guest.m and search.host.m):
         return 0
-    if is_within(box_of(&search.guest, 0), box_of(&search.host, 0), search.within + ROUNDING_M):
-        find_patches(search, 0, 0)
+    roots = roots_of(search)
+    if is_within(roots.of_guest, roots.of_host, search.within + ROUNDING_M):
+        find_patches(search, &roots)
     search.n_left, search.heap = search.n_patches, <Patch**>malloc((search.n_patches + 1) * sizeof(Patch*))
     if search.heap == NULL:
         return -1
@@ -843,7 +850,7 @@ cdef int choose(double[6]* chosen, Search* search) noexcept:
             search.n_left -= 1
             search.heap[0] = search.heap[search.n_left]
             sift_down(search, 0)
-            measure_patch(search, patch.guest, patch.host)
+            measure_patch(search, &patch.nodes)
         if search.is_out_of_memory:
             return -1
         if search.most <= least:
@@ -941,6 +948,7 @@ cdef double search_drops(
 ) except? -1:
     """Return the least fall distance, at least -touch, inf for none. Those up to `later` above it go into `each`."""
     cdef Search search
+    cdef Nodes roots
     cdef Placement at = placement_of(turn, shift), upright = placement_of(frame, (0.0, 0.0, 0.0)), placed
     memset(&search, 0, sizeof(Search))
     try:
@@ -951,8 +959,9 @@ cdef double search_drops(
         search.bottom += search.reach
         search.guest_falls, search.first, search.later, search.each = guest_falls, INFINITY, later, each
         if search.guest.m and search.host.m:
-            if fall(&search, box_of(&search.guest, 0), box_of(&search.host, 0)) < INFINITY:
-                drop_down(&search, 0, 0)
+            roots = roots_of(&search)
+            if fall(&search, &roots) < INFINITY:
+                drop_down(&search, &roots)
     finally:
         close(&search)
     return search.first
@@ -973,10 +982,10 @@ cdef inline double most_fall(const Search* search) noexcept:
     return lesser(search.reach, search.first + search.later) + ROUNDING_M
 
 
-cdef inline double fall(const Search* search, const Box* of_guest, const Box* of_host) noexcept:
-    """Return a lower bound of the fall distance between the contents of two boxes, inf if surely too large."""
-    cdef const Box* p = of_guest if search.guest_falls else of_host
-    cdef const Box* q = of_host if search.guest_falls else of_guest
+cdef inline double fall(const Search* search, const Nodes* nodes) noexcept:
+    """Return a lower bound of the fall distance between the contents of two nodes, inf if surely too large."""
+    cdef const Box* p = nodes.of_guest if search.guest_falls else nodes.of_host
+    cdef const Box* q = nodes.of_host if search.guest_falls else nodes.of_guest
     if (
         p.low[2] <= search.bottom + ROUNDING_M
         and p.low[0] <= q.high[0] + ROUNDING_M and q.low[0] <= p.high[0] + ROUNDING_M
@@ -987,49 +996,31 @@ cdef inline double fall(const Search* search, const Box* of_guest, const Box* of
     return INFINITY
 
 
-cdef void drop_down(Search* search, Py_ssize_t g, Py_ssize_t h) noexcept:
-    """Visit the pairs of leaves below two nodes that may fall onto each other, the child with the least fall first."""
-    cdef const Box* box_g = box_of(&search.guest, g)
-    cdef const Box* box_h = box_of(&search.host, h)
-    cdef bint is_leaf_g = g >= search.guest.n_leaves - 1, is_leaf_h = h >= search.host.n_leaves - 1, swap
-    cdef bint split_guest = is_leaf_h or (not is_leaf_g and longest(box_g) > longest(box_h))
-    cdef double first, second
-    if is_leaf_g and is_leaf_h:
-        visit_drops(search, g - search.guest.n_leaves + 1, h - search.host.n_leaves + 1)
+cdef void drop_down(Search* search, const Nodes* nodes) noexcept:
+    """Visit the pairs of leaves below two nodes that may fall onto each other, the half with the least fall first."""
+    cdef Nodes halves[2]
+    cdef double falls[2]
+    cdef int k
+    if not halve(halves, search, nodes, 0):
+        visit_drops(search, nodes)
         return
-    if split_guest:
-        first = fall(search, box_of(&search.guest, 2 * g + 1), box_h)
-        second = fall(search, box_of(&search.guest, 2 * g + 2), box_h)
-    else:
-        first = fall(search, box_g, box_of(&search.host, 2 * h + 1))
-        second = fall(search, box_g, box_of(&search.host, 2 * h + 2))
-    swap = second < first
-    if swap:
-        first, second = second, first
-    if first < INFINITY:
-        if split_guest:
-            drop_down(search, 2 * g + 1 + swap, h)
-        else:
-            drop_down(search, g, 2 * h + 1 + swap)
-    if second <= most_fall(search):
-        if split_guest:
-            drop_down(search, 2 * g + 2 - swap, h)
-        else:
-            drop_down(search, g, 2 * h + 2 - swap)
+    for k in range(2):
+        falls[k] = fall(search, &halves[k])
+    k = falls[1] < falls[0]
+    if falls[k] <= most_fall(search):
+        drop_down(search, &halves[k])
+    if falls[1 - k] <= most_fall(search):
+        drop_down(search, &halves[1 - k])
 
 
-cdef void visit_drops(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noexcept:
-    cdef const Face* p
-    cdef const Face* q
-    cdef const Box* around
+cdef void visit_drops(Search* search, const Nodes* leaves) noexcept:
+    cdef const Face* of_guest = face_of(&search.guest, leaves.guest)
+    cdef const Face* of_host = face_of(&search.host, leaves.host)
+    cdef const Face* p = of_guest if search.guest_falls else of_host
+    cdef const Face* q = of_host if search.guest_falls else of_guest
+    cdef const Box* around = leaves.of_guest if search.guest_falls else leaves.of_host
     cdef Py_ssize_t column
     cdef double least = INFINITY, most = -INFINITY
-    if search.guest_falls:
-        p, q, column = face_of(&search.guest, leaf_g), face_of(&search.host, leaf_h), search.guest.columns[leaf_g]
-        around = box_of(&search.guest, leaf_g + search.guest.n_leaves - 1)
-    else:
-        p, q, column = face_of(&search.host, leaf_h), face_of(&search.guest, leaf_g), search.host.columns[leaf_h]
-        around = box_of(&search.host, leaf_h + search.host.n_leaves - 1)
     if not q.is_level or around.low[2] > search.bottom:
         return
     if not (measure_corners(&least, &most, p, q, 1.0) and measure_corners(&least, &most, q, p, -1.0)):
@@ -1039,5 +1030,9 @@ cdef void visit_drops(Search* search, Py_ssize_t leaf_g, Py_ssize_t leaf_h) noex
         if least < -search.touch:
             least = 0.0
         if search.each != NULL:
+            if search.guest_falls:
+                column = column_of(&search.guest, leaves.guest)
+            else:
+                column = column_of(&search.host, leaves.host)
             search.each[column] = lesser(search.each[column], least)
         search.first = lesser(search.first, least)
