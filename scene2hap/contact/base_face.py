@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.contact.geometry.spread import spread, spread_few
-from scene2hap.contact.geometry.vectors import Floats, Triple, along, frame_along, highest
+from scene2hap.contact.geometry.vectors import Floats, Triple, along, highest, upright_frame
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
@@ -92,7 +92,7 @@ def across(up: Triple) -> Triple:
 
 def _frame(up: Triple) -> tuple[Floats, Floats]:
     """Return the unit vector (3,) along `up`, and two perpendicular ones as columns (3, 2)."""
-    frame = frame_along(up)
+    frame = np.array(upright_frame(up))
     return frame[2], frame[:2].T.copy()
 
 

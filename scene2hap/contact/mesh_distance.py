@@ -27,7 +27,17 @@ from scene2hap.compiled import compiled
 from scene2hap.contact.geometry.broad import Boxes, box_pairs
 from scene2hap.contact.geometry.spread import spread
 from scene2hap.contact.geometry.triangles import clearances, heights, meetings
-from scene2hap.contact.geometry.vectors import Floats, Indices, Rows, Triple, cross, dot, rotated, transposed
+from scene2hap.contact.geometry.vectors import (
+    Floats,
+    Indices,
+    Rows,
+    Triple,
+    cross,
+    dot,
+    rotated,
+    transposed,
+    upright_frame,
+)
 from scene2hap.contact.shape import Shape, boxes_of
 
 ROUNDING_M = 1e-9
@@ -275,23 +285,6 @@ def _product(one: Rows, other: Rows) -> Rows:
     """Return the matrix product."""
     columns = transposed(other)
     return (rotated(columns, one[0]), rotated(columns, one[1]), rotated(columns, one[2]))
-
-
-def upright_frame(up: Triple) -> Rows:
-    """Return an orthonormal frame as rows: two directions perpendicular to `up`, and `up`."""
-    x, y, z = up
-    length = math.sqrt(x * x + y * y + z * z)
-    x, y, z = x / length, y / length, z / length
-    # Perpendicular to the axis that is farthest from up, which keeps the length from 0.
-    if abs(x) <= abs(y) and abs(x) <= abs(z):
-        a, b, c = 0.0, z, -y
-    elif abs(y) <= abs(z):
-        a, b, c = -z, 0.0, x
-    else:
-        a, b, c = y, -x, 0.0
-    length = math.sqrt(a * a + b * b + c * c)
-    a, b, c = a / length, b / length, c / length
-    return ((a, b, c), (y * c - z * b, z * a - x * c, x * b - y * a), (x, y, z))
 
 
 def _triple(point: Floats) -> Triple:

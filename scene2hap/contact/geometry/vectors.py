@@ -60,16 +60,21 @@ def highest(rows: Floats) -> Floats:
     return found
 
 
-def frame_along(up: Triple) -> Floats:
-    """Return an orthonormal frame (3, 3) as rows: two directions perpendicular to `up`, and `up`."""
-    length = math.hypot(*up)
-    x, y, z = (edge / length for edge in up)
-    # Perpendicular to the axis that is farthest from up. Spelled out, since numpy is slow for six numbers.
-    axis = min(range(3), key=lambda k: abs((x, y, z)[k]))
-    a, b, c = ((0.0, z, -y), (-z, 0.0, x), (y, -x, 0.0))[axis]
-    length = math.hypot(a, b, c)
+def upright_frame(up: Triple) -> Rows:
+    """Return an orthonormal frame as rows: two directions perpendicular to `up`, and `up`."""
+    x, y, z = up
+    length = math.sqrt(x * x + y * y + z * z)
+    x, y, z = x / length, y / length, z / length
+    # Perpendicular to the axis that is farthest from up, which keeps the length from 0.
+    if abs(x) <= abs(y) and abs(x) <= abs(z):
+        a, b, c = 0.0, z, -y
+    elif abs(y) <= abs(z):
+        a, b, c = -z, 0.0, x
+    else:
+        a, b, c = y, -x, 0.0
+    length = math.sqrt(a * a + b * b + c * c)
     a, b, c = a / length, b / length, c / length
-    return np.array([[a, b, c], [y * c - z * b, z * a - x * c, x * b - y * a], [x, y, z]])
+    return ((a, b, c), (y * c - z * b, z * a - x * c, x * b - y * a), (x, y, z))
 
 
 def rotated(rows: Rows, point: Triple) -> Triple:

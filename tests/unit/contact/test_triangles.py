@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog, nnls
 
 from scene2hap.contact.geometry.triangles import Meetings, clearances, heights, meetings
-from scene2hap.contact.mesh_distance import upright_frame
+from scene2hap.contact.geometry.vectors import upright_frame
 
 Floats = NDArray[np.float64]
 

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from kernels import both, seeds, steady
 from scene2hap.contact.body import Body
-from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair, upright_frame
+from scene2hap.contact.geometry.vectors import upright_frame
+from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
 from scene2hap.contact.shape import shape_of
 from scene2hap.contact.stance import Stance
 from scene2hap.contact.track import Standing
