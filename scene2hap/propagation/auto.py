@@ -31,7 +31,14 @@ from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody, Joint
 from scene2hap.propagation.coupled.hand import Hand, checked_hand
 from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble, checked_law
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, off_zero, warn_if_thick
+from scene2hap.propagation.domain import (
+    THIN_WAVELENGTHS,
+    OutsideDomain,
+    as_frequencies,
+    floored_loss,
+    off_zero,
+    warn_if_thick,
+)
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
@@ -83,7 +90,7 @@ class AutoFidelity:
         for object_id in sorted(scene.plates):
             choices[object_id] = self._situation(scene, object_id).choose(object_id, self.tolerance_db)
         elastic = {
-            key: body_of(choices[key].rung, plate, scene.top_hz, self._loss_factor(plate))
+            key: body_of(choices[key].rung, plate, scene.top_hz, floored_loss(plate, self.loss_floor))
             for key, plate in scene.plates.items()
         }
         solved = scene.solve(elastic, self._density(), self.hand)
@@ -98,13 +105,13 @@ class AutoFidelity:
 
     def choose(self, plate: Plate, max_frequency_hz: float) -> Choice:
         """Choose the model of a single plate, for frequencies up to `max_frequency_hz` [Hz]."""
-        situation = Situation(plate, self._loss_factor(plate), max_frequency_hz)
+        situation = Situation(plate, floored_loss(plate, self.loss_floor), max_frequency_hz)
         return situation.choose("plate", self.tolerance_db, may_be_infinite=False)
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; of the rung of `choose`."""
         rung = self.choose(plate, max_frequency_hz).rung
-        return body_of(rung, plate, max_frequency_hz, self._loss_factor(plate))
+        return body_of(rung, plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
@@ -150,7 +157,7 @@ class AutoFidelity:
 
     def _situation(self, scene: Assembly, object_id: str) -> Situation:
         plate = scene.plates[object_id]
-        situation = Situation(plate, self._loss_factor(plate), scene.top_hz)
+        situation = Situation(plate, floored_loss(plate, self.loss_floor), scene.top_hz)
         mass_kg = {item.source_id: item.mass_kg for item in scene.excitations}
         joints = [one for _, several in scene.groups for one in several if object_id in (one.a, one.b)]
         pushing: dict[str, list[Joint]] = {}
@@ -173,12 +180,3 @@ class AutoFidelity:
         """Density of frequencies relative to that of `sampling`, for a share of the tolerance."""
         spacing = math.pi / math.log(2 / (10 ** (SAMPLING_SHARE * self.tolerance_db / 10) - 1))
         return min(1.0, SPACING / min(spacing, 1.0))
-
-    def _loss_factor(self, plate: Plate) -> float:
-        eta = max(plate.material.loss_factor, self.loss_floor)
-        if eta == 0:
-            raise ModelDomainError(
-                f"material {plate.material.name!r} has a loss factor of 0 and so has loss_floor; a resonance would be "
-                "infinite. Give one of them a value above 0; 0.01 suits assembled objects."
-            )
-        return eta

@@ -74,6 +74,20 @@ def off_zero(plate: Plate, frequencies_hz: NDArray[np.float64]) -> NDArray[np.fl
     return off
 
 
+def floored_loss(plate: Plate, loss_floor: float) -> float:
+    """Return the loss factor of a plate, at least `loss_floor` [-].
+
+    Raises: ModelDomainError: both are 0, since a resonance is then infinite.
+    """
+    eta = max(plate.material.loss_factor, loss_floor)
+    if eta == 0:
+        raise ModelDomainError(
+            f"material {plate.material.name!r} has a loss factor of 0 and so has loss_floor; a resonance would be "
+            "infinite. Give one of them a value above 0; 0.01 suits assembled objects."
+        )
+    return eta
+
+
 def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:
     """Warn once per plate, by `ThinPlateWarning`, if six thicknesses exceed its wavelength at the top frequency."""
     require_plate(plate)

@@ -37,6 +37,7 @@ from scene2hap.propagation.domain import (
     OutsideDomain,
     as_frequencies,
     driven_on_held_edge,
+    floored_loss,
     off_zero,
     warn_if_thick,
 )
@@ -114,7 +115,7 @@ class MassSpringDamper:
         Raises: ModelDomainError: even its lowest modes are too many, or it is one and `outside_domain` is "raise".
         Warns: CoarsenedWarning, otherwise.
         """
-        eta, limit_hz = self._loss_factor(plate), max_frequency_hz
+        eta, limit_hz = floored_loss(plate, self.loss_floor), max_frequency_hz
         while self._is_too_much(plate, limit_hz) and limit_hz > LEAST_LIMIT_HZ:
             limit_hz *= 0.9
         is_coarsened = limit_hz < max_frequency_hz
@@ -217,7 +218,7 @@ class MassSpringDamper:
         return motion
 
     def _stepper(self, plate: Plate, modes: LatticeModes, dt_s: float, kind: str) -> Stepper:
-        omega, zeta = 2 * math.pi * modes.frequencies_hz, self._loss(plate) / 2
+        omega, zeta = 2 * math.pi * modes.frequencies_hz, max(plate.material.loss_factor, self.loss_floor) / 2
         if kind == "exact":
             return ExactStepper(omega, zeta, dt_s)
         if kind == "newmark":
@@ -228,21 +229,10 @@ class MassSpringDamper:
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
         f = off_zero(plate, f)
-        body = lattice_body(plate, self._fine_enough(plate, f), float(f.max(initial=0.0)), self._loss_factor(plate))
+        eta = floored_loss(plate, self.loss_floor)
+        body = lattice_body(plate, self._fine_enough(plate, f), float(f.max(initial=0.0)), eta)
         found: NDArray[np.complex128] = body.receptance(points_m, drive_m, f)[:, :, 0].T
         return found
-
-    def _loss_factor(self, plate: Plate) -> float:
-        eta = self._loss(plate)
-        if eta == 0:
-            raise ModelDomainError(
-                f"material {plate.material.name!r} has a loss factor of 0 and so has loss_floor; a resonance would be "
-                "infinite. Give one of them a value above 0; 0.01 suits assembled objects."
-            )
-        return eta
-
-    def _loss(self, plate: Plate) -> float:
-        return max(plate.material.loss_factor, self.loss_floor)
 
     def _fine_enough(self, plate: Plate, f: NDArray[np.float64]) -> int:
         """A resolution that serves these frequencies; refuses them where none does, and warns of a plate too thick."""

@@ -33,6 +33,7 @@ from scene2hap.propagation.domain import (
     OutsideDomain,
     as_frequencies,
     driven_on_held_edge,
+    floored_loss,
     off_zero,
     warn_if_thick,
 )
@@ -82,7 +83,7 @@ class ModalPlate:
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """Return a plate as a body that can be coupled to others up to `max_frequency_hz` [Hz]; see `modal_body`."""
         _require_rectangle(plate)
-        return modal_body(plate, max_frequency_hz, self._loss_factor(plate))
+        return modal_body(plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
 
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
@@ -123,7 +124,7 @@ class ModalPlate:
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
         _require_rectangle(plate)
-        eta = self._loss_factor(plate)
+        eta = floored_loss(plate, self.loss_floor)
         f = off_zero(plate, f)
         modes = plate_modes(plate, max_frequency_hz=MARGIN * float(f.max(initial=0.0)))
         k2 = plate.wavenumber_rad_m(f) ** 2 / np.sqrt(1 + 1j * eta)
@@ -134,15 +135,6 @@ class ModalPlate:
             answers = block.beyond(products(block.x, block.y, drive_m).T, k2**2)[:, 0]
             total += products(block.x, block.y, points_m) @ answers
         return total / (plate.bending_stiffness_nm * (1 + 1j * eta))
-
-    def _loss_factor(self, plate: Plate) -> float:
-        eta = max(plate.material.loss_factor, self.loss_floor)
-        if eta == 0:
-            raise ModelDomainError(
-                f"material {plate.material.name!r} has a loss factor of 0 and so has loss_floor; a resonance would be "
-                "infinite. Give one of them a value above 0; 0.01 suits assembled objects."
-            )
-        return eta
 
 
 def _held(plate: Plate, drive_m: NDArray[np.float64]) -> bool:
