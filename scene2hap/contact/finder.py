@@ -15,7 +15,7 @@ from scene2hap.contact.certificate import Certificate, junction_of
 from scene2hap.contact.certificates import Certificates
 from scene2hap.contact.holders import Holders
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.pair import BodyPair, apart_by
+from scene2hap.contact.pair import BodyPair, apart_by, beside_by
 from scene2hap.contact.rule import TOUCH_M, Support, margins_m
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
@@ -155,38 +155,22 @@ class ContactFinder:
 
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
         """Pair a body that moved with the bodies now near enough to touch it."""
-        x, bodies, unsupported, certificates, within_m = (
-            body.id,
-            self._bodies,
-            self._unsupported,
-            self._certificates.of,
-            TOUCH_M,
-        )
+        x, bodies, certificates, unsupported = body.id, self._bodies, self._certificates.of, self._unsupported
         body_pairs = self._body_pairs.setdefault(x, {})
-        (x0, x1, x2), (x3, x4, x5) = body.low, body.high
-        flat, upright = (2, 1) if self._up_axis == 1 else (1, 2)
-        if upright == 2:
-            x1, x2, x4, x5 = x2, x1, x5, x4
         for y in self._broad_phase.neighbours[x]:
             if y in certificates:
                 continue
-            other = bodies[y]
-            low, high = other.low, other.high
-            old = body_pairs.get(y)
-            if old is None and (
-                x0 - high[0] > within_m
-                or low[0] - x3 > within_m
-                or x2 - high[flat] > within_m
-                or low[flat] - x5 > within_m
-            ):
-                # Beside each other: neither can fall onto the other, and only unsupported bodies hang.
-                if y in unsupported and body.size_m > other.size_m:
+            other, old = bodies[y], body_pairs.get(y)
+            may_hang = y in unsupported and body.size_m > other.size_m
+            if old is None and beside_by(body, other, TOUCH_M):
+                # Neither can fall onto the other, and only unsupported bodies hang.
+                if may_hang:
                     recheck.add(y)
                 continue
             if y in seen:
                 continue
             body_pair = BodyPair.of(body, other)
-            if body_pair.rests == _NEITHER and (apart_by(body, other, within_m) or body_pair.has_nothing_near):
+            if body_pair.rests == _NEITHER and (apart_by(body, other, TOUCH_M) or body_pair.has_nothing_near):
                 if old is not None:
                     del body_pairs[y], self._body_pairs[y][x]
                     dirty.add(pair_of(x, y))
@@ -194,7 +178,6 @@ class ContactFinder:
                 body_pairs[y] = body_pair
                 self._body_pairs.setdefault(y, {})[x] = body_pair
                 dirty.add(pair_of(x, y))
-            may_hang = y in unsupported and body.size_m > other.size_m
             if may_hang or body_pair.rest(y) is not None or (old is not None and old.rest(y) is not None):
                 recheck.add(y)
 
