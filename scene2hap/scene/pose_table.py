@@ -17,7 +17,7 @@ _UNIT_TOLERANCE = 1e-9  # As in `Pose`: a rotation this close to unit length is 
 
 @clear_construction
 class PoseTable(Mapping[str, Pose]):
-    """A mapping from id to `Pose` that makes each pose on first access, for `ContactGraph.update` of many objects.
+    """A mapping from id to `Pose` over an engine's arrays, which makes each pose on first access.
 
     Parameters: ids : n ids, each once; positions_m : (n, 3) [m]; rotations_xyzw : (n, 4), quaternions in glTF order,
         normalised if they are not. The arrays are copied. Reading is fastest if tables share one tuple of ids.
