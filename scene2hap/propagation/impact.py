@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from scene2hap.materials import Material
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.rigid import COMPACT_THICKNESS
+from scene2hap.propagation.coupled.rigid import is_too_thick
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body
 
@@ -154,7 +154,7 @@ def _supported(plate: Plate, lasts_s: float) -> _Supported:
     Cached: the same objects land again and again on the same plates.
     """
     length, width = plate.extent_m
-    if plate.thickness_m > COMPACT_THICKNESS * min(length, width):
+    if is_too_thick(plate):
         return _Supported(np.empty(0), np.empty(0), np.empty((0, 0)), np.empty((3, 0)))
     lowest = math.pi / 2 / plate.wavenumber_per_root_omega**2
     # No more than a floor needs to have its strongest.

@@ -28,6 +28,7 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.hand import Hand, checked_hand
+from scene2hap.propagation.coupled.rigid import RigidMotion, is_stiff
 from scene2hap.propagation.coupled.substructuring import CoupledField, checked_law, prepare_coupled
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
 from scene2hap.propagation.plate import Plate
@@ -38,6 +39,9 @@ NEAREST_KR = 1e-4
 """Below this kr both terms of Pi grow without bound and their difference is 1 to 1e-8: it is then set to 1."""
 FARTHEST_KR = 1e8
 """The library routine for H0 gives up near 1e9; farther points answer as from here, where |Pi| is below 1e-4."""
+
+WAVELESS_HZ = 2000.0
+"""First mode above which a free plate has no waves up to 1 kHz: a rigid body is nearer to it than an infinite plate."""
 
 _FARTHEST_M = 1e9
 
@@ -103,8 +107,10 @@ class InfinitePlate:
             network, excitations, bands, self.elastic_body, self.contact, self.outside_domain, hand=self.hand
         )
 
-    def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody:
-        """Return a plate as a body that can be coupled to others at any frequency."""
+    def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody | RigidMotion:
+        """Return a plate as a body that can be coupled to others at any frequency; one without waves as rigid."""
+        if plate.edges == "FFFF" and is_stiff(plate, WAVELESS_HZ):
+            return RigidMotion.of(plate, plate.moving_mass_kg, rocks=True)
         return InfiniteBody(plate, plate.material.loss_factor)
 
     def plate_transfer(

@@ -19,25 +19,35 @@ from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
 
-COMPACT_THICKNESS = 1 / 5
-"""Part of the shorter side above which a thickness makes a body compact; thin-plate theory is far gone by then."""
-COMPACT_HZ = 2000.0
-"""First mode above which a free body is rigid in all that a hand feels, up to 1 kHz."""
+_THICK, _THICK_BAR = 1 / 5, 1 / 10
+"""Parts of the shorter and of the longer side above which a plate is too thick to bend: thin-plate theory is far gone
+by then. A narrow bar bends along its length as long as it is slender."""
+COMPACT_HZ = 10_000.0
+"""First mode above which a free body is rigid in all that a hand feels, up to 1 kHz. Below, a small plate yields about
+as much as its contacts, which shifts resonances: one with a first mode at 2-5 kHz would err by 1-12 dB at the 95th
+percentile (docs/figures/accuracy.md)."""
+
+
+def is_too_thick(plate: Plate) -> bool:
+    """Whether a plate is a block that does not bend along either side."""
+    shorter, longer = sorted(plate.extent_m)
+    return plate.thickness_m > max(_THICK * shorter, _THICK_BAR * longer)
+
+
+def is_stiff(plate: Plate, above_hz: float) -> bool:
+    """Whether the first mode of a free plate is above a frequency [Hz]."""
+    # The first mode of a free beam along the longer side is a trial deflection, so the plate's lies below (Rayleigh).
+    longer = max(plate.extent_m)
+    if 22.374 / (longer * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi) < above_hz:
+        return False
+    return first_bending_hz(plate) > above_hz
 
 
 @lru_cache(maxsize=4096)
 def is_compact(plate: Plate) -> bool:
     """Whether a plate is so stiff that it moves as a whole. One that is held at an edge would not move at all, and is
     left as the stiff plate that it is."""
-    if plate.edges != "FFFF":
-        return False
-    if plate.thickness_m > COMPACT_THICKNESS * min(plate.length_m, plate.width_m):
-        return True
-    # The first mode of a free beam along the longer side is a trial deflection, so the plate's lies below (Rayleigh).
-    longer = max(plate.length_m, plate.width_m)
-    if 22.374 / (longer * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi) < COMPACT_HZ:
-        return False
-    return first_bending_hz(plate) > COMPACT_HZ
+    return plate.edges == "FFFF" and (is_too_thick(plate) or is_stiff(plate, COMPACT_HZ))
 
 
 @dataclass(frozen=True, eq=False)

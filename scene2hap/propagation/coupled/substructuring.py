@@ -106,8 +106,9 @@ class Assembly:
     def _inclined(self, object_id: str, bending: ElasticBody | None) -> InclinedBody:
         plate, rigid = self.network.bodies[object_id], self.rigid.get(object_id)
         assert isinstance(plate, Plate)
-        mass_kg = None if rigid is None else rigid.mass_kg
-        return inclined(plate, None if isinstance(bending, RigidMotion) else bending, mass_kg)
+        if isinstance(bending, RigidMotion):
+            rigid, bending = bending, None
+        return inclined(plate, bending, None if rigid is None else rigid.mass_kg)
 
 
 def assemble(

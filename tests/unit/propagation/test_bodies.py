@@ -26,8 +26,9 @@ from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled import byte_bounded_lru
 from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.rigid import is_compact
+from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.split_body import SplitBody
+from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modal_body import ModalBody
 from scene2hap.propagation.modes import first_bending_hz
 
@@ -40,13 +41,37 @@ OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "cera
         (Plate(1.2, 0.7, 0.025, OAK), False),
         (Plate(0.5, 0.3, 0.061, OAK), True),  # thicker than a fifth of the shorter side
         (Plate(0.5, 0.3, 0.059, OAK), False),
-        (Plate(0.09, 0.08, 0.012, CERAMIC), True),  # first mode above 2 kHz
+        (Plate(1.0, 0.09, 0.02, OAK), False),  # thicker than that, but a slender bar
+        (Plate(0.09, 0.08, 0.012, CERAMIC), False),
+        (Plate(0.04, 0.03, 0.005, CERAMIC), True),  # first mode above 10 kHz
         (Plate(0.3, 0.3, 0.002, STEEL), False),
-        (Plate(0.09, 0.08, 0.012, CERAMIC, "CFFF"), False),  # held: it would not move at all
+        (Plate(0.04, 0.03, 0.005, CERAMIC, "CFFF"), False),  # held: it would not move at all
     ],
 )
 def test_compact_bodies(plate: Plate, compact: bool) -> None:
     assert is_compact(plate) == compact
+
+
+def test_a_narrow_bar_resonates_as_a_beam_does() -> None:
+    length, thickness = 1.0, 0.02
+    bar = Plate(length, 0.09, thickness, OAK)
+    E, density = OAK.youngs_modulus_pa, OAK.density_kg_m3
+    # Free at both ends: (k L)^2 = 22.373; Blevins, Formulas for Natural Frequency and Mode Shape, table 8-1.
+    beam_hz = 22.373 / (2 * math.pi * length**2) * math.sqrt(E * thickness**2 / (12 * density))
+    frequencies = beam_hz * np.geomspace(0.85, 1.15, 31)
+    network = ContactNetwork({"bar": bar}, [Contact("bar", "motor", (0.0, 0.045, 0.0))], {"bar": Pose()})
+    levels = []
+    for f in frequencies:
+        field = ModalPlate().prepare(network, [Excitation("motor", float(f), float(f), 1e-4)], Bands.dominant())
+        levels.append(field.attenuation("bar", [(length, 0.045, 0.0)])[0, 0, 0])
+    assert frequencies[np.argmax(levels)] == pytest.approx(beam_hz, rel=0.02)
+    assert max(levels) > 5 * min(levels)
+
+
+def test_without_edges_a_small_stiff_plate_is_rigid_and_a_large_one_infinite() -> None:
+    assert isinstance(InfinitePlate().elastic_body(Plate(0.09, 0.08, 0.012, CERAMIC), 1000.0), RigidMotion)
+    assert isinstance(InfinitePlate().elastic_body(Plate(1.2, 0.7, 0.025, OAK), 1000.0), InfiniteBody)
+    assert isinstance(InfinitePlate().elastic_body(Plate(0.09, 0.08, 0.012, CERAMIC, "CFFF"), 1000.0), InfiniteBody)
 
 
 @pytest.mark.parametrize("edges", ["free", "CFFF", "SSFF", "SSSS", "FFFS", "CCSF"])
