@@ -130,7 +130,7 @@ class SessionStats:
 
 @dataclass
 class Counts:
-    """The fields of `SkipCounts` that are counted here, and gains that were capped."""
+    """The fields of `SkipCounts` that are counted here, gains that were capped, and whether a warning was given."""
 
     unreachable_objects: int = 0
     unreachable_touches: int = 0
@@ -140,10 +140,12 @@ class Counts:
     idle_hands: int = 0
     unchanged_frames: int = 0
     gains_capped: int = 0
+    has_warned_of_gains: bool = False
 
     def skipped(self, rows_not_mixed: int) -> SkipCounts:
         """Copy the present counts into a `SkipCounts`."""
-        counted = {name: count for name, count in vars(self).items() if name != "gains_capped"}
+        not_skips = ("gains_capped", "has_warned_of_gains")
+        counted = {name: count for name, count in vars(self).items() if name not in not_skips}
         return SkipCounts(rows_not_mixed=rows_not_mixed, **counted)
 
 
