@@ -44,10 +44,11 @@ _COMPONENTS = _set(
 )
 """Words beside the name of a machine that mark the object as a part of it."""
 
-_FURNISHINGS = _set("cushion,sink")
-"""Objects that are parts of furniture, and also exist as separate objects."""
+_FURNISHINGS = _set("cushion")
+"""Objects that are parts of furniture, and also exist as separate objects. A table with a sink is a sink: its metal
+sheet is what hands touch."""
 _THICK_M = 0.3
-"""Drawers, doors, cushions and basins are thinner than this in one direction; assumed."""
+"""Drawers, doors and cushions are thinner than this in one direction; assumed."""
 
 # All assumed. They only rank answers by the strength of the evidence against them.
 _HIGH_M = 0.5
