@@ -199,6 +199,10 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         warned("Material('wood', 700, 11, 0.3, 0.01)", "11", "GPa"),
         mistake("plate_modes(PLATE, 2.5)", "2.5", "whole"),
         mistake("SourceState('on', 50, 'a', 'b')", "intensity", "50", "at most 1"),
+        warned("bundle.override('table', intensity=0.5)", "'table'", "intensity", "vibrates=True"),
+        warned(
+            "bake(SceneSnapshot.build([SceneObject('Cube', geometry=Box((1, 1, 1)))]))", "'Cube'", "unknown", "leaf"
+        ),
         warned("bundle.override('table', clip='tap.wav')", "'table'", "does not vibrate", "vibrates=True"),
     ),
     "Exchanging models": (
