@@ -61,7 +61,8 @@ class FeltSource:
     Parameters: state, on : its state, and the touched object; gain_db : its gain there, in its strongest band; level_db
     : its volume and the user's; band : that band; steps : from the source to the touched object, empty where the law
     has no path (over an object of unknown material, say) and for the physical models; carriers : for these, the
-    contacts through which it comes into the touched object, the strongest first.
+    contacts through which it comes into the touched object, the strongest first; over_threshold_db : its level over the
+    threshold of touch at this hand, None if the loop has no level.
     """
 
     source_id: str
@@ -72,6 +73,7 @@ class FeltSource:
     band: int
     steps: tuple[PathStep, ...]
     carriers: tuple[Carrier, ...] = ()
+    over_threshold_db: float | None = None
 
     @property
     def length_m(self) -> float:
@@ -81,6 +83,8 @@ class FeltSource:
     def __str__(self) -> str:
         volume = f", volume {self.level_db:+.1f} dB" if abs(self.level_db) >= 0.05 else ""
         total = f"{self.source_id} ({self.state}) {self.gain_db:+.1f} dB"
+        if self.over_threshold_db is not None and self.over_threshold_db < 0:
+            volume += ", too weak to be felt"
         if self.carriers:
             return f"{total}{volume}: {self.way}"
         return f"{total} over {self.length_m:.2f} m{volume}: {self.way}"
@@ -211,7 +215,10 @@ class Explainer:
         else:
             way = loudest_path(source_id, on, point_m, self._state.graph.contacts, self._state.bodies, self._model)
             steps = _steps(way, point_m, gain_at) if way is not None else ()
-        return FeltSource(source_id, self._sources[source_id].state, on, gain_db, level_db, band, steps, carriers)
+        source = self._sources[source_id]
+        felt = source.rows[source.state].loop.felt
+        over_db = None if felt is None else felt.level_db + gain_db + level_db
+        return FeltSource(source_id, source.state, on, gain_db, level_db, band, steps, carriers, over_db)
 
 
 _REMEDIES = {"off": "on=True", "muted": "mute=False", "in its off-time": "on=True"}

@@ -7,6 +7,7 @@ import math
 import pytest
 
 from scene2hap import Contact, HapticBundle, HapticSession, SceneSnapshot, Touch, materials
+from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.errors import SessionError
 from scene2hap.propagation import MODELS
 from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
@@ -239,3 +240,20 @@ def test_explanation_says_why_nothing_is_felt() -> None:
     s.remove("shelf")
     assert reasons() == "No source touches it, directly or over other objects."
     assert reasons() in s.explain("left").text
+
+
+def test_explanation_marks_sources_too_weak_to_be_felt() -> None:
+    snapshot, bundle = shelf_on_table()
+    loop = dataclasses.replace(bundle.loops["phone"]["ringing"], felt=Sensation(40.0, 40.0))
+    s = HapticSession(
+        snapshot, dataclasses.replace(bundle, loops={"phone": {"ringing": loop}}), {"sample_rate_hz": RATE}
+    )
+    s.update(touches=[ON_TABLE])
+    (felt,) = s.explain("left").felt
+    assert felt.over_threshold_db == pytest.approx(40.0 + felt.gain_db)
+    assert "too weak" not in str(felt)
+    s.set_source("phone", gain_db=-felt.over_threshold_db - 1.0)
+    s.update(touches=[ON_TABLE])
+    (felt,) = s.explain("left").felt
+    assert felt.over_threshold_db == pytest.approx(-1.0, abs=0.05)
+    assert "too weak to be felt: phone" in str(felt)
