@@ -199,6 +199,11 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         warned("Material('wood', 700, 11, 0.3, 0.01)", "11", "GPa"),
         mistake("plate_modes(PLATE, 2.5)", "2.5", "whole"),
         mistake("SourceState('on', 50, 'a', 'b')", "intensity", "50", "at most 1"),
+        mistake("session.remove('phone'); session.set_source('phone', on=True)", "'phone' was removed", "add(object)"),
+        mistake(
+            "session.spawn(prefab, 'radio 2', Pose((3, 1, 3))); session.remove('radio 2'); session.remove('radio 2')",
+            "'radio 2' was removed",
+        ),
         warned("bundle.override('table', intensity=0.5)", "'table'", "intensity", "vibrates=True"),
         warned(
             "bake(SceneSnapshot.build([SceneObject('Cube', geometry=Box((1, 1, 1)))]))", "'Cube'", "unknown", "leaf"

@@ -149,6 +149,28 @@ class Counts:
         return SkipCounts(rows_not_mixed=rows_not_mixed, **counted)
 
 
+class RemovedIds:
+    """The newest ids of removed objects or sources, for error messages."""
+
+    _MOST = 1000
+    """A game may remove objects for hours."""
+
+    def __init__(self) -> None:
+        self._ids: dict[str, None] = {}
+
+    def add(self, removed_id: str) -> None:
+        """Remember an id. One that was added to the scene again is in no message, since it is known."""
+        self._ids.pop(removed_id, None)
+        self._ids[removed_id] = None
+        if len(self._ids) > self._MOST:
+            del self._ids[next(iter(self._ids))]
+
+    def hint(self, wanted_id: object) -> str:
+        """A sentence, with a blank before it, if the id was removed; else empty."""
+        is_removed = isinstance(wanted_id, str) and wanted_id in self._ids
+        return f" {wanted_id!r} was removed; `add(object)` puts it back." if is_removed else ""
+
+
 def unknown_hand(hand: str, hands: Sequence[str]) -> str:
     """The sentence for a name that is no hand."""
     near = checks.did_you_mean(hand, hands)
