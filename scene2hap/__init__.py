@@ -111,7 +111,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
     from scene2hap.calls import unknown_attribute
 
-    raise unknown_attribute("scene2hap", name, __dir__())
+    raise unknown_attribute("scene2hap", name, [known for known in __dir__() if not known.startswith("_")])
 
 
 def __dir__() -> list[str]:

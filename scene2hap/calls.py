@@ -10,6 +10,7 @@ import dataclasses
 import functools
 import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from numbers import Real
 from types import FunctionType
 from typing import Any, NamedTuple, NoReturn, ParamSpec, TypeVar
 
@@ -182,9 +183,26 @@ def misfit(function: Callable[..., Any], args: Sequence[object], kwargs: Mapping
         is_method = next(iter(signature.parameters), "") in ("self", "cls")
         taken = [one.replace(annotation=one.empty) for one in list(signature.parameters.values())[is_method:]]
         name = getattr(function, "__qualname__", type(function).__name__).removesuffix(".__init__")
-        call = f"{name}{inspect.Signature(taken)}"
-        return f"{_problem(taken, args[is_method:], kwargs) or f'{cause}.'} Call {call}."
+        call = f"{name}{inspect.Signature([_with_short_default(one) for one in taken])}"
+        hint = getattr(type(args[0]), "_CALL_HINT", "") if is_method and args and name == type(args[0]).__name__ else ""
+        return f"{_problem(taken, args[is_method:], kwargs) or f'{cause}.'} Call {call}. {hint}".rstrip()
     return ""
+
+
+class _Ellipsis:
+    """A default value that is too long to be shown."""
+
+    def __repr__(self) -> str:
+        return "..."
+
+
+_LONGEST_DEFAULT, _LONGEST_SURPLUS = 32, 80
+
+
+def _with_short_default(parameter: inspect.Parameter) -> inspect.Parameter:
+    if len(repr(parameter.default)) <= _LONGEST_DEFAULT or parameter.default is parameter.empty:
+        return parameter
+    return parameter.replace(default=_Ellipsis())
 
 
 def _problem(taken: list[inspect.Parameter], args: Sequence[object], kwargs: Mapping[str, object]) -> str:
@@ -198,6 +216,28 @@ def _problem(taken: list[inspect.Parameter], args: Sequence[object], kwargs: Map
     if len(args) <= len(positional):
         return ""
     surplus = checks.represented(args[len(positional)])
+    if len(surplus) > _LONGEST_SURPLUS:
+        surplus = checks.described(args[len(positional)])
+    several = _several_as_one(args, len(positional))
+    if several:
+        return f"{surplus} is one argument too many; {several}."
     by_name = ", ".join(f"{one.name}=" for one in taken if one.kind is one.KEYWORD_ONLY)
     how = f"give it by name: {by_name}" if by_name else "leave it out"
     return f"{surplus} is one argument too many; {how}."
+
+
+def _several_as_one(args: Sequence[object], n_positional: int) -> str:
+    """Advise to give the last arguments as one, if they are of one kind: numbers of a point, or objects of a list."""
+
+    def kind(one: object) -> object:
+        return Real if isinstance(one, Real) else type(one)
+
+    start = len(args) - 1
+    while start > 0 and kind(args[start - 1]) == kind(args[-1]):
+        start -= 1
+    n_alike = len(args) - start
+    if start >= n_positional or n_alike < 2 or isinstance(args[-1], str | bool):
+        return ""
+    if kind(args[-1]) is Real:
+        return f"give {n_alike} numbers as one argument, ({', '.join(map(checks.represented, args[start:]))})"
+    return f"give the {n_alike} objects of type {type(args[-1]).__name__} as one list"

@@ -90,13 +90,25 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("RecordingBackend(LexiconBackend(), None)", "path", "None"),
     ),
     "Scenes made in Python": (
-        mistake("SceneSnapshot([new_object])", "missing", "objects"),
+        mistake("SceneSnapshot([new_object])", "missing", "SceneSnapshot.build(objects)"),
+        mistake("SceneSnapshot.build(new_object, new_object)", "a SceneObject", "as one list"),
+        mistake("SceneSnapshot.build({'vase': new_object})", "dict", "list of SceneObject"),
+        mistake("bake(new_object)", "SceneObject", "SceneSnapshot.build([object])"),
+        mistake("SceneObject('vase', position=(0, 1, 0))", "'position'", "pose=Pose((x, y, z))"),
+        warned(
+            "bake(SceneSnapshot.build([SceneObject('phone', geometry=Box((0.1, 0.1, 0.1)), mass_kg=190)]))",
+            "190 kg",
+            "not in g",
+        ),
+        warned("bundle.override('mug', mass_kg=220)", "220 kg", "not in g"),
+        warned("SceneSnapshot.build([SceneObject('table', geometry=Box((1200, 720, 700)))])", "720 m", "Multiply"),
         mistake("SceneSnapshot.build(new_object)", "SceneObject", "list"),
         works("assert SceneSnapshot.build(item for item in scene.objects)"),
         mistake("SceneSnapshot.build([new_object, new_object])", "'vase'", "more than once"),
         mistake("SceneSnapshot.build([new_object], 'kitchen')", "'kitchen'", "name="),
         mistake("SceneSnapshot.build([new_object], name=3)", "name", "3"),
         mistake("SceneSnapshot.build([new_object], up_axis='Z')", "'Z'", "'z'"),
+        mistake("SceneSnapshot.build([SceneObject('mat', geometry=Box((1, 1, 1)))], up_axis='Y')", "'Y'", "'y'"),
         mistake("SceneSnapshot.build([new_object], contacts=[('vase', 'table')])", "tuple", "Contact("),
         mistake("SceneSnapshot('room', 'y', [{'id': 'mug'}])", "dict", "SceneObject("),
         mistake("Box(0.1, 0.1, 0.1)", "0.1", "Box(size_m"),
@@ -187,6 +199,15 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         warned("Material('wood', 700, 11, 0.3, 0.01)", "11", "GPa"),
         mistake("plate_modes(PLATE, 2.5)", "2.5", "whole"),
         mistake("SourceState('on', 50, 'a', 'b')", "intensity", "50", "at most 1"),
+        mistake("session.remove('phone'); session.set_source('phone', on=True)", "'phone' was removed", "add(object)"),
+        mistake(
+            "session.spawn(prefab, 'radio 2', Pose((3, 1, 3))); session.remove('radio 2'); session.remove('radio 2')",
+            "'radio 2' was removed",
+        ),
+        warned("bundle.override('table', intensity=0.5)", "'table'", "intensity", "vibrates=True"),
+        warned(
+            "bake(SceneSnapshot.build([SceneObject('Cube', geometry=Box((1, 1, 1)))]))", "'Cube'", "unknown", "leaf"
+        ),
         warned("bundle.override('table', clip='tap.wav')", "'table'", "does not vibrate", "vibrates=True"),
     ),
     "Exchanging models": (

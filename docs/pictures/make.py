@@ -48,7 +48,7 @@ def draw_levels(wav: Path, title: str, png: Path) -> None:
     axes = figure.add_subplot(title=title, xlabel="time [s]", ylabel="level [dB re full scale]")
     for hand, level in zip(("left hand", "right hand"), levels.T, strict=True):
         axes.plot(np.arange(len(level)) * size / rate, level, label=hand)
-    axes.legend(loc="lower right")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))  # beside the curves, which fill the axes
     figure.savefig(png, dpi=110)
 
 

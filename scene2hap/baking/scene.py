@@ -24,13 +24,13 @@ from scene2hap.bundle.arguments import given_bundle
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState
-from scene2hap.llm.chain import Inference, infer_scene
+from scene2hap.llm.chain import UNKNOWN, Inference, infer_scene
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import reports
 from scene2hap.scene.arguments import given_scene
-from scene2hap.scene.check import SceneWarning
 from scene2hap.scene.objects import SceneObject, UpAxis
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 
 OnReport = Callable[[InferenceReport], None]
@@ -219,13 +219,17 @@ def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None
     """Warn about probable mistakes. Units are left out, since `load_scene` has warned about them."""
     for found in scene.check():
         if found.kind != "units":
-            warnings.warn(str(found), SceneWarning, stacklevel=2)
+            warn_of(str(found))
     if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
-        warnings.warn(
+        warn_of(
             f"none of {len(objects)} objects of {scene.name!r} vibrates; nothing will be felt. Give objects names that "
-            "say what they are, let a model look at them (llm), or override(id, vibrates=True).",
-            SceneWarning,
-            stacklevel=2,
+            "say what they are, let a model look at them (llm), or override(id, vibrates=True)."
+        )
+    elif len(objects) == 1 and all(haptics.object_category.lower() in UNKNOWN for haptics in objects.values()):
+        warn_of(
+            f"{scene.name!r} is one object, {scene.objects[0].name!r}, which is unknown; nothing will be felt. If it "
+            "merges several objects, separate them in the program that made it, or try group='leaf'. Otherwise give it "
+            "a name that says what it is, or let a model look at it (llm)."
         )
 
 

@@ -20,10 +20,15 @@ from scene2hap.calls import clear_calls
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
+from scene2hap.scene.check import too_heavy
 from scene2hap.scene.scene_warning import warn_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
+
+
+_OF_SOURCES = ("clip", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s")
+"""Corrections that only a vibrating object takes."""
 
 
 @clear_calls
@@ -63,8 +68,8 @@ class HapticBundle(BundleContents):
         inferred silent, need `rebake(bundle)`, which makes the loops. The loops of a locked object stay unchanged, byte
         for byte; a correction that would change them is rejected.
         Raises: UnknownObject; BundleError: a field out of bounds, an unknown state of the object, or a change of the
-        loops of a locked object; UnknownMaterial. Warns: SceneWarning: a clip for an object that does not vibrate, or a
-        level that looks like a percentage.
+        loops of a locked object; UnknownMaterial. Warns: SceneWarning: a correction of vibration for an object that
+        does not vibrate, a level that looks like a percentage, or a mass that looks like grams.
         """
         self.snapshot.object(object_id)
         changes = {
@@ -91,11 +96,14 @@ class HapticBundle(BundleContents):
         if pitch_hz is not None:
             self._require_played(object_id, wish)
         has_vibration = self.objects[object_id].vibrates if wish.vibrates is None else wish.vibrates
-        if clip is not None and not has_vibration:
+        vain = [name for name in _OF_SOURCES if changes[name] is not None]
+        if vain and not has_vibration:
             warn_of(
-                f"{object_id!r} does not vibrate, so that its clip is not played; write override({object_id!r}, "
-                "vibrates=True, clip=...)."
+                f"{object_id!r} does not vibrate; {', '.join(vain)} will change nothing until it does. Write "
+                f"override({object_id!r}, vibrates=True), or `scene2hap edit BUNDLE vibrate {object_id}`."
             )
+        if mass_kg is not None and (heavy := too_heavy(self.snapshot.object(object_id), mass_kg)):
+            warn_of(heavy)
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
 
     def corrected(self, file: str | os.PathLike[str]) -> Self:

@@ -52,7 +52,7 @@ MEASURED = (
 
 _EXTRA = re.compile(r"""^(?P<package>[A-Za-z0-9._-]+)[^;]*;.*extra\s*==\s*['"](?P<extra>[^'"]+)['"]""")
 _PLAIN = "; install a C compiler and then scene2hap again, without SCENE2HAP_COMPILED=0, and updates take half the time"
-_OF_DEVELOPERS = frozenset({"all", "test", "dev"})
+_OF_DEVELOPERS = frozenset({"all", "test", "dev", "docs"})
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

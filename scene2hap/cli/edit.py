@@ -14,6 +14,7 @@ scene2hap edit kitchen.bundle sound fan my_fan.haptic
 scene2hap edit kitchen.bundle state fan high
 scene2hap edit kitchen.bundle mute fan
 scene2hap edit kitchen.bundle silence hood
+scene2hap edit kitchen.bundle vibrate kettle
 scene2hap edit kitchen.bundle lock fan
 scene2hap edit kitchen.bundle apply corrections.json
 scene2hap edit kitchen.bundle rebake --actuator lra
@@ -93,6 +94,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("unlock", "allow changes of an object's loops again", {"locked": False}),
     ):
         verb(name, text, _overridden).set_defaults(**changes)
+    verb("vibrate", "mark an object as vibrating, and make its loops", _remade).set_defaults(vibrates=True)
     verb("undo", "undo the last edit; a second undo restores it", _undone, of_object=False)
     diff = verb("diff", "show the differences to another bundle; changes nothing", None, of_object=False)
     diff.add_argument("other", metavar="OTHER", help="folder of a bundle")
@@ -124,13 +126,28 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     def note(what: Any) -> None:
         remade.update({key: {state: list(why) for state, why in states.items()} for key, states in what.items()})
 
-    folder = arguments.change(before, arguments, note).save(arguments.bundle)
+    after = arguments.change(before, arguments, note)
+    folder = after.save(arguments.bundle)
     before.save(_kept(arguments.bundle))
+    # A table of its own shows loops, and "loops made again" the actuator.
+    changes = [row for row in differences(before, after) if row.what != "actuator" and not row.what.startswith("loop ")]
+    for object_id, what, old, new in changes:
+        console.say(f"{object_id}, {what}: {old} -> {new}")
     if remade:
-        rows = [(key, state, ", ".join(why)) for key, states in remade.items() for state, why in states.items()]
+        rows = [
+            (key, state, ", ".join(_IN_WORDS.get(one, one) for one in why))
+            for key, states in remade.items()
+            for state, why in states.items()
+        ]
         console.table("loops made again", ("object", "state", "what changed"), rows)
+    if not changes and not remade:
+        console.say("nothing changed")
     console.say(f"wrote {folder}")
     return {"bundle": str(folder), "remade": remade}
+
+
+_IN_WORDS = {"plan": "its place among the sources"}
+"""Inputs of a loop whose short names say nothing to a designer."""
 
 
 def _watch(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:

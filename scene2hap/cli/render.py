@@ -13,9 +13,9 @@ import numpy as np
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
+from scene2hap.cli.specs import session_config
 from scene2hap.devices.wav import WavSink
 from scene2hap.session import HapticSession, SessionConfig, UserProfile
-from scene2hap.settings import read_settings
 from scene2hap.touch_track import TouchTrack
 from scene2hap.track_player import PlayedFrame, play_track
 
@@ -35,12 +35,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     """Render, and show the peak level of each hand."""
-    settings = read_settings(arguments.settings, "session")
-    if arguments.propagation:
-        settings["propagation"] = arguments.propagation
-    config = SessionConfig.parse(settings)
     track = TouchTrack.load(arguments.touches)
     bundle = HapticBundle.load(arguments.bundle)
+    changes = {"propagation": arguments.propagation} if arguments.propagation else {}
+    config = session_config(arguments.settings, bundle, **changes)
     user = UserProfile.parse(arguments.profile)
     frames = render_track(console, bundle, track, arguments.output, config, arguments.update_rate_hz, user)
     highest = np.max([np.abs(frame.samples).max(axis=0) for frame in frames if len(frame.samples)], axis=0)

@@ -42,7 +42,7 @@ def scene_outcome(scene: SceneSnapshot) -> dict[str, Any]:
 def show_scene(console: Console, scene: SceneSnapshot) -> None:
     """Show the objects of a scene as a table."""
     console.table(
-        f"{scene.name}: {len(scene.objects)} objects, {scene.up_axis} up",
+        f"{scene.name}: {_counted(len(scene.objects), 'objects')}, {scene.up_axis} up",
         ("object", ">length m", ">width m", ">thick m", ">height m", ">triangles", "measured"),
         (
             (
@@ -107,7 +107,7 @@ def show_bundle(console: Console, bundle: HapticBundle) -> None:
     counts = bundle_counts(bundle)
     console.table(
         f"{bundle.snapshot.name}: {bundle.scene_category}, "
-        + ", ".join(f"{number} {what}" for what, number in counts.items()),
+        + ", ".join(_counted(number, what) for what, number in counts.items()),
         (
             *("object", "type", "material", ">mass kg", ">confidence", "vibrates", ">sound Hz", ">vibration Hz"),
             *(">felt dB", "starts, stops s"),
@@ -117,6 +117,13 @@ def show_bundle(console: Console, bundle: HapticBundle) -> None:
             for object_id in sorted(bundle.objects, key=lambda key: key not in bundle.loops)
         ),
     )
+    if bundle.loops:
+        console.say("`scene2hap inspect --help` explains the columns.")
+
+
+def _counted(number: int, what: str) -> str:
+    """Return a number with its noun, in the singular for 1."""
+    return f"{number} {what.removesuffix('s') if number == 1 else what}"
 
 
 def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:

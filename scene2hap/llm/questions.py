@@ -107,7 +107,12 @@ class Questions:
             answer = shape.model_validate_json(reply.text)
         except ValidationError as cause:
             fault = checks.first_problem(cause)
-            raise BadAnswer(f"{about}: {fault.place or '(whole answer)'}: {fault.reason}.", reply.text) from cause
+            given = "" if fault.kind == "missing" else f" is {checks.represented(fault.value)}"
+            raise BadAnswer(
+                f"{about}: {fault.place or 'the answer'}{given}: {fault.reason}. It must be JSON of the request's "
+                "answer_schema.",
+                reply.text,
+            ) from cause
         kept_as = f", {reply.key[:19]}" if reply.key else ""
         return answer, f"{reply.model}, prompt {self._prompts.version}{kept_as}"
 

@@ -233,7 +233,7 @@ def _contacts(bundle: HapticBundle) -> list[dict[str, Any]]:
         return []
     gains = np.zeros(len(contacts))
     if bundle.loops:
-        session = HapticSession(bundle, hands=("hand",))
+        session = HapticSession(bundle, config={"actuator": bundle.actuator or "flat"}, hands=("hand",))
         session.update()
         touches = [Touch("hand", contact.b, contact.point_m) for contact in contacts]
         gains = session.would_feel(touches).max(axis=(1, 2), initial=0.0)

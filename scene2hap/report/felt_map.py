@@ -92,7 +92,7 @@ def felt_map(
 
 def _session(bundle: HapticBundle, model: Any, edges_hz: list[float] | None) -> HapticSession:
     """Return a session that plays the bundle with a model, after its field is prepared."""
-    config: dict[str, Any] = {"propagation": model, "prepare": "blocking"}
+    config: dict[str, Any] = {"propagation": model, "prepare": "blocking", "actuator": bundle.actuator or "flat"}
     if edges_hz is not None:
         config["bands"] = edges_hz
     session = HapticSession(bundle, config=config, hands=("hand",))

@@ -6,6 +6,7 @@ import os
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
 
@@ -27,4 +28,6 @@ def given_scene(scene: object) -> SceneSnapshot:
         )
     if isinstance(scene, list | tuple):
         raise SceneError(f"{wanted} `SceneSnapshot.build(objects)` makes one of objects.")
+    if isinstance(scene, SceneObject):
+        raise SceneError(f"{wanted} `SceneSnapshot.build([object])` makes one of an object.")
     raise SceneError(f"{wanted} `load_scene(path)` reads one.")

@@ -1,4 +1,4 @@
-"""Find likely mistakes in a scene: units, quaternions that begin with w, the up axis, floating or sunken objects.
+"""Find likely mistakes in a scene: units, quaternions, masses, the up axis, floating or sunken objects.
 
 Each finding is a sentence with the value, the bound and the remedy. The checks use AABBs, so a scene takes
 milliseconds. All bounds are wide, since a false alarm costs more than a missed mistake.
@@ -12,11 +12,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.objects import SceneData
+from scene2hap.scene.objects import SceneData, SceneObject
 from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
 from scene2hap.scene.units import implausible
 
-Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk"]
+Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass"]
 
 _FLOATS_M = 0.25
 """A floating object is farther than this from all others and above the lowest (assumed: objects rest within 0.06 m)."""
@@ -34,6 +34,7 @@ _TWO = 2
 # another up axis use 90 degrees.
 _MOSTLY_W = 0.8
 _FLOOR_SHARE, _FLOOR_FLATNESS = 0.5, 0.2  # A floor takes up this share of the scene, and is this flat (assumed).
+_DENSEST_KG_M3 = 22_600.0  # osmium
 _NONE = 1e-6
 _MOST_NAMED = 5
 _BATCH = 256
@@ -55,7 +56,9 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     ids = tuple(item.id for item in scene.objects)
     sizes = implausible(scene)
     if sizes is not None:
-        yield Finding("units", ids, sizes.partition("; giving any")[0] + ".")
+        unit = f", as for {sizes.name}" if sizes.name else ""
+        remedy = f"Load the file with unit_m={sizes.unit_m}{unit}, or multiply positions and sizes by {sizes.unit_m}."
+        yield Finding("units", ids, f"{sizes.sentence} {remedy}")
     if _begin_with_w(scene):
         yield Finding(
             "quaternions",
@@ -63,6 +66,10 @@ def findings(scene: SceneData) -> Iterator[Finding]:
             f"all {len(ids)} rotation_xyzw tip objects over, as quaternions do that begin with w: the first is "
             f"{scene.objects[0].pose.rotation_xyzw}. Make poses by Pose.from_wxyz(position_m, rotation_wxyz).",
         )
+    for item in scene.objects:
+        heavy = None if item.mass_kg is None else too_heavy(item, item.mass_kg)
+        if heavy:
+            yield Finding("mass", (item.id,), heavy)
     boxes = np.array([item.bounds_m for item in scene.objects])
     up = {"y": 1, "z": 2}[scene.up_axis]
     resting, other = _resting_share(boxes, up), _resting_share(boxes, 3 - up)
@@ -80,6 +87,18 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     if not room:
         yield from _floating(boxes, ids, up)
         yield from _sunk(boxes, ids, up)
+
+
+def too_heavy(item: SceneObject, mass_kg: float) -> str | None:
+    """Return why an object cannot have a mass [kg]: its AABB would be denser than any material. None if it can."""
+    volume_m3 = float(np.prod(np.ptp(item.geometry.mesh.bounds_m, axis=0)))
+    density = mass_kg / volume_m3 if volume_m3 > 0 else 0.0  # a sheet has no volume, and says nothing
+    if density <= _DENSEST_KG_M3:
+        return None
+    return (
+        f"mass_kg of {item.id!r} is {mass_kg:g} kg in a box of {volume_m3:.2g} m3, {density:.2g} kg/m3, more than any "
+        f"material has, {_DENSEST_KG_M3:g} kg/m3. Give it in kg, not in g."
+    )
 
 
 def _begin_with_w(scene: SceneData) -> bool:

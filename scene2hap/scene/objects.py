@@ -85,6 +85,7 @@ class SceneObject:
     mass_kg: float | None = None
     appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
     images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
+    _CALL_HINT = "As in SceneObject('cup', pose=Pose((x, y, z)), geometry=Box((x, y, z)))."
     is_measured_with_y_up = False  # no dataclass field: a copy with its own surface must not inherit it
 
     def __init__(

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 import warnings
 
-_PACKAGE = __name__.partition(".")[0]
+_PASSED = (__name__.partition(".")[0], "asyncio")
+"""Packages whose lines are not the caller's: our own, and the event loop in which `bake` runs."""
 
 
 class SceneWarning(UserWarning):
@@ -13,8 +14,8 @@ class SceneWarning(UserWarning):
 
 
 def warn_of(sentence: str) -> None:
-    """Issue a SceneWarning that points at the calling line outside of this package."""
+    """Issue a SceneWarning that points at the caller's line."""
     level, frame = 2, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == _PACKAGE:
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in _PASSED:
         level, frame = level + 1, frame.f_back
     warnings.warn(sentence, SceneWarning, stacklevel=level)

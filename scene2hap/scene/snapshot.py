@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import SupportsIndex, overload
+from typing import ClassVar, SupportsIndex, overload
 
 from pydantic import InstanceOf
 
@@ -46,6 +46,11 @@ class ObjectTuple(tuple[SceneObject, ...]):
         return super().__getitem__(key)
 
 
+def _require_axis(up_axis: object) -> None:
+    if not isinstance(up_axis, str) or up_axis not in ("y", "z"):
+        raise SceneError(f"up_axis is {checks.represented(up_axis)}; it must be 'y' or 'z'.")
+
+
 _MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # only an endless generator exceeds these
 
 
@@ -59,12 +64,13 @@ class SceneSnapshot(SceneData):
     Raises: SceneError: no object, two objects with one id, or a contact with an object that does not exist.
     """
 
+    _CALL_HINT: ClassVar[str] = "To make a scene of objects, call SceneSnapshot.build(objects)."
+
     images: InstanceOf[ImageSet] | None = field(default=None, compare=False, repr=False)
     _by_id: Mapping[str, SceneObject] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.up_axis, str) or self.up_axis not in ("y", "z"):
-            raise SceneError(f"up_axis is {checks.represented(self.up_axis)}; it must be 'y' or 'z'.")
+        _require_axis(self.up_axis)
         checks.text("name", self.name, error=SceneError)
         objects = checks.items("objects", self.objects, at_most=_MOST_OBJECTS, error=SceneError)
         for item in objects:
@@ -106,8 +112,10 @@ class SceneSnapshot(SceneData):
         """
         from scene2hap.scene.units import warn_if_implausible
 
-        if isinstance(objects, SceneObject | str) or not isinstance(objects, Iterable):
-            raise SceneError(f"objects is {checks.described(objects)}; it must be a list of SceneObject.")
+        if isinstance(objects, SceneObject | str | Mapping) or not isinstance(objects, Iterable):
+            given = checks.described(objects)
+            raise SceneError(f"objects is {given}; it must be a list of SceneObject, as SceneSnapshot.build([object]).")
+        _require_axis(up_axis)
         turned = []
         for item in objects:
             if not isinstance(item, SceneObject):
@@ -119,7 +127,7 @@ class SceneSnapshot(SceneData):
             turned.append(item)
         scene = cls(name, up_axis, tuple(turned), None if contacts is None else tuple(contacts))
         scene = replace(scene, objects=with_relative_heights(turned, up_axis))
-        warn_if_implausible(scene, stacklevel=4)
+        warn_if_implausible(scene, is_built=True)
         return scene
 
     def object(self, object_id: str) -> SceneObject:
@@ -139,7 +147,7 @@ class SceneSnapshot(SceneData):
         return SceneSnapshot(self.name, self.up_axis, with_relative_heights(objects, self.up_axis))
 
     def check(self) -> tuple[Finding, ...]:
-        """Find likely mistakes: units, quaternions that begin with w, the up axis, floating or sunken objects."""
+        """Find likely mistakes: units, quaternions, masses, the up axis, floating or sunken objects."""
         from scene2hap.scene.check import findings
 
         return tuple(findings(self))

@@ -47,14 +47,33 @@ class _Evidence(NamedTuple):
     usual: Usual
 
 
-def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, stacklevel: int = 4) -> None:
-    """Issue a UnitWarning if sizes of the scene, read at `unit_m` metres per unit, are implausible."""
+class Doubt(NamedTuple):
+    """Why sizes cannot be metres, and the likely unit: in metres, as text, and its name, empty if it has none."""
+
+    sentence: str
+    unit_m: str
+    name: str
+
+
+def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: bool = False) -> None:
+    """Issue a UnitWarning if sizes of the scene, read at `unit_m` metres per unit, are implausible.
+
+    A scene that was built in Python has no file and no argument `unit_m`, so its remedy is another.
+    """
     found = implausible(snapshot, unit_m)
-    if found is not None:
-        warnings.warn(found, UnitWarning, stacklevel=stacklevel)
+    if found is None:
+        return
+    if is_built:
+        remedy = f"Multiply positions and sizes by {found.unit_m}{f' if they are in {found.name}' * bool(found.name)}."
+    else:
+        meant = f", {found.name}" if found.name else ""
+        remedy = (
+            f"Perhaps unit_m={found.unit_m} (metres per unit of the file{meant}); giving any unit_m ends this warning."
+        )
+    warnings.warn(f"{found.sentence} {remedy}", UnitWarning, stacklevel=4)
 
 
-def implausible(snapshot: SceneData, unit_m: float = 1.0) -> str | None:
+def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     """Return why the sizes of a scene, read at `unit_m` metres per unit, cannot be metres; None if they can."""
     up = {"y": 1, "z": 2}[snapshot.up_axis]
     bounds = np.array([item.bounds_m for item in snapshot.objects])
@@ -68,13 +87,10 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> str | None:
         return None
     factor, reason = found
     unit = factor * unit_m
-    text, meant = next(
-        ((f"{known:g}", f", {word}") for known, word in _UNITS.items() if np.isclose(unit, known)), (f"{unit:.2g}", "")
+    text, name = next(
+        ((f"{known:g}", word) for known, word in _UNITS.items() if np.isclose(unit, known)), (f"{unit:.2g}", "")
     )
-    return (
-        f"sizes in {snapshot.name!r} are implausible as metres: {reason}. "
-        f"Perhaps unit_m={text} (metres per unit of the file{meant}); giving any unit_m ends this warning."
-    )
+    return Doubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name)
 
 
 def _evidence_of(

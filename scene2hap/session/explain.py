@@ -12,7 +12,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -28,10 +28,13 @@ from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
 from scene2hap.session.impacts import Impact
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.sources import Sources
+from scene2hap.session.sources import Source, Sources
 
 LEAST_SHARE = 0.01
 """Smallest share of the power that the text mentions."""
+
+MOST_NAMED = 5
+"""Most silent sources that the text names."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +61,8 @@ class FeltSource:
     Parameters: state, on : its state, and the touched object; gain_db : its gain there, in its strongest band; level_db
     : its volume and the user's; band : that band; steps : from the source to the touched object, empty where the law
     has no path (over an object of unknown material, say) and for the physical models; carriers : for these, the
-    contacts through which it comes into the touched object, the strongest first.
+    contacts through which it comes into the touched object, the strongest first; over_threshold_db : its level over the
+    threshold of touch at this hand, None if the loop has no level.
     """
 
     source_id: str
@@ -69,6 +73,7 @@ class FeltSource:
     band: int
     steps: tuple[PathStep, ...]
     carriers: tuple[Carrier, ...] = ()
+    over_threshold_db: float | None = None
 
     @property
     def length_m(self) -> float:
@@ -78,6 +83,8 @@ class FeltSource:
     def __str__(self) -> str:
         volume = f", volume {self.level_db:+.1f} dB" if abs(self.level_db) >= 0.05 else ""
         total = f"{self.source_id} ({self.state}) {self.gain_db:+.1f} dB"
+        if self.over_threshold_db is not None and self.over_threshold_db < 0:
+            volume += ", too weak to be felt"
         if self.carriers:
             return f"{total}{volume}: {self.way}"
         return f"{total} over {self.length_m:.2f} m{volume}: {self.way}"
@@ -95,7 +102,8 @@ class Explanation:
     """Report of the vibration at one hand, as `HapticSession.explain` returns it. `print(report.text)` shows it.
 
     `felt` has the sources that arrive, the strongest first. `impacts` are those of the last second, the latest first.
-    `is_current` is false while a worker prepares a newer field.
+    `is_current` is false while a worker prepares a newer field. `reasons` are sentences on why a touching hand feels
+    no source, empty if it feels one.
     """
 
     hand: str
@@ -103,6 +111,7 @@ class Explanation:
     felt: tuple[FeltSource, ...]
     is_current: bool = True
     impacts: tuple[Impact, ...] = ()
+    reasons: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:
@@ -111,7 +120,7 @@ class Explanation:
         late = "" if self.is_current else " (the next field is still being prepared)"
         lines = [f"{self.hand} {on}{late}" + (":" if self.felt or self.impacts else " and feels nothing.")]
         struck = (f"  {item}, {decibels(item.felt[self.hand]):+.1f} dB re full scale" for item in self.impacts)
-        return "\n".join([*lines, *(f"  {item}" for item in self.felt), *struck])
+        return "\n".join([*lines, *(f"  {item}" for item in (*self.reasons, *self.felt)), *struck])
 
     def to_data(self) -> dict[str, Any]:
         """Return the report as plain data, for JSON."""
@@ -152,7 +161,9 @@ class Explainer:
         self._state, self._sources, self._model, self._gains, self._levels = state, sources, model, gains, levels
         self._field = field if isinstance(field, CarryingField) else None
 
-    def explain(self, hand: str, touches: Sequence[Touch], frame: HapticFrame, is_current: bool) -> Explanation:
+    def explain(
+        self, hand: str, touches: Sequence[Touch], frame: HapticFrame, *, is_current: bool, is_paused: bool
+    ) -> Explanation:
         """Explain what a hand feels at a frame with these touches."""
         felt = []
         if touches and hand in frame.hands:
@@ -160,7 +171,33 @@ class Explainer:
                 if given.any() and source_id in self._sources:
                     felt.append(self._felt(source_id, int(given.argmax()), touches))
         felt.sort(key=lambda item: -(item.gain_db + item.level_db))
-        return Explanation(hand, tuple(touch.object_id for touch in touches), tuple(felt), is_current)
+        on = tuple(touch.object_id for touch in touches)
+        reasons = () if felt or not touches else tuple(self._reasons(set(on), is_paused=is_paused))
+        return Explanation(hand, on, tuple(felt), is_current, reasons=reasons)
+
+    def _reasons(self, on: set[str], *, is_paused: bool) -> Iterator[str]:
+        """Sentences on why a hand on these objects feels no source."""
+        if is_paused:
+            yield "The session is paused; call resume()."
+        if self._sources.user.is_muted:
+            yield "The user's level is muted; call set_user(mute=False)."
+        unknown = sorted(on - self._state.bodies.keys())
+        if unknown:
+            yield (
+                f"The material of {', '.join(map(repr, unknown))} is unknown; give it by "
+                "bundle.override(id, material=...), or as haptics= of add."
+            )
+        connected = _connected(on, self._state.graph.contacts)
+        near = [source_id for source_id in self._sources.ids if source_id in connected]
+        if not near:
+            yield "No source touches it, directly or over other objects."
+        silent: dict[str, list[str]] = {}
+        for source_id in near:
+            silent.setdefault(_why_silent(self._sources[source_id]), []).append(source_id)
+        for why, remedy in _REMEDIES.items():
+            if ids := silent.get(why):
+                named = ", ".join(map(repr, ids[:MOST_NAMED])) + (" and others" if len(ids) > MOST_NAMED else "")
+                yield f"Connected, but {why}: {named}; call set_source(id, {remedy})."
 
     def _felt(self, source_id: str, band: int, touches: Sequence[Touch]) -> FeltSource:
         column = self._sources.ids.index(source_id)
@@ -178,7 +215,36 @@ class Explainer:
         else:
             way = loudest_path(source_id, on, point_m, self._state.graph.contacts, self._state.bodies, self._model)
             steps = _steps(way, point_m, gain_at) if way is not None else ()
-        return FeltSource(source_id, self._sources[source_id].state, on, gain_db, level_db, band, steps, carriers)
+        source = self._sources[source_id]
+        felt = source.rows[source.state].loop.felt
+        over_db = None if felt is None else felt.level_db + gain_db + level_db
+        return FeltSource(source_id, source.state, on, gain_db, level_db, band, steps, carriers, over_db)
+
+
+_REMEDIES = {"off": "on=True", "muted": "mute=False", "in its off-time": "on=True"}
+
+
+def _why_silent(source: Source) -> str:
+    """Why a source is silent, a key of `_REMEDIES`; empty if it is not."""
+    if not source.is_on:
+        return "off"
+    if source.level.is_muted:
+        return "muted"
+    return "in its off-time" if source.is_resting else ""
+
+
+def _connected(objects: Collection[str], contacts: Sequence[Contact]) -> set[str]:
+    """The objects that are connected to some objects by contacts, and these."""
+    beside: dict[str, list[str]] = defaultdict(list)
+    for contact in contacts:
+        beside[contact.a].append(contact.b)
+        beside[contact.b].append(contact.a)
+    found, waiting = set(objects), list(objects)
+    while waiting:
+        new = set(beside[waiting.pop()]) - found
+        found |= new
+        waiting += new
+    return found
 
 
 def decibels(gain: float) -> float:

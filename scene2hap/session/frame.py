@@ -130,7 +130,7 @@ class SessionStats:
 
 @dataclass
 class Counts:
-    """The fields of `SkipCounts` that are counted here, and gains that were capped."""
+    """The fields of `SkipCounts` that are counted here, gains that were capped, and whether a warning was given."""
 
     unreachable_objects: int = 0
     unreachable_touches: int = 0
@@ -140,11 +140,35 @@ class Counts:
     idle_hands: int = 0
     unchanged_frames: int = 0
     gains_capped: int = 0
+    has_warned_of_gains: bool = False
 
     def skipped(self, rows_not_mixed: int) -> SkipCounts:
         """Copy the present counts into a `SkipCounts`."""
-        counted = {name: count for name, count in vars(self).items() if name != "gains_capped"}
+        not_skips = ("gains_capped", "has_warned_of_gains")
+        counted = {name: count for name, count in vars(self).items() if name not in not_skips}
         return SkipCounts(rows_not_mixed=rows_not_mixed, **counted)
+
+
+class RemovedIds:
+    """The newest ids of removed objects or sources, for error messages."""
+
+    _MOST = 1000
+    """A game may remove objects for hours."""
+
+    def __init__(self) -> None:
+        self._ids: dict[str, None] = {}
+
+    def add(self, removed_id: str) -> None:
+        """Remember an id. One that was added to the scene again is in no message, since it is known."""
+        self._ids.pop(removed_id, None)
+        self._ids[removed_id] = None
+        if len(self._ids) > self._MOST:
+            del self._ids[next(iter(self._ids))]
+
+    def hint(self, wanted_id: object) -> str:
+        """A sentence, with a blank before it, if the id was removed; else empty."""
+        is_removed = isinstance(wanted_id, str) and wanted_id in self._ids
+        return f" {wanted_id!r} was removed; `add(object)` puts it back." if is_removed else ""
 
 
 def unknown_hand(hand: str, hands: Sequence[str]) -> str:

@@ -150,15 +150,15 @@ class HandFrames:
         self._catch_up()
         return self.keeper.wait(timeout_s)
 
-    def explain(self, hand: str) -> Explanation:
-        """Explain each source that a hand felt at the last frame: its gain and its path."""
+    def explain(self, hand: str, *, is_paused: bool) -> Explanation:
+        """Explain each source that a hand felt at the last frame: its gain and its path, or why it felt none."""
         self._catch_up()
         felt = (touch for touches in self._felt.values() for touch in touches)
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
         levels = self._levels_at(hand)
         gains = self._touch_gains(self.keeper.method(self._sources.ids, self._reach), Counts())
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
-        return explainer.explain(hand, touches, self._frame, self.keeper.is_current)
+        return explainer.explain(hand, touches, self._frame, is_current=self.keeper.is_current, is_paused=is_paused)
 
     def would_feel(self, hands: tuple[str, ...], touches: Sequence[Touch]) -> NDArray[np.float64]:
         """Gains (n_touches, n_sources, n_bands) [-] of each touch alone, 0 below -140 dB; no touch is counted."""

@@ -19,6 +19,7 @@ from scene2hap.compiled import compiled
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.live import LiveField, PricedField, Prices, TouchedPoint, checked
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, within
 from scene2hap.session.config import MAX_GAIN_DB, SkipConfig
 from scene2hap.session.frame import Counts, Gains, Touch
@@ -97,10 +98,21 @@ class TouchGains:
                 if touch.object_id in self._own:
                     gains[i, self._own[touch.object_id]] = 1.0
         if self.may_be_capped:
+            self._warn_of_invalid(gains)
             n_capped = cap(gains, self._limit)
             if self._is_counting:
                 self._counts.gains_capped += n_capped
         return gains
+
+    def _warn_of_invalid(self, gains: NDArray[np.float64]) -> None:
+        """Warn once if a model of somebody else gives negative gains or NaN. Warns: SceneWarning."""
+        if self._counts.has_warned_of_gains or not gains.size or gains.min() >= 0:  # the least is NaN if any is
+            return
+        self._counts.has_warned_of_gains = True
+        warn_of(
+            f"the model's field gave a gain of {gains.min():.3g}, and such gains are played as 0; a gain is a factor "
+            "of at least 0, not in dB. scene2hap.testing.check_propagation_model(model) finds more."
+        )
 
     def at(self, field: PricedField, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
         """Gains (n_hands, n_columns, n_bands) at given path costs, see `PricedField`. Raises as `of`."""

@@ -396,7 +396,8 @@ class HapticSession:
         """
         if not isinstance(hand, str) or hand not in self.hands:
             raise SessionError(unknown_hand(hand, self.hands))
-        return replace(self._hand_frames.explain(hand), impacts=self._impacts.felt_by(hand))
+        explained = self._hand_frames.explain(hand, is_paused=self._playback.is_paused)
+        return replace(explained, impacts=self._impacts.felt_by(hand))
 
     @property
     def is_current(self) -> bool:

@@ -14,6 +14,7 @@ from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.session.frame import RemovedIds
 from scene2hap.session.network import Corners, PlatePoses, body_of
 from scene2hap.session.reach import Reach, reach_over
 
@@ -40,6 +41,7 @@ class SceneState:
         self._spelling = _Spelling()
         self._corners: Corners = {}
         self.ids = frozenset(self.objects)
+        self._removed = RemovedIds()
 
     @property
     def snapshot(self) -> SceneSnapshot:
@@ -61,8 +63,7 @@ class SceneState:
         """Raise an UnknownObject, with a hint behind, if an object is not there."""
         if isinstance(object_id, str) and object_id in self.objects:
             return
-        if isinstance(object_id, str) and any(item.id == object_id for item in self._scene.objects):
-            hint = f" {object_id!r} was removed; `add(object)` puts it back.{hint}"
+        hint = self._removed.hint(object_id) + hint
         raise UnknownObject(unknown_object(object_id, self.objects) + hint)
 
     def category(self, object_id: str) -> str:
@@ -90,6 +91,7 @@ class SceneState:
         self.ids = frozenset(self.objects)
         self.haptics = _with(self.haptics, object_id, None)
         self.bodies = _with(self.bodies, object_id, None)
+        self._removed.add(object_id)
         # Another thread may still fill the former one.
         self._corners = _with(self._corners, object_id, None)
         return change

@@ -16,7 +16,7 @@ from scene2hap.contact_needs import meets
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.session.config import MAX_GAIN_DB
-from scene2hap.session.frame import unknown_source
+from scene2hap.session.frame import RemovedIds, unknown_source
 
 
 @dataclass
@@ -102,6 +102,7 @@ class Sources:
         self._active_rows: tuple[LoopRow, ...] | None = None
         self._need_contacts: bool | None = None
         self._switch_themselves: bool | None = None
+        self._removed = RemovedIds()
         self.user = Level()
 
     def __contains__(self, object_id: object) -> bool:
@@ -127,6 +128,7 @@ class Sources:
     def remove(self, object_id: str) -> None:
         """Forget a source."""
         del self._sources[object_id]
+        self._removed.add(object_id)
         self._list()
 
     def get(self, object_id: str) -> Source | None:
@@ -145,7 +147,7 @@ class Sources:
     def __getitem__(self, source_id: str) -> Source:
         """A source. Raises: UnknownObject."""
         if not isinstance(source_id, str) or source_id not in self._sources:
-            raise UnknownObject(unknown_source(source_id, self.ids))
+            raise UnknownObject(unknown_source(source_id, self.ids) + self._removed.hint(source_id))
         return self._sources[source_id]
 
     def info(self, source_id: str) -> SourceInfo:

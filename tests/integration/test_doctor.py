@@ -34,6 +34,7 @@ def test_doctor_lists_every_extra(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert {"dae", "mujoco", "panda3d", "pictures", "serial", "soundcard"} <= {row["extra"] for row in told["extras"]}
+    assert not {"all", "dev", "docs", "test"} & {row["extra"] for row in told["extras"]}, "only for developers"
     assert set(told) >= {"sound_cards", "serial_ports", "python"}
 
 

@@ -149,3 +149,38 @@ def contents(folder: Path, object_id: str) -> list[bytes]:
     rows = json.loads((folder / "loops.json").read_text(encoding="utf-8"))[object_id]
     names = [row[kind] for _, row in sorted(rows.items()) for kind in ("audible", "tactile")]
     return [(folder / name).read_bytes() for name in names]
+
+
+def test_an_edit_says_what_changed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = str(tmp_path / "kitchen.bundle")
+    assert main(["bake", room(tmp_path), "-o", folder, "-q"]) == 0
+    capsys.readouterr()
+    assert main(["edit", folder, "gain", "fan", "-6"]) == 0
+    assert "fan, gain: +0.0 dB -> -6.0 dB" in capsys.readouterr().out
+    assert main(["edit", folder, "gain", "fan", "-6"]) == 0
+    assert "nothing changed" in capsys.readouterr().out
+    assert main(["edit", folder, "pitch", "fan", "200"]) == 0
+    said = capsys.readouterr().out
+    assert "fan, pitch: - -> 200 Hz" in said
+    assert "its place among the sources" in said
+
+
+def test_a_silent_object_can_be_made_to_vibrate(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = str(tmp_path / "kitchen.bundle")
+    assert main(["bake", room(tmp_path), "-o", folder, "-q"]) == 0
+    assert main(["edit", folder, "intensity", "oak table", "0.5"]) == 0
+    said = capsys.readouterr().err
+    assert "intensity will change nothing until it does" in said
+    assert "scene2hap edit BUNDLE vibrate oak table" in said
+    assert main(["edit", folder, "vibrate", "oak table"]) == 0
+    assert "oak table" in HapticBundle.load(folder).loops
+
+
+def test_commands_play_on_the_actuator_of_the_bundle(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder, touches = str(tmp_path / "kitchen.bundle"), tmp_path / "touches.csv"
+    assert main(["bake", room(tmp_path), "-o", folder, "--actuator", "lra", "-q"]) == 0
+    touches.write_text("time_s,hand,touch,glide_s\n0.1,left,fan,\n0.3,,,\n", encoding="utf-8")
+    capsys.readouterr()
+    assert main(["render", folder, "--touches", str(touches), "-o", str(tmp_path / "a.wav")]) == 0
+    assert main(["report", folder, "-o", str(tmp_path / "a.html")]) == 0
+    assert "actuator" not in capsys.readouterr().err

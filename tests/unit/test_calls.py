@@ -75,3 +75,19 @@ def test_error_sends_a_setting_to_the_configuration() -> None:
 )
 def test_nearest_name_is_found(wanted: object, known: list[str], sentence: str) -> None:
     assert checks.did_you_mean(wanted, known) == sentence
+
+
+def test_numbers_of_one_argument_are_put_into_parentheses() -> None:
+    def touch(hand: str, point_m: object) -> None: ...
+
+    assert "give 3 numbers as one argument, (1, 2, 3)" in misfit(touch, ("left", 1, 2, 3), {})
+    assert "leave it out" in misfit(touch, ("left", 1, "a"), {})
+    assert "leave it out" in misfit(touch, ("left", (1, 2, 3), 4), {})
+
+
+def test_long_values_are_left_out_of_the_message() -> None:
+    def play(clip: str, settings: object = ("a" * 100,)) -> None: ...
+
+    message = misfit(play, ("a", {}, ["long" * 100]), {})
+    assert "a list is one argument too many" in message
+    assert message.endswith("Call test_long_values_are_left_out_of_the_message.<locals>.play(clip, settings=...).")

@@ -48,15 +48,19 @@ def _object(facts: _Facts) -> Answer:
             _texts(facts, "surface_flags"),
             scene_category=_text(facts, "scene_category", default=""),
             material_names=_texts(facts, "material_names"),
-            height_m=_height(facts),
+            height_m=_optional_m(facts, "relative_height_m"),
+            whole_m=tuple(edge for edge in (_optional_m(facts, name) for name in _WHOLE_M) if edge is not None),
         ),
         _texts(facts, "neighbour_names"),
     )
 
 
-def _height(facts: _Facts) -> float | None:
-    height = facts.get("relative_height_m")
-    return None if height is None else checks.number("relative_height_m", height, "m", error=BadAnswer)
+_WHOLE_M = ("whole_length_m", "whole_width_m", "whole_height_m")
+
+
+def _optional_m(facts: _Facts, name: str) -> float | None:
+    length = facts.get(name)
+    return None if length is None else checks.number(name, length, "m", error=BadAnswer)
 
 
 def _material(facts: _Facts) -> Answer:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from scene2hap.llm.answers import ObjectAnswer, StateAnswer
 from scene2hap.llm.lexicon.materials import make, painted_with
-from scene2hap.llm.lexicon.name_checks import fit
+from scene2hap.llm.lexicon.name_checks import fit, owner_of_part
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
 from scene2hap.scene import plate_sizes
@@ -40,6 +40,7 @@ class Measured:
 
     `scene_category` is empty if unknown. `material_names` are the authored names of its surface materials, empty if
     unknown. `height_m` is the height of its lowest point above the scene's lowest point [m], None if unknown.
+    `whole_m` are the edges of the box around the whole object [m], empty if unknown.
     """
 
     name: str
@@ -48,6 +49,7 @@ class Measured:
     scene_category: str = ""
     material_names: Sequence[str] = ()
     height_m: float | None = None
+    whole_m: tuple[float, ...] = ()
 
 
 def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
@@ -57,10 +59,14 @@ def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
     reading = read_name(item.name)
     if reading.row is None:
         return _unknown(item, reading)
-    miniature = _miniature(reading, reading.row, item.size_m)
+    row, why = reading.row, ""
+    owner = owner_of_part(reading, item.whole_m)
+    if owner is not None and owner[0].row is not None:
+        (reading, why), row = owner, owner[0].row
+    miniature = _miniature(reading, row, item.size_m)
     if miniature:
-        return _as_miniature(item, reading, reading.row, miniature)
-    return _as_real(item, reading, reading.row, neighbour_names)
+        return _as_miniature(item, reading, row, miniature)
+    return _as_real(item, reading, row, neighbour_names, why)
 
 
 def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
@@ -87,7 +93,9 @@ def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
     )
 
 
-def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_names: Sequence[str]) -> ObjectAnswer:
+def _as_real(
+    item: Measured, reading: NameReading, row: ObjectRow, neighbour_names: Sequence[str], why_owner: str
+) -> ObjectAnswer:
     material, thickness_m = make(reading, row, item.scene_category, item.material_names)
     thickness, size_reason = _thickness(item, thickness_m, row.noun)
     confidence = reading.confidence
@@ -100,7 +108,9 @@ def _as_real(item: Measured, reading: NameReading, row: ObjectRow, neighbour_nam
         states, vibration_reason = [], f"it is shaken by the {fitting.part_of} that it is a part of."
     return ObjectAnswer(
         object_category=row.noun,
-        category_reason=_cut(" ".join((_category_reason(item.name, reading, row), *fitting.doubts))),
+        category_reason=_cut(
+            " ".join(filter(None, (_category_reason(item.name, reading, row), why_owner, *fitting.doubts)))
+        ),
         material_category=material,
         estimated_length_m=item.size_m[0],
         estimated_width_m=item.size_m[1],

@@ -1,13 +1,14 @@
 """Check whether an object's name fits its measured height, size and neighbours.
 
-A name alone can mislead: a "bench" may be the hob on a kitchen bench. Each misfit lowers the confidence by a factor and
-is reported. An object is silenced only if it is an inner part of the machine that it touches.
+A name alone can mislead: a "bench" may be the hob on a kitchen bench, and a "chairCushion" the whole chair. Each misfit
+lowers the confidence by a factor and is reported. An object is silenced only if it is an inner part of the machine that
+it touches.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow
@@ -43,13 +44,19 @@ _COMPONENTS = _set(
 )
 """Words beside the name of a machine that mark the object as a part of it."""
 
+_FURNISHINGS = _set("cushion")
+"""Objects that are parts of furniture, and also exist as separate objects. A table with a sink is a sink: its metal
+sheet is what hands touch."""
+_THICK_M = 0.3
+"""Drawers, doors and cushions are thinner than this in one direction; assumed."""
+
 # All assumed. They only rank answers by the strength of the evidence against them.
 _HIGH_M = 0.5
 _SHORT_SHELL_M = 1.0
 _THIN_SHARE = 0.5
 _SLENDER_SHARE = 0.2
 _MEASURED_M = 1e-3
-_TOO_HIGH, _TOO_SHORT, _TOO_THIN, _TOO_SLENDER, _PART, _BESIDE_SAME = 0.4, 0.5, 0.6, 0.5, 0.5, 0.7
+_TOO_HIGH, _TOO_SHORT, _TOO_THIN, _TOO_SLENDER, _PART, _BESIDE_SAME, _OWNER = 0.4, 0.5, 0.6, 0.5, 0.5, 0.7, 0.8
 
 
 @dataclass(frozen=True)
@@ -59,6 +66,33 @@ class Fit:
     trust: float = 1.0
     doubts: tuple[str, ...] = ()
     part_of: str = ""
+
+
+def owner_of_part(reading: NameReading, whole_m: Sequence[float]) -> tuple[NameReading, str] | None:
+    """Return the furniture whose part the name ends in, if the object is too thick for the part, and the reason.
+
+    "chairCushion" is a chair with a cushion, a "cupboard_door" of 2 cm is a door. Parts of machines stay parts: a
+    machine would vibrate. `whole_m` are the edges of the box around the object [m]; without them the result is None.
+    """
+    part = reading.row
+    if part is None or not (part.role == "part" or part.noun in _FURNISHINGS) or min(whole_m, default=0.0) <= _THICK_M:
+        return None
+    why = f"It is {min(whole_m):.2g} m thick, too thick for a {part.noun} alone."
+    owner = _before_head(reading)
+    while owner.row is not None and not owner.row.vibrates:
+        is_large = owner.row.min_size_m is not None and max(whole_m) >= owner.row.min_size_m
+        if is_large and owner.row.mass_kg is not None and owner.row.mass_kg > (part.mass_kg or 0.0):
+            trust = round(_OWNER * min(owner.confidence, reading.confidence), 3)
+            return replace(owner, name=reading.name, words=reading.words, confidence=trust), why
+        owner = _before_head(owner)
+    return None
+
+
+def _before_head(reading: NameReading) -> NameReading:
+    """Read the words before the recognised part of a name."""
+    words, head = reading.words, tuple(reading.head.split())
+    starts = [i for i in range(len(words)) if words[i : i + len(head)] == head]
+    return read_name(" ".join(words[: starts[-1]]))
 
 
 def fit(

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import Bands, FullPropagation, HapticSession, Pose, Touch
+from scene2hap import Bands, FullPropagation, HapticSession, Pose, SceneWarning, Touch
 from scene2hap.errors import ConfigError
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.domain import ThinPlateWarning
@@ -93,3 +93,27 @@ def test_band_width_outside_0_to_2_octaves_is_refused(octaves: Any) -> None:
 def test_band_width_is_refused_with_fixed_edges() -> None:
     with pytest.raises(ConfigError, match=r"only Bands\.dominant"):
         Bands((40.0, 80.0), octaves=0.5)
+
+
+@pytest.mark.parametrize("wrong", [math.nan, -12.0])
+def test_gains_that_are_no_factors_are_played_as_zero_with_one_warning(wrong: float) -> None:
+    class Decibels:
+        """A field that answers in dB, or not at all."""
+
+        source_ids = ("phone", "alarm")
+
+        def prepare(self, network: object, excitations: object, bands: Bands) -> "Decibels":
+            self.n_bands = bands.n_bands
+            return self
+
+        def attenuation(self, object_id: str, points_m: np.ndarray) -> np.ndarray:
+            return np.full((len(points_m), 2, self.n_bands), wrong)
+
+    s = HapticSession(
+        *table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Decibels(), "prepare": "blocking"}
+    )
+    points = [(x, 0.72, 0.4) for x in (0.7, 0.8, 0.9)]
+    with pytest.warns(SceneWarning, match=f"gave a gain of {wrong:g}, .* not in dB") as caught:
+        frames = [s.update(touches=[Touch("left", "table", point)]) for point in points]
+    assert len(caught) == 1
+    assert not any(frame.gains.any() for frame in frames)

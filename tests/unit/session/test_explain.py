@@ -7,6 +7,7 @@ import math
 import pytest
 
 from scene2hap import Contact, HapticBundle, HapticSession, SceneSnapshot, Touch, materials
+from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.errors import SessionError
 from scene2hap.propagation import MODELS
 from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
@@ -100,7 +101,7 @@ def test_explanation_lists_only_sources_felt_now() -> None:
     s.remove("alarm")
     assert s.explain("left").felt == ()
     s.update(touches=[Touch("left", "cup", (5.0, 0.1, 5.0))])
-    assert s.explain("left").text == "left touches cup and feels nothing."
+    assert s.explain("left").text.startswith("left touches cup and feels nothing.")
     with pytest.raises(SessionError, match="no hand 'foot'"):
         s.explain("foot")
 
@@ -213,3 +214,46 @@ def test_gains_below_140_db_are_zero_for_every_model(kind: str) -> None:
         assert (frame.gain("left", "phone") > 0.0) == (gain_db > -140.0)
         assert not ((frame.gains > 0.0) & (frame.gains < 1e-7)).any()
         assert bool(s.explain("left").felt) == (gain_db > -140.0)
+
+
+def test_explanation_says_why_nothing_is_felt() -> None:
+    s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE})
+
+    def reasons() -> str:
+        s.update(touches=[ON_TABLE])
+        s.render_s(0.1)
+        s.update(touches=[ON_TABLE])
+        return "\n".join(s.explain("left").reasons)
+
+    assert reasons() == "", "it feels the phone"
+    s.set_source("phone", on=False)
+    assert "off: 'phone'; call set_source(id, on=True)" in reasons()
+    s.set_source("phone", on=True, mute=True)
+    assert "muted: 'phone'; call set_source(id, mute=False)" in reasons()
+    s.set_source("phone", mute=False)
+    s.set_user(mute=True)
+    assert "set_user(mute=False)" in reasons()
+    s.set_user(mute=False)
+    s.pause()
+    assert "call resume()" in reasons()
+    s.resume()
+    s.remove("shelf")
+    assert reasons() == "No source touches it, directly or over other objects."
+    assert reasons() in s.explain("left").text
+
+
+def test_explanation_marks_sources_too_weak_to_be_felt() -> None:
+    snapshot, bundle = shelf_on_table()
+    loop = dataclasses.replace(bundle.loops["phone"]["ringing"], felt=Sensation(40.0, 40.0))
+    s = HapticSession(
+        snapshot, dataclasses.replace(bundle, loops={"phone": {"ringing": loop}}), {"sample_rate_hz": RATE}
+    )
+    s.update(touches=[ON_TABLE])
+    (felt,) = s.explain("left").felt
+    assert felt.over_threshold_db == pytest.approx(40.0 + felt.gain_db)
+    assert "too weak" not in str(felt)
+    s.set_source("phone", gain_db=-felt.over_threshold_db - 1.0)
+    s.update(touches=[ON_TABLE])
+    (felt,) = s.explain("left").felt
+    assert felt.over_threshold_db == pytest.approx(-1.0, abs=0.05)
+    assert "too weak to be felt: phone" in str(felt)

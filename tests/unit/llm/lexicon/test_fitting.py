@@ -54,3 +54,32 @@ def test_inner_part_of_a_touching_machine_is_no_source() -> None:
 
 def test_burner_on_a_stove_vibrates() -> None:
     assert judge(Measured("Burner 1", (0.17, 0.17, 0.02)), ["stove"]).vibrates
+
+
+@pytest.mark.parametrize(
+    ("name", "whole_m", "category"),
+    [
+        ("chairCushion", (0.36, 0.36, 0.83), "chair"),
+        ("chairModernFrameCushion", (0.36, 0.36, 0.83), "chair"),
+        ("chairCushion", (0.4, 0.4, 0.1), "cushion"),
+        ("kitchenCabinetDrawer", (0.77, 0.81, 0.81), "cabinet"),
+        ("cabinetBedDrawer", (0.39, 0.47, 0.48), "night stand"),
+        ("Cupboard_Big_door_upper", (0.03, 0.62, 1.4), "door"),
+        ("kitchencounter_sink", (1.2, 1.17, 1.08), "sink"),
+        ("Oven_Drawer", (0.4, 0.5, 0.5), "drawer"),  # an oven would vibrate
+        ("lamp_shade", (0.4, 0.5, 0.5), "lampshade"),
+        ("sink", (0.6, 0.6, 0.9), "sink"),
+        ("house_door", (0.31, 1.0, 2.0), "door"),
+    ],
+)
+def test_an_object_too_thick_for_the_part_it_is_named_after_is_the_whole(
+    name: str, whole_m: tuple[float, float, float], category: str
+) -> None:
+    answer = judge(Measured(name, (0.4, 0.4, 0.05), whole_m=whole_m))
+    assert answer.object_category == category
+    parts = ("cushion", "door", "drawer", "lampshade", "sink")
+    assert ("too thick for" in answer.category_reason) == (category not in parts)
+
+
+def test_without_the_size_of_the_whole_the_name_decides() -> None:
+    assert judge(Measured("chairCushion", (0.4, 0.4, 0.05))).object_category == "cushion"
