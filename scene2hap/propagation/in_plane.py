@@ -22,7 +22,7 @@ from scene2hap.propagation.ritz import axis_basis, products
 
 N_TERMS = 10
 """Polynomials of each axis. Tuned: with 7, some upright boards are 0.5 dB off at the 95th percentile, with 10 none is
-0.46; with 15 some are again, since a point force has no limit in the plane, and so many resolve less than the thickness.
+0.46; with 15 some are again: a point force has no limit in the plane, and so many resolve less than the thickness.
 """
 
 Floats = NDArray[np.float64]
