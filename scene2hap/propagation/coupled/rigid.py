@@ -22,10 +22,11 @@ from scene2hap.propagation.plate import Plate, RigidBody
 _THICK, _THICK_BAR = 1 / 5, 1 / 10
 """Parts of the shorter and of the longer side above which a plate is too thick to bend: thin-plate theory is far gone
 by then. A narrow bar bends along its length as long as it is slender."""
-COMPACT_HZ = 10_000.0
-"""First mode above which a free body is rigid in all that a hand feels, up to 1 kHz. Below, a small plate yields about
-as much as its contacts, which shifts resonances: one with a first mode at 2-5 kHz would err by 1-12 dB at the 95th
-percentile (docs/figures/accuracy.md)."""
+COMPACT_HZ, HOLLOW_HZ = 10_000.0, 2000.0
+"""First mode above which a free body is rigid in all that a hand feels, up to 1 kHz. Below 10 kHz a small plate yields
+about as much as its contacts, which shifts resonances: one with a first mode at 2-5 kHz would err by 1-12 dB at the
+95th percentile (docs/figures/accuracy.md). One that would weigh more than its object is hollow, as a bowl: its weight
+counts for more than how it would bend."""
 
 
 def is_too_thick(plate: Plate) -> bool:
@@ -47,7 +48,8 @@ def is_stiff(plate: Plate, above_hz: float) -> bool:
 def is_compact(plate: Plate) -> bool:
     """Whether a plate is so stiff that it moves as a whole. One that is held at an edge would not move at all, and is
     left as the stiff plate that it is."""
-    return plate.edges == "FFFF" and (is_too_thick(plate) or is_stiff(plate, COMPACT_HZ))
+    least_hz = HOLLOW_HZ if plate.moving_mass_kg < plate.mass_kg else COMPACT_HZ
+    return plate.edges == "FFFF" and (is_too_thick(plate) or is_stiff(plate, least_hz))
 
 
 @dataclass(frozen=True, eq=False)

@@ -43,6 +43,7 @@ OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "cera
         (Plate(0.5, 0.3, 0.059, OAK), False),
         (Plate(1.0, 0.09, 0.02, OAK), False),  # thicker than that, but a slender bar
         (Plate(0.09, 0.08, 0.012, CERAMIC), False),
+        (Plate(0.09, 0.08, 0.012, CERAMIC, object_mass_kg=0.1), True),  # hollow: the plate would weigh 0.2 kg
         (Plate(0.04, 0.03, 0.005, CERAMIC), True),  # first mode above 10 kHz
         (Plate(0.3, 0.3, 0.002, STEEL), False),
         (Plate(0.04, 0.03, 0.005, CERAMIC, "CFFF"), False),  # held: it would not move at all
