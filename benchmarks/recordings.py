@@ -94,6 +94,8 @@ def main() -> None:
     parser.add_argument("--actuator", default="flat")
     given = parser.parse_args()
     paths = given.sounds or sorted(path for path in RECORDINGS.glob("*.*") if path.suffix in (".wav", ".ogg"))
+    if not paths:
+        parser.error(f"no recordings in {RECORDINGS}; name sounds.")  # an empty table would pass for a measurement
     kinds = ["auto", *(kind for kind in CONVERTERS.kinds() if kind != "auto")]
     print(f"| sound | kind | {' | '.join(kinds)} |")
     print("|" + "---|" * (len(kinds) + 2))
