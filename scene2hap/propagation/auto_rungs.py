@@ -35,8 +35,8 @@ FLOOR_DB = -40.0
 """Gains below this are as good as none: errors are counted from here, re the source."""
 RIGID_DB = 250.0
 FINENESS = {
-    "coarse": Fineness(1.1 / math.pi, 3, 6),
-    "medium": Fineness(1.45 / math.pi, 3, 12),
+    "coarse": Fineness(1.1 / math.pi, 3, 6, least_wider=0),
+    "medium": Fineness(1.45 / math.pi, 3, 12, least_wider=0),
     "modal": FINE,
 }
 MODAL_DB = {

@@ -60,13 +60,15 @@ class Fineness:
     A polynomial needs pi per wavelength, which is 1 / 2 for k L. What is stiffer than the modes takes `wider` times as
     many: where a basis ends, responses ripple along both axes through the force, by 1 % of their rms, which is 1 dB
     where the plate hardly moves. More functions to factorise cost much less than more functions to find modes in.
-    Blocks above `QUICK_BLOCK` are left as they are.
+    There are at least `least_wider`: contacts close together see where a small basis ends. Blocks above `QUICK_BLOCK`
+    are left as they are.
     """
 
     per_k_length: float = 1.75 / math.pi
     more: int = 4
     least: int = 16
     wider: float = 1.2
+    least_wider: int = 24
 
 
 FINE = Fineness()
@@ -279,8 +281,9 @@ def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FIN
     # Rigid motions lie below a thousandth of the shift, and any bending above five times of it.
     limit = max(k**4 * (1 + 1e-9), 1e-3 * shift)
     # No block grows past those that take a second.
-    times = min(fineness.wider, max(math.sqrt(QUICK_BLOCK / largest), 1.0))
-    wider = _paired(plate, math.ceil(times * terms[0]), math.ceil(times * terms[1]))
+    room = max(math.sqrt(QUICK_BLOCK / largest), 1.0)
+    along, across = (math.ceil(n * min(room, max(fineness.wider, fineness.least_wider / n))) for n in terms)
+    wider = _paired(plate, along, across)
     nu, few, many = plate.material.poisson_ratio, _pairs(plate, terms), _pairs(plate, wider)
     blocks = []
     for own, pair in zip(few, many, strict=True):

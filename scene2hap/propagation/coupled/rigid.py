@@ -19,20 +19,24 @@ from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
 from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
 
-_THICK, _THICK_BAR = 1 / 5, 1 / 10
-"""Parts of the shorter and of the longer side above which a plate is too thick to bend: thin-plate theory is far gone
-by then. A narrow bar bends along its length as long as it is slender."""
+_THICK = 1 / 5
+"""Part of a side above which a thickness is too large for a plate to bend along it; thin-plate theory is far gone by
+then."""
 COMPACT_HZ, HOLLOW_HZ = 10_000.0, 2000.0
 """First mode above which a free body is rigid in all that a hand feels, up to 1 kHz. Below 10 kHz a small plate yields
 about as much as its contacts, which shifts resonances: one with a first mode at 2-5 kHz would err by 1-12 dB at the
-95th percentile (docs/figures/accuracy.md). One that would weigh more than its object is hollow, as a bowl: its weight
-counts for more than how it would bend."""
+95th percentile (docs/figures/accuracy.md). The weight of hollow bodies counts for more than how they would bend."""
+
+
+def is_hollow(plate: Plate) -> bool:
+    """Whether a plate would weigh more than its object, as with a bowl or a refrigerator."""
+    return plate.moving_mass_kg < plate.mass_kg
 
 
 def is_too_thick(plate: Plate) -> bool:
-    """Whether a plate is a block that does not bend along either side."""
-    shorter, longer = sorted(plate.extent_m)
-    return plate.thickness_m > max(_THICK * shorter, _THICK_BAR * longer)
+    """Whether a plate is a block that does not bend: a solid one along its longer side, a hollow one along either."""
+    side = min(plate.extent_m) if is_hollow(plate) else max(plate.extent_m)
+    return plate.thickness_m > _THICK * side
 
 
 def is_stiff(plate: Plate, above_hz: float) -> bool:
@@ -48,7 +52,7 @@ def is_stiff(plate: Plate, above_hz: float) -> bool:
 def is_compact(plate: Plate) -> bool:
     """Whether a plate is so stiff that it moves as a whole. One that is held at an edge would not move at all, and is
     left as the stiff plate that it is."""
-    least_hz = HOLLOW_HZ if plate.moving_mass_kg < plate.mass_kg else COMPACT_HZ
+    least_hz = HOLLOW_HZ if is_hollow(plate) else COMPACT_HZ
     return plate.edges == "FFFF" and (is_too_thick(plate) or is_stiff(plate, least_hz))
 
 

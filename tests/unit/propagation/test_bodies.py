@@ -39,9 +39,11 @@ OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "cera
     ("plate", "compact"),
     [
         (Plate(1.2, 0.7, 0.025, OAK), False),
-        (Plate(0.5, 0.3, 0.061, OAK), True),  # thicker than a fifth of the shorter side
-        (Plate(0.5, 0.3, 0.059, OAK), False),
-        (Plate(1.0, 0.09, 0.02, OAK), False),  # thicker than that, but a slender bar
+        (Plate(0.5, 0.3, 0.101, OAK), True),  # thicker than a fifth of the longer side
+        (Plate(0.5, 0.3, 0.099, OAK), False),
+        (Plate(0.5, 0.3, 0.061, OAK, object_mass_kg=1.0), True),  # hollow, and thicker than a fifth of the shorter
+        (Plate(0.5, 0.3, 0.059, OAK, object_mass_kg=1.0), False),
+        (Plate(1.0, 0.09, 0.02, OAK), False),  # a slender bar
         (Plate(0.09, 0.08, 0.012, CERAMIC), False),
         (Plate(0.09, 0.08, 0.012, CERAMIC, object_mass_kg=0.1), True),  # hollow: the plate would weigh 0.2 kg
         (Plate(0.04, 0.03, 0.005, CERAMIC), True),  # first mode above 10 kHz
