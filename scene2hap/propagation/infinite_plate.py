@@ -79,7 +79,8 @@ def spreading(kr: NDArray[np.complex128]) -> NDArray[np.complex128]:
 class InfinitePlate:
     """Physical model of a plate without edges: the damped Green's function of an infinite plate.
 
-    It ignores the length and the width of a plate, and has no resonances.
+    It ignores the length and the width of a plate, and has no resonances. In a scene, small stiff plates are rigid
+    (`WAVELESS_HZ`).
 
     Parameters: contact : stiffness of contacts, or its settings; outside_domain : what to do about an object of a scene
     that is thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or
