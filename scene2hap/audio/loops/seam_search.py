@@ -175,7 +175,7 @@ def _promising(
         heights, lengths = _at_whole_samples(curve, peaks, shortest, scale)
         found.append(np.stack([heights, np.full(len(peaks), round(start * scale)), lengths], axis=1))
     rows = np.concatenate(found)
-    full = _has_sound(signals, rows[:, 1], rows[:, 2])
+    full = _has_sound(signals, fade, rows[:, 1], rows[:, 2])
     rows = rows[full] if full.any() else rows
     # Of equal similarity the longer first: a longer loop is noticed later.
     order = np.lexsort((-rows[:, 2], -np.round(rows[:, 0] / _AS_GOOD)))
@@ -187,14 +187,21 @@ def _promising(
     return rows[np.concatenate(chosen), 1:].astype(np.int64)
 
 
-def _has_sound(signals: Sequence[Signal], starts: Signal, lengths: Signal) -> NDArray[np.bool_]:
-    """Return a mask (n,) of the loops with at least `_LEAST_POWER` of the mean power of every signal."""
+def _has_sound(signals: Sequence[Signal], settling: int, starts: Signal, lengths: Signal) -> NDArray[np.bool_]:
+    """Return a mask (n,) of the loops with at least `_LEAST_POWER` of the mean power of every signal.
+
+    The first signal is the sound. The others were converted from it, and their first `settling` samples do not count:
+    a converter answers the onset of a steady tone with a burst that can exceed all that follows. Every loop would begin
+    in that burst.
+    """
     enough = np.ones(len(starts), dtype=bool)
-    for x in signals:
-        energy = np.concatenate([[0.0], np.cumsum(x**2)])
-        first = np.clip(starts.astype(np.int64), 0, len(x))
-        end = np.clip(first + lengths.astype(np.int64), 0, len(x))
-        enough &= (energy[end] - energy[first]) * len(x) >= _LEAST_POWER * lengths * energy[-1]
+    for place, x in enumerate(signals):
+        skipped = settling if place > 0 else 0
+        energy = np.concatenate([[0.0], np.cumsum(x[skipped:] ** 2)])
+        first, end = (
+            np.clip(edge.astype(np.int64) - skipped, 0, len(x) - skipped) for edge in (starts, starts + lengths)
+        )
+        enough &= (energy[end] - energy[first]) * (len(x) - skipped) >= _LEAST_POWER * (end - first) * energy[-1]
     return enough
 
 

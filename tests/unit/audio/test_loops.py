@@ -161,6 +161,27 @@ def test_loop_of_a_single_stroke_holds_the_stroke(at_s: float) -> None:
     assert np.abs(apply_seam(x, find_seam(x, RATE))).max() > 0.5 * np.abs(x).max()
 
 
+@pytest.mark.parametrize("felt_hz", [61.3, 97.9, 163.1])
+@pytest.mark.parametrize("frequency_hz", [40.0, 187.3])
+def test_loop_of_a_tone_does_not_begin_in_the_burst_of_a_converter(frequency_hz: float, felt_hz: float) -> None:
+    """A band-pass answers the onset of a tone outside its band with a burst, here 40 dB above the tone that is felt."""
+    t = np.arange(4 * RATE) / RATE
+    felt = 0.01 * tone(felt_hz) + np.sin(2 * np.pi * 70 * t) * np.exp(-t / 0.02)
+    seam = find_seam(tone(frequency_hz), RATE, felt)
+    assert seam.start > 0.1 * RATE
+    assert seam.fitted(felt).correlation == pytest.approx(1.0, abs=0.01)
+    assert seam.fitted(felt).tilt_db == 0.0
+
+
+@pytest.mark.parametrize("at_s", [0.25, 2.0, 3.7])
+def test_loop_holds_a_stroke_that_is_felt_alone(at_s: float) -> None:
+    since_s = np.arange(4 * RATE) / RATE - at_s
+    stroke = np.sin(2 * np.pi * 80 * since_s) * np.exp(-np.maximum(since_s, 0.0) / 0.05) * (since_s > 0)
+    felt = stroke + 1e-4 * noise()
+    seam = find_seam(tone(2000.0), RATE, felt)
+    assert np.abs(apply_seam(felt, seam.fitted(felt))).max() > 0.5 * np.abs(felt).max()
+
+
 def test_pauses_of_unequal_noise_do_not_tilt_the_rings_between_them() -> None:
     t = np.arange(5 * RATE) / RATE
     x = np.sin(2 * np.pi * 200 * t) * (t % 1.5 > 0.5) + np.where(t < 1.0, 1e-3, 1e-4) * noise(5.0)
