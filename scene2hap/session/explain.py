@@ -12,7 +12,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -187,16 +187,18 @@ class Explainer:
                 f"The material of {', '.join(map(repr, unknown))} is unknown; give it by "
                 "bundle.override(id, material=...), or as haptics= of add."
             )
-        connected = _connected(on, self._state.graph.contacts)
-        near = [source_id for source_id in self._sources.ids if source_id in connected]
+        ids = self._sources.ids
+        reach = self._state.reach(ids)
+        columns = frozenset[int]().union(*(reach.sources(object_id) for object_id in on))
+        near = [source_id for column, source_id in enumerate(ids) if column in columns or source_id in on]
         if not near:
             yield "No source touches it, directly or over other objects."
         silent: dict[str, list[str]] = {}
         for source_id in near:
             silent.setdefault(_why_silent(self._sources[source_id]), []).append(source_id)
         for why, remedy in _REMEDIES.items():
-            if ids := silent.get(why):
-                named = ", ".join(map(repr, ids[:MOST_NAMED])) + (" and others" if len(ids) > MOST_NAMED else "")
+            if several := silent.get(why):
+                named = ", ".join(map(repr, several[:MOST_NAMED])) + (" and others" * (len(several) > MOST_NAMED))
                 yield f"Connected, but {why}: {named}; call set_source(id, {remedy})."
 
     def _felt(self, source_id: str, band: int, touches: Sequence[Touch]) -> FeltSource:
@@ -231,20 +233,6 @@ def _why_silent(source: Source) -> str:
     if source.level.is_muted:
         return "muted"
     return "in its off-time" if source.is_resting else ""
-
-
-def _connected(objects: Collection[str], contacts: Sequence[Contact]) -> set[str]:
-    """The objects that are connected to some objects by contacts, and these."""
-    beside: dict[str, list[str]] = defaultdict(list)
-    for contact in contacts:
-        beside[contact.a].append(contact.b)
-        beside[contact.b].append(contact.a)
-    found, waiting = set(objects), list(objects)
-    while waiting:
-        new = set(beside[waiting.pop()]) - found
-        found |= new
-        waiting += new
-    return found
 
 
 def decibels(gain: float) -> float:
