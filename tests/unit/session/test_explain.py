@@ -257,3 +257,12 @@ def test_explanation_marks_sources_too_weak_to_be_felt() -> None:
     (felt,) = s.explain("left").felt
     assert felt.over_threshold_db == pytest.approx(-1.0, abs=0.05)
     assert "too weak to be felt: phone" in str(felt)
+
+
+def test_a_source_behind_an_unknown_material_is_not_connected() -> None:
+    snapshot, bundle = shelf_on_table()
+    known = {object_id: one for object_id, one in bundle.objects.items() if object_id != "shelf"}
+    s = HapticSession(snapshot, dataclasses.replace(bundle, objects=known), {"sample_rate_hz": RATE})
+    s.set_source("phone", on=False)
+    s.update(touches=[ON_TABLE])
+    assert s.explain("left").reasons == ("No source touches it, directly or over other objects.",)
