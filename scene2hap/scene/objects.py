@@ -168,7 +168,7 @@ class SceneObject:
 
 
 def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
-    """Return the dominant surface of an object at this rotation (`scene.dominant_surface`), cached for equal meshes."""
+    """Return the dominant surface of an object at this rotation, cached for equal meshes."""
     up = pose.rotation[{"y": 1, "z": 2}[up_axis]].round(6)
     return _measured(geometry, tuple(up.tolist()))
 
