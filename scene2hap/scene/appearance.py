@@ -22,9 +22,9 @@ Rgba = tuple[float, float, float, float]
 class FaceMaterial:
     """Colour and texture of some faces.
 
-    `color_rgba` : sRGB and opacity, 0..1 [-]; `texture` : (height, width, 3 or 4) uint8 sRGB, or None. Both multiply. A
-        texture may be given as the content of its file; it is then decoded at the first access. `name` is the author's
-        name, "" if unknown; `digest` ignores it.
+    `color_rgba` : sRGB and opacity, 0..1 [-], multiplied with the texture.
+    `texture` : (height, width, 3 or 4) uint8 sRGB, or None. An `EncodedTexture` is decoded at the first access.
+    `name` : the author's name, "" if unknown; `digest` ignores it.
     """
 
     def __init__(

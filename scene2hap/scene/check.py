@@ -28,7 +28,8 @@ _RESTS_M = 0.06  # Largest gap below an object at rest, about that of the contac
 # along the wrong one.
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
 _FEW = 4  # Fewer objects are not enough to find the up axis or the order of quaternions.
-# This many rotations with a first component of 1 are enough: read as (x, y, z, w), they turn objects upside down.
+# This many rotations with a first component of 1 show that w is first: read as (x, y, z, w), they turn objects upside
+# down.
 _TWO = 2
 # The w of a rotation by 74 degrees. Most objects are rotated by less (assumed). Exporters that rotate all objects to
 # another up axis use 90 degrees.
@@ -90,9 +91,9 @@ def findings(scene: SceneData) -> Iterator[Finding]:
 
 
 def too_heavy(item: SceneObject, mass_kg: float) -> str | None:
-    """Return why an object cannot have a mass [kg]: its AABB would be denser than any material. None if it can."""
+    """Return why an object cannot have a mass [kg]: its AABB would be denser than any material. None if plausible."""
     volume_m3 = float(np.prod(np.ptp(item.geometry.mesh.bounds_m, axis=0)))
-    density = mass_kg / volume_m3 if volume_m3 > 0 else 0.0  # a sheet has no volume, and says nothing
+    density = mass_kg / volume_m3 if volume_m3 > 0 else 0.0  # a sheet has no volume, so its density is unknown
     if density <= _DENSEST_KG_M3:
         return None
     return (

@@ -1,4 +1,4 @@
-"""The files that a scene may read: its own, and files inside the assets root."""
+"""Find and read the files of a scene: its own file, and files inside the assets root."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
             raise SceneError(f"{refusal} Copy it there, or give assets_root={holding_both(path, assets_root)}.")
     except SceneError:
         raise
-    # A broken address, a zero byte and a ring of links raise these.
+    # A broken address, a zero byte or a cycle of links raises one of these errors.
     except (ValueError, OSError, RuntimeError) as cause:
         raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
     return path
@@ -64,7 +64,7 @@ def read_bytes(path: Path) -> bytes:
 
 
 def check_file(path: Path) -> None:
-    """Check a file without reading it. Raises: as `read_bytes`, except if it is unreadable."""
+    """Check a file without reading it. Raises: the errors of `read_bytes`, except for unreadable content."""
     try:
         if not path.exists():
             near = checks.near_files(path) or "Check the path, or export the scene with all its files."

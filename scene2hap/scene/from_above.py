@@ -60,7 +60,7 @@ class TopView:
             for cells, heights in _surface(triangles, n_columns, n_rows):
                 seen = (heights > height[cells]) & (heights <= highest)
                 cells, heights = cells[seen], heights[seen]
-                # the last of several in one cell is kept, so the highest must come last
+                # numpy keeps the last of several values for one cell, so the highest must come last
                 rising = np.argsort(heights, kind="stable")
                 top[cells[rising]], height[cells[rising]] = number, heights[rising]
         shape = (n_rows, n_columns)
@@ -73,7 +73,8 @@ class TopView:
         return left, left + n_columns * self.cell_m, lower, lower + n_rows * self.cell_m
 
     def points_m(self) -> tuple[NDArray[np.intp], Floats]:
-        """Flat numbers (n_seen,) of cells with a surface, and the surface point in their middle (n_seen, 3) [m]."""
+        """Return flat numbers (n_seen,) of cells with a surface, and the surface points (n_seen, 3) [m] in their
+        middles."""
         cells = np.flatnonzero(self.top.ravel() != NOTHING)
         row, column = np.divmod(cells, self.top.shape[1])
         points = np.empty((len(cells), 3))
@@ -83,7 +84,7 @@ class TopView:
         return cells, points
 
     def edges_m(self, among: NDArray[np.bool_] | None = None) -> Floats:
-        """Edges (n_edges, 2, 2) [m] between cells of different objects, or around a set of cells (n_rows,
+        """Return edges (n_edges, 2, 2) [m] between cells of different objects, or around a set of cells (n_rows,
         n_columns)."""
         numbers, beside = (self.top, NOTHING) if among is None else (among.astype(np.intp), 0)
         shown = np.pad(numbers, 1, constant_values=beside)
@@ -98,7 +99,7 @@ class TopView:
 def _surface(triangles: Floats, n_columns: int, n_rows: int) -> Iterator[tuple[NDArray[np.intp], Floats]]:
     """Yield the cells whose middle is below a triangle, and the height there.
 
-    `triangles` (n, 3, 3) have their first two coordinates in cells. They are tested in parts, which bounds the memory.
+    `triangles` (n, 3, 3) have their first two coordinates in cells. To bound the memory, they are tested in parts.
     """
     least = np.ceil(triangles[..., :2].min(axis=1) - 0.5).clip(0, [n_columns, n_rows]).astype(np.intp)
     most = np.floor(triangles[..., :2].max(axis=1) - 0.5).clip(-1, [n_columns - 1, n_rows - 1]).astype(np.intp)

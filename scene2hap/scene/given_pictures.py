@@ -4,7 +4,7 @@
     pictures = GivenPictures.load("kitchen")  # a folder with pictures.json
     bundle = bake(pictures.attach_to(scene), config)
 
-Files are checked when they are given, and decoded when a model looks at them.
+Files are checked when they are given, and decoded at their first use.
 """
 
 from __future__ import annotations
@@ -74,8 +74,8 @@ class GivenShot(Shot):
 class GivenPictures:
     """The `ImageSource` of existing pictures, as PNG or JPEG files.
 
-    A model sees them in the given order, the isolated pictures of an object before those in its surroundings. The
-    prompts tell the model that the object has a pink outline (255, 0, 190) in the latter.
+    A model gets pictures in the given order, the isolated ones of an object before the ones in its surroundings. The
+    prompts say that the object has a pink outline (255, 0, 190) in pictures of its surroundings.
     Parameters: pictures : files by `PictureKey`; kind "scene" has no object id, "isolated" and "context" have one.
     Raises: SceneError: a key that names nothing, or a picture too large; SceneFormatError: neither PNG nor JPEG.
     """
@@ -90,7 +90,7 @@ class GivenPictures:
 
     @classmethod
     def load(cls, folder: str | os.PathLike[str]) -> GivenPictures:
-        """Return the pictures of a folder. They are decoded when a model looks at them.
+        """Return the pictures of a folder. They are decoded at their first use.
 
         Its `pictures.json` is a list of JSON objects with `object` (an id; left out for the whole scene), `kind`,
         `view`, and `file`, a relative reference to a file in the folder.

@@ -2,9 +2,9 @@
 
 A member of a group is an *item* if its name has a head noun of its own that names no part. Under `tea_set`,
 `tea_set_cup` is an item; `tea_set_lid` (a part), `tea_set_mat_0` (a material) and `tea_set_2` (a number) are not. A
-group is a collection if the bounding boxes of two of its items do not touch. Then every item becomes an object, and
-every other member belongs to the nearest item: the lid to its pot. A table with its legs and a hob with its burners
-have no two separate items, and stay one object.
+group is a collection if the bounding boxes of its items form two or more separate sets. Then every item becomes an
+object, and every other member belongs to the nearest item: the lid to its pot. A table with its legs and a hob with its
+burners have no separate items, and stay one object.
 """
 
 from __future__ import annotations
@@ -58,8 +58,7 @@ class Member:
 
 
 def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
-    """Return the members of each object, the member that names it first. One list with all if the group is no
-    collection."""
+    """Return one list of members for each object; the first member names it. One list for all if no collection."""
     some = [member for member in members if any(len(piece.vertices) for piece in member.pieces)]
     items = [member for member in some if member.name == group_name or has_own_noun(member.name, group_name)]
     if len(items) < 2 or not _stand_apart(some, items):
@@ -98,12 +97,12 @@ def _stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
 
 
 def _boxes(members: Sequence[Member]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lowest and highest corners (n, 3) in the world."""
+    """Return lowest and highest corners (n, 3) in the world."""
     return np.array([member.box[0] for member in members]), np.array([member.box[1] for member in members])
 
 
 def _gaps(one: Member, lows: NDArray[np.float64], highs: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distances (n,) of a member's bounding box to others (n, 3)."""
+    """Return the distances (n,) of a member's bounding box from others, given by their corners (n, 3)."""
     a, b = one.box
     gaps: NDArray[np.float64] = np.linalg.norm(np.maximum(np.maximum(a - highs, lows - b), 0.0), axis=1)
     return gaps

@@ -5,16 +5,16 @@ their own nodes above. The rule "authored" undoes this:
 
 a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
    child that has children is an object by itself.
-b. A node without a mesh is one object made of its leaf children if these have no names or names that begin with its
-   own: `Cooktop` with `Cooktop_Burner_mat`. Rules (a) to (d) apply to all other children: the knobs `Controller` below
-   `Cooktop`.
-c. A node without a mesh may hold only one object, directly or through other such nodes. It gives that object its name
-   and place (`washing_machine` over `washer(Clone)`); the outermost such name is used. Names that exporters give to
-   their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never taken.
+b. A node without a mesh, and its leaf children without names or with names that begin with the node's name, are one
+   object: `Cooktop` with `Cooktop_Burner_mat`. Rules (a) to (d) apply to all other children, such as the knobs
+   `Controller` below `Cooktop`.
+c. A node without a mesh that contains only one object, directly or through other such nodes, gives that object its name
+   and place (`washing_machine` over `washer(Clone)`). The name of the outermost such node is used. Names that exporters
+   give to their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never used.
 d. Every other node without a mesh is a container; its children are grouped one by one.
 e. An object by (a) or (b) is split if it is a collection of separate items (`scene.group_split`): a pot, two cups and
    their saucers, but not a table with its legs.
-f. A node that the file itself declares to be one object (`AuthoredNode.is_object`) is one, with all nodes below it.
+f. A node that the file itself declares an object (`AuthoredNode.is_object`) is one object with all nodes below it.
 """
 
 from __future__ import annotations

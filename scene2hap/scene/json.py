@@ -1,8 +1,8 @@
 """A scene as JSON, for engines that are not written in Python and for bundles.
 
-Instances share geometry, so it is stored once in a table. An object contains the key of its row, or the geometry
-itself. The dominant surface and the height of an object are measured if the file does not have them. docs/scene-json.md
-describes the format for authors of exporters.
+Instances share geometry, so each geometry is stored once in a table. An object contains the key of its geometry, or the
+geometry itself. The dominant surface and the height of an object are measured if the file does not have them.
+docs/scene-json.md describes the format for authors of exporters.
 """
 
 from __future__ import annotations

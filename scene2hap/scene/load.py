@@ -54,13 +54,13 @@ def load_scene(
         folder. Nothing outside it is opened. If textures are in a sibling folder of the scene's, give the folder that
         holds both. For a Habitat scene (`NAME.scene_instance.json`) it is the dataset's folder; None means the nearest
         folder above the scene, up to five levels, that holds `*.scene_dataset_config.json`.
-    names : only for Habitat scenes, whose templates may be hashes: names of objects by template, or the path of a table
-        of them: JSON that maps one to the other, or CSV with columns such as id and name. HSSD's own tables are found
-        without it; see `scene2hap.scene.formats.habitat_names`.
+    names : only for Habitat scenes, whose templates may be hashes: object names by template, or the path of such a
+        table. The table is JSON that maps templates to names, or CSV with columns such as id and name. HSSD's own
+        tables are found without this parameter; see `scene2hap.scene.formats.habitat_names`.
 
     Returns: the scene named after the file. An object has the pose of the node that names it, without scale. Copies of
-        one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names. The second and
-        third object of a name, in file order, get `#2`, `#3`, ... Ids are the same on every load.
+        one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names; the second and
+        third object of a name, in file order, get `#2`, `#3`, ... Every load gives the same ids.
     Raises: SceneFormatError: the file is broken, or its content does not fit its suffix. SceneError: it is missing, too
     large (`scene2hap.scene.limits`), empty, wants a file outside assets_root, or holds invalid geometry. MissingExtra:
     a decoder, MuJoCo or usd-core is not installed.

@@ -72,7 +72,7 @@ class SceneObject:
     `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
     `mass_kg` is the mass from an engine or an author [kg], None if unknown. `appearance` is used only for pictures,
-    None if unknown; `images` are those of `capture_images`.
+    None if unknown; `images` are the pictures from `capture_images`.
     """
 
     id: str

@@ -1,7 +1,7 @@
 """Bounds of a stated plate size, relative to the measured one.
 
 A language model may correct sizes that a mesh lacks: the thickness of a floor of two triangles, or of a table modelled
-as a solid block. Length and width of the mesh are more reliable than its estimate.
+as a solid block. Length and width of the mesh are more reliable than a model's estimate.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ _FAR_FROM_UNIT = 0.1
 # Angles in radians that are a multiple of this are probably degrees.
 _DEGREES = 15.0
 _LAST_ROW = 1e-6
-_LEAST_SLANT = 1e-9  # below this sine, a target is straight above or below, and has no heading
+_LEAST_SLANT = 1e-9  # below this sine, a target is straight above or below, and its heading is undefined
 
 
 @clear_construction
@@ -236,7 +236,7 @@ def _triple(values: Sequence[float] | NDArray[np.float64]) -> tuple[float, float
 
 
 def _quaternion(r: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Return the unit quaternion (x, y, z, w) of a rotation matrix. The largest component comes first to avoid
+    """Return the unit quaternion (x, y, z, w) of a rotation matrix. The largest component is computed first, to avoid
     cancellation.
 
     Source: S. W. Shepperd, Quaternion from rotation matrix, J. Guidance and Control 1 (1978) 223.

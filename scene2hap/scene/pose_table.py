@@ -17,11 +17,11 @@ _UNIT_TOLERANCE = 1e-9  # As in `Pose`: a rotation this close to unit length is 
 
 @clear_construction
 class PoseTable(Mapping[str, Pose]):
-    """A mapping from id to `Pose` over an engine's arrays, which makes each pose on first access.
+    """A mapping from id to `Pose` over an engine's arrays, which builds each pose at its access.
 
     Parameters: ids : n ids, each once; positions_m : (n, 3) [m]; rotations_xyzw : (n, 4), quaternions in glTF order,
         normalised if they are not. The arrays are copied. Reading is fastest if tables share one tuple of ids.
-    Raises: SceneError: shapes that do not fit, an id twice, a number that is not finite, a rotation of length 0.
+    Raises: SceneError: wrong shapes, a duplicate id, a number that is not finite, a rotation of length 0.
     """
 
     __slots__ = ("_row", "ids", "positions_m", "rotations_xyzw")

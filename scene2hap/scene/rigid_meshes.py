@@ -25,7 +25,7 @@ from scene2hap.scene.tree import Matrix, Piece, digest
 _SAME_PLACE = 1e-6
 # An object smaller than this [m] is a point: its surface cannot be measured (assumed; a hair is 5e-5 wide).
 _MIN_EXTENT_M = 1e-9
-# Vertices are rounded to this many decimals of a metre. Rotating to and fro has smaller errors in a scene of 1e6 m.
+# Vertices are rounded to this many decimals of a metre. Rotating and rotating back has smaller errors, even at 1e6 m.
 _DECIMALS = 9
 # Two stored copies may be rounded to neighbouring steps [m].
 _SAME_VERTEX_M = 1.5e-9
@@ -150,8 +150,8 @@ class _Copies:
 
     @staticmethod
     def _mark(table: NDArray[np.float64]) -> float:
-        """Return a weighted sum of the entries. The weights below 1 are irrational, so no plain ratio of entries
-        cancels."""
+        """Return a weighted sum of the entries. The weights are irrational and below 1, so that entries in simple
+        ratios do not cancel."""
         return float(table.ravel() @ np.modf(np.arange(1, table.size + 1) * 0.6180339887498949)[0])
 
 

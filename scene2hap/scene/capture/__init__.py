@@ -67,15 +67,15 @@ def capture_images(
     """Return the scene with pictures for a multimodal model. Each picture is rendered at its first access.
 
     Parameters:
-    object_ids : the objects that get images, None for all. The scene gets its own in any case.
+    object_ids : the objects that get images, None for all. The scene itself always gets images.
     size_px, renderer : replace the values of `config`, by default 512 pixels and "embree". A renderer is a kind of
         `RENDERERS`, or a factory of your own. Workers need a factory that can be pickled.
-    alone : take each object upright at the origin, and without images of its surroundings. Equal objects of several
+    alone : render each object upright at the origin, and no images of its surroundings. Equal objects of several
         scenes then have equal images, so that `share_scenes` needs only one inference for all.
 
     Returns: a scene with `images`, 4 of the scene from above, and objects with `images.isolated` and `images.context`,
-        8 each, of which the first 4 are from above. A scene captured before has its pictures in memory, or in
-        `config.cache_dir`, by their content.
+        8 each, of which the first 4 are from above. Pictures are cached by content, in memory and in
+        `config.cache_dir`, so a second capture of a scene renders nothing that is cached.
     Raises: UnknownObject; ConfigError: a setting out of bounds; UnknownPlugin: no such renderer; MissingExtra: its
     package is not installed.
     """

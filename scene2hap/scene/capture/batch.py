@@ -25,7 +25,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 Progress = Callable[[int, int], None]
 """Callback with the number of finished pictures, and of all pictures."""
 
-# Groups of pictures queued for each other process, so that none is idle while this process renders a picture.
+# Groups of pictures queued for each worker process, so that no worker is idle while this process renders a picture.
 _AHEAD = 2
 
 
@@ -84,7 +84,7 @@ def _shared(studio: Studio, wanted: list[Shot], others: int) -> Iterator[Shot]:
     portions = deque(list(group) for _, group in groupby(wanted, key=lambda shot: (shot.kind, shot.subject)))
     given: set[Future[list[tuple[Shot, bytes]]]] = set()
     try:
-        # A file, since through a pipe this process would wait until the others have started and read it.
+        # The data goes through a file. With a pipe, this process would wait until the others have started and read it.
         with (
             _written((studio.stage, studio.config, studio.factory, studio.below)) as setting,
             ProcessPoolExecutor(others, mp_context=context, initializer=_set_up, initargs=(setting,)) as pool,

@@ -11,7 +11,7 @@ from threading import Lock
 from scene2hap.errors import ConfigError
 
 MEMORY_BYTES = 256 * 2**20
-"""Bytes of pictures that this process keeps, least recently used first out: about 2000 of 512 pixels (assumed)."""
+"""Bound of this process's LRU cache [bytes]: about 2000 pictures of 512 pixels (assumed)."""
 
 _PNG_END = b"IEND\xaeB\x60\x82"
 

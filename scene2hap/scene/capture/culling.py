@@ -1,8 +1,8 @@
 """Removal of objects that hide the target of a picture.
 
-The paper casts a ray to the object and removes all objects that it meets. It calls this a flaw, since the object's
-support and neighbours, its context, may be removed as well. Here rays go to all of the target's silhouette, on a coarse
-grid. An object between the eye and the target is
+The paper casts a ray to the object and removes all objects that the ray meets. The paper calls this a flaw, since the
+object's support and neighbours, its context, may be removed as well. Here rays go to all of the target's silhouette, on
+a coarse grid. An object between the eye and the target is
 
 1. *opened*, if it is a shell (`surroundings.shells`: walls, floor, ceiling, a room in one piece). It loses only the
    faces whose plane separates the eye from the target's middle, and so keeps floor and far walls. All shells are opened

@@ -31,7 +31,7 @@ Levels = NDArray[np.uint8]
 
 # Step behind a passed hit, as a share of its depth and of the scene's size: some ulps of float32 (tuned).
 _STEP_OF_DEPTH, _STEP_OF_SCENE = 1e-6, 1e-6
-# Most hits that one ray passes; then the ray counts as free (assumed: no scene is that deep).
+# Most hits that one ray passes; after them, the ray hits nothing (assumed: no scene is that deep).
 _MAX_PASSES = 512
 # Pictures of at most this many objects use the objects' own trees.
 _FEW = 2
@@ -41,8 +41,8 @@ _LIGHT = 4096
 _LARGE_TREES = 4
 # A pixel is smoothed if a channel differs from the next pixel's by more than this, of 255 (tuned by eye).
 _VISIBLE_STEP = 24
-# Offsets [px] of the added rays from the middle of a smoothed pixel, which counts as well. With them, level, upright
-# and slanted edges all get three steps (assumed).
+# Offsets [px] of the added rays from the middle of a smoothed pixel. The pixel's colour is the mean of these rays and
+# the ray in its middle, so that level, upright and slanted edges all get three steps (assumed).
 _ADDED_RAYS = ((-0.33, 0.17), (0.17, -0.33))
 
 

@@ -72,8 +72,8 @@ def in_view(seen: Extents, camera: Camera) -> Flags:
     """Return a mask of the triangles (n,) that can colour a pixel if corners are rounded down to pixels
     (p3tinydisplay).
 
-    It leaves out triangles behind the eye or beside the picture, and triangles whose corners all are in one row or
-    column of pixels. Most triangles of a finely meshed scene are of the latter kind.
+    Triangles behind the eye or beside the picture are left out, and triangles whose corners all are in one row or
+    column of pixels. The latter are most triangles of a finely meshed scene.
     """
     # p3tinydisplay scales so that the picture's last half pixel is never reached.
     edge = np.float32(camera.size_px - 0.5)

@@ -29,7 +29,7 @@ def _upright(pose: Pose, up_axis: UpAxis) -> Pose:
     vertical = {"y": 1, "z": 2}[up_axis]
     up = np.eye(3)[vertical]
     side = pose.rotation.T @ up
-    # Quaternion from `side` to `up`, not normalised. If both are opposite, any axis across serves.
+    # Quaternion from `side` to `up`, not normalised. For opposite vectors, any perpendicular axis is right.
     quaternion = np.array([*np.cross(side, up), 1.0 + side @ up])
     if quaternion[3] < 10.0**-_DIGITS:
         quaternion = np.array([1.0, 0.0, 0.0, 0.0])

@@ -40,7 +40,7 @@ def _rim(is_target: Mask, width_px: int) -> Mask:
     padded = np.pad(is_target, width_px)
     grown = np.zeros_like(is_target)
     for down in range(-width_px, width_px + 1):
-        # Row by row of the disc. Half a pixel is added to its radius, or its rim would have single pixels.
+        # One row of the disc at a time. Without the half pixel added to its radius, its rim would have single pixels.
         reach = int(np.sqrt((width_px + 0.5) ** 2 - down**2))
         band = padded[width_px + down : width_px + down + height]
         for across in range(-reach, reach + 1):

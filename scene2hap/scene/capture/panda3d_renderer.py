@@ -1,9 +1,9 @@
 """Pictures by Panda3D's software rasteriser (p3tinydisplay): several times faster, without smooth edges.
 
-It needs no graphics card, and only libx11-6 as a system package. Its time grows with corners rather than pixels, so
-only triangles that can colour a pixel are drawn (`in_view`): a ninth of a furnished house. Light is baked into their
-colours, so that pictures look like those of ray casting. The object of a pixel is encoded in its opacity, which is
-otherwise unused, so a picture and its ids take one pass.
+The renderer needs no graphics card, and only libx11-6 as a system package. Its time grows with the number of corners
+rather than pixels, so only triangles that can colour a pixel are drawn (`in_view`): a ninth of a furnished house. Light
+is baked into their colours, so that pictures look like those of ray casting. In scenes of up to `_BASE` objects, a
+picture and its ids take one pass: a pixel's object is encoded in its opacity, which is otherwise unused.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ Ints = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
-# Objects are encoded by digits of this base plus one, as zero is the background. Textures multiply by 255 / 256 and
-# round down, so a digit that passes through a texture starts larger by one.
+# Objects are encoded as digits in this base, plus one, since zero is the background. Textures multiply by 255 / 256 and
+# round down, so one more is added to a digit that is drawn with a texture.
 _BASE = 250
 
 _MOST_DIRECTIONS = 72

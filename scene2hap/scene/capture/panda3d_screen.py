@@ -18,7 +18,7 @@ from scene2hap.scene.capture.views import Camera
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 
-# Depth range as shares of the scene's diagonal. This rasteriser resolves depths better the nearer the range begins
+# Depth range as shares of the scene's diagonal. The nearer the range begins, the better this rasteriser resolves depths
 # (tuned: from 0.01 on, a carpet 1 mm over the floor is lost).
 _NEAR, _FAR = 1e-3, 8.0
 

@@ -57,7 +57,7 @@ def _rows(item: SceneObject) -> tuple[tuple[str, ImageSet], ...]:
 def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
     """Return the scene straight from above with every object's id, as a PNG file. Needs no renderer.
 
-    Objects above four fifths of the scene's height are cut off. The front is at the bottom (`axes_of`).
+    Faces that reach above four fifths of the scene's height are left out. The front is at the bottom (`axes_of`).
     """
     stage = Stage.of(scene)
     right, up, front = axes_of(stage.up_axis)
@@ -100,7 +100,7 @@ def _write_names(
     scale: float,
     size_px: tuple[int, int],
 ) -> None:
-    """Write ids over their objects, shifted down until they do not overlap. Walls and floors get none."""
+    """Write each object's id over it, shifted down until no ids overlap. Walls and floors get no id."""
     font = ImageFont.load_default(12)
     written: list[tuple[float, float, float, float]] = []
     for number, actor in enumerate(stage.actors):

@@ -28,8 +28,8 @@ Pixels = NDArray[np.uint8]
 class Selection:
     """The content of a picture: objects `shown`. Objects `opened` show only faces that cannot hide the point `focus_m`.
 
-    A face can hide a point if its plane separates the point from the eye. So an opened room loses the walls between it
-    and the camera and keeps floor and far walls, whether it is one mesh or several.
+    A face can hide a point if its plane separates the point from the eye. So an opened room loses the walls between the
+    point and the camera, and keeps floor and far walls, whether it is one mesh or several.
     """
 
     shown: frozenset[int]

@@ -139,7 +139,7 @@ def _drawn_in(corners_m: Vector, box_m: Vector, inset_m: float) -> Floats:
     size.
 
     Otherwise faces of touching objects would be in one plane, and the first hit of a ray would depend on rounding. A
-    room in one piece, whose box contains the scene's middle, is not scaled: it would move towards its contents.
+    room in one piece, whose box contains the scene's middle, is not scaled: its walls would move towards its contents.
     """
     low, high = box_m
     if (low < 0).all() and (high > 0).all():

@@ -1,6 +1,6 @@
 """Spatial relations of the objects of a `Stage`: supports, neighbours, containers, walls and rooms.
 
-All but the supports follow from AABBs, so they take milliseconds and need no renderer.
+All relations but supports are computed from AABBs, in milliseconds and without a renderer.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ _SUNK = 0.2
 def shells(stage: Stage) -> frozenset[int]:
     """Return walls, floors, ceilings and rooms.
 
-    They span `_SHELL_SPAN` of the scene along two axes. Or they are pieces of wall: they span the same share of its
-    height, are thin, and are at its boundary.
+    A shell spans `_SHELL_SPAN` of the scene along two axes, or is a piece of wall. A piece of wall spans this share of
+    the scene's height, is thin, and is at the scene's boundary.
     """
     up = {"y": 1, "z": 2}[stage.up_axis]
     low, high = stage.box_m
@@ -124,9 +124,9 @@ def _cross(a: Floats, b: Floats) -> Floats:
 class Copies:
     """The groups of objects that share pictures.
 
-    Objects of one `instance_key` share isolated images, even if their names differ: those of the first in scene order,
-    at its own rotation. A *context class* is the kind of an object (`likeness.copy_key`) together with the kind of its
-    support (`supports`). Objects of one class share the context images of its first object, with that object's
+    Objects of one `instance_key` share the isolated images of the first of them in scene order, at the rotation of that
+    object, even if their names differ. A *context class* is the kind of an object (`copy_key`) together with the kind
+    of its support (`supports`). Objects of one class share the context images of the first of them, with that object's
     surroundings. An object without a key has pictures of its own.
     """
 

@@ -22,7 +22,7 @@ def engine(module: str) -> Any:
         return import_module(module)
     except ModuleNotFoundError as cause:
         raise MissingExtra(f"{extra} is not installed. Run: pip install 'scene2hap[{extra}]'") from cause
-    # Engines load drivers when they are imported, and these may raise any error.
+    # Engines load drivers when they are imported, and a driver may raise any error.
     except Exception as cause:
         raise ConfigError(
             f"{extra} is installed but does not import: {cause}. Try: python -c 'import {extra}'"

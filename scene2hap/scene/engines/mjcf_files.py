@@ -1,8 +1,8 @@
 """Find and bound the files that an MJCF file makes MuJoCo read, before MuJoCo opens any.
 
 MuJoCo opens any file that an MJCF file names, `../../x` and absolute paths included, and makes any number of copies. So
-the include graph is read here first. MuJoCo's versions differ in the base folder of included files, so a name may mean
-several files. None of them may be outside the root.
+this module reads the include graph first. MuJoCo's versions differ in the base folder of included files, so a name may
+mean several files. None of these files may be outside the root.
 
 Source: MuJoCo documentation (Google DeepMind), XML reference, `include`, `compiler`, `asset`, `replicate`.
 """
@@ -44,10 +44,10 @@ MAX_MESH_STEPS = 200
 MAX_MADE_TRIANGLES = 400_000
 """Most triangles of all built-in meshes together (assumed: MuJoCo takes 600 bytes for each while it compiles)."""
 FREE_MESH_BYTES, MESH_BYTES_PER_STORED = 8 << 20, 2.0
-"""Bounds on the bytes that all rows with mesh files read together; a file counts for each row.
+"""Bound on the bytes of all mesh files together; a file counts once for each element that names it.
 
-The bound is a fixed number, plus a multiple of the stored bytes. Assumed: MuJoCo decodes a file again for every row, a
-megabyte in 0.2 s.
+The bound is a fixed number, plus a multiple of the stored bytes. Assumed: MuJoCo decodes a file again for every such
+element, a megabyte in 0.2 s.
 """
 
 # Elements that multiply their content, and elements that make a grid of cells, with the attributes for the numbers.
@@ -80,7 +80,7 @@ class _Wanted(NamedTuple):
 
 @dataclass
 class _Totals:
-    """Totals of the whole model and of all models in it, since a million small rows take as much as a large one."""
+    """Totals of a model and all models in it, since a million small elements cost as much as a large one."""
 
     cells: limits.Budget = field(
         default_factory=lambda: limits.Budget(
@@ -141,7 +141,7 @@ class _Model:
     def check(self) -> None:
         _not_too_deep(self.path, len(self.around))
         self.read(self.path, copies=1, depth=0)
-        # Only now are the folders known: the last <compiler> with a folder also decides for the elements before it.
+        # The folders are known only after reading: the last <compiler> with a folder also applies to earlier elements.
         read: set[Path] = set()
         for wanted in self.assets:
             found = self.find(wanted)
@@ -177,7 +177,7 @@ class _Model:
         try:
             candidates = [(base / self._name(wanted)).resolve() for base in self._bases(wanted)]
             existing = [path for path in candidates if _is_there(path)]
-        # A name that is too long and a ring of links raise these.
+        # A name that is too long, or a cycle of links, raises one of these errors.
         except (ValueError, OSError, RuntimeError) as cause:
             raise SceneError(f"{wanted.place} wants {wanted.name!r}, which is no usable file name: {cause}.") from cause
         beyond = [path for path in existing or candidates if not path.is_relative_to(self.root)]
@@ -214,7 +214,10 @@ class _Model:
 
 @dataclass
 class _Reader:
-    """Reader of one XML file. It adds the named files to its model; `open_copies` has a row for each open element."""
+    """Reader of one XML file that adds the named files to its model.
+
+    `open_copies` : the number of copies of each open element's content.
+    """
 
     model: _Model
     path: Path
@@ -326,7 +329,7 @@ def _made_triangles(attributes: Mapping[str, str]) -> int:
 
 
 def _at_most(what: str, number: str, most: int) -> None:
-    """Check a number in a text. Raises: SceneError: it is larger. Texts that are no numbers are left to MuJoCo."""
+    """Check a number in a text. Raises: SceneError: it is larger. MuJoCo itself refuses texts that are no numbers."""
     if _product(number) > most:
         raise SceneError(f"{what} is {number[:40]!r}; up to {most:,} is read.")
 

@@ -4,13 +4,13 @@
    others, so they are objects too. A body without geoms is no object.
 2. Every geom of the world body (floor, walls) is an object.
 3. If a body has visible geoms that cannot collide (contype and conaffinity 0), only these are drawn; otherwise all its
-   geoms are. Geoms of the world have no such pairs. Of these, geoms that collide and are in groups 3 to 5, which
-   MuJoCo's viewer hides, are left out. `geom_groups` overrides both.
+   geoms are. Of the world body, visible geoms that cannot collide are drawn, and geoms that collide, except in groups 3
+   to 5, which MuJoCo's viewer hides. `geom_groups` overrides both rules.
 4. An object's id is the name of the body (or world geom), which is unique in MuJoCo. Without a name, the id is made of
    the parent's id and the body's number there: `cabinet/body2`, `world/geom1`. The object's name is the body's name, or
-   that of a wrapper: a body without geoms that contains nothing else, and does not move against it (`microwave` over
-   `microroot`), by the rule (c) of `scene2hap.scene.grouping`. Without both, it is the name of a geom or mesh in the
-   body.
+   by rule (c) of `scene2hap.scene.grouping` the name of a wrapper: a parent without geoms whose only child is this
+   body, without a joint between them (`microwave` over `microroot`). Without both names, the object is named after a
+   geom or mesh in the body.
 
 Poses are the bodies' own (xpos, xquat). Infinite planes are cut to twice the model's extent. Deformable bodies and
 skins are left out. Nothing here steps or changes the simulation.
@@ -65,12 +65,11 @@ def snapshot(
     Parameters:
     model, data : `mujoco.MjModel` and `mujoco.MjData`.
     name : of the scene; None means the model's.
-    geom_groups : the numbers of the geom groups that are drawn; None draws the geoms of a body that cannot collide, or
-        all if it has none of these.
-    contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo has none between
+    geom_groups : the numbers of the geom groups that are drawn; None draws geoms by rule 3 of this module.
+    contacts : None finds contacts from geometry; "engine" takes those in `data.contact`. MuJoCo has no contacts between
         bodies that cannot move against each other, such as a kettle welded to its stove.
-    masses : None has them inferred; "engine" takes `model.body_mass`. Use that only if the model's author gave masses:
-        MuJoCo computes missing ones as if all bodies were solid water.
+    masses : None leaves them to inference; "engine" takes `model.body_mass`. Use "engine" only if the model's author
+        gave masses: MuJoCo computes missing masses as if all bodies were solid water.
     unit_m : metres per unit of the model.
     Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number is invalid.
     """
@@ -187,7 +186,7 @@ def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[st
         with _silence(mujoco):
             model = mujoco.MjModel.from_xml_path(str(path.resolve()))
             data = mujoco.MjData(model)
-            # Enough for poses. Contacts of a model that never moved are not useful, and may take minutes to find.
+            # Kinematics give all poses. Contacts of a model that never moved are useless, and may take minutes to find.
             mujoco.mj_kinematics(model, data)
     except (ValueError, RuntimeError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError) as cause:
         reason = " ".join(str(cause).split()).removeprefix("Error: ")
@@ -363,7 +362,7 @@ def _contacts(model: Any, data: Any, items: _Items, unit_m: float) -> tuple[Cont
 
 @contextmanager
 def _silence(mujoco: Any) -> Iterator[None]:
-    """Keep MuJoCo's warnings off the terminal and out of MUJOCO_LOG.TXT, its output if there is no handler."""
+    """Keep MuJoCo's warnings off the terminal and out of MUJOCO_LOG.TXT, where they go if there is no handler."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda text: None)
     try:

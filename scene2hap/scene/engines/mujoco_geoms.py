@@ -1,7 +1,7 @@
 """MuJoCo geoms as triangles with looks.
 
-MuJoCo transforms compiled meshes to the frame of their principal inertia, and moves their geoms accordingly. Both are
-used unchanged, so the whole has the pose that its author gave it.
+MuJoCo transforms compiled meshes to the frame of their principal inertia, and moves their geoms accordingly. Both
+transforms are used unchanged, so together they give the pose that the author gave.
 
 Source: MuJoCo documentation (Google DeepMind), XML reference, `geom`, `mesh`, `texture`, `material`; mjmodel.h.
 """
@@ -28,8 +28,8 @@ _NO_COLOUR = (0.5, 0.5, 0.5, 1.0)
 # An infinite plane is cut to this multiple of the model's extent, and to at least this size [model unit]. Assumed:
 # moving objects stay above it.
 _PLANE_EXTENTS, _MIN_PLANE = 2.0, 5.0
-# Triangles allowed for geoms that are no meshes, and a number for each triangle of a mesh (assumed: a height field of
-# 1,000 x 1,000, or two thousand spheres).
+# Bound on the triangles of all geoms: a fixed number, plus a multiple of the stored triangles of meshes (assumed: a
+# height field of 1,000 x 1,000, or two thousand spheres).
 _FREE_TRIANGLES, _PER_TRIANGLE = 2_000_000, 4.0
 _TRIANGLES_OF_A_SOLID = 2 * solids.SIDES**2
 

@@ -3,7 +3,7 @@
 Objects are found by the rule of the file loaders (`scene2hap.scene.grouping`), since a scene graph keeps the structure
 of its artists' files. The pose of an object is that of the innermost node that contains all its triangles, even if
 another node names it. Instances are separate objects that share a mesh. Hidden and stashed nodes, lines and points are
-left out. Of levels of detail, the finest is read. Animated characters keep the pose in which they were modelled.
+left out. Only the finest level of detail is read. Animated characters keep the pose in which they were modelled.
 
 A session follows a graph by `scene2hap.engines.Panda3DLink`, which reads poses by a `PoseReader`.
 """
@@ -75,8 +75,8 @@ def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
 class PoseReader:
     """Reader of the poses of the objects of `snapshot` with the same arguments. Nodes are looked up once.
 
-    A node at rest costs almost nothing. Panda3D never changes a transform object, and the last one is kept alive here,
-    so an equal address means an equal transform.
+    A node at rest costs almost nothing. Panda3D never changes a transform object, and the reader keeps the last one
+    alive, so an equal address means an equal transform.
     """
 
     def __init__(self, render: Any, *, group: Grouping = "authored") -> None:

@@ -41,8 +41,8 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
         raise MissingExtra(
             f"{name!r} is COLLADA, and its reader is not installed. Run: pip install pycollada"
         ) from cause
-    # A document type could name other files or expand without end, and pycollada unpacks archives. COLLADA needs no
-    # such files. We search for both in ASCII, so encodings that could hide them (UTF-16, UTF-7) are refused.
+    # A document type could name other files or expand without end, and pycollada unpacks archives. COLLADA needs
+    # neither. We search in ASCII, so encodings that could hide a document type (UTF-16, UTF-7) are refused.
     encoding = _ENCODING.match(data)
     if (
         not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")

@@ -98,7 +98,7 @@ class _Reader:
         return all(map(self._is_quantised, primitives)) and bool((np.diag(node.matrix) > 0).all())
 
     def _is_quantised(self, primitive: Json) -> bool:
-        """Return True if positions are whole numbers. False for a broken row, since rows of lines are not checked."""
+        """Return True if positions are whole numbers. Rows of points and lines may be broken: these give False."""
         attributes, rows = primitive.get("attributes"), self._file.table("accessors")
         number = attributes.get("POSITION") if isinstance(attributes, dict) else None
         return isinstance(number, int) and 0 <= number < len(rows) and rows[number].get("componentType") != _FLOAT

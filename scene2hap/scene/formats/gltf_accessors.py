@@ -47,7 +47,7 @@ def unpacked(values: NDArray[np.generic]) -> NDArray[np.float64]:
 
 
 def indices(file: GltfFile, number: object, place: str) -> NDArray[np.int64]:
-    """Vertex numbers (n,) of an accessor."""
+    """Return the vertex numbers (n,) of an accessor."""
     values, row = _values(file, number, place)
     if row.get("type") != "SCALAR" or values.dtype.kind != "u":
         raise SceneFormatError(f"{place}: indices must be unsigned scalars.")

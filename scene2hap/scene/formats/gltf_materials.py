@@ -1,4 +1,4 @@
-"""Materials of a glTF file: base colour (diffuse colour in older files) and its texture. Both multiply.
+"""Materials of a glTF file: base colour (diffuse colour in older files), multiplied with its texture.
 
 A broken material loses its texture, but the scene is still read. Samplers are not read: textures repeat.
 
@@ -111,7 +111,7 @@ class GltfMaterials:
 
 
 def _affine(row: Json, place: str) -> Affine:
-    """Matrix that scales, then rotates counter-clockwise as seen on the image (v runs down), then moves."""
+    """Return the matrix that scales, then rotates counter-clockwise as seen on the image (v runs down), then moves."""
     (angle,) = checks.vector(f"{place}.rotation", [row.get("rotation", 0.0)], "rad", size=1, error=SceneFormatError)
     offset = checks.vector(f"{place}.offset", row.get("offset", (0.0, 0.0)), "-", size=2, error=SceneFormatError)
     scale = checks.vector(f"{place}.scale", row.get("scale", (1.0, 1.0)), "-", size=2, error=SceneFormatError)

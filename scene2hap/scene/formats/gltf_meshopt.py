@@ -14,7 +14,7 @@ from scene2hap.scene.formats.gltf_container import GltfFile, Json, natural
 
 MESHOPT = ("KHR_meshopt_compression", "EXT_meshopt_compression")
 _INDEX_BYTES = (2, 4)
-# One stored byte for this many decoded bytes, in the budgets of accessors, which depend on the stored bytes (assumed).
+# In the budgets of accessors, this many decoded bytes count as one stored byte (assumed).
 _STORED_PER_DECODED = 2
 
 

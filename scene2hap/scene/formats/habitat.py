@@ -6,8 +6,8 @@
 3. An object has the frame of its model. `translation_origin`, of the row or else of the scene, is "asset_local", "COM"
    or missing. With "asset_local", `translation` is the position of the model's origin. Otherwise it is the position of
    the centre of mass: `COM` of the configuration times its scale, or else the middle of the model's box. As in Habitat,
-   that box joins the boxes of the model's nodes, each rotated by its node's transform. With rotated nodes it is larger
-   than the box of their vertices. An articulated object is placed by the origin of its URDF.
+   that box joins the boxes of the model's nodes, each rotated by its node's transform. If nodes are rotated, the joined
+   box is larger than the box of their vertices. An articulated object is placed by the origin of its URDF.
 4. Scale is that of the configuration times `uniform_scale` and `non_uniform_scale`. `mass` of a configuration is
    multiplied by the product of this scale, unless `apply_scale_to_mass` is false, and by `mass_scale`. The mass is
    unknown without `mass`; a mass in `default_attributes`, which all objects share, does not count. The mass of an
@@ -124,7 +124,8 @@ class _Reader:
         self._models: dict[Path, _Model] = {}
         self._middles: dict[Template, NDArray[np.float64]] = {}
         self._n_triangles = self._n_nodes = 0
-        # Each model may have some triangles for which the file has no bytes. Thousands of small files may not.
+        # All models share the free triangles of one budget. With a budget each, thousands of small files could exceed
+        # the memory.
         self._stored = limits.Budget("the triangles of its models", 1_000_000, 1.0)
         self._primitives: Counter[str] = Counter()
         self._bent: Counter[str] = Counter()
@@ -246,7 +247,7 @@ def _document(path: Path) -> Json:
 
 
 def _rows(name: str, document: Json) -> list[tuple[Kind, str, Json]]:
-    """Return the stage's row and those of objects, each with its kind and its place for messages."""
+    """Return the stage's row and the rows of objects, each with its kind and its place for messages."""
     stage = document.get("stage_instance")
     found: list[tuple[Kind, str, object]] = [] if stage is None else [("stages", f"{name}: stage_instance", stage)]
     for kind, key in _INSTANCES.items():
@@ -377,7 +378,7 @@ def _with_parts(file: Path) -> list[Path]:
 
 
 def _links_kg(model: _Model) -> float | None:
-    """Return the mass of a model whose roots are links [kg]; None if any link with geometry has none."""
+    """Return the mass of a model whose roots are links [kg]; None if any link with geometry has no mass."""
     masses = [root.mass_kg for root in model.roots if root.with_geometry() is not None]
     return None if None in masses else sum(mass for mass in masses if mass is not None) or None
 

@@ -5,11 +5,11 @@ A scene names templates, such as `frl_apartment_chair_01` or a hash. They are se
 1. an entry of `configs` in the dataset's `*.scene_dataset_config.json`;
 2. `NAME.object_config.json`, `NAME.stage_config.json` or `NAME.ao_config.json` in a folder that this file lists under
    `paths`;
-3. a model file that it lists: `NAME.glb`, or `NAME.urdf` of an articulated object;
+3. a model file that the dataset file lists: `NAME.glb`, or `NAME.urdf` of an articulated object;
 4. such a configuration or model anywhere below the dataset's folder, even without a dataset file.
 
-In 1 to 3 a name is a file's name, the end of its path, or, as in Habitat, any part of its path; then the first path in
-alphabetical order counts. In 4 it is a file's name or the end of its path.
+In 1 to 3 a name matches a file's name, the end of its path, or, as in Habitat, any part of its path; of several such
+paths, the first in alphabetical order counts. In 4 a name matches a file's name or the end of its path.
 
 Habitat reads two values that it does not apply to the models that it draws. We do not apply them either: the stage's
 `origin`, and `units_to_meters`, which causes a warning if it is not 1.
@@ -424,7 +424,7 @@ def _key(kind: Kind) -> str:
 
 
 def _frame(up: NDArray[np.float64], front: NDArray[np.float64]) -> Matrix:
-    """Return the rotation of `up` to Y and `front` to -Z; none if they are not at right angles, as in Habitat."""
+    """Return the rotation of `up` to Y and `front` to -Z; the identity if they are not perpendicular, as in Habitat."""
     matrix: Matrix = np.eye(4)
     with np.errstate(all="ignore"):
         up, front = up / np.linalg.norm(up), front / np.linalg.norm(front)
@@ -477,7 +477,7 @@ def _slashes(path: str) -> str:
 def _resolved(path: Path) -> Path:
     try:
         return path.resolve()
-    except (OSError, ValueError, RuntimeError) as cause:  # a zero byte, a ring of links
+    except (OSError, ValueError, RuntimeError) as cause:  # a zero byte, a cycle of links
         raise SceneError(f"{str(path)!r} is no usable file name: {cause}.") from cause
 
 

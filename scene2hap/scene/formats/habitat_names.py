@@ -61,7 +61,7 @@ class ObjectNames:
         self._tables = [] if given is None else [_given(given)]
         for place, columns in _OF_DATASETS:
             file = dataset.folder / place
-            # A broken table of the dataset costs names, but the scene is still read.
+            # If a table of the dataset is broken, objects lack its names, but the scene is still read.
             try:
                 if dataset.has(file):
                     dataset.count(file)

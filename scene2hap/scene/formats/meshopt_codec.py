@@ -154,7 +154,7 @@ def _fields(width: int) -> _Bytes:
 
 
 _FIELDS = {width: _fields(width) for width in (1, 2, 4)}
-# Fields of a byte that mean "stored in full".
+# Number of fields of each byte that mean "stored in full".
 _N_FULL = {width: (fields == (1 << width) - 1).sum(axis=1).astype(np.uint8) for width, fields in _FIELDS.items()}
 
 
@@ -217,8 +217,8 @@ def triangles(data: bytes, count: int) -> NDArray[np.uint32]:
 def _triangle_rows(data: bytes, n_triangles: int, end: int) -> Iterator[list[int]]:
     """Yield vertex numbers of `_TRIANGLES_AT_ONCE` triangles at a time, three each.
 
-    A triangle shares an edge with one of the last 16, or a vertex with one of the last. A new vertex is the next number
-    that no triangle has used, or is stored as a difference from the last stored number.
+    A triangle reuses one of the last 16 edges, or some of the last 16 vertices. A new vertex is the next number that no
+    triangle has used, or is stored as a difference from the last stored number.
     """
     edges = deque(repeat((_WORD, _WORD), 16), maxlen=16)
     vertices = deque(repeat(_WORD, 16), maxlen=16)
@@ -363,8 +363,8 @@ def _octahedral(elements: _Bytes) -> NDArray[Any]:
 
 
 def _quaternion(elements: _Bytes) -> NDArray[Any]:
-    """Return unit quaternions from their three smaller components. The last number has scale and place of the
-    largest."""
+    """Return unit quaternions from their three smaller components. The fourth number holds their scale, and the place
+    of the largest component."""
     stored = elements.view("<i2").astype(np.int64)
     scale = np.sqrt(0.5) / (stored[:, 3] | 3)
     small = stored[:, :3] * scale[:, None]

@@ -35,7 +35,7 @@ _WORDS_AS_VALUES = ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type")
 
 @dataclass(frozen=True, eq=False)
 class MtlMaterial:
-    """A material and its texture mapping: image coordinates are `scale` times those of the faces, plus `offset`."""
+    """A material and its texture mapping: image coordinates are `scale` times the faces' coordinates, plus `offset`."""
 
     paint: FaceMaterial
     scale: tuple[float, float] = (1.0, 1.0)

@@ -101,7 +101,7 @@ def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLi
 
 def _statements(text: str) -> Iterator[tuple[int, str, str]]:
     """Yield line number, keyword and the rest of each statement."""
-    # Joined once per statement, since a file may be one statement of a hundred thousand lines.
+    # Lines are joined once per statement, since one statement may have a hundred thousand lines.
     continued: list[str] = []
     for number, line in enumerate(text.splitlines(), start=1):
         line = line.partition("#")[0]

@@ -3,8 +3,8 @@
 1. Every link with geometry is an object. It has the link's name, and the pose of the link's frame with all joints at 0.
    Links with a fixed joint stay separate. A link without geometry is a frame, and no object.
 2. The <visual> geometry of a link is drawn; its <collision> geometry only if it has no other.
-3. A mesh keeps its own materials. A mesh without any, such as STL, or a box has that of its <visual>. Meshes are never
-   rotated to another up axis; COLLADA's unit counts. Both are as in ROS.
+3. A mesh keeps its own materials. A mesh without materials, such as STL, and shapes such as boxes have the material of
+   their <visual>. As in ROS, meshes are never rotated to another up axis, and COLLADA's unit counts.
 4. <inertial> gives the object's mass.
 
 We do not use MuJoCo's reader (4.0). It does not read COLLADA or textures, refuses flat sheets, and opens any file that
@@ -225,7 +225,7 @@ class _Reader:
         return replace(Piece.checked(key, vertices, faces, "", place), is_made=True)
 
     def _painted(self, mesh: AuthoredNode, row: Element, place: str) -> AuthoredNode:
-        """Return a node whose pieces without looks of their own have those of a <material>."""
+        """Return a node whose pieces without looks of their own have the looks of a <material>."""
         name = row.get("name") or ""
         look = row if len(row) else self._materials.get(name)
         colour, texture = (None, None) if look is None else (look.find("color"), look.find("texture"))

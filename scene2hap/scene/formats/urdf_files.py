@@ -1,4 +1,4 @@
-"""The files that a URDF file names: beside it or in ROS packages around it, and only inside the root."""
+"""Find the files that a URDF file names: beside it or in ROS packages around it, and only inside the root."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class UrdfFiles:
                     outside = outside or path
                 elif path.is_file():
                     return path
-        # A name that is too long, a zero byte and a ring of links raise these.
+        # A name that is too long, a zero byte or a cycle of links raises one of these errors.
         except (ValueError, OSError, RuntimeError) as cause:
             if isinstance(cause, SceneError):
                 raise

@@ -1,20 +1,21 @@
 """The dominant surface of a mesh: the plate that a person would name first, such as the top of a table.
 
-1. Box the mesh in a fitted frame (`_frame`). So a shelf authored at 30 degrees has the measures of a straight one.
+1. Fit a bounding box to the mesh in a frame of its own (`_frame`). So a shelf authored at 30 degrees has the measures
+   of a straight one.
 2. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
    largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
-   thin flat horizontal plate comes first. The bottom of the object is no such plate.
+   thin flat horizontal plate replaces it. The bottom of the object is no such plate.
 3. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
    back-rests, so these do not change the median. A mesh that is open below has no such solid. Its thickness reaches
-   from its top, or from the sheet that forms most of it, down to its lowest rim. If the surface is no rectangle (a
-   round top), its outline is the section through the middle of that solid.
+   from its top, or from the sheet that forms most of the mesh, down to its lowest rim. If the surface is no rectangle
+   (a round top), its outline is the section through the middle of that solid.
 4. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
    (`plate_edge`). If the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen along
    the normal.
 
 Source: Scene2Hap, section "Automatic Data Extraction": the size of an object is that of its dominant surface, "by
 raycasting within the 3D mesh's bounding box and calculating its median values".
-Differs: the paper does not say in which frame or on which side the rays start; steps 1, 3 and 4 decide it.
+Differs: the paper does not say in which frame or on which side the rays start; steps 1, 3 and 4 define both.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ Bools = NDArray[np.bool_]
 RAYS_PER_SIDE = 32
 """Rays along each side of the bounding box. The resolution is about 1/32 of the box (tuned: 5 ms an object)."""
 
-# All of these are tuned on real scenes; a factor of two in any of them matters little.
+# All of these bounds are tuned on real scenes; a factor of two in any of them matters little.
 _SAME_DEPTH = 1e-6  # surfaces closer than this share of the object's size are one
 _OPEN_SHARE = 0.02  # a mesh is open if more than this share of rays enters and does not leave
 _FLAT_SHARE = 0.5  # a plate is flat if this share of its rays meets it at one height
@@ -138,8 +139,8 @@ def _lying_plate(
     """Return the horizontal plate of an object whose largest side is no plate, such as a chair's seat; else None.
 
     A chair's projected area is larger from the front than from above: legs, rungs and back are beside and behind each
-    other. But the level part in front fills too little of its rectangle. From above there is one thin flat plate, and
-    it is not the bottom of the whole object, unlike the bottom of a cup.
+    other. But the level part in front fills too little of its rectangle. Rays from above meet one thin flat plate,
+    which is not the bottom of the whole object, unlike the bottom of a cup.
     """
     size_m = float(np.ptp(points, axis=1).max())
     is_plate = largest.level_area_m2(size_m) >= _FILLED_PLATE * standing.length_m * standing.width_m
@@ -196,7 +197,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         flags = (*flags, "zero-thickness")
     spans = spans or _spans(outline(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
     if spans is None:
-        # No rectangle of medians fits an L, a ring with gaps or a heap, so the one around it is used.
+        # No rectangle of medians fits an L, a ring with gaps or a heap, so the bounding rectangle is used.
         spans = (high - low)[:2], (high + low)[:2] / 2
         flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
     (u_m, v_m), (u_mid, v_mid) = spans
@@ -216,8 +217,7 @@ def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Out
 
 
 def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:
-    """Return the height of the plate of an open mesh. This is the level that most rays and most of the edge meet, or
-    its top.
+    """Return the height of an open mesh's plate: the level that most rays and most edge rays meet, or the mesh's top.
 
     So burners and knobs on a hob do not count as part of the sheet, whose rim extends down.
     """
@@ -310,8 +310,8 @@ def _frame(points: Floats, faces: Ints) -> Floats:
     """Return axes (3, 3), one per row, of the tightest of three boxes around points (3, n) with triangles `faces` (3,
     m).
 
-    The author's own axes are kept unless another box is clearly smaller, since legs and handles tilt any fitted box a
-    bit.
+    The author's own axes are kept unless another box is clearly smaller, since legs and handles tilt any fitted box
+    slightly.
     """
 
     def volume(axes: Floats) -> float:
@@ -388,6 +388,6 @@ def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
 
 
 def _by_uprightness(axes: Floats, up: ArrayLike | None) -> list[int]:
-    """Return axis numbers, the least upright first. So the most upright of equal areas is tried last and is chosen."""
+    """Return axis numbers, the least upright first. So among equal areas, the most upright axis comes last and wins."""
     lift = axes @ np.asarray((0.0, 0.0, 0.0) if up is None else up, dtype=np.float64)
     return [int(axis) for axis in np.argsort(np.abs(lift), kind="stable")]

@@ -18,8 +18,8 @@ Ring = tuple[tuple[float, float], ...]
 
 MOST_CORNERS = 4096
 SHARPEST = math.radians(30.0)
-"""A corner whose direction changes by less is part of a curve."""
-_NARROW = 2.0  # pixels; the shares of pixels show any wider gap
+"""Least change of direction at a sharp corner [rad]; corners with a smaller change are part of a curve."""
+_NARROW = 2.0  # widest narrow gap [px]; the shares of pixels show wider gaps
 _LINES = 4  # scan lines through a row of pixels; along a line the share is exact
 
 
@@ -75,8 +75,8 @@ class Outline:
     def inward(self) -> tuple[Floats, Floats]:
         """Corners (n, 2) [m] that point into the area, and the radius of the curve at each (n,) [m].
 
-        The radius is 0 at notches. Other corners are those of curves that turn by `SHARPEST` or more, such as the rim
-        of a round hole.
+        The radius is 0 at notches. The other corners belong to curves that turn by `SHARPEST` or more in total, such as
+        the rim of a round hole.
         """
         corners, ways, turns, radii, starts = [], [], [], [], []
         for ring in self.rings_m:
@@ -114,16 +114,16 @@ class Outline:
             tuple(a) in notches or tuple(b) in notches for a, b in zip(starts.tolist(), ends.tolist(), strict=True)
         ]
         way = (ends - starts)[is_beside] @ (1.0, 1.0j)
-        # Sides across count as those along.
+        # The fourth power makes perpendicular sides count the same.
         total = (np.abs(way) * (way / np.maximum(np.abs(way), 1e-300)) ** 4).sum()
         return float(np.angle(total)) / 4
 
     @cached_property
     def width_m(self) -> float:
-        """Least distance between two parallel lines that hold the outline between them [m]."""
+        """Least distance of two parallel lines with the outline between them [m]."""
         starts, ends = self._edges
         way = ends - starts
-        # One of the two lies on a side of the convex hull; sides of notches only add directions in which it is wider.
+        # One of the two lines is along a side of the convex hull. Sides of notches only add directions of larger width.
         normal = np.unique(np.round(_normals(way), 9), axis=0)
         across = starts @ normal.T
         return float(np.ptp(across, axis=0).min())
@@ -174,11 +174,11 @@ class Outline:
         return self.covered(x_m, y_m)[0]
 
     def covered(self, x_m: Floats, y_m: Floats) -> tuple[Floats, Floats]:
-        """Return the share (nx, ny), 0..1, of each pixel that is inside the area, and how far the centroid of that part
-        is from the pixel's middle, in sides of the pixel along x and y (2, nx, ny), -1/2..1/2.
+        """Return the share (nx, ny), 0..1, of each pixel that is inside the area, and the centroid of that part.
 
-        Pixels are between lines x (nx + 1,) and lines y (ny + 1,), both rising [m]. Both are exact along x, and from
-        four scan lines through each row along y.
+        The centroid (2, nx, ny) is measured from the pixel's middle, in sides of the pixel along x and y, -1/2..1/2.
+        Pixels are between lines x (nx + 1,) and lines y (ny + 1,), both rising [m]. Share and centroid are exact along
+        x; along y they come from four scan lines through each row.
         """
         nx, ny = len(x_m) - 1, len(y_m) - 1
         x, line = _crossings(*self._edges, y_m)
@@ -202,8 +202,8 @@ class Outline:
     def narrow_gaps(self, x_m: Floats, y_m: Floats) -> NDArray[np.bool_]:
         """Return a mask (nx, ny) of the pixels in the middle of narrow gaps between two parts of the area.
 
-        A slot thinner than a pixel leaves most of the pixel covered, so its share does not show the gap. Pixels as of
-        `coverage`.
+        A slot thinner than a pixel leaves most of the pixel covered, so the pixel's share does not show the gap. Pixels
+        are as in `covered`.
         """
         starts, ends = self._edges
         return _gaps(starts, ends, x_m, y_m) | _gaps(starts[:, ::-1], ends[:, ::-1], y_m, x_m).T

@@ -3,8 +3,8 @@
 usd-core opens any file that a layer names: absolute paths, addresses (if the host has such a resolver), and files in
 search paths of the environment. So each layer is opened separately here, as an anonymous layer. Every name of another
 layer in it is replaced by that layer's anonymous identifier. Composition then finds all layers in memory and opens no
-file. A layer that must not be read, or is missing, gets an identifier that finds nothing. It is an error only if the
-composed stage needs it, since unselected variants may name files that were never delivered.
+file. A layer that must not be read, or is missing, gets an identifier that finds nothing. This is an error only if the
+composed stage needs the layer, since unselected variants may name files that were never delivered.
 
 Animation by value clips is removed, since clips name further files.
 """

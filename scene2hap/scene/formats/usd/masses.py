@@ -1,9 +1,9 @@
 """Masses of the prims of a USD stage, if the file has them.
 
-The mass of a prim includes all prims below it; masses there are ignored. Without a mass, density times volume counts:
-the density of the prim, else of the nearest prim above, else of its physics material. Only closed meshes have a volume.
-Without both, the mass of the prim is unknown, and so is that of the prims above it. The simulators' default of 1000
-kg/m3 is not used.
+The mass of a prim includes all prims below it, whose own masses are ignored. Without a mass, density times volume
+counts: the density of the prim, else of the nearest prim above, else of its physics material. Only closed meshes have a
+volume. Without mass and density, the mass of the prim is unknown, and so is the mass of the prims above it. The
+simulators' default of 1000 kg/m3 is not used.
 
 Source: OpenUSD 26.11, UsdPhysics: MassAPI and MaterialAPI, "physics:mass" and "physics:density".
 """

@@ -1,7 +1,7 @@
 """Gprims of USD as triangles: meshes as their control cages, and the implicit shapes.
 
-A subdivision surface is read as its control mesh, which is a little outside of it. Points, curves and NURBS are left
-out.
+A subdivision surface is read as its control mesh, which is a little outside the surface. Points, curves and NURBS are
+left out.
 
 Source: OpenUSD 26.11, schemas Mesh, GeomSubset, Cube, Sphere, Cylinder, Cone, Capsule, Plane.
 """

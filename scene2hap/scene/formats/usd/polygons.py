@@ -27,7 +27,7 @@ def triangulated(points: Floats, counts: Ints, indices: Ints) -> tuple[Ints, Int
 
     Parameters: points (n, 3); counts (k,) : corners of each face; indices (sum of counts,) : the point at each corner.
     Returns: (m, 3) corners as positions in `indices`, and (m,) the face of each triangle, in the order of the faces.
-        Faces of fewer than three corners give none.
+        Faces of fewer than three corners give no triangles.
     """
     starts = np.cumsum(counts) - counts
     corners, faces = [np.zeros((0, 3), np.int64)], [np.zeros(0, np.int64)]
