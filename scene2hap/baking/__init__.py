@@ -1,4 +1,4 @@
-"""Design time: bakes a scene into a bundle."""
+"""Baking: inference, sounds and loops at design time, from a scene to a bundle."""
 
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.scene import abake, arebake, bake, bake_object, rebake

@@ -67,7 +67,7 @@ def made_by(clip: AudioClip, converter: str, plan: Plan) -> dict[str, str]:
 
 
 def differences(earlier: Mapping[str, str], now: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the inputs of a loop that differ. The plan is named only if it is alone, since it follows from others."""
+    """Return the inputs of a loop that differ. The plan follows from other inputs, so it is named only if alone."""
     if not earlier:
         return (_NO_FINGERPRINT,)
     found = tuple(part for part in _MADE_BY if earlier.get(part) != now[part])

@@ -1,8 +1,8 @@
 """Start and stop times from recordings, which replace inferred times.
 
 A state's `start_up_s` and `wind_down_s` are inferred until its recording has a start or a stop. The loop then stores
-the curve together with the inferred time, which is restored if another recording replaces this one. A time that a
-person wrote into the bundle stays until the recording changes.
+the curve together with the inferred time. The inferred time is restored if a sound without such a curve replaces the
+recording. A time that a person wrote into the bundle stays until the recording changes.
 """
 
 from __future__ import annotations

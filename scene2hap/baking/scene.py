@@ -1,4 +1,4 @@
-"""Design time: bakes a scene into a bundle.
+"""Bake a scene or an object into a bundle, and bake parts of a bundle again.
 
 Inference names each object and its vibration. For each state of each vibrating object, a sound is found or synthesized.
 The best candidate is chosen, looped and converted into a tactile signal.
@@ -117,7 +117,7 @@ def bake_object(
 ) -> HapticBundle:
     """Bake one object without a scene: a prefab. `HapticSession.spawn` adds copies of it.
 
-    The bundle has the id and pose of the original; each copy gets its own.
+    The bundle has the id and pose of the original; each copy gets an id and pose of its own.
     Raises: as `bake`; SceneError: not an object.
     """
     if not isinstance(item, SceneObject):
@@ -141,9 +141,9 @@ def rebake(
     """Bake some objects of a bundle again, and make every loop again whose inputs have changed.
 
     Inputs are the overrides, edits of `objects.json`, and the given settings. Settings of the loops that are not given
-    (actuator, tactile, spread, seed) are taken from the bundle. All sources are placed together, as by `bake`. A
-    sound is chosen again only if its words changed, if `audio` or `enough_candidates` is given and differs, or if its
-    object is in `objects`. Otherwise loops are made from the sound in the bundle.
+    (actuator, tactile, spread, seed) are taken from the bundle. The frequencies and levels of all sources are planned
+    together, as by `bake`. A sound is chosen again only if its words changed, if `audio` or `enough_candidates` is
+    given and differs, or if its object is in `objects`. Otherwise loops are made from the sound in the bundle.
 
     Parameters:
     bundle : a HapticBundle, or the path of its folder.

@@ -20,8 +20,8 @@ class InferenceConfig(Settings):
         materials that the table lacks.
     share_copies : analyse objects of equal mesh, look and support once.
     share_scenes : ask about an object without its neighbours, height and surroundings. Equal objects of different
-        scenes then make one question, which a cache answers once. Objects are equal in mesh, looks, words of the name,
-        names of materials and kind of place.
+        scenes then give equal questions, so a cache needs one answer. Objects are equal if mesh, looks, words of the
+        name, names of materials and kind of place are equal.
     temperature : of the backend's answers, 0..2; 0.2 as in the paper, section "LLM Workflow".
     prompts : folder with your own templates, by component. Built-in templates replace missing ones.
     """

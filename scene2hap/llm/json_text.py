@@ -28,7 +28,7 @@ def first_object(text: str) -> str | None:
 
 
 def _without_thoughts(text: str) -> str:
-    """Return the text outside reasoning. Some chat templates open it themselves, so its closing tag may stand alone."""
+    """Return the text outside reasoning. Some chat templates write the opening tag, so a closing tag may be alone."""
     said, begin, thinks = list[str](), 0, False
     for mark in _THOUGHT.finditer(text):
         is_end = bool(mark[1])

@@ -37,7 +37,7 @@ def from_table(word: str) -> Estimate | None:
 
 
 def from_model(word: str, answer: MaterialAnswer, provenance: str) -> Estimate:
-    """Return a model's constants. An implausible one is replaced by the table's and flagged; none is rescaled.
+    """Return a model's constants. The table's constant replaces an implausible one and is flagged; none is rescaled.
 
     This finds wrong units (2.7 for g/cm3, megapascal for gigapascal). If the table has no row for the material, an
     implausible constant is flagged but kept, since no better value is known.

@@ -1,7 +1,7 @@
 """Comparison of an answer's numbers with measured sizes and with published material constants.
 
-One repair requests all numbers out of bounds again (`validation.find_fault`). Numbers that stay out
-of bounds are replaced by the measured size (`measured`) or by the table's constant (`trust`).
+One repair requests all numbers out of bounds again (`validation.find_fault`). Numbers that stay out of bounds are
+replaced by the measured size (`size_check`) or by the table's constant (`material_check`).
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ class Questions:
     """Send questions to a backend, at most `concurrency` at once, and keep the report.
 
     An error that would affect every further question (an exhausted budget, a rejected key, a recording that does not
-    match) stops all. Running calls end, so that their answers are kept, and no new call begins.
+    match) stops all questions. Running calls are completed, so that their answers are kept, and no new call begins.
     """
 
     def __init__(

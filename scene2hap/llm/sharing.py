@@ -18,11 +18,11 @@ _BELOW = 0.5
 
 
 def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
-    """Return, for each object, its representative: the first in scene order with equal kind and equal support.
+    """Return the representative of each object: the first in scene order with equal kind and equal support.
 
     Objects of one kind are copies (`scene.copies`). Supports are compared by kind. So six handles on six equal
-    drawers have one representative, but a pan on the stove and a pan on the table have two. An unsupported object is
-    distinguished by all objects that touch it.
+    drawers have one representative, but a pan on the stove and a pan on the table have two. Of an object without a
+    support, the kinds of all objects that touch it are compared.
     """
     kinds = {item.id: copy_key(item) for item in scene.objects}
     supports = _supports(scene, graph.contacts)
@@ -37,7 +37,7 @@ def copies(scene: SceneSnapshot, graph: ContactGraph) -> dict[str, str]:
 def of_any_scene(facts: Mapping[str, Any], name: str) -> dict[str, Any]:
     """Remove the surroundings from the facts about an object, so that equal objects of any scene have equal facts.
 
-    Lengths are rounded as in a prompt, since a rotated copy of a mesh differs in the last digits.
+    Lengths are rounded to tenths of a millimetre, since a rotated copy of a mesh differs in the last digits.
     """
     lengths = {key: round(value, _DIGITS) for key, value in facts.items() if isinstance(value, float)}
     words = " ".join(name_words(name))
@@ -51,7 +51,7 @@ def of_any_scene(facts: Mapping[str, Any], name: str) -> dict[str, Any]:
 
 
 def reachable(sources: Iterable[str], graph: ContactGraph) -> frozenset[str]:
-    """Return the sources and all objects that are connected to one over any number of contacts."""
+    """Return the sources, and all objects that any number of contacts connects to a source."""
     reached, frontier = set[str](), list(sources)
     while frontier:
         object_id = frontier.pop()

@@ -58,7 +58,7 @@ class Doubt(NamedTuple):
 def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: bool = False) -> None:
     """Issue a UnitWarning if sizes of the scene, read at `unit_m` metres per unit, are implausible.
 
-    A scene that was built in Python has no file and no argument `unit_m`, so its remedy is another.
+    A scene that was built in Python has no file and no argument `unit_m`, so the warning gives another remedy.
     """
     found = implausible(snapshot, unit_m)
     if found is None:
@@ -96,7 +96,7 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
 def _evidence_of(
     objects: Sequence[SceneObject], tops_m: NDArray[np.float64], extents_m: NDArray[np.float64]
 ) -> list[_Evidence]:
-    """Return evidence of the named objects: of each kind the middle three, or many chairs would outvote the rest."""
+    """Return evidence of the named objects. Only the middle three of each kind count, so chairs do not outvote all."""
     named = [
         (known, item.name, float(top), tuple(f"{edge:.3g}" for edge in sorted(extent)), float(extent.max()))
         for item, top, extent in zip(objects, tops_m, extents_m, strict=True)

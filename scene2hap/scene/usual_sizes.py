@@ -39,7 +39,7 @@ _TOPS_M: tuple[tuple[str, float], ...] = (
     (r"bath ?tub", 0.6),
 )
 
-# Span of the longest edge [m] (assumed). Only objects that have similar sizes everywhere, and none of the list above.
+# Span of the longest edge [m] (assumed). Only objects of similar size everywhere that are not in the list above.
 _LONGEST_M: tuple[tuple[str, float, float], ...] = (
     (r"(computer |mechanical |gaming |pc |wireless )?keyboard", 0.25, 0.5),
     (r"(computer |pc |wireless |gaming )mouse", 0.08, 0.14),

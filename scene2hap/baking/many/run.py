@@ -80,11 +80,11 @@ def bake_many(
     Parameters:
     scenes : paths of scene files.
     folder : folder of the bundles. Each has the name of its scene file, with a digest if two names are equal.
-    config : as of `bake`.
+    config : as for `bake`.
     executor : None for this process; "processes", "processes:N" or "dask:ADDRESS"; or an object with
         `submit(function, *arguments)` that returns a concurrent.futures.Future: process pools, Dask's
         `Client.get_executor()`, and executors for MPI or Slurm. Workers must see the same paths.
-    options : of `load_scene`, for all scenes: up_axis, unit_m, group, assets_root, names.
+    options : arguments of `load_scene` for all scenes: up_axis, unit_m, group, assets_root, names.
     pictures : let workers render pictures, and show them to the model.
     Raises: ConfigError: settings or an executor that cannot work, no scenes.
     """

@@ -35,8 +35,8 @@ _GIVES_WAY = {
     "service_tier": None,
     "max_tokens": "max_completion_tokens",
 }
-"""Parameters that some models reject, and the other name that these models accept. Models that always reason reject
-temperature and top_p. Some models are not offered in the flex tier."""
+"""Parameters that some models reject, and the name that these models accept instead; None for no such name. Models that
+always reason reject temperature and top_p. Some models are not offered in the flex tier."""
 
 TIMEOUT_S, FLEX_TIMEOUT_S = 120.0, 900.0
 """Longest wait for one answer [s]. The value for the flex tier is from OpenAI's guide "Flex processing"."""
@@ -60,7 +60,7 @@ class OpenAIBackend:
     seed : OpenAI does not guarantee equal answers for equal seeds.
     reasoning_effort : "none" to "xhigh", as far as the model supports it.
     service_tier : "flex" gives slower answers at half the price; None takes the project's tier. If the model is not
-        offered in this tier, or the tier has no capacity, the question is sent again without it.
+        offered in this tier, or the tier has no capacity, the question is sent again without a tier.
     transport : for tests.
 
     Raises: ConfigError: a setting that cannot work.

@@ -26,7 +26,7 @@ _LONGEST_REASON = 600  # letters, as in ObjectAnswer
 _MOST_SHOWN = 100  # letters of a name in a reason
 _LARGEST_M = 1e5  # the bound of ObjectAnswer; only a scene in a wrong unit has larger objects
 _THINNEST_M = 1e-3  # a thinner plate is assumed to be modelled without thickness
-_MINIATURE_MATERIAL = "plastic"  # assumed for all of them
+_MINIATURE_MATERIAL = "plastic"  # assumed for all miniatures
 _MINIATURE_THICKNESS_M = 2e-3  # assumed
 
 # Nouns of the table that begin with a vowel when spoken: not "ufo", "ukulele", "uniform", "urinal", "usb stick" and
@@ -181,7 +181,7 @@ def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float
 
 
 def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateAnswer], str]:
-    """Return the states of an object, and the reason. A pan has states only if it touches a heater.
+    """Return the states of an object, and the reason. A pan that touches objects has states only if one is a heater.
 
     A pan that touches nothing (held in the air, or analysed alone) may be put on a heater later. Its states then name
     the heater that they need. On a table it is silent, as in the paper, section "Study 1".

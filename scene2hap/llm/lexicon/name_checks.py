@@ -69,7 +69,7 @@ class Fit:
 
 
 def owner_of_part(reading: NameReading, whole_m: Sequence[float]) -> tuple[NameReading, str] | None:
-    """Return the furniture whose part the name ends in, if the object is too thick for the part, and the reason.
+    """Return the furniture named before a part, and the reason; None unless the object is too thick for the part.
 
     "chairCushion" is a chair with a cushion, a "cupboard_door" of 2 cm is a door. Parts of machines stay parts: a
     machine would vibrate. `whole_m` are the edges of the box around the object [m]; without them the result is None.

@@ -20,8 +20,8 @@ _ENOUGH_VOICES = 2  # a single word may be a misreading
 def kind_of_place(scene_name: str, object_names: Sequence[str]) -> str:
     """Return the place to which most objects belong, such as "living room"; "undefined" on a tie or too few votes.
 
-    Each noun votes once, even if it occurs often, since the number of chairs does not change a place. It shares its
-    vote among the places where it may stand. Objects that may stand anywhere do not vote.
+    Each noun votes once, even if it occurs often, since the number of chairs does not change a place. Its vote is
+    divided among the places where the object may stand. Objects that may stand anywhere do not vote.
     """
     ballots: list[tuple[str, Fraction]] = []
     readings = [(read_name(name), name) for name in object_names]

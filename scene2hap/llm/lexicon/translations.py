@@ -1,7 +1,7 @@
 """Everyday words of other languages, translated into the English words of the table of objects.
 
-Words have the form that `spelling.split_words` returns: lower case, without accents. A word with an English meaning in
-the lexicon is never looked up here.
+Words have the form that `word_split.split_words` returns: lower case, without accents. A word with an English meaning
+in the lexicon is never looked up here.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _ENGLISH = frozenset({"four", "lit", "cubo", "piso", "bank", "trap", "kop", "wan
 
 @cache
 def english() -> dict[str, tuple[str, ...]]:
-    """Return foreign word -> English words. If two languages share a word, the first one in the file is used."""
+    """Return the English words by foreign word. If two languages share a word, the first one in the file is used."""
     text = files(__package__).joinpath("translations.csv").read_text(encoding="utf-8")
     found: dict[str, tuple[str, ...]] = {}
     for row in csv.DictReader(text.splitlines()):

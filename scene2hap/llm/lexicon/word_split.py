@@ -135,7 +135,7 @@ def _is_slip(written: str, known: str) -> bool:
 
 @cache
 def nouns() -> dict[str, tuple[ObjectRow, tuple[str, ...]]]:
-    """Return every noun and synonym, written together -> its row and its words."""
+    """Return the row and the words of every noun and synonym, by its words written together."""
     spelled = ((name.replace("-", " ").split(), row) for row in table() for name in (row.noun, *row.synonyms))
     return {"".join(parts): (row, tuple(parts)) for parts, row in spelled}
 

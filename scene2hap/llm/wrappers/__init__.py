@@ -2,7 +2,7 @@
 
 A good order, outermost first, is cache, repair, budget, retry, model. The cache then stores repaired answers only, the
 budget counts every repair, and calls without an answer are not counted. `standard_stack` builds this order. In a
-configuration, `inner` is again a kind or a mapping with one, so that the whole stack is data.
+configuration, `inner` is again a kind or a mapping with a kind, so that the whole stack is data.
 """
 
 from scene2hap.llm.wrappers.budget import BudgetBackend

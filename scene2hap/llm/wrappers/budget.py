@@ -74,9 +74,9 @@ class BudgetBackend(Wrapper):
     def report(self) -> dict[str, Any]:
         """Return calls, tokens and cost [US dollars] (None: unknown), the date of the prices, and missing items.
 
-        Answers that were cut short, refused or empty count as failed calls, and they are billed. No sum includes calls
-        without any answer, though a service may bill some, or answers without usage. Input in the service's prompt
-        cache, and cheaper service tiers, have their own prices.
+        Answers that were cut short, refused or empty count as failed calls, and they are billed. The sums leave out
+        calls without any answer, although a service may bill some, and answers without usage. Input in the service's
+        prompt cache, and cheaper service tiers, have their own prices.
         """
         return {
             "calls": self._calls,

@@ -28,7 +28,7 @@ from scene2hap.text_files import write_whole
 
 
 class _Entry(BaseModel):
-    """One file of the cache. Nothing else is ever written: no header, no key, no picture."""
+    """One file of the cache. Nothing else is ever written: no header, no API key, no picture."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

@@ -22,7 +22,7 @@ LEAST_SHARE = 0.75
 class RetryBackend(Wrapper):
     """Repeat a call that failed with a retryable `BackendUnavailable`, up to `retries` times.
 
-    Waits as long as the server states. Otherwise each wait is longer than the last, times a random share that spreads
+    Waits as long as the server states. Otherwise it waits with exponential back-off, times a random share that spreads
     the calls of many clients.
     told_retries : most repetitions after waits that the server stated, in addition to `retries`; None counts both
     together. If many calls share a low rate limit, the server rejects each of them many times.

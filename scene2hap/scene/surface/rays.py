@@ -53,8 +53,8 @@ class Hits:
 def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n_pairs: None) -> Hits:
     """Return hits of n x n rays that run along w through the bounding rectangle of triangles (3, 3, m) [m].
 
-    There are no hits for a line, and for more than some thousand layers of triangles. `spend` is called with the number
-    of pairs of a ray and a triangle before they are tested, and may raise to prevent the tests.
+    There are no hits for a line, or for more than some thousand layers of triangles. `spend` is called with the number
+    of ray-triangle pairs before they are tested, and may raise to prevent the tests.
     """
     corners = triangles.reshape(3, -1)
     low = corners.min(axis=1)

@@ -12,7 +12,7 @@ from scene2hap.scene.shapes import DominantSurface, TriMesh
 from scene2hap.scene.surface.dominant_surface import dominant_surface
 
 _FREE = 18_000_000
-"""Tests of a ray against a triangle (measured: two seconds; about 700 small meshes, all different)."""
+"""Ray-triangle tests in the budget of any scene (measured: two seconds; about 700 small meshes, all different)."""
 _PER_VERTEX = 100.0
 """Further tests for each vertex that the file stores (assumed: 4,000 different meshes of 200 vertices)."""
 
