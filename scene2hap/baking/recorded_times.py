@@ -47,7 +47,7 @@ def with_recorded_times(
     loops: Mapping[str, Mapping[str, HapticLoop]],
     before: Mapping[str, Mapping[str, HapticLoop]],
 ) -> dict[str, ObjectHaptics]:
-    """Return objects by id, with the times from their loops' recordings if these differ from the earlier loops'."""
+    """Return objects by id, with new times where a loop's recorded start or stop differs from the earlier loop's."""
     return {
         key: _object(haptics, loops.get(key, {}), before.get(key, {})) if haptics.states else haptics
         for key, haptics in objects.items()
@@ -69,7 +69,7 @@ def _object(haptics: ObjectHaptics, loops: Mapping[str, HapticLoop], before: Map
 
 
 def _timed(state: SourceState, name: str, now: RunCurve | None, before: RunCurve | None) -> SourceState:
-    """Return a state with the time of its start or stop [s] from a recording, if it differs from the earlier one."""
+    """Return a state with the start or stop time [s] of a new curve, or the inferred time if the curve is gone."""
     if now is before:
         return state
     changes: dict[str, Any] = {}

@@ -49,8 +49,8 @@ _UNCHANGED: tuple[str, ...] = ()
 class Earlier:
     """Loops and sounds of an earlier bundle, and limits on their reuse.
 
-    chosen_again : objects whose sounds are chosen again; any_source : keep sounds even if they come from other sound
-    sources than the present ones; any_making : leave loops without a fingerprint unchanged.
+    chosen_again : objects whose sounds are chosen again; any_source : keep sounds even if the sound sources have
+    changed; any_making : leave loops without a fingerprint unchanged.
     """
 
     loops: Mapping[str, Mapping[str, HapticLoop]] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Comparison of a model's material constants with the table of measured ones."""
+"""Comparison of a model's material constants with the table of measured constants."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def constants(word: str, answer: Mapping[str, Any]) -> dict[str, str]:
 
 
 def row_of(word: str) -> MaterialRow | None:
-    """Return the table's row of a material, or of the longest part of its name with one ("brushed stainless steel")."""
+    """Return the table's row of a material, or of the longest part of its name with a row (brushed stainless steel)."""
     parts = word.replace("-", " ").replace("_", " ").split()[:_LONGEST]
     for length in range(len(parts), 0, -1):
         for start in range(len(parts) - length, -1, -1):

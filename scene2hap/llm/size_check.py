@@ -1,4 +1,4 @@
-"""Comparison of a model's sizes with the measured ones."""
+"""Comparison of a model's sizes with the measured sizes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scene2hap.scene import plate_sizes
 
 
 def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[plate_sizes.Size, tuple[str, ...]]:
-    """Return length, width and thickness [m] of a surface, and doubts. Replaces edges out of bounds by measured ones.
+    """Return length, width and thickness [m] of a surface, and doubts. Measured edges replace edges out of bounds.
 
     If the thickness was not measured either, it is assumed.
     """

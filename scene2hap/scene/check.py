@@ -23,9 +23,9 @@ _FLOATS_M = 0.25
 _SUNK_M = 0.1
 """An object is sunk if its top is this far below the floor's top (assumed: the thickness of a floor)."""
 _RESTS_M = 0.06  # Largest gap below an object at rest, about that of the contact rule.
-# The up axis is doubted if at least this share of objects rests along the other axis, and if it is this many times the
-# share along the up axis. Tuned: five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times as many as
-# along the wrong one.
+# The up axis is doubted if at least this share of objects rests along the other axis. This share must also be this many
+# times the share along the up axis. Tuned: five scenes by others have 0.59-0.83 along the right axis, 1.7 to 2.7 times
+# as many as along the wrong axis.
 _MOST_RESTING, _MORE_RESTING = 0.5, 1.5
 _FEW = 4  # Fewer objects are not enough to find the up axis or the order of quaternions.
 # This many rotations with a first component of 1 show that w is first: read as (x, y, z, w), they turn objects upside

@@ -143,8 +143,8 @@ class DominantSurface:
 
     `pose` maps the plate's corner frame to the object's own frame: its origin is a corner of the plate's mid-plane, x
     runs along the length, y along the width, z along the thickness (the plate's normal). `flags` are reasons to review
-    a measured value; they are empty for a stated one. `outline` is the area of a surface that is no rectangle, from the
-    same corner along length and width. It may extend beyond the rectangle. Length and width are then those of an
+    a measured surface; a stated surface has none. `outline` is the area of a surface that is no rectangle, from the
+    same corner along length and width. It may extend beyond the rectangle. Length and width are then the edges of an
     equivalent rectangle.
     Raises: SceneError: a size is negative, or the thickness is 0 without the flag for it.
     """

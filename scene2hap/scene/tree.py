@@ -23,9 +23,9 @@ class Piece:
     """Triangles of one material, in the frame of the node that draws them.
 
     Parameters: key : equal for instances, which are read from one place in the file; vertices : (n, 3) float64 in the
-        file's unit, finite, without unused ones; faces : (m, 3) int32; material : its name in the file;
-        appearance : looks of the m faces, None if unknown; is_made : True if the file holds a few numbers for it, such
-        as a radius, and no vertices.
+        file's unit, finite, all used by faces; faces : (m, 3) int32; material : its name in the file;
+        appearance : looks of the m faces, None if unknown; is_made : True if the file holds only a few numbers, such as
+        a radius, and no vertices.
     """
 
     key: Hashable
@@ -67,7 +67,7 @@ class Piece:
 
 
 def _used(corners: NDArray[np.integer], n_points: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the vertices that corners use, in order, and the corners as indices of these.
+    """Return the vertices that corners use, in order, and the corners as indices of these vertices.
 
     The time grows with the corners, not with the table: thousands of pieces may share one table of vertices.
     """

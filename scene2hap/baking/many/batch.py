@@ -138,7 +138,7 @@ def collect_batch(
 
 @clear_call
 def batch_status(folder: str | os.PathLike[str], *, config: Config, cancel: bool = False) -> BatchReport:
-    """Fetch the status of a folder's batches. With `cancel`, end the running ones.
+    """Fetch the status of a folder's batches. With `cancel`, end the running batches.
 
     Raises: as `submit_batch`.
     """
@@ -190,7 +190,7 @@ class _Work:
                 self.batches.save(replace(row, stage="begun", batch=begun.id, status=begun.status))
 
     async def fetch(self) -> None:
-        """Record the progress of each batch, and store the results of ended ones."""
+        """Record the progress of each batch, and store the results of ended batches."""
         for row in self.batches.rows():
             if row.stage == "begun":
                 now = await self.service.status(row.batch)

@@ -10,7 +10,7 @@ from scene2hap.llm.protocol import LLMRequest
 _CHARACTERS_PER_TOKEN = 4.0
 """Assumed: usual for English."""
 _LEAST_PER_IMAGE = 256
-"""Fewest tokens of one picture (assumed: those of Gemma 3; most models need more)."""
+"""Fewest tokens of one picture (assumed: the number of Gemma 3; most models need more)."""
 _FAR_BELOW = 0.5
 _FAR_ABOVE = 2.0
 

@@ -45,8 +45,8 @@ _COMPONENTS = _set(
 """Words beside the name of a machine that mark the object as a part of it."""
 
 _FURNISHINGS = _set("cushion")
-"""Objects that are parts of furniture, and also exist as separate objects. A table with a sink is a sink: its metal
-sheet is what hands touch."""
+"""Objects that are parts of furniture, and also exist as separate objects. A table with a sink is a sink: hands touch
+its metal sheet."""
 _THICK_M = 0.3
 """Drawers, doors and cushions are thinner than this in one direction; assumed."""
 

@@ -1,7 +1,7 @@
 """Materials of everyday objects that the material table lacks, each with a similar material of the table.
 
-The lexicon answers with the real name ("firm food"), since a carrot is no rubber. For constants it uses those of the
-most similar material in the table. All choices are assumed; stiffness counts first, then density.
+The lexicon answers with the real name ("firm food"), since a carrot is no rubber. It uses the constants of the most
+similar material in the table. All choices are assumed; stiffness counts first, then density.
 """
 
 from __future__ import annotations

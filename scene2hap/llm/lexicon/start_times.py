@@ -1,4 +1,4 @@
-"""Start and stop times of everyday objects, and the on and off times of automatic ones: a table by noun and verb."""
+"""Start and stop times of everyday objects, on and off times of automatic machines: a table by noun and verb."""
 
 from __future__ import annotations
 

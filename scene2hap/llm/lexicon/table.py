@@ -4,7 +4,7 @@
 dominant surface. It also gives the span of its longest edge, its use, and the states in which it vibrates by itself.
 Each row names its source. Intensities are assumed, on the scale of `haptics.SourceState`; their ranking follows
 published hand-arm vibration if there is any. Thicknesses and sizes are assumed unless the row's source says otherwise.
-Masses are those of usual products of usual size (shop listings and data sheets, from memory).
+Masses are of usual products of usual size (shop listings and data sheets, from memory).
 
 `role` resolves names that hold two nouns: a "container" or "vessel" may be followed by its "content"
 (crate_tomatoes); a "part" belongs to the noun before it (oven_door). A "vehicle" that is far too small is a toy.

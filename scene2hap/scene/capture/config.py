@@ -66,7 +66,7 @@ class CaptureConfig(Settings):
         return tuple(Shot("scene", None, azimuth, self.elevation_deg) for azimuth in self._azimuths_deg)
 
     def object_shots(self, kind: Literal["isolated", "context"], subject: str) -> tuple[Shot, ...]:
-        """Return the pictures of an object: those from above, then those from below."""
+        """Return the pictures of an object, first from above, then from below."""
         elevations = (self.elevation_deg, -self.elevation_deg)
         return tuple(Shot(kind, subject, azimuth, tilt) for tilt in elevations for azimuth in self._azimuths_deg)
 

@@ -124,10 +124,10 @@ def _cross(a: Floats, b: Floats) -> Floats:
 class Copies:
     """The groups of objects that share pictures.
 
-    Objects of one `instance_key` share the isolated images of the first of them in scene order, at the rotation of that
-    object, even if their names differ. A *context class* is the kind of an object (`copy_key`) together with the kind
-    of its support (`supports`). Objects of one class share the context images of the first of them, with that object's
-    surroundings. An object without a key has pictures of its own.
+    Objects of one `instance_key` share isolated images, even if their names differ. The first object in scene order is
+    rendered, at its rotation. A *context class* is the kind of an object (`copy_key`) together with the kind of its
+    support (`supports`). Objects of one class share the context images of their first object, with its surroundings. An
+    object without a key has pictures of its own.
     """
 
     def __init__(self, objects: Sequence[SceneObject], below: Sequence[int | None], share: bool) -> None:

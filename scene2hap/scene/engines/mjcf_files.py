@@ -34,7 +34,7 @@ MAX_CELLS = 1 << 25
 _CELLS_PER_BYTE = 20.0
 """Cells allowed for each stored byte of a picture (assumed: ten times the cells of photographs)."""
 MAX_INCLUDED = 1_000
-"""Most files that one model includes (assumed: those of a kitchen with hundreds of objects)."""
+"""Most files that one model includes (assumed: as many as a kitchen with hundreds of objects has)."""
 MAX_MODELS = 200
 """Most models within models; a model counts each time it is named (assumed)."""
 MAX_RESERVED = 1_000

@@ -19,7 +19,7 @@ found to millimetres."""
 def moved(
     now: Mapping[str, Pose], before: Mapping[str, Pose], *, by_m: float = AT_REST_M, by_rad: float = AT_REST_RAD
 ) -> dict[str, Pose]:
-    """Return the poses in `now` that differ from those in `before`, or are new.
+    """Return the poses in `now` that are new, or differ from `before` by more than the bounds.
 
     Parameters: by_m, by_rad : largest motion [m] and rotation [rad] of an object at rest. Add the returned poses to the
         next `before`, so that slow motion adds up:

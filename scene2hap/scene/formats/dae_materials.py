@@ -89,7 +89,7 @@ def _texture_set(link: Any, symbol: str) -> str | None:
 
 
 def _coordinates(primitive: Any, number: str | None) -> NDArray[np.float32] | None:
-    """Return coordinates (m, 3, 2) of a set, v running down. If there is no such set: those of the first set."""
+    """Return coordinates (m, 3, 2) of a set, or of the first set if there is no such set. v runs down."""
     tables, indices = primitive.texcoordset, primitive.texcoord_indexset
     if not tables:
         return None

@@ -2,7 +2,7 @@
 
 1. Every row of `object_instances` is one object: the whole model of its template, with all its nodes. Every row of
    `articulated_object_instances` is one object too: all links of its URDF, with their joints at 0. Y is up.
-2. The nodes of the stage (walls, floors) are grouped like those of any file.
+2. The nodes of the stage (walls, floors) are grouped like the nodes of any file.
 3. An object has the frame of its model. `translation_origin`, of the row or else of the scene, is "asset_local", "COM"
    or missing. With "asset_local", `translation` is the position of the model's origin. Otherwise it is the position of
    the centre of mass: `COM` of the configuration times its scale, or else the middle of the model's box. As in Habitat,
@@ -56,7 +56,7 @@ _INSTANCES: dict[Kind, str] = {
 _NO_STAGE = ("", "none")
 _ORIGINS = {"com": True, "asset_local": False, "default": None, "unknown": None}
 _MOST_NAMED = 5
-# Most files counted for one articulated object (assumed: ten times those of a kitchen).
+# Most files counted for one articulated object (assumed: ten times the files of a kitchen).
 _MOST_PARTS = 1_000
 _LFS = b"version https://git-lfs"
 
@@ -334,7 +334,7 @@ def _mass(row: Json, place: str, mass_kg: float | None, volume: float) -> float 
 
 
 def _keyed(node: AuthoredNode, number: int, seen: dict[int, Piece]) -> AuthoredNode:
-    """Copy a node so that the keys of its pieces differ from those of other files."""
+    """Copy a node so that the keys of its pieces differ from the keys in other files."""
     pieces = []
     for piece in node.pieces:
         if id(piece) not in seen:

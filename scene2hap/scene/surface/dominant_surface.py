@@ -95,8 +95,8 @@ def dominant_surface(
         tests of a ray against a triangle; may raise to prevent the work.
     Returns: length_m >= width_m; exact for boxes and for slabs on legs, else to about a ray's spacing. Flags:
         "open-mesh": rays enter and never leave. "zero-thickness": a sheet. "box-fallback": too few rays met the surface
-        twice, so its thickness is that of the box around it, or reaches from its sheet to the lowest rim; or no
-        rectangle of medians fits, so that length and width are the box's.
+        twice, so the thickness is the box's, or reaches from the sheet to the lowest rim. Or no rectangle of medians
+        fits, so length and width are the box's.
     """
     bounds_m = cuboid_bounds_m(mesh)
     if bounds_m is not None and np.ptp(bounds_m, axis=0).min() > _SAME_DEPTH * np.ptp(bounds_m, axis=0).max():
@@ -233,8 +233,8 @@ def _flat_spans(
 ) -> tuple[Floats, Floats] | None:
     """Return `_spans` of a cut without objects fixed to the plate's edge.
 
-    `level` marks the rays that meet the plate's level; `is_thick` those that meet about as much solid as the plate is
-    thick.
+    `level` marks the rays that meet the plate's level; `is_thick` marks the rays that meet no solid thinner than half
+    the plate.
     """
     n = RAYS_PER_SIDE
     grids = np.zeros((3, n * n), dtype=bool)

@@ -144,8 +144,10 @@ class Outline:
         return Outline(tuple(tuple((a * x + c, b * y + d) for x, y in ring) for ring in self.rings_m))
 
     def turned(self, angle_rad: float) -> tuple[Outline, Floats, Floats]:
-        """Return the outline turned by an angle [rad] and moved so that its box starts at (0, 0), with the matrix R and
-        the shift s [m] that take a point x to R x + s."""
+        """Return the outline turned by an angle [rad] and moved so that its box starts at (0, 0).
+
+        Also returns the matrix R and the shift s [m] of this transform: a point x moves to R x + s.
+        """
         c, s = math.cos(angle_rad), math.sin(angle_rad)
         turn = np.array([[c, -s], [s, c]])
         rings = [np.array(ring) @ turn.T for ring in self.rings_m]

@@ -116,7 +116,7 @@ def shape_triangles(prim: Any) -> Triangles | None:
     return _shape(kind, str(value(prim.GetAttribute("axis")) or "Z"), numbers)
 
 
-# Scenes made of primitives have thousands of equal ones.
+# Scenes made of primitives have thousands of equal shapes.
 @lru_cache(maxsize=64)
 def _shape(kind: str, axis: str, numbers: tuple[float, ...]) -> Triangles:
     if kind == "Plane" and axis in ("X", "Y"):
