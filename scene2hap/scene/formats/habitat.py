@@ -124,8 +124,7 @@ class _Reader:
         self._models: dict[Path, _Model] = {}
         self._middles: dict[Template, NDArray[np.float64]] = {}
         self._n_triangles = self._n_nodes = 0
-        # All models share the free triangles of one budget. With a budget each, thousands of small files could exceed
-        # the memory.
+        # All models share one budget. With a budget each, thousands of small files could have a million triangles each.
         self._stored = limits.Budget("the triangles of its models", 1_000_000, 1.0)
         self._primitives: Counter[str] = Counter()
         self._bent: Counter[str] = Counter()
