@@ -1,15 +1,15 @@
 """Distance, contact points and fall distances of two posed triangle meshes.
 
-Meshes are surfaces, not volumes. Intersecting surfaces have distance 0. An object wholly inside a closed other one, out
-of reach of its surface, does not touch it, as a chair in a room does not touch the room's walls.
+Meshes are surfaces, not volumes. Intersecting surfaces have distance 0. An object inside a closed mesh, out of reach of
+its surface, does not touch it: a chair in a room does not touch the room's walls.
 
 The kernels work in the frame of one mesh, the host, so that a rigid motion of both changes only the last bits. They
 compare pairs of triangles whose boxes are within reach. The order has no effect: results are minima over all pairs,
 with ties broken by coordinates or by the triangles' columns. The compiled kernels find the pairs by descending two
 `TriangleTree`s at once, the plain ones by sorting boxes.
 
-Of many contact points a few are chosen by farthest-point sampling (`spread`), beginning with the one farthest from the
-lowest corner of the guest's box.
+Farthest-point sampling (`spread`) chooses a few of many contact points, beginning with the one farthest from the lowest
+corner of the guest's box.
 
     turn, shift : rotation matrix in rows and position [m] of the guest in the host's frame
     p, q        : a triangle of the guest, of the host
