@@ -127,9 +127,9 @@ class MeshPair:
         """Return the fall distance of each triangle (m,) of `faller`, one of the two, onto the other [m].
 
         None if no triangle meets the other within `reach_m`. Only triangles within `reach_m` above `lowest_m`, the
-        height of the faller's lowest point, are dropped, and only onto triangles level enough to hold them. The
-        distance is negative for a triangle that is sunk in by up to `touch_m`, 0 for one that is sunk in deeper, and
-        inf for one that is more than `touch_m` above the least, since the faller has come to rest before.
+        height of the faller's lowest point, are dropped, and only onto triangles level enough to hold them. A triangle
+        that is sunk in by up to `touch_m` has a negative distance, one that is sunk in deeper 0. A distance of more
+        than `touch_m` above the least becomes inf, since the faller rests before.
         """
         return drops(*self._falling(faller, up_axis, lowest_m, reach_m, touch_m))
 

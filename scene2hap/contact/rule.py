@@ -58,9 +58,9 @@ _HIDDEN_M = 0.002  # A surface this much below another is hidden by it (assumed:
 
 
 # Play on either side at which an object ceases to be enclosed [m]: upper bound, and share of its diagonal. Up to 2/3 of
-# it weighs 1, which includes 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails, which models often
-# lack, 5 mm beside those on rails below them, 1-3 mm on wooden runners, and 2-4 mm around leaves and fronts. The
-# smallest drawers on such rails have diagonals of 0.4 m; smaller objects have less play.
+# it weighs 1. This includes 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails, which models often
+# lack. It includes 5 mm beside drawers on rails below them, 1-3 mm on wooden runners, and 2-4 mm around leaves and
+# fronts. The smallest drawers on ball-bearing rails have diagonals of 0.4 m; smaller objects have less play.
 _PLAY_M, _PLAY_SIZES = 0.0203, 0.05
 
 SIDE_SHARE = 1 / 6

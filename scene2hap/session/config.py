@@ -71,9 +71,9 @@ class SessionConfig(Settings):
     bands : bands of the gains: Bands, their edges [Hz], "dominant" (each source's own frequency, as in the paper),
         "around" (half an octave around it) or "third-octaves" (20 from 10 to 1000 Hz). The default is "around" for a
         model that resonates, else "dominant".
-    reference : "source": gains are relative to the source's free vibration; "felt_near": each source is scaled so that
-        0.1 m from it its level is that of the paper's law, so that models can be exchanged at the same strength.
-    prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits;
+    reference : "source": gains are relative to the source's free vibration; "felt_near": each source is scaled to the
+        level of the paper's law at 0.1 m from it, so that models can be exchanged at the same strength.
+    prepare : "background": a worker prepares the model while the last field stays in use, and `update` never waits;
         "blocking": `update` waits, so that output depends on input alone. A model with a live field, such as
         `ExponentialPlate`, needs no preparation.
     gain_limit_db : upper bound of the gain of one source at a hand, None for no bound.
