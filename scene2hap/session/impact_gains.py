@@ -43,7 +43,7 @@ def struck_later(
     frequencies_hz: Floats,
 ) -> Callable[[], Floats]:
     """Return a function that prepares the model and returns these gains. It may be called later, in any thread."""
-    # An object without contacts is in no network, so the whole scene is prepared for it.
+    # An object that touches no other of known material is in no network, so the whole scene is prepared for it.
     put_together = state.network([object_id] if state.touches_a_body(object_id) else None)
     touched = {touched_id for hand in hands for touched_id, _ in hand}
 

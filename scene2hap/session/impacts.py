@@ -2,9 +2,9 @@
 
     impact ── propagation.impact ──► Burst (decaying sines) ── model in use ──► at each hand ──► the mix
 
-Bounds: a pair of objects strikes at most once in `LEAST_INTERVAL_S`, at most `render.bursts.MOST_PLAYING` bursts play
-at once, and the peak of each is at most `PEAK`, as for a source of full intensity. Nothing is computed for an impact
-that no hand could feel.
+Bounds: a pair of objects strikes at most once in `LEAST_INTERVAL_S`, and at most `render.bursts.MOST_PLAYING` bursts
+play at once. At the struck point the peak is at most `PEAK`, as for a source of full intensity. Nothing is computed for
+an impact that no hand could feel.
 """
 
 from __future__ import annotations
@@ -186,7 +186,7 @@ class Impacts:
                 self._order(prepared, lambda gains, begin: sound(gains, begin, left), at_frame)
 
     def expect(self, felt: Felt) -> None:
-        """Prepare for impacts that touched objects transmit. Call it in every update."""
+        """Prepare for impacts around the touched objects. Call it in every update."""
         if self._ahead is not None:
             self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
 

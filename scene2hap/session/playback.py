@@ -148,7 +148,7 @@ class Playback:
         self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
         self._plan = self._new_plan()
         self._bursts: Bursts | None = None  # at the first impact
-        # Twice the ramp, since a gain change waits until the ramp before it has ended.
+        # Twice the ramp, since gain changes in quick succession may have to wait.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
         for row in rows:

@@ -1,7 +1,6 @@
 """Prepared fields, evaluated for the present poses.
 
-The newest field may cover only the objects near the hands. The last field that covers all objects is used for the
-others.
+The newest field may cover only the objects near the hands. For the others the last field of all objects is used.
 """
 
 from __future__ import annotations

@@ -134,7 +134,7 @@ class StruckAhead:
     def _order(self, version: int) -> None:
         touched, bodies = tuple(self._touched), self._state.bodies
         self._ordered, self._ordered_at_s = Ordered(touched, version), time.monotonic()
-        # An object without contacts is in no network, so the whole scene is prepared for it.
+        # An object that touches no other of known material is in no network, so the whole scene is prepared for it.
         put_together = self._state.network(touched if all(map(self._state.touches_a_body, touched)) else None)
 
         def work() -> None:

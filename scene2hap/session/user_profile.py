@@ -43,7 +43,7 @@ _MOST_POINTS = 1000
 class Comfort(Settings):
     """A level and a limit.
 
-    gain_db : level of all vibration [dB].
+    gain_db : level that is added to the level of all vibration [dB].
     max_amplitude : largest sample, as a share of full scale, 0.0001..1 [-].
     """
 
