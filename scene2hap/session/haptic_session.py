@@ -71,7 +71,7 @@ if TYPE_CHECKING:
 
 
 class _Progress:
-    """Number of updates, and the position at which the gains changed last. They change in every update, and the
+    """Number of updates, and the position of the last one on `render`'s clock. They change in every update, and the
     attributes of the read-only session are slow to set."""
 
     __slots__ = ("last_stamp", "n_updates")
@@ -192,7 +192,7 @@ class HapticSession:
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
         vibrates.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
-        before that of the last update, or something else than poses, touches and contacts.
+        before that of the last update, or another type than poses, touches and contacts.
         """
         if moved is not None and type(moved) is not dict and not isinstance(moved, Mapping):
             moved, touches = given_frame(moved, touches)
@@ -285,7 +285,7 @@ class HapticSession:
         Objects stay where they are. Sources keep their state if they still have it, and stay on or off. A level or mute
         of `set_source` stays unless the bundle's value has changed. Objects that the session does not have are left
         out.
-        Raises: BundleError: no bundle, or one of another scene.
+        Raises: BundleError: another type, or a bundle of another scene.
         """
         require_correction(bundle, self._bundle)
         before, self._bundle = self._bundle, bundle
@@ -373,7 +373,7 @@ class HapticSession:
         self._sources.user.set(gain_db, mute)
         if other is not None:
             if self._limit is None:
-                # So that the limits do not click, they begin at full scale.
+                # The limits begin at full scale, so that they do not click.
                 self._limit = PersonalLimit(np.ones(len(self._hands)), self.config.sample_rate_hz)
             self._use_profile(other)
         self._hand_frames.levels_changed()
@@ -415,7 +415,7 @@ class HapticSession:
         For maps, and for a game that plans ahead. The gains are from the field in use, with the volume of source, user
         and hand, also in a pause; no touch is counted. Call it on the thread that calls `update`.
         Returns: (n_touches, n_sources, n_bands) float64 [-], in the order of `source_ids`, 0 below -140 dB.
-        Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or no touches.
+        Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
         """
         given = given_touches(touches)
         self._by_hand(given)
@@ -493,7 +493,7 @@ class HapticSession:
         return self._rendered(n_frames)
 
     def render_s(self, seconds: float) -> Block:
-        """Return the next `seconds` [s] of the mix, as `render`.
+        """Return the next `seconds` [s] of the mix. See `render`.
 
         Fractions of a sample are carried to the next call, so that 90 calls of 1/90 s give exactly one second.
         Raises: SessionError.
