@@ -24,8 +24,8 @@ class BundleWatch:
     """Pass a bundle to a session whenever its folder is written again.
 
     A worker checks the folder and reads it. `update`, called in the game loop, passes a new bundle to the session.
-    Files that are edited by hand are reloaded too. `problem` is the reason why the present folder cannot be played, ""
-    if it can; meanwhile the session plays the last bundle that was read.
+    Files that are edited by hand are reloaded too. `problem` is the reason why the present folder cannot be loaded, ""
+    if it can; while there is a problem, the session plays the last bundle that was read.
 
     Parameters: session : plays the bundle; folder : where it was saved.
     Raises: BundleError: the folder does not exist.

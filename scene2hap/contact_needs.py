@@ -1,4 +1,4 @@
-"""Matching by meaning of the object that a state must touch: a pan that needs a "stove" also vibrates on a "gas hob".
+"""Match of an object with the contact that a state needs, by meaning: "stove" also matches a "gas hob".
 
 Language models and people write such a need in everyday words, while the category of the object may use other words. A
 comparison of the texts alone would rarely match.

@@ -36,8 +36,8 @@ class SourceState:
         are matched by meaning (`scene2hap.contact_needs`). None, "", "none" and "null" mean no condition.
     start_up_s, wind_down_s : times from switching on to full strength, and from switching off to silence, 0..30 [s].
     spins : True if its pitch rises and falls at start and stop, like a motor's; otherwise only its strength changes.
-    on_s, off_s : times of alternating operation and rest, as with a thermostat, 0.1..86400 [s]. None, None : it runs as
-        long as it is switched on.
+    on_s, off_s : on-time and off-time of its cycle, as with a thermostat, 0.1..86400 [s]. None, None : it runs as long
+        as it is switched on.
     """
 
     name: str
@@ -250,8 +250,8 @@ class Bands:
     def dominant(cls, octaves: float = 0.0) -> Bands:
         """Make one band for each source: its own dominant frequency, or a width of `octaves` around it.
 
-        At a single frequency, a model that resonates may hit or miss a resonance, depending on changes of material that
-        nobody feels. The rms over a third or half of an octave is steadier. A law that is smooth in frequency, such as
+        At a single frequency, a model that resonates may hit or miss a resonance after a change of material that nobody
+        feels. The rms over a third or half of an octave is steadier. A law that is smooth in frequency, such as
         `ExponentialPlate`, uses the frequency itself.
         """
         return cls((), "dominant", octaves)

@@ -27,7 +27,7 @@ MIN_DURATION_S = 0.001
 MAX_DURATION_S = 600.0
 """Assumed: demonstrations and trials take minutes; this is also the longest duration of a sound."""
 MAX_STEPS = 100_000
-"""Assumed: more than two hands need that both move in each of 60 frames a second for `MAX_DURATION_S`."""
+"""Assumed: more than two hands need that move in each of 60 frames a second for `MAX_DURATION_S`."""
 
 _Point = tuple[float, float, float]
 _TOUCHES = "touches"

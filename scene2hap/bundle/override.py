@@ -1,4 +1,4 @@
-"""A person's corrections of inferred data of an object. They are kept when the scene is baked again."""
+"""A person's corrections of the inferred data of an object, kept when the scene is baked again."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Override:
     material : its material, or a name in the table.
     clip : the sound from which its vibration is made, in every state, or the path of its file. A haptic clip (.haptic,
         .ahap) is played unchanged. keep : True if that sound keeps its own frequency and level; the scene's other
-        sources are then moved away from it.
+        sources are then moved away from it, in frequency and level.
     locked : True if its loops stay unchanged in every later bake.
     intensity : of the vibration at the object itself, 0..1 [-]; pitch_hz : the frequency of its vibration, 10..1000
         [Hz]; start_up_s, wind_down_s : its start and stop times, 0..30 [s]. Each is a number for all states or a

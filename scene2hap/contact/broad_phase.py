@@ -3,8 +3,8 @@
 Every body has an inner box around its AABB, and a fat box: the inner box, enlarged by the distances at which the body
 can touch, fall onto or hang from others. Bodies whose fat boxes overlap are neighbours. The inner box of a moving body
 is `SKIN_M` wider than its AABB. Both boxes are computed again only when the AABB leaves the inner box (Verlet lists).
-The new boxes also cover part of the old ones, so that a body that moves back and forth, or is lifted and put down,
-keeps its list. Too long a list costs time but changes no result.
+The new boxes also cover part of the old ones. So a body that moves back and forth, or is lifted and put down, keeps its
+list. Too long a list costs time but changes no result.
 
 Source: L. Verlet, Computer experiments on classical fluids I, Phys. Rev. 159 (1967) 98.
 """

@@ -41,7 +41,7 @@ class Certificates:
     def issue(self, body: Body, resting: Resting | None, normal: Triple | None) -> bool:
         """Issue a certificate to a body that rests as given, or touches nothing, if planes separate it from all others.
 
-        The certificates of its neighbours get the same planes. Returns False, and counts a refusal, without a proof.
+        The certificates of its neighbours get the same planes. If the proof fails, count a refusal and return False.
         """
         x, on, top_m, pins = body.id, "", -math.inf, set[str]()
         planes: dict[str, tuple[Plane, ...]] = {}

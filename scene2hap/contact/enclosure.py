@@ -54,8 +54,8 @@ def _inside(host: Body, middle: Triple, half: Triple, least_m: float) -> float:
 def _has_sides(host: Body, middle: Triple, half: Triple, reach_m: float) -> bool:
     """Return True if a host may have triangles near two opposite sides of a box.
 
-    This skips the rays for most objects in a room, which are far from its walls, and for those near a single part of
-    the host, such as the leg of a table.
+    This skips the rays for most objects in a room, since these are far from its walls. It also skips objects near a
+    single part of the host, such as the leg of a table.
     """
     centre, edge = np.array(middle)[:, None], np.array(half)[:, None]
     boxes = host.shape.boxes

@@ -2,7 +2,7 @@
 
 Stored data of a pair depend on the poses of its two bodies alone, and the holders of a body on its pairs alone. So
 incremental updates give bit-identical results to rebuilding from nothing. Nothing else is stored for a certified body:
-when its certificate ends, it gets a new one or is searched from nothing.
+when its certificate ends, it gets a new one or its contacts are searched from nothing.
 """
 
 from __future__ import annotations

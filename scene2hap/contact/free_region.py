@@ -63,6 +63,6 @@ class FreeRegions:
 
     def _note(self, guest_id: str, region: FreeRegion) -> None:
         if len(self._of_guests) >= _MOST_GUESTS:
-            # Guests that left are not reported. Clearing costs the others one search.
+            # Removed guests are not reported, so all are cleared. This costs each of the others one search.
             self._of_guests.clear()
         self._of_guests[guest_id] = region

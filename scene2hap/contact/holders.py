@@ -100,7 +100,7 @@ class Holders:
         self.held: dict[str, dict[str, Bond]] = {}
         # Bodies without full support: larger bodies near them may hold them by hanging.
         self.unsupported: set[str] = set()
-        # Bodies of whose supports one hid parts of another when last searched: the falls of all triangles are needed.
+        # Bodies with a support that hid parts of another in the last search: they need the falls of all triangles.
         self.on_several: set[str] = set()
 
     def of(self, x: str) -> dict[str, Bond]:

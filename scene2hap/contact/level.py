@@ -141,7 +141,7 @@ def _chosen(ring: Sequence[Point], stance: Stance) -> list[Point]:
 
 
 def _own(ring: Sequence[Point], stance: Stance) -> list[Point]:
-    """Coordinates that turn along with the stance, so that the result is the same however a whole scene is turned."""
+    """Coordinates that turn with the stance, so that the rotation of a whole scene does not change the result."""
     c, s = stance.heading
     return [(c * u + s * v, c * v - s * u) for u, v in ring]
 

@@ -1,15 +1,15 @@
 """Distance, contact points and fall distances of two posed triangle meshes.
 
-Meshes are surfaces, not volumes. Intersecting surfaces have distance 0. An object wholly inside a closed other one, out
-of reach of its surface, does not touch it, as a chair in a room does not touch the room's walls.
+Meshes are surfaces, not volumes. Intersecting surfaces have distance 0. An object inside a closed mesh, out of reach of
+its surface, does not touch it: a chair in a room does not touch the room's walls.
 
 The kernels work in the frame of one mesh, the host, so that a rigid motion of both changes only the last bits. They
 compare pairs of triangles whose boxes are within reach. The order has no effect: results are minima over all pairs,
 with ties broken by coordinates or by the triangles' columns. The compiled kernels find the pairs by descending two
 `TriangleTree`s at once, the plain ones by sorting boxes.
 
-Of many contact points a few are chosen by farthest-point sampling (`spread`), beginning with the one farthest from the
-lowest corner of the guest's box.
+Farthest-point sampling (`spread`) chooses a few of many contact points, beginning with the one farthest from the lowest
+corner of the guest's box.
 
     turn, shift : rotation matrix in rows and position [m] of the guest in the host's frame
     p, q        : a triangle of the guest, of the host
@@ -127,9 +127,9 @@ class MeshPair:
         """Return the fall distance of each triangle (m,) of `faller`, one of the two, onto the other [m].
 
         None if no triangle meets the other within `reach_m`. Only triangles within `reach_m` above `lowest_m`, the
-        height of the faller's lowest point, are dropped, and only onto triangles level enough to hold them. The
-        distance is negative for a triangle that is sunk in by up to `touch_m`, 0 for one that is sunk in deeper, and
-        inf for one that is more than `touch_m` above the least, since the faller has come to rest before.
+        height of the faller's lowest point, are dropped, and only onto triangles level enough to hold them. A triangle
+        that is sunk in by up to `touch_m` has a negative distance, one that is sunk in deeper 0. A distance of more
+        than `touch_m` above the least becomes inf, since the faller rests before.
         """
         return drops(*self._falling(faller, up_axis, lowest_m, reach_m, touch_m))
 

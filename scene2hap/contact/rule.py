@@ -46,21 +46,21 @@ _FALL_REACH_M, _FALL_REACH_SIZES = 0.090, 0.25
 # 16 mm off its leaf. Shares from 0.05 to 0.18 give the same contacts in six scenes listed by hand; from 0.2 on, a
 # picture hangs on a table.
 HANG_REACH_M, _HANG_REACH_SIZES = 0.075, 0.15
-# A handle leaves room for fingers however short it is: up to 16 mm off its leaf weigh 1. The share of its size keeps
-# the reach of a tiny object below its length, and below its fall reach.
+# Even a short handle leaves space for fingers: gaps of up to 16 mm to its leaf weigh 1. The share of its size keeps the
+# reach of a tiny object below its length, and below its fall reach.
 _GRIP_REACH_M, _GRIP_REACH_SIZES = 0.024, 0.24
 # A hanging object may have several holders: a wall cabinet hangs from the tall cabinet that it touches and from the
-# wall 5 mm behind it. This share of the reach is how much farther than the nearest a holder may be (tuned on the same
-# six scenes; from 1/4 on, some pairs are wrong).
+# wall 5 mm behind it. A holder may be farther than the nearest one by this share of the reach (tuned on the same six
+# scenes; from 1/4 on, some pairs are wrong).
 _HANG_SHARE = 1 / 6
 
 _HIDDEN_M = 0.002  # A surface this much below another is hidden by it (assumed: the thinnest carpet).
 
 
 # Play on either side at which an object ceases to be enclosed [m]: upper bound, and share of its diagonal. Up to 2/3 of
-# it weighs 1, which includes 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails, which models often
-# lack, 5 mm beside those on rails below them, 1-3 mm on wooden runners, and 2-4 mm around leaves and fronts. The
-# smallest drawers on such rails have diagonals of 0.4 m; smaller objects have less play.
+# it weighs 1. This includes 12.7 mm (and up to 0.8 mm more) beside drawers on ball-bearing rails, which models often
+# lack. It includes 5 mm beside drawers on rails below them, 1-3 mm on wooden runners, and 2-4 mm around leaves and
+# fronts. The smallest drawers on ball-bearing rails have diagonals of 0.4 m; smaller objects have less play.
 _PLAY_M, _PLAY_SIZES = 0.0203, 0.05
 
 SIDE_SHARE = 1 / 6
@@ -116,7 +116,7 @@ def play_reach_m(size_m: float) -> float:
 
 
 def margins_m(body: Body) -> tuple[float, float]:
-    """Return how far from others a body may touch or hang, and how much farther down it may fall [m]."""
+    """Return the distance within which a body may touch or hang, and how much farther down it may fall [m]."""
     return max(TOUCH_M, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
 
 
@@ -134,9 +134,9 @@ def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support
 
 
 def supports_nearby(falls_m: Mapping[str, float], reach_m: float) -> dict[str, Support] | None:
-    """Return what `supports` does, from the fall distance to each object [m].
+    """Return the result of `supports` from the least fall distance to each object [m].
 
-    None if one object is so much deeper than another that the latter may hide parts of it.
+    None if one object is so much deeper than another that the other may hide parts of it.
     """
     least_m = min(falls_m.values(), default=math.inf)
     found = {}
@@ -171,7 +171,7 @@ def support_weights(
 def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Support] | None:
     """Return the support weight of each level face below a level base face, as `supports` does for triangles.
 
-    None where one face may hide parts of another, which only triangles can tell.
+    None where one face may hide parts of another: only triangles can show this.
     """
     first = min(rest.fall_m for rest in rests.values())
     found = {}

@@ -19,7 +19,7 @@ from scene2hap.contact.geometry.vectors import Floats, Triple, cross, dot, highe
 from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.scene.shapes import TriMesh
 
-# Directions of up whose faces a shape caches. A tumbling object has more, which clears the cache.
+# Up directions for which a shape caches faces. A tumbling object has more of them, which clears the cache.
 _MOST_WAYS_UP = 64
 # Rays along each edge of a side of the box.
 _N_RAYS = 8
@@ -88,7 +88,7 @@ class Shape:
             share[:, (axis + 1) % 3], share[:, (axis + 2) % 3] = np.repeat(grid, _N_RAYS), np.tile(grid, _N_RAYS)
             for end in (0, 1):
                 share[:, axis] = end
-                # Rays start a little outside of the box, so that they surely hit a face in the side itself.
+                # Rays start a little outside of the box, so that they surely hit a face that lies in the side.
                 way = np.where(np.arange(3) == axis, (1.02 - 2.04 * end) * edges, 0.0)[None]
                 start = self.low + share * edges - way / 102
                 hits = first_hits(start.T, np.repeat(way.T, len(start), axis=1), self.triangles, self.boxes)

@@ -1,4 +1,4 @@
-"""The arithmetic of a certificate: test a new pose against its bounds, and compute AABB and contact points there."""
+"""The arithmetic of a certificate: test a new pose against the bounds, and compute the AABB and contact points."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ _NOWHERE = Pose()  # placeholder for objects that only the engine has
 
 
 class Changes:
-    """Find the engine's poses that differ from the session's, so that slow motion adds up.
+    """Find the engine's poses that differ from the last ones passed to the session, so that slow motion adds up.
 
     Tables are compared as arrays, mappings one by one. The session's poses are read again whenever objects were added
     or removed, and after `forget`.

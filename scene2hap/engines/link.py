@@ -19,7 +19,7 @@ from scene2hap.session.arguments import given_contacts, given_touches
 
 _MOST_NAMED = 5
 _SCALE_TOLERANCE = 1e-3
-"""A smaller relative difference of positions is no other unit (assumed: units differ by 1 % or more)."""
+"""A smaller relative difference of positions counts as the same unit (assumed: units differ by 1 % or more)."""
 
 
 @clear_calls
@@ -47,8 +47,8 @@ class EngineLink:
     def update(self, touches: Sequence[Touch] | None = (), *, at_sample: int | None = None) -> HapticFrame:
         """Update the session. Call this once per frame on the game's thread.
 
-        It passes changed poses, contacts, and the engine's touches together with `touches`. After a refused frame the
-        next one passes all its changes again. Parameters, Raises: as `HapticSession.update`; SceneError: the adapter's
+        It passes changed poses, contacts, and the engine's touches together with `touches`. After a refused frame, the
+        next frame passes all changes again. Parameters, Raises: as `HapticSession.update`; SceneError: the adapter's
         poses are not valid.
         """
         poses, followed = self._poses(), self._session.object_ids

@@ -24,8 +24,8 @@ class MuJoCoLink(EngineLink):
     model, data, geom_groups, unit_m : as for `scene.engines.mujoco.snapshot`.
     hands : by the session's hands, the body of an actor that represents the hand, with all bodies below it, such as
         fingers. If the engine has such a body in contact with an object, the hand touches the object. Each contact is a
-        touch; of several, the strongest is felt.
-    contacts : None finds contacts between objects from geometry; "engine" takes the simulation's own.
+        touch; with several touches, the strongest is felt.
+    contacts : None finds contacts between objects from geometry; "engine" uses the contacts of the simulation.
     Raises: MissingExtra; SceneError: the session is of another model; ConfigError: no such hand; UnknownObject: no such
     body.
     """

@@ -1,7 +1,7 @@
 """One-shot vibration: decaying sines that are added to the mix, once each.
 
-The sines are made when a burst starts, and added up while it plays. A scene without landings pays nothing. Threads:
-`start` and `fade` belong to the game or a worker, `add_to` to the audio thread; neither waits for the other.
+The sines are computed when a burst starts, and summed while it plays. A scene without impacts costs nothing. Threads:
+call `start` and `fade` on the game's thread or a worker, `add_to` on the audio thread; neither waits for the other.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ END_DB = -46.0
 MOST_PLAYING = 32
 _STEP = 256
 _STRETCH = 4096
-"""Frames of a burst that are added up at a time."""
+"""Frames of a burst that are summed at a time."""
 _NONE: Samples = np.empty(0, dtype=np.float32)
 _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
-"""Time in which the peak of a sum is looked for first [s], and longest first cycle of a wave [s], that of 30 Hz."""
+"""Time in which the peak of a sum is searched first [s], and longest first cycle of a wave [s], that of 30 Hz."""
 
 
 @lru_cache(maxsize=256)
@@ -37,7 +37,7 @@ def wave_of(frequency_hz: float, decay_s: float, sample_rate_hz: int) -> Samples
     # exp of a sum is a product, so two short tables replace an exponential for each sample.
     coarse = np.exp(per_frame * _STEP * np.arange(-(-n // _STEP)))
     fine = np.exp(per_frame * np.arange(_STEP))
-    # A product of matrices (n / step, 2) and (2, step), in single precision: a strike waits for it.
+    # A product of matrices (n / step, 2) and (2, step), in single precision, since a strike waits for the result.
     tables = np.stack([coarse.real, coarse.imag], axis=1), np.stack([fine.imag, fine.real])
     wave: Samples = np.matmul(*(table.astype(np.float32) for table in tables)).ravel()[:n]
     edge = 0.5 - 0.5 * np.cos(np.pi * np.arange(max(1, round(ATTACK_S * sample_rate_hz))) / (ATTACK_S * sample_rate_hz))
@@ -71,9 +71,9 @@ def peak_of(
 
 
 class PlannedBurst:
-    """Waves (n,) of any lengths that sound once, from a frame of the session's clock on.
+    """Waves (n,) of any lengths that are played once, from a frame of the session's clock on.
 
-    They are added up a stretch at a time while they sound: the sum of half a second is too long for a frame of a game.
+    They are summed a stretch at a time while they play: summing half a second takes too long for a frame of a game.
     Parameters: weights : of each wave, by the token of each output that feels the burst.
     """
 

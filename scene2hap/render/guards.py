@@ -1,7 +1,7 @@
 """Gate, peak guard, power guard and slew guard of the safety layer. Their samples do not depend on the size of blocks.
 
-State that must be reset is reset at frames counted from the first one, never at the start of a block. Arrays are
-float64 (n_frames, n_channels).
+State is reset at frames counted from the first one, never at the start of a block. Arrays are float64 (n_frames,
+n_channels).
 """
 
 from __future__ import annotations
@@ -89,8 +89,8 @@ class PeakGuard:
         if is_over.any() or self._held.any():
             self.n_limited += int(is_over.sum())
             excess = np.where(is_over, 1.0 - limit / np.maximum(level, limit), 0.0)
-            # Divided by the decay from the cell's first frame, a decaying maximum is a plain one, without accumulated
-            # rounding.
+            # Values are divided by the decay since the cell's first frame. A decaying maximum then is a plain running
+            # maximum, without accumulated rounding.
             held = np.maximum(np.maximum.accumulate(excess / powers, axis=0), self._held)
             self._held = held[-1]
             y = np.clip(x * (1.0 - held * powers), -limit, limit)

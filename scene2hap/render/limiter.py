@@ -10,8 +10,8 @@ for sums of mixes and for samples that rounding leaves beyond t:
     y = x                                       |x| <= t
     y = sign(x) (t + (1 - t) tanh((|x| - t) / (1 - t)))     |x| > t
 
-Both act sample by sample, independent of the size of blocks. They run at the session's rate, after resampling, so
-nothing behind them can overshoot.
+Both act sample by sample, independent of the size of blocks. They run at the session's rate, after resampling, so no
+later step can overshoot.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def turn_down_in_place(
     np.maximum(u, threshold, out=u)
     np.divide(threshold, u, out=u)
     np.subtract(1.0, u, out=u)
-    # Divided by the decay from the frame before the first, a decaying maximum is a plain one.
+    # Values are divided by the decay since the frame before the first. A decaying maximum then is a running maximum.
     np.divide(u, powers, out=u)
     np.maximum.accumulate(u, axis=1, out=u)
     np.maximum(u, held[:, None], out=u)

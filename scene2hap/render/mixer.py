@@ -5,7 +5,7 @@
 The clock counts frames at the session's rate. A change of gains may be stamped with any frame. It begins with the next
 tactile sample, so at most one tactile sample later. Samples are behind the clock by the constant `delay_s`.
 
-A stepped gain would put sidebands into the tactile band, so every change is spread over a raised cosine. Overlapping
+A stepped gain would put sidebands into the tactile band, so every change is ramped along a raised cosine. Overlapping
 changes add up (`scene2hap.render.tactile_mix`). See Kaaresoja 2014 and Okamoto 2009 for the time budget.
 
 Threads: `set_gains` (game) appends to a deque and `render` (audio) pops from it; neither waits for the other. If gains
@@ -108,7 +108,7 @@ class Playhead:
         self._mix.enter(self._cell_begin)
 
     def _take_gains(self, end: int) -> None:
-        """Start the gains that begin before a tactile sample. None of them begins within samples already rendered."""
+        """Start the gains that begin before a tactile sample. None begins within samples that are already rendered."""
         while self._incoming:
             change = self._incoming[0]
             tick = max(-(-change.at_frame * self._tactile_rate_hz // self._sample_rate_hz), self._tick)
@@ -125,7 +125,7 @@ class Mixer:
     """The running mix of `n_hands` outputs.
 
     Parameters: bank : the loops, at the tactile rate; sample_rate_hz : rate of the outputs, at least the tactile one;
-        ramp_s : time over which a gain change is spread [s]; skip_silent : leave out loops whose gains are all 0.
+        ramp_s : length of the ramp of a gain change [s]; skip_silent : leave out loops whose gains are all 0.
     Raises: ConfigError: a rate or time that is out of bounds.
     """
 
@@ -175,7 +175,7 @@ class Mixer:
         self._send(gains, self._shape, shape, loops, None if self._is_skipping else loops, at_frame)
 
     def set_loops(self, gains: NDArray[np.float32], loops: Sequence[int], at_frame: int) -> None:
-        """Set the target gains (n_hands, n_loops, n_bands) of some loops, and 0 for all others; else as `set_gains`."""
+        """Set the target gains (n_hands, n_loops, n_bands) of some loops, and 0 for all others. See `set_gains`."""
         shape = (self._shape[0], len(loops), self._n_bands)
         self._send(gains, shape, shape, loops, loops if self._is_skipping else self._all_loops, at_frame)
 

@@ -4,10 +4,12 @@
 
 Assumed, with x the share of the time: a motor starts up with the speed s = x (2 - x), and coasts down with s = (1 -
 x)^2. Its amplitude is a = s^2, the force of an unbalance. A source that does not spin keeps its pitch, and its
-amplitude follows half a cosine. Recorded: a is that of the recording. If the recording shows a speed, s is that; else s
-= sqrt(a) for a source that spins. A passage begins or ends in phase with the loop itself, so the change between them is
-seamless. A passage that begins during another one continues from the present amplitude. If the curve has another speed
-there, the difference fades over the rest of the passage.
+amplitude follows half a cosine. Recorded: a is the recorded amplitude. If the recording shows a speed, s is that speed;
+else s = sqrt(a) for a source that spins.
+
+A passage begins or ends in phase with the loop itself, so the change between them is seamless. A passage that begins
+during another one continues from the present amplitude. If the curve has another speed there, the difference fades over
+the rest of the passage.
 """
 
 from __future__ import annotations

@@ -11,8 +11,8 @@
 Only steps 2 to 4 change a mix within the budget. The output does not depend on the sizes of input blocks; only the gate
 depends on the clock, and changes at the beginning of a block.
 
-Threads: `feed`, `hold` and `release` belong to the game and `process` to the thread that pulls samples; neither waits
-for the other.
+Threads: call `feed`, `hold` and `release` on the game's thread, and `process` on the thread that pulls samples; neither
+waits for the other.
 """
 
 from __future__ import annotations

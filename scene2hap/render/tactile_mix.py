@@ -159,7 +159,7 @@ class _Held(NamedTuple):
 class TactileMix:
     """The mix of `n_hands`, cell by cell, into `x` (n_hands, CELL).
 
-    Parameters: ramp : samples over which a change of gains is spread, >= 1; is_skipping : leave out silent loops.
+    Parameters: ramp : length of the ramp of a change of gains, in samples, >= 1; is_skipping : leave out silent loops.
 
     If gains come faster than slots become free, they are merged: the newest of them starts when a slot is free. With
     one change per millisecond this does not happen, up to ramps of 35 ms.

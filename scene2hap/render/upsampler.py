@@ -30,8 +30,8 @@ PASS_HZ = 1000.0
 IMAGE_DB = 80.0
 
 _MOST_KEPT = 64
-"""Most matrices that are cached; 44.1 kHz has 10. Rates with a small common divisor have up to f_in, made when
-needed."""
+"""Most matrices that are cached; 44.1 kHz has 10. Rates with a small common divisor have up to f_in matrices, which are
+made on demand."""
 
 Block = NDArray[np.float32]
 
@@ -127,7 +127,7 @@ def interpolation_filter(rate_in_hz: int, up: int) -> NDArray[np.float64]:
     nyquist_hz = rate_in_hz / 2
     pass_hz = min(PASS_HZ, 0.8 * nyquist_hz)
     rate_hz = rate_in_hz * up
-    # A margin of 2 dB: Kaiser's formula is an estimate, and normalising each phase costs a little.
+    # A margin of 2 dB: Kaiser's formula is an estimate, and normalising each phase adds a small error.
     n_wanted, beta = kaiserord(IMAGE_DB + 2, (nyquist_hz - pass_hz) / (rate_hz / 2))
     n_taps = -(-n_wanted // up)
     h = firwin(n_taps * up, (nyquist_hz + pass_hz) / 2, window=("kaiser", beta), fs=rate_hz)

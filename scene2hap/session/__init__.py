@@ -1,4 +1,4 @@
-"""Play time: poses and touches in, vibration for every hand out."""
+"""Playback of a baked scene: takes poses and touches, and renders the vibration of every hand."""
 
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch

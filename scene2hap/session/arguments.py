@@ -1,6 +1,6 @@
-"""Arguments of a session: use those of an unexpected type where their meaning is plain, else raise.
+"""Conversion of a session's arguments: accept an unexpected type if its meaning is clear, else raise.
 
-An ordinary frame runs nothing of this module but the check of its stamp, so that it costs nothing more.
+An ordinary frame runs only the check of its stamp from this module, so these conversions cost it nothing.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from scene2hap.session.frame import Touch
 from scene2hap.session.impacts import KNOCK_M_S, Strike
 
 MAX_RENDERED_FRAMES = 1 << 24
-"""Frames of one call; assumed: minutes, while a sink takes milliseconds at a time."""
+"""Most frames of one call; assumed: minutes, while a sink takes milliseconds at a time."""
 
 MAX_AHEAD_S = 3600
-"""Bound of `at_sample` ahead of the rendered samples [s]; assumed: beyond, it is a time in other units."""
+"""Longest time of `at_sample` ahead of the rendered samples [s]; assumed: a longer one is in other units."""
 
 _TOUCH = "Touch(hand, object_id, point_m)"
 
 
 def require_settings(config: object) -> None:
-    """Raise a ConfigError if other arguments of a session, its hands or a sink, are given as settings."""
+    """Raise a ConfigError if another argument of a session (hands, sink) is given as settings."""
     if isinstance(config, ActuatorSink):
         raise ConfigError(f"config is {checks.described(config)}; write HapticSession(..., sink=sink).")
     for name in ("hands", "sink"):
@@ -40,7 +40,7 @@ def require_settings(config: object) -> None:
 
 
 def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | None, Sequence[Touch]]:
-    """The poses and touches of an update whose first argument is no mapping: `update([Touch(...)])` is taken.
+    """Return the poses and touches of an update whose first argument is no mapping: accepts `update([Touch(...)])`.
 
     Raises: SessionError: the first argument is neither poses by id nor touches.
     """
@@ -56,9 +56,9 @@ def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | No
 
 
 def given_touches(touches: object) -> list[Touch]:
-    """Touches that are no sequence of Touch: a single one, None, and (hand, object id, point) are taken.
+    """Convert touches that are no sequence of Touch: a single one, None, or (hand, object id, point).
 
-    Raises: SessionError: anything else, as a mapping or a text.
+    Raises: SessionError: anything else, such as a mapping or a text.
     """
     if touches is None:
         return []
@@ -93,13 +93,13 @@ def _refuse_touches(touches: object) -> NoReturn:
 
 
 def swapped_hint(touch: Touch, hands: Collection[str]) -> str:
-    """A hint for a touch whose object is a hand, since its arguments are swapped."""
+    """Return a hint if a touch has hand and object swapped."""
     is_hand = isinstance(touch.object_id, str) and touch.object_id in hands
     return f" {touch.object_id!r} is a hand; a touch is {_TOUCH}." if is_hand else ""
 
 
 def require_pose(object_id: str, pose: object) -> None:
-    """Require a Pose. Raises: SceneError: it is something else; the message says how to write it as a Pose."""
+    """Require a Pose. Raises: SceneError: another type; the message says how to write it as a Pose."""
     if isinstance(pose, Pose):
         return
     how = "write Pose(position_m), or Pose(position_m, rotation_xyzw) with w last"
@@ -111,7 +111,7 @@ def require_pose(object_id: str, pose: object) -> None:
 
 
 def given_contacts(contacts: object) -> Sequence[Contact]:
-    """Contacts of an engine. Raises: SessionError: they are something else."""
+    """Return contacts of an engine. Raises: SessionError: another type."""
     found: tuple[Any, ...] = (contacts,)
     if not isinstance(contacts, str | Mapping | Contact):
         with contextlib.suppress(Exception):  # an object of another type may raise any error
@@ -127,7 +127,7 @@ def given_contacts(contacts: object) -> Sequence[Contact]:
 def given_strike(
     object_id: str, point_m: object, with_object: str | None, speed_m_s: object, impulse_n_s: object
 ) -> Strike:
-    """A strike; a knock without speed and impulse. Raises: SessionError: numbers that are out of bounds."""
+    """Return a strike; a knock without speed and impulse. Raises: SessionError: numbers that are out of bounds."""
     x, y, z = checks.vector("point_m", point_m, "m", size=3, error=SessionError)
     if speed_m_s is not None and impulse_n_s is not None:
         raise SessionError("speed_m_s and impulse_n_s are both given; give one of them.")
@@ -140,7 +140,7 @@ def given_strike(
 
 
 def require_addable(item: object, haptics: object, loops: object) -> None:
-    """Raise a SessionError unless these may go to `HapticSession.add`."""
+    """Raise a SessionError unless these are valid arguments of `HapticSession.add`."""
     if not isinstance(item, SceneObject):
         raise SessionError(
             f"object is {checks.described(item)}; it must be one SceneObject, as `scene.object(id)` gives and "
@@ -174,9 +174,9 @@ def given_frames(n_frames: object) -> int:
 
 
 def given_stamp(at_sample: object, last: int, position: int, sample_rate_hz: int) -> int:
-    """The sample at which an update happens, after one at `last`, while `render` is at `position`.
+    """Return the sample of an update that follows an update at `last`, while `render` is at `position`.
 
-    Raises: SessionError: it lies before the last update, or too far ahead.
+    Raises: SessionError: it is before the last update, or too far ahead.
     """
     sample = at_sample
     if type(sample) is not int:

@@ -1,16 +1,16 @@
 """Choose the sources and bands that are strong enough to be mixed at a hand, by the threshold of touch.
 
-The loop is weighted by the threshold T(f), so that a vibration at the threshold has a peak of 1 whatever its frequency,
-and split into bands; p_b is the peak of band b over the whole loop. At band gains g_b no moment of it exceeds
-sum_b g_b p_b, in thresholds. A source is left out where that is below 10^(-10/20) / n for n sources. The sum of all
-sources left out at a hand thus stays 10 dB below the threshold at every moment.
+The loop is weighted by the threshold T(f), so that a vibration at the threshold has a peak of 1 at any frequency. Then
+it is split into bands; p_b is the peak of band b over the whole loop. At band gains g_b the loop never exceeds
+sum_b g_b p_b, in thresholds. A source is left out if this sum is below 10^(-10/20) / n for n sources. So the sum of all
+sources left out at a hand always stays 10 dB below the threshold.
 
-Bands of which less than -140 dB re full scale is left at their gain are left out as well.
+Bands that are below -140 dB re full scale at their gain are left out as well.
 
-Where a model reports path cost, each source has a cut-off: the cost beyond which it is too weak to be mixed. The
-vibration felt falls as the cost rises. A table holds, for some costs, the vibration felt of each source at its full
-level. The cut-off is the first cost in the table that is too high, so that at most too much is mixed. Another level
-needs only another look at the same table.
+If a model reports path cost, each source has a cut-off: the cost beyond which it is too weak to be mixed. The vibration
+felt falls as the cost rises. A table holds, for some costs, the vibration felt of each source at its full level. The
+cut-off is the first cost in the table that is too high. So a source may be mixed needlessly, but is never missed. A
+change of level needs only another look-up in the same table.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from scene2hap.session.config import SkipConfig
 from scene2hap.session.frame import Counts
 
 BELOW_THRESHOLD_DB = 10.0
-"""Margin of everything that is left out of a hand's mix below the threshold of touch."""
+"""Margin below the threshold of touch of the sum of all sources that are left out of a hand's mix."""
 SILENT = 1e-7
 """Peak re full scale below which a band counts as silent."""
 NOWHERE = -1.0
-"""The cut-off of a source that is not felt even on itself."""
+"""Cut-off of a source that is not felt even on itself."""
 
-# From 1 to less than exp(-700) for any band between 8 Hz and 1 MHz, in steps of 6 %.
+# Costs in steps of 6 %, at which gains fall from 1 to less than exp(-700) for any band between 8 Hz and 1 MHz.
 _PRICES = np.concatenate([[0.0], np.geomspace(1e-4, 100.0, 240)])
 
 
@@ -58,8 +58,8 @@ class Audibility:
         return n_sources, n_bands
 
     def felt(self, gains: NDArray[np.float32], columns: Sequence[int]) -> NDArray[np.float32]:
-        """Upper bound of the sources in some columns at gains (n, n_columns, n_bands), in thresholds of touch
-        (n, n_columns)."""
+        """Upper bound (n, n_columns) of the vibration felt of the sources in some columns, in thresholds of touch, at
+        gains (n, n_columns, n_bands)."""
         felt: NDArray[np.float32] = (gains[:, :, None] @ self._felt[columns])[:, :, 0, 0]
         return felt
 
@@ -84,7 +84,7 @@ class Audibility:
 class CutoffCost:
     """Table of the gain and of the vibration felt of each source of a field, by path cost.
 
-    Sources of equal excitation and equal peaks, as copies of an object are, share one column of the table.
+    Sources of equal excitation and equal peaks, such as copies of an object, share one column of the table.
     Raises: ModelDomainError: the field returns another shape.
     """
 
@@ -103,7 +103,7 @@ class CutoffCost:
         self._arrives = _falling(gains.max(axis=2, initial=0.0))
 
     def felt(self, levels: NDArray[np.float64]) -> list[float]:
-        """The cut-off of each source at levels (n_sources,) [-]; infinite where a source is felt however far it is."""
+        """Cut-off of each source at levels (n_sources,) [-]; infinite for a source that is felt at any distance."""
         return _last_of(self._felt.take(self._column, axis=1) * levels >= self._least_felt)
 
     def arrives(self, levels: NDArray[np.float64]) -> list[float]:
@@ -129,9 +129,9 @@ def sifted(
 ) -> tuple[NDArray[np.float32], list[int], int, int]:
     """Copy gains (n, m, k) without sources too weak to be felt and without silent bands.
 
-    A source is too weak if its peaks (m, k), weighted by its gains, add up to less than `least_felt`; a band is silent
-    below `least` (m, k). Returns the gains of the columns that are not all 0, these columns, and the numbers of sources
-    and of bands that were zeroed. None leaves out nothing; without `least` all columns stay.
+    A source is too weak if its peaks (m, k), weighted by its gains, add up to less than `least_felt`. A band is silent
+    below `least` (m, k). If `peaks` or `least` is None, that test is skipped; without `least` all columns stay. Returns
+    the gains of the columns that are not all 0, these columns, and the numbers of sources and bands that were zeroed.
     """
     kept, n_below = gains.copy(), 0
     if peaks is not None:
@@ -152,8 +152,8 @@ def sifted(
 def within(
     prices: Prices, cutoff: Sequence[float], sought: Sequence[Set[int]]
 ) -> tuple[list[int], list[list[float]], int]:
-    """Sources within their cut-off: rising columns in which any row has one, their costs (infinite beyond the cut-off),
-    and the number of sought sources that are beyond."""
+    """Return the sources within their cut-off in any row: their ascending columns, their costs (infinite beyond the
+    cut-off), and the number of sought sources beyond their cut-off."""
     worth, n_beyond = set[int](), 0
     for row, among in zip(prices, sought, strict=True):
         near = {x for x, price in enumerate(row) if price <= cutoff[x]}
@@ -164,7 +164,7 @@ def within(
 
 
 def _falling(table: NDArray[np.float32]) -> NDArray[np.float32]:
-    """A table by rising cost, made to fall: rounding must not let a gain rise with the cost."""
+    """Make a table monotonic: a gain must not rise with the cost by rounding."""
     falling: NDArray[np.float32] = np.maximum.accumulate(table[::-1], axis=0)[::-1]
     return falling
 

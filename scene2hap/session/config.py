@@ -18,7 +18,7 @@ from scene2hap.propagation.protocol import CoupledModel
 from scene2hap.settings import Settings
 
 MIN_RAMP_S = 0.010
-"""Shortest time over which a gain change is spread; see `scene2hap.render.mixer`."""
+"""Shortest ramp of a gain change; see `scene2hap.render.mixer`."""
 
 MAX_GAIN_DB = 120.0
 """Bound on every gain, far beyond any actuator, so that single precision cannot overflow."""
@@ -37,9 +37,9 @@ def _bands(value: object) -> object:
 
 
 class SkipConfig(Settings):
-    """Switches of the work that a session skips because nobody feels the difference.
+    """Switches for the work that a session skips because nobody feels the difference.
 
-    docs/playing.md has the bound of each; `SessionStats.skipped` counts what was saved.
+    docs/playing.md has the bound of each; `SessionStats.skipped` counts the skipped work.
 
     unreachable : objects that no source reaches over contacts are left out of the model's input and are not evaluated.
     below_threshold : sources that are not felt at a hand are left out of its mix.
@@ -71,21 +71,21 @@ class SessionConfig(Settings):
     bands : bands of the gains: Bands, their edges [Hz], "dominant" (each source's own frequency, as in the paper),
         "around" (half an octave around it) or "third-octaves" (20 from 10 to 1000 Hz). The default is "around" for a
         model that resonates, else "dominant".
-    reference : "source": gains are relative to the source's free vibration; "felt_near": each source is scaled so that
-        0.1 m from it its level is that of the paper's law, so that models can be exchanged at the same strength.
-    prepare : "background": a worker prepares the model while the last field plays on, and `update` never waits;
+    reference : "source": gains are relative to the source's free vibration; "felt_near": each source is scaled to the
+        level of the paper's law at 0.1 m from it, so that models can be exchanged at the same strength.
+    prepare : "background": a worker prepares the model while the last field stays in use, and `update` never waits;
         "blocking": `update` waits, so that output depends on input alone. A model with a live field, such as
         `ExponentialPlate`, needs no preparation.
     gain_limit_db : upper bound of the gain of one source at a hand, None for no bound.
-    sample_rate_hz : rate of the samples that `render` and sinks get.
-    tactile_rate_hz : rate at which loops are mixed, or the sample rate where that is lower; the mixed hands are
+    sample_rate_hz : rate of the samples that `render` returns and sinks get.
+    tactile_rate_hz : rate at which loops are mixed; the sample rate if that is lower. The mix of the hands is then
         resampled once. At least 2.5 times the highest band edge.
-    control_period_s : usual time between updates; gain changes are spread over it, and over at least 10 ms.
+    control_period_s : usual time between updates; gain changes are ramped over it, and over at least 10 ms.
     watchdog_s : time without an update after which a sink with a clock of its own fades to zero.
     actuator : the actuator in use, which gives the safety layer its limits: a name, a CSV file of Hz and dB, fields, or
         an ActuatorProfile.
-    skip : work that is left out: True for all of it, False for none, or a SkipConfig or its settings.
-    impacts : True if objects that are moved are felt when they land on others; `HapticSession.strike` works anyway.
+    skip : work to skip: True for all of it, False for none, or a SkipConfig or its settings.
+    impacts : True if a moved object is felt when it lands on another; `HapticSession.strike` works in any case.
     """
 
     of_what = "session"
@@ -106,7 +106,7 @@ class SessionConfig(Settings):
     @model_validator(mode="after")
     def _bands_of_the_model(self) -> Self:
         if "bands" not in self.model_fields_set:
-            # Not counted as set, so that they change with the model.
+            # Not marked as set, so that a change of the model changes them as well.
             object.__setattr__(self, "bands", getattr(self.propagation, "usual_bands", self.bands))
         return self
 
@@ -122,5 +122,5 @@ class SessionConfig(Settings):
 
     @property
     def prepares_impacts(self) -> bool:
-        """True if a worker prepares the scene around touched objects for impacts: with a coupled model."""
+        """True if a worker prepares the scene around touched objects for impacts (coupled models only)."""
         return self.impacts and self.prepare == "background" and isinstance(self.propagation, CoupledModel)

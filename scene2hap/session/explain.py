@@ -1,9 +1,9 @@
 """Report of the sources that a hand feels: each source's path to the hand, object by object.
 
 For models that spread vibration along paths, such as `ExponentialPlate`, the report shows the path with the least loss
-by the paper's law. The field itself is evaluated at each contact on it, so that the decibels of the steps add up to the
-gain at the hand. A path may leave an object and come back to it, as over a bar of steel on a rug; that is one step. In
-the physical models (`CarryingField`) a source arrives over all paths at once and resonates: the report shows the total,
+by the paper's law. The field is evaluated at each contact on this path, so that the decibels of the steps add up to the
+gain at the hand. A path may leave an object and return to it, as over a bar of steel on a rug: this is one step. In the
+physical models (`CarryingField`) a source arrives over all paths at once and resonates. The report then shows the total
 and the share of the power through each contact.
 """
 
@@ -41,7 +41,7 @@ MOST_NAMED = 5
 class PathStep:
     """One object on a path: the length through it [m], and the change of the level over that length [dB].
 
-    by_way_of : objects through which a short cut leads, from this one back to it; their lengths count in.
+    by_way_of : objects on a short cut from this object back to it; their lengths are included.
     """
 
     object_id: str
@@ -59,10 +59,10 @@ class FeltSource:
     """A source that arrives at a hand.
 
     Parameters: state, on : its state, and the touched object; gain_db : its gain there, in its strongest band; level_db
-    : its volume and the user's; band : that band; steps : from the source to the touched object, empty where the law
-    has no path (over an object of unknown material, say) and for the physical models; carriers : for these, the
-    contacts through which it comes into the touched object, the strongest first; over_threshold_db : its level over the
-    threshold of touch at this hand, None if the loop has no level.
+    : the volume of source and user; band : the strongest band; steps : from the source to the touched object, empty if
+    the law has no path (over an object of unknown material, say) and for the physical models; carriers : in the
+    physical models, the contacts through which it enters the touched object, the strongest first; over_threshold_db :
+    its level over the threshold of touch at this hand, None if the loop has no level.
     """
 
     source_id: str
@@ -101,9 +101,9 @@ class FeltSource:
 class Explanation:
     """Report of the vibration at one hand, as `HapticSession.explain` returns it. `print(report.text)` shows it.
 
-    `felt` has the sources that arrive, the strongest first. `impacts` are those of the last second, the latest first.
-    `is_current` is false while a worker prepares a newer field. `reasons` are sentences on why a touching hand feels
-    no source, empty if it feels one.
+    `felt` has the sources that arrive, the strongest first. `impacts` has the impacts of the last second, the latest
+    first. `is_current` is false while a worker prepares a newer field. `reasons` are sentences that say why a touching
+    hand feels no source; empty if it feels one.
     """
 
     hand: str
@@ -146,7 +146,8 @@ class Explanation:
 class Explainer:
     """Explains the gains of one moment.
 
-    Parameters: field : in use, which `gains` evaluates; levels : of each source at the hand, by band (n_bands,) [-].
+    Parameters: field : the field in use, which `gains` evaluates; levels : of each source at the hand, by band
+    (n_bands,) [-].
     """
 
     def __init__(
@@ -164,7 +165,7 @@ class Explainer:
     def explain(
         self, hand: str, touches: Sequence[Touch], frame: HapticFrame, *, is_current: bool, is_paused: bool
     ) -> Explanation:
-        """Explain what a hand feels at a frame with these touches."""
+        """Explain the gains of a hand in a frame with these touches."""
         felt = []
         if touches and hand in frame.hands:
             for source_id, given in zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True):
@@ -176,7 +177,7 @@ class Explainer:
         return Explanation(hand, on, tuple(felt), is_current, reasons=reasons)
 
     def _reasons(self, on: set[str], *, is_paused: bool) -> Iterator[str]:
-        """Sentences on why a hand on these objects feels no source."""
+        """Yield sentences that say why a hand on these objects feels no source."""
         if is_paused:
             yield "The session is paused; call resume()."
         if self._sources.user.is_muted:
@@ -227,7 +228,7 @@ _REMEDIES = {"off": "on=True", "muted": "mute=False", "in its off-time": "on=Tru
 
 
 def _why_silent(source: Source) -> str:
-    """Why a source is silent, a key of `_REMEDIES`; empty if it is not."""
+    """Return why a source is silent, a key of `_REMEDIES`; empty if it is not silent."""
     if not source.is_on:
         return "off"
     if source.level.is_muted:
@@ -256,7 +257,7 @@ def _steps(way: LoudestPath, point_m: Point, gain_at: Callable[[str, Point], flo
 
 
 def _as_one(steps: Sequence[PathStep]) -> PathStep:
-    """Steps from an object back to it as one; one step as it is."""
+    """Join the steps from an object back to the same object into one; return a single step unchanged."""
     if len(steps) == 1:
         return steps[0]
     others = [x for step in steps for x in (step.object_id, *step.by_way_of) if x != steps[0].object_id]
@@ -265,7 +266,7 @@ def _as_one(steps: Sequence[PathStep]) -> PathStep:
 
 
 def _in_words(carriers: Sequence[Carrier]) -> str:
-    """Describe the share of each object that carries a notable part, and over how many contacts."""
+    """Describe each neighbour's share of the power, from `LEAST_SHARE` up, and its number of contacts."""
     by: dict[str, list[float]] = {}
     for carrier in carriers:
         by.setdefault(carrier.by, []).append(carrier.share)
@@ -285,7 +286,7 @@ _END = ""
 
 @dataclass(frozen=True)
 class LoudestPath:
-    """Objects from a source to a touch, and the point at which each but the source is entered."""
+    """Objects from a source to a touch, and the entry point of each object after the source."""
 
     objects: tuple[str, ...]
     entries: tuple[Point, ...] = ()
@@ -323,7 +324,7 @@ def loudest_path(
         if here == _END:
             return LoudestPath(way.objects[:-1], way.entries[:-1])
         entry = way.entries[-1] if way.entries else None
-        # The same place after more hops is another state only where hops are counted.
+        # The number of hops is part of the state only if the law limits it.
         state = (here, entry, hops if law.max_hops is not None else 0)
         if state in done or (entry is not None and here not in bodies):
             continue
@@ -331,7 +332,7 @@ def loudest_path(
         onward = [] if law.max_hops is not None and hops >= law.max_hops else beside[here]
         end = [(_END, point_m, 0.0)] if here == target_id else []
         for other, leave, crossing in (*onward, *end):
-            # Inside the source distance is free: it moves as a whole.
+            # A path inside the source costs nothing, since the source moves as a whole.
             through = 0.0 if entry is None else _price_per_m(bodies[here]) * math.dist(entry, leave)
             n_pushed += 1
             heapq.heappush(waiting, (cost + through + crossing, n_pushed, way.on(other, leave)))

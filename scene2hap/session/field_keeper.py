@@ -1,6 +1,6 @@
-"""Provides the propagation field to evaluate: the newest that a worker has prepared, or a live one.
+"""Provides the propagation field to evaluate: the newest one that a worker has prepared, or a live field.
 
-All methods belong to the game's thread. The worker ends with the keeper.
+Call all methods on the game's thread. The worker ends with the keeper.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ from scene2hap.session.worker import Desk, Prepared, Sign, Situation, put_to_wor
 
 
 class FieldKeeper:
-    """Keeps a field prepared for the present scene, and the last one in use meanwhile.
+    """Prepares fields for the present scene. The last field stays in use until a newer one is ready.
 
     Parameters: is_background : whether a worker prepares, beginning now; until the first field is ready, each source is
     felt on itself alone; skips_unreachable : leave objects that no source reaches out of the model's input.
-    Raises: the errors of the model, if it is prepared in place.
+    Raises: the errors of the model, if no worker prepares.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class FieldKeeper:
 
     @property
     def field(self) -> PropagationField:
-        """The field that covers most objects, as it was prepared."""
+        """The prepared field in use, which may not cover all objects."""
         return self.in_use.field
 
     @property
@@ -80,14 +80,14 @@ class FieldKeeper:
         return 0.0 if outdated is None else time.monotonic() - outdated
 
     def request(self, excitations: Sequence[Excitation]) -> None:
-        """Request a field for the present scene. It is prepared here, or by the worker from the next `order` on."""
+        """Request a field for the present scene. It is prepared at once, or by the worker from the next `order` on."""
         before, self._requested = self._requested, self._situation(self._requested.number + 1, excitations)
         before.outdated_at_s = self._requested.requested_at_s
         if not self._is_background:
             self._use(self._desk.prepare(self._requested))
 
     def order(self) -> None:
-        """Pass the newest request to the worker. Call it at the end of an update, which the worker would slow down."""
+        """Pass the newest request to the worker. Call it at the end of an update, so as not to slow down the update."""
         if not self._is_background:
             return
         if self._n_ordered != self._requested.number:
@@ -107,7 +107,7 @@ class FieldKeeper:
         return gained
 
     def unnoted(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
-        """As `method`, for points that no hand touches: the worker does not prepare their objects for more queries."""
+        """See `method`; for points that no hand touches, so that the worker does not prepare their objects."""
         return self._in_use(source_ids, reach, lambda touched: None)
 
     def _in_use(
@@ -124,7 +124,7 @@ class FieldKeeper:
         return gained
 
     def take(self) -> bool:
-        """Take the newest field that is ready into use. Returns false if none is newer."""
+        """Use the newest prepared field. Returns false if there is no newer one."""
         try:
             answer = self._desk.answers.pop()
         except IndexError:
@@ -138,7 +138,7 @@ class FieldKeeper:
         return False
 
     def wait(self, timeout_s: float | None = None) -> bool:
-        """Wait until no field is being prepared and `expect` has run for all touched objects, and use that field.
+        """Wait until no field is being prepared and `expect` has run for all touched objects, and use the new field.
 
         Returns false after the timeout [s].
         """
@@ -194,7 +194,7 @@ class FieldKeeper:
 
 
 class LiveKeeper:
-    """Provides a live field, and makes another one when sources or objects come and go. It is never out of date.
+    """Provides a live field, which is never outdated. It is replaced when sources or objects are added or removed.
 
     Raises: the errors of the model.
     """
@@ -216,7 +216,7 @@ class LiveKeeper:
         return self.in_use
 
     def request(self, excitations: Sequence[Excitation]) -> None:
-        """Make a field of the present objects and sources, unless the field in use is of the same."""
+        """Make a field of the present objects and sources, unless the field in use has the same ones."""
         self.n_prepared += 1
         bodies = self._state.bodies
         if self._made_for is None or self._made_for[0] is not bodies or self._made_for[1] is not excitations:
@@ -224,7 +224,7 @@ class LiveKeeper:
             self.in_use: LiveField = self._model.live(self._state.graph, bodies, excitations, self._bands)
 
     def order(self) -> None:
-        """Nothing is left to be prepared."""
+        """Do nothing: a live field needs no preparation."""
 
     def method(self, source_ids: tuple[str, ...], reach: Reach) -> LiveField:
         """The field of these sources."""
@@ -233,16 +233,16 @@ class LiveKeeper:
     unnoted = method
 
     def take(self) -> bool:
-        """False: there is never another field."""
+        """Return False: there is never a newer field."""
         return False
 
     def wait(self, timeout_s: float | None = None) -> bool:
-        """True: nothing is being prepared."""
+        """Return True: nothing is being prepared."""
         return True
 
 
 def keeper_of(config: SessionConfig, state: SceneState, excitations: Sequence[Excitation]) -> FieldKeeper | LiveKeeper:
-    """The keeper for the configured model: of a live field where the model offers one."""
+    """Return the keeper for the configured model: `LiveKeeper` if the model has a live field."""
     model, bands = config.propagation, config.bands
     if isinstance(model, LiveModel):
         return LiveKeeper(model, bands, state, excitations)

@@ -54,8 +54,8 @@ class HapticFrame:
         """Gains (n_hands, n_sources, n_bands) float32 [-], 0 below -140 dB.
 
         Models that report path cost (`propagation.live.PricedField`) compute them on first access, since most games
-        never read them: of all sources until a contact changes, afterwards only of sources that are mixed, the others
-        being 0. The first access must be in the thread that updates.
+        never read them. If a contact has changed by then, only the gains of mixed sources are computed, and the others
+        are 0. The first access must be in the thread that updates.
         """
         if self._gains is None:
             assert self._work_out is not None
@@ -110,7 +110,7 @@ class SessionStats:
     preparations that the model refused, while the last field stayed in use; last_failure : the model's message;
     touches_off_surface : touches more than 5 cm off the box around their object, in the first 16 updates with touches
     and in one of 16 later ones; impacts : impacts, reported or found; impacts_felt : impacts that a hand felt;
-    impacts_left_out : impacts that followed one another too fast, or came while too many sounded.
+    impacts_left_out : impacts too soon after another one, or while too many others were played.
     """
 
     updates: int = 0
@@ -130,7 +130,7 @@ class SessionStats:
 
 @dataclass
 class Counts:
-    """The fields of `SkipCounts` that are counted here, gains that were capped, and whether a warning was given."""
+    """Counts for `SkipCounts`, the number of capped gains, and whether a warning was given."""
 
     unreachable_objects: int = 0
     unreachable_touches: int = 0
@@ -153,20 +153,20 @@ class RemovedIds:
     """The newest ids of removed objects or sources, for error messages."""
 
     _MOST = 1000
-    """A game may remove objects for hours."""
+    """Bound on the memory, since a game may remove objects for hours."""
 
     def __init__(self) -> None:
         self._ids: dict[str, None] = {}
 
     def add(self, removed_id: str) -> None:
-        """Remember an id. One that was added to the scene again is in no message, since it is known."""
+        """Store an id. An id that was added to the scene again needs no message, since it is known."""
         self._ids.pop(removed_id, None)
         self._ids[removed_id] = None
         if len(self._ids) > self._MOST:
             del self._ids[next(iter(self._ids))]
 
     def hint(self, wanted_id: object) -> str:
-        """A sentence, with a blank before it, if the id was removed; else empty."""
+        """A sentence, after a blank, if the id was removed; else empty."""
         is_removed = isinstance(wanted_id, str) and wanted_id in self._ids
         return f" {wanted_id!r} was removed; `add(object)` puts it back." if is_removed else ""
 

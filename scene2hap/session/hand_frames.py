@@ -22,7 +22,7 @@ from scene2hap.session.sources import LoopRow, Sources
 from scene2hap.session.user_profile import PersonalGains, UserProfile
 
 PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]
-"""Peaks (n_rows, 2, n_bands) of the loops of some rows, 0 of those that cannot be mixed yet."""
+"""Peaks (n_rows, 2, n_bands) of the loops of some rows, 0 for loops that are not ready to be mixed."""
 
 
 class HandFrames:
@@ -57,10 +57,9 @@ class HandFrames:
         self._count_unreachable()
 
     def apply(self, change: ContactChange, *, sources_changed: bool = False) -> None:
-        """Apply a change of contacts, after objects came or went; `sources_changed` if sources did.
+        """Apply a change of contacts. `sources_changed` is true if sources were added or removed.
 
-        The next `frame` handles all objects and sources that came and went together, since a game may add and remove
-        many between two frames.
+        A game may add and remove many objects between two frames. The next `frame` handles all of them at once.
         """
         if sources_changed:
             self._forget_sources()
@@ -87,12 +86,12 @@ class HandFrames:
             self._counts.changes_out_of_reach += 1
 
     def loops_came(self) -> None:
-        """Drop caches that depend on the loops, after more of them became ready to be mixed."""
+        """Drop caches that depend on the loops, after more loops became ready to be mixed."""
         self._audibility = self._loudness = self._method = None
         self._is_fresh = False
 
     def levels_changed(self, is_other_state: bool = False) -> None:
-        """Drop cached levels. Another state vibrates at another frequency, so that the field is another too."""
+        """Drop cached levels. In another state a source has another frequency, which needs a new field."""
         self._are_levels_known = self._is_fresh = False
         if is_other_state:
             self._forget_sources()
@@ -145,13 +144,13 @@ class HandFrames:
 
     def wait(self, timeout_s: float | None) -> bool:
         """Wait for the worker; false after the timeout [s]."""
-        # Another field may be in use then, or `expect` may have changed this one.
+        # There may be another field now, or `expect` may have changed this one.
         self._is_fresh = False
         self._catch_up()
         return self.keeper.wait(timeout_s)
 
     def explain(self, hand: str, *, is_paused: bool) -> Explanation:
-        """Explain each source that a hand felt at the last frame: its gain and its path, or why it felt none."""
+        """Explain each source that a hand felt at the last frame (gain and path), or why the hand felt none."""
         self._catch_up()
         felt = (touch for touches in self._felt.values() for touch in touches)
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
@@ -194,7 +193,7 @@ class HandFrames:
         return not self._config.skip.unreachable or self._reach.concerns(change)
 
     def _catch_up(self) -> None:
-        """Apply the changes of objects and sources that came and went since the last frame."""
+        """Apply the additions and removals of objects and sources since the last frame."""
         if self._are_sources_known:
             return
         pending, must_request = self._pending, self._must_request
@@ -234,7 +233,7 @@ class HandFrames:
     def _is_unchanged(self, felt: Felt, moved: Collection[str]) -> bool:
         if not (self._is_fresh and self._config.skip.unchanged_frames and felt == self._felt):
             return False
-        # An outdated field is evaluated at the object's former place.
+        # An outdated field is evaluated at the object's former place, so a moved object needs another query.
         return not moved or not any(touch.object_id in moved for touches in felt.values() for touch in touches)
 
     def _gains_of_hands(self, n_hands: int, felt: Felt) -> HandGains:

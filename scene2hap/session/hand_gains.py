@@ -38,9 +38,9 @@ GREATEST = 10 ** (MAX_GAIN_DB / 20)
 class TouchGains:
     """Evaluate a field at the touches of each hand.
 
-    Parameters: shape : (n_sources, n_bands) of a hand's gains; reach : the objects that are connected now;
+    Parameters: shape : (n_sources, n_bands) of a hand's gains; reach : the present groups of connected objects;
     skips_unreachable : do not evaluate the field where no source reaches; limit : cap on a gain, None for none.
-    `may_be_capped` is whether the field may exceed it.
+    `may_be_capped` is true if the field may exceed the limit.
     """
 
     def __init__(
@@ -105,7 +105,7 @@ class TouchGains:
         return gains
 
     def _warn_of_invalid(self, gains: NDArray[np.float64]) -> None:
-        """Warn once if a model of somebody else gives negative gains or NaN. Warns: SceneWarning."""
+        """Warn once if a third-party model gives negative gains or NaN. Warns: SceneWarning."""
         if self._counts.has_warned_of_gains or not gains.size or gains.min() >= 0:  # the least is NaN if any is
             return
         self._counts.has_warned_of_gains = True
@@ -138,7 +138,7 @@ class TouchGains:
 def cap(gains: NDArray[np.float64], limit: float) -> int:
     """Clip gains (n, m, k) to 0 and a limit, in place. Returns how many were above the limit.
 
-    NaN becomes 0, since the NaN of a guest model must not reach a hand.
+    NaN becomes 0, since the NaN of a third-party model must not reach a hand.
     """
     n_above = int(np.count_nonzero(gains > limit))
     np.minimum(np.fmax(gains, 0.0, out=gains), limit, out=gains)
@@ -159,7 +159,7 @@ class HandGains(NamedTuple):
 
 @dataclass(eq=False)
 class Loudness:
-    """Factors of the sources' signals, `levels` (n_sources,) [-], and the bounds of what is mixed."""
+    """Factors of the sources' signals, `levels` (n_sources,) [-], and the pruning of the mix."""
 
     levels: NDArray[np.float64]
     audibility: Audibility
@@ -178,7 +178,7 @@ class GainMethod(Protocol):
     """Computes the gains of all hands from their touches."""
 
     def of_hands(self, n_hands: int, felt: Felt) -> HandGains:
-        """Gains of so many hands, of which some touch objects."""
+        """Gains of `n_hands` hands; `felt` has the touches of the hands that touch something."""
         ...
 
 
@@ -241,7 +241,7 @@ class PrunedGains:
             if self._graph.version == version:
                 everything = gains.prices(self._field, touches, queries, self._arrives)
             else:
-                # The contacts of that frame are gone, so that only the costs found then are true of it.
+                # The contacts of that frame are gone, so only the costs that were computed then are valid.
                 everything = _without(prices, cutoff)
             return _reported(self._loudness.applied(gains.at(self._field, everything)), n_hands, felt)
 

@@ -1,9 +1,9 @@
 """A session: plays the vibration of a scene at the hands that touch it.
 
-`render` belongs to the audio thread, everything else to the game's. `update` keeps the contact graph, has the
-propagation field prepared when a contact changed unless it follows by itself, and turns touches into gains; `render`
-mixes the sources' loops with them. Nothing here reaches a network, `update` never waits for a model, and `render` never
-waits for `update`.
+Call `render` on the audio thread and everything else on the game's. `update` keeps the contact graph up to date and
+turns touches into gains. After a change of contacts it requests a new propagation field, unless the model has a live
+field. `render` mixes the sources' loops with the gains. Nothing here uses a network. `update` never waits for a model,
+and `render` never waits for `update`.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ if TYPE_CHECKING:
 
 
 class _Progress:
-    """Number of updates, and the position at which the gains changed last. An object of its own, since it changes in
-    every update, and attributes of a read-only class are slow to set."""
+    """Number of updates, and the position of the last one on `render`'s clock. They change in every update, and the
+    attributes of the read-only session are slow to set."""
 
     __slots__ = ("last_stamp", "n_updates")
 
@@ -94,9 +94,8 @@ class HapticSession:
     its settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : the
     output to which `start` sends the mix: a sink, its kind, or a mapping with a `kind`; None to call `render` yourself;
     user : levels and limits of the person who plays: a UserProfile, its settings, or the path of a saved one.
-    Scene and bundle may be paths, which are read here (`load_scene`, `HapticBundle.load`), and come in either order. A
-    bundle alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked
-    for.
+    Scene and bundle may be paths, which are loaded here (`load_scene`, `HapticBundle.load`), in either order. A bundle
+    alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked for.
     Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
     bundle has an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
     for another actuator than the configured one.
@@ -157,7 +156,7 @@ class HapticSession:
         return self._sources.ids
 
     def source(self, source_id: str) -> SourceInfo:
-        """Return what a source does now: its state, whether it is on, its frequency. Raises: UnknownObject."""
+        """Return the present state of a source, whether it is on, and its frequency. Raises: UnknownObject."""
         return self._sources.info(source_id)
 
     @property
@@ -189,11 +188,11 @@ class HapticSession:
         among them is lifted; one with several feels the largest gain per source); contacts : contacts that an engine
         reports, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
         change, None for the next block.
-        A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are taken too.
+        A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are accepted too.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
         vibrates.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
-        before that of the last update, or something else than poses, touches and contacts.
+        before that of the last update, or another type than poses, touches and contacts.
         """
         if moved is not None and type(moved) is not dict and not isinstance(moved, Mapping):
             moved, touches = given_frame(moved, touches)
@@ -236,10 +235,10 @@ class HapticSession:
     ) -> Impact:
         """Strike an object at a world point [m]. Hands that touched something at the last update feel it once.
 
-        It is felt from the next block on. The propagation model gives its strength at each hand.
+        It is felt from the next block on. The propagation model gives its strength at each hand. Moving objects strike
+        without this call when they land, unless `SessionConfig.impacts` is false.
         Parameters: speed_m_s : at which the objects meet, or impulse_n_s : that they exchange; without either 0.5 m/s,
-        a knock; with_object : the striking object, None for a finger. Objects that move strike by themselves when they
-        land, unless `SessionConfig.impacts` is false.
+        a knock; with_object : the striking object, None for a finger.
         Returns: the impact; its `felt` is the largest sample that each hand gets.
         Raises: UnknownObject; SessionError: a speed or impulse that is not above 0, or both.
         """
@@ -257,9 +256,9 @@ class HapticSession:
     ) -> None:
         """Add an object to the scene. It vibrates if it has loops, by the name of each state.
 
-        Without haptics and loops, those of the bundle for its id are used, so that a removed object comes back as it
-        was. A worker prepares loops of new content; they fade in with the first `update` after that.
-        Raises: SceneError: its id is taken; SessionError: a loop is none.
+        Without haptics and loops, the bundle's data for its id are used, so that a removed object comes back as it was.
+        A worker prepares loops of new content; they fade in with the first `update` after that.
+        Raises: SceneError: its id is taken; SessionError: a loop is no HapticLoop.
         Warns: SceneWarning: it will neither vibrate nor carry vibration.
         """
         require_addable(object, haptics, loops)
@@ -270,8 +269,8 @@ class HapticSession:
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
         """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
 
-        All copies share the prefab's geometry, surface and loops, so that only the first has to be prepared.
-        Corrections of the prefab hold for each copy.
+        All copies share the prefab's geometry, surface and loops, so only the first copy has to be prepared.
+        Corrections of the prefab apply to every copy.
         Raises: SessionError: the bundle has not exactly one object; SceneError: the id is taken or empty.
         """
         require_prefab(prefab, pose)
@@ -283,9 +282,10 @@ class HapticSession:
     def use_bundle(self, bundle: HapticBundle) -> None:
         """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
 
-        Objects stay where they are, and sources stay in their state if they still have it, on or off; a level or mute
-        of `set_source` stays unless the bundle's own has changed. Objects that the session does not have are left out.
-        Raises: BundleError: no bundle, or one of another scene.
+        Objects stay where they are. Sources keep their state if they still have it, and stay on or off. A level or mute
+        of `set_source` stays unless the bundle's value has changed. Objects that the session does not have are left
+        out.
+        Raises: BundleError: another type, or a bundle of another scene.
         """
         require_correction(bundle, self._bundle)
         before, self._bundle = self._bundle, bundle
@@ -303,7 +303,7 @@ class HapticSession:
                 )
 
     def remove(self, object_id: str) -> None:
-        """Take an object out of the scene; its vibration fades out.
+        """Remove an object from the scene; its vibration fades out.
 
         Raises: UnknownObject; SessionError: it is the last object.
         """
@@ -323,7 +323,7 @@ class HapticSession:
     def add_hand(self, name: str) -> None:
         """Add an output. A sink that is running is faded out and reopened with one channel more.
 
-        Raises: ConfigError: the name is taken; SessionError: the sink is running and keeps its channels for ever;
+        Raises: ConfigError: the name is taken; SessionError: the sink is running and cannot change its channels;
         DeviceError: it cannot be opened again.
         """
         hands = checks.names("hands", (*self.hands, name))
@@ -332,7 +332,7 @@ class HapticSession:
             self._use_hands(hands)
 
     def remove_hand(self, name: str) -> None:
-        """Take away an output, but not the last; otherwise as `add_hand`. Raises: SessionError: an unknown hand."""
+        """Remove an output, but not the last; see `add_hand`. Raises: SessionError: an unknown hand."""
         if not isinstance(name, str) or name not in self.hands:
             raise SessionError(unknown_hand(name, self.hands))
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
@@ -373,7 +373,7 @@ class HapticSession:
         self._sources.user.set(gain_db, mute)
         if other is not None:
             if self._limit is None:
-                # So that the limits do not click, they begin at full scale.
+                # The limits begin at full scale, so that they do not click.
                 self._limit = PersonalLimit(np.ones(len(self._hands)), self.config.sample_rate_hz)
             self._use_profile(other)
         self._hand_frames.levels_changed()
@@ -401,7 +401,7 @@ class HapticSession:
 
     @property
     def is_current(self) -> bool:
-        """True if gains are those of the present scene; false while a worker prepares a newer field."""
+        """True if the gains are valid for the present scene; false while a worker prepares a newer field."""
         return self._hand_frames.keeper.is_current
 
     @property
@@ -412,10 +412,10 @@ class HapticSession:
     def would_feel(self, touches: Sequence[Touch] | None) -> NDArray[np.float64]:
         """Return the gains that `update` would report for each of these touches alone, without playing them.
 
-        For maps, and for a game that plans ahead. The gains are those of the field in use, with the volume of source,
-        user and hand, also in a pause; no touch is counted. Call it on the thread that calls `update`.
+        For maps, and for a game that plans ahead. The gains are from the field in use, with the volume of source, user
+        and hand, also in a pause; no touch is counted. Call it on the thread that calls `update`.
         Returns: (n_touches, n_sources, n_bands) float64 [-], in the order of `source_ids`, 0 below -140 dB.
-        Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or no touches.
+        Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
         """
         given = given_touches(touches)
         self._by_hand(given)
@@ -432,9 +432,9 @@ class HapticSession:
     ) -> Figure | SubFigure:
         """Draw the scene from above; colours show the level of a source at a hand on each surface.
 
-        A level is the gain that `update` would report of a touch there [dB], by the field in use, with the volume of
-        source, user and hand. Playing is not changed: nothing counts as a touch. Call it where `update` is called;
-        for a model that is prepared by a worker call `wait_prepared` before.
+        A level is the gain that `update` would report for a touch there [dB], from the field in use, with the volume of
+        source, user and hand. It does not change the mix, and no touch is counted. Call it on the thread that calls
+        `update`. If a worker prepares the model, call `wait_prepared` first.
         Parameters: hand : the first if None; cells : along the longer side of the scene, each with one touch; up_to_m :
         leave out surfaces higher than this above the lowest point of the scene [m], such as a ceiling; axes : of
         matplotlib, to draw into, None for a new figure.
@@ -471,7 +471,7 @@ class HapticSession:
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
         """Wait until workers have prepared the present scene and all loops, for loading screens.
 
-        Returns: False if that took longer than the timeout [s].
+        Returns: False after the timeout [s].
         """
         if timeout_s is not None:
             timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)
@@ -493,7 +493,7 @@ class HapticSession:
         return self._rendered(n_frames)
 
     def render_s(self, seconds: float) -> Block:
-        """Return the next `seconds` [s] of the mix, as `render`.
+        """Return the next `seconds` [s] of the mix. See `render`.
 
         Fractions of a sample are carried to the next call, so that 90 calls of 1/90 s give exactly one second.
         Raises: SessionError.
@@ -508,7 +508,7 @@ class HapticSession:
 
     @property
     def position(self) -> int:
-        """Number of the next sample of `render`, on the same clock as `at_sample`; it stands still in a pause."""
+        """Number of the next sample of `render`, on the clock of `at_sample`; it does not advance in a pause."""
         return self._playback.position
 
     def position_s(self, source_id: str) -> float:
@@ -521,14 +521,14 @@ class HapticSession:
     def start(self) -> None:
         """Send the mix through the safety layer to the sink.
 
-        Raises: SessionError: the session has no sink; DeviceError: it cannot be opened; ConfigError: the actuator's
-        budget is out of bounds. Warns: SceneWarning: nothing vibrates.
+        Raises: SessionError: the session has no sink; DeviceError: the sink cannot be opened; ConfigError: the
+        actuator's budget is out of bounds. Warns: SceneWarning: nothing vibrates.
         """
         self._mistakes.in_sources(self._sources.ids)
         self._output.start(self._rendered, self.hands)
 
     def stop(self) -> None:
-        """Fade out, stop the sink and give it back; may be called twice."""
+        """Fade out, stop the sink and release it; may be called twice."""
         self._output.stop()
 
     close = stop
@@ -571,7 +571,7 @@ class HapticSession:
 
     @cached_property
     def _impacts(self) -> Impacts:
-        # Not the session itself, which would then be freed by the garbage collector alone.
+        # No reference to the session itself: only the garbage collector could free such a cycle.
         frames, level = self._hand_frames, self._sources.user
         return Impacts(self.config, self._state, self._playback, lambda: frames.field, lambda: level.factor)
 
@@ -604,7 +604,7 @@ class HapticSession:
         self._mistakes.in_added(item.id, haptics, loops)
 
     def _exchange(self, object_id: str) -> None:
-        """Replace an object: with the bundle's present data, at its present pose."""
+        """Replace the data of an object by the bundle's present data, at the same pose."""
         item = replace(self._state.objects[object_id], pose=self._state.poses[object_id])
         before, bundle = self._sources.get(object_id), self._bundle
         self._take_out(object_id)

@@ -1,9 +1,8 @@
 """Gains of an impact on an object at each hand, by the model in use.
 
-A model with a live field answers at once (`PointField`), and so does one that was prepared for impacts on what hands
-touch (`prepared_impacts`). Others prepare a field of their own for the impact, in which a small source stands on the
-struck point. The gains are relative to that point, so that neither the mass of that source nor the stiffness of its
-contact counts.
+A live field gives the gains at once (`PointField`), and so does a scene that was prepared around the touched objects
+(`prepared_impacts`). Other models prepare a field for the impact, with a small source on the struck point. The gains
+are relative to that point, so that the mass of the source and the stiffness of its contact have no effect.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ Point = tuple[float, float, float]
 
 _STRIKER = "\0striker"
 _STRIKER_KG = 1e-6
-"""So light that the resonances of a thin plate leave the force as it is: with a gram, a waste bin is off by 2 dB."""
+"""So light that resonances of a thin plate do not change the force: a gram gives 2 dB of error on a waste bin."""
 
 
 def struck_live(
@@ -43,8 +42,8 @@ def struck_later(
     hands: Sequence[Sequence[TouchedPoint]],
     frequencies_hz: Floats,
 ) -> Callable[[], Floats]:
-    """A function that prepares the model and returns these gains; it may be called in any thread, and later."""
-    # An object that is connected with no other is in no network, so that the whole scene is prepared for it.
+    """Return a function that prepares the model and returns these gains. It may be called later, in any thread."""
+    # An object that touches no other of known material is in no network, so the whole scene is prepared for it.
     put_together = state.network([object_id] if state.touches_a_body(object_id) else None)
     touched = {touched_id for hand in hands for touched_id, _ in hand}
 

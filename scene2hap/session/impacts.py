@@ -2,9 +2,9 @@
 
     impact ── propagation.impact ──► Burst (decaying sines) ── model in use ──► at each hand ──► the mix
 
-Bounds: a pair of objects strikes once in `LEAST_INTERVAL_S`, `render.bursts.MOST_PLAYING` bursts sound at once, and
-each stays `PEAK` below full scale, as a source of full intensity does. Nothing is computed for an impact that no hand
-could feel.
+Bounds: a pair of objects strikes at most once in `LEAST_INTERVAL_S`, and at most `render.bursts.MOST_PLAYING` bursts
+play at once. At the struck point the peak is at most `PEAK`, as for a source of full intensity. Nothing is computed for
+an impact that no hand could feel.
 """
 
 from __future__ import annotations
@@ -41,20 +41,20 @@ Point = tuple[float, float, float]
 
 PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
 LOUDEST_M_S2 = 1000.0
-"""Acceleration from which on an impact is as strong as it may be: of a cup put down on a steel sheet. Below, the level
-falls by 1 dB for 2 (2:1, usual from sound to touch after Merchel and Altinsoy): from a finger to a fallen chair lie
-80 dB, and an actuator has 40."""
+"""Acceleration from which on an impact has full strength: that of a cup put down on a steel sheet. Below it, the level
+falls by 1 dB for 2 (2:1, usual from sound to touch after Merchel and Altinsoy). A finger and a fallen chair are 80 dB
+apart, and an actuator has 40."""
 LEAST_INTERVAL_S = 0.03
-"""Impacts of one thing on another closer together are one; assumed: most bursts last as long."""
+"""Impacts between the same two objects within this time count as one; assumed: most bursts last as long."""
 LEAST_GAIN = 10 ** (-60 / 20)
-"""A weaker impact at a hand is not mixed: full scale lies 45 dB over the threshold."""
+"""Gain below which an impact is not mixed at a hand: full scale is 45 dB over the threshold."""
 MOST_WAITING = 4
-"""Impacts that a worker has yet to compute."""
+"""Most impacts that may wait for a worker."""
 LATEST_S = 0.3
-"""Latest start of an impact after its time [s]; assumed: a later one would be taken for another impact."""
+"""Longest delay of an impact [s]; assumed: a later one would feel like another impact."""
 KEPT = 64
 KNOCK_M_S = 0.5
-"""Of a finger that knocks; assumed."""
+"""Speed of a finger that knocks; assumed."""
 
 
 @clear_attributes
@@ -64,8 +64,8 @@ class Impact:
 
     Parameters: object_id : the struck object; point_m : the struck point [m], world; with_object : the striking object,
     None if unknown; speed_m_s : at which they met, None if an impulse was given; frequency_hz : of the strongest
-    component; at_sample : its time on the clock of `render`; felt : the largest sample that it adds at each hand [-],
-    without hands that feel nothing. With a model that has no live field, a worker fills in `felt` later.
+    component; at_sample : its time on the clock of `render`; felt : the largest sample that the impact adds at each
+    hand [-], without hands that feel nothing. With a model that has no live field, a worker fills in `felt` later.
     """
 
     object_id: str
@@ -96,7 +96,7 @@ class Strike:
 class Impacts:
     """Turns impacts into bursts of a session's mix.
 
-    Parameters: field : gives the field in use; user_factor : gives the level of everything [-].
+    Parameters: field : returns the field in use; user_factor : returns the level of all vibration [-].
     """
 
     def __init__(
@@ -121,7 +121,7 @@ class Impacts:
     def strike(
         self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None, at_frame: int
     ) -> Impact:
-        """Let an impact be felt by the hands that touch something."""
+        """Play an impact at the hands that touch something."""
         self.n_reported += 1
         impact, burst = self._impact(strike, at_frame)
         if self._is_admitted(strike, felt, at_frame):
@@ -131,7 +131,7 @@ class Impacts:
     def land(
         self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None, at_frame: int
     ) -> None:
-        """As `strike`, without a returned impact: nothing is computed for one that is left out."""
+        """Play an impact as `strike` does, but return nothing, so that nothing is computed for a skipped impact."""
         self.n_reported += 1
         if self._is_admitted(strike, felt, at_frame):
             self._play(*self._impact(strike, at_frame), felt, hands, profile)
@@ -186,12 +186,12 @@ class Impacts:
                 self._order(prepared, lambda gains, begin: sound(gains, begin, left), at_frame)
 
     def expect(self, felt: Felt) -> None:
-        """Prepare for impacts on what hands touch. Call it in every update."""
+        """Prepare for impacts around the touched objects. Call it in every update."""
         if self._ahead is not None:
             self._ahead.expect({touch.object_id for touches in felt.values() for touch in touches})
 
     def _live(self) -> PointField | None:
-        """The field in use if it answers for points, which takes as long to find out as all else of a faint impact."""
+        """The field in use if it is a `PointField`. Cached, since this check takes as long as a faint impact."""
         field_in_use = self._field()
         if field_in_use is not self._looked_at:
             self._looked_at = field_in_use
@@ -208,11 +208,11 @@ class Impacts:
         return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
 
     def wait(self, timeout_s: float | None) -> bool:
-        """Wait for all that a worker computes; false after the timeout [s]."""
+        """Wait for all results of the workers; false after the timeout [s]."""
         return not wait(self._waiting, timeout_s).not_done and (self._ahead is None or self._ahead.wait(timeout_s))
 
     def _levels(self, burst: Burst, waves: list[Samples], hands: list[str], profile: UserProfile | None) -> Floats:
-        """Amplitude of each sine at each of these hands, as if it touched the struck point (n_hands, n) [-]."""
+        """Amplitude (n_hands, n) [-] of each sine at each of these hands, as if it touched the struck point."""
         actuator, f = self._config.actuator, burst.frequencies_hz
         accelerations = burst.accelerations_m_s2
         peak = peak_of(waves, accelerations, burst.decays_s, self._config.sample_rate_hz)
@@ -232,7 +232,7 @@ class Impacts:
         return [wave_of(f, decay, rate_hz) for f, decay in components]
 
     def _is_admitted(self, strike: Strike, felt: Felt, at_frame: int) -> bool:
-        """Whether an impact may be felt. If so, it is recorded as the last of its pair."""
+        """Whether an impact may be felt. If so, it is recorded as the last impact of its pair."""
         if not felt or self._playback.is_paused or not self._user_factor():
             return False
         pair = (strike.object_id, strike.with_object)
@@ -274,7 +274,7 @@ class Impacts:
                 self.n_felt += 1
 
     def _order(self, prepared: Callable[[], Floats], sound: Callable[[Floats, int], None], at_frame: int) -> None:
-        """Let a worker prepare the gains and start the burst, unless it is more than `LATEST_S` late by then."""
+        """Let a worker prepare the gains and start the burst, unless the burst is then more than `LATEST_S` late."""
         latest = at_frame + round(LATEST_S * self._config.sample_rate_hz)
 
         def work() -> None:
@@ -298,6 +298,7 @@ class Impacts:
 
     def _submit(self, work: Callable[[], None]) -> Future[None]:
         if self._worker is None:
-            # What is prepared ahead takes longer than an impact may wait, and so may an impact that was not.
+            # Several workers, since preparing a scene in advance, or for an impact, may take longer than another impact
+            # may wait.
             self._worker = ThreadPoolExecutor(3, thread_name_prefix="scene2hap impacts")
         return self._worker.submit(work)

@@ -1,8 +1,8 @@
 """Find landings: a moved object stops suddenly while it touches the object that it moved towards.
 
 A new contact alone is no landing: contacts reach across gaps of centimetres, since resting objects hover in real
-scenes. A hand that puts something down gently makes none, since it slows over many frames. An object has landed if it
-approached another one for some millimetres, and moves on by less than a third as far from one frame to the next.
+scenes. Gently putting down an object is no landing either, since the hand slows over many frames. An object has landed
+if it approached another one for some millimetres, and its next step is less than a third of the step before.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ WINDOW_S, MOST_STEPS = 0.05, 8
 LEAST_TRAVEL_M = 0.004
 """Shortest fall in one direction: an object that jitters by a millimetre along three axes never moves so far."""
 LEAST_SPEED_M_S = 0.1
-"""A cup put down more slowly is as good as not felt, and trackers shake as fast."""
+"""Least speed of a landing: a cup put down more slowly is hardly felt, and jitter of trackers is as fast."""
 FASTEST_M_S = 10.0
 """A faster motion is no fall (5 m): the game has moved the object elsewhere."""
 LEFT = 0.3
-"""Largest share of its speed that an object keeps after it landed."""
+"""Largest share of its speed that an object keeps when it lands."""
 HEAD_ON = 0.5
-"""Smallest share of its travel along the normal of a contact: an object that slides along does not land."""
+"""Smallest share of the travel that is along the contact normal: an object that slides does not land."""
 _SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
 MOST_MOVING = 100
-"""Objects followed at once; among so many moving objects a single landing is not noticed."""
+"""Most objects that are tracked at once; among so many moving objects a single landing is not noticed."""
 
 Vector = tuple[float, float, float]
 
@@ -48,8 +48,7 @@ class Landing(NamedTuple):
 class _Track:
     """A moving object: its latest steps, the start of its present motion in one direction, and its last step.
 
-    steps : number of the update, time [s] and pose, for every moved object in every frame; stride : updates from one
-    step to the next.
+    steps : number of the update, time [s] and pose of each step; stride : updates from one step to the next.
     """
 
     __slots__ = ("n_steps", "origin_m", "position_m", "since", "step_m", "steps", "stride")
@@ -65,7 +64,7 @@ class _Track:
 
     @property
     def is_falling(self) -> bool:
-        """Whether it moved far enough in one direction; in a single step the game has moved it elsewhere."""
+        """Whether it moved far enough in one direction, in more than one step; a single step may be a teleport."""
         return self.n_steps > 1 and math.dist(self.origin_m, self.position_m) >= LEAST_TRAVEL_M
 
     def is_sudden(self, onward: Vector) -> bool:
@@ -95,15 +94,15 @@ class _Track:
         return kept if len(kept) > 1 else latest[-2:]
 
     def pose_at(self, update: int) -> Pose:
-        """Pose of the object after an update, or the first known one after it."""
+        """Pose of the object after an update, or the first known pose after that."""
         return next((pose for later, _, pose in self.steps if later >= update), self.steps[-1][2])
 
 
 class Landings:
     """Follows moving objects, and finds those that land.
 
-    Parameters: graph : the contacts, read at each `look`; middle_m : of an object's box, in its own frame [m];
-    period_s : usual time between updates, for a clock that stands still.
+    Parameters: graph : the contacts, read at each `look`; middle_m : returns the middle of an object's box, in its own
+    frame [m]; period_s : usual time between updates, used while the clock does not advance.
     """
 
     def __init__(self, graph: ContactGraph, middle_m: Callable[[str], Vector], period_s: float) -> None:
@@ -117,7 +116,7 @@ class Landings:
         return bool(self._tracks)
 
     def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
-        """Keep the poses of the objects that are about to move. Call it before the graph moves."""
+        """Store the poses of the objects that are about to move. Call it before the graph is updated."""
         tracks = self._tracks
         for object_id in moved:
             if object_id not in tracks and len(tracks) < MOST_MOVING and object_id in self._graph:
@@ -125,13 +124,13 @@ class Landings:
                 tracks[object_id] = _Track(self._n_updates, time_s - self._period_s, pose)
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
-        """Find the objects that landed in this update. Call it after the graph moved."""
+        """Find the objects that landed in this update. Call it after the graph was updated."""
         self._n_updates = now = self._n_updates + 1
         moving: list[tuple[_Track, Pose, Vector]] = []
         stopped: list[str] = []
         found: list[Landing] = []
         rests: list[str] = []
-        beside = self._graph.beside  # what touches nothing has not landed
+        beside = self._graph.beside  # an object without contacts has not landed
         for object_id, track in self._tracks.items():
             pose = moved.get(object_id)
             if pose is not None and pose.position_m != track.position_m:
@@ -158,7 +157,7 @@ class Landings:
         return found
 
     def _landing(self, object_id: str, track: _Track) -> list[Landing]:
-        """The landing on the object that was approached the fastest, of all that it touches; empty if there is none."""
+        """The landing on the touched object that was approached the fastest; empty if there is none."""
         run = track.run()
         (first, begin_s), (before, _), (last, end_s) = run[0], run[-2], run[-1]
         best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates
@@ -179,7 +178,7 @@ class Landings:
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
 
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
-        """Travel of a point of an object between two updates, relative to another object [m]."""
+        """Displacement of a point of an object between two updates, relative to another object [m]."""
         x, y, z = self._went(object_id, point_m, since, until)
         a, b, c = self._went(other, point_m, since, until)
         return x - a, y - b, z - c

@@ -1,7 +1,7 @@
-"""Warnings of valid input that is most likely a mistake.
+"""Warnings about valid input that is most likely a mistake.
 
 - Loops that were made for another actuator than the session's.
-- First poses whose quaternions begin with w: an upright object, (1, 0, 0, 0) with w first, is upside down with w last.
+- First poses whose quaternions begin with w: (1, 0, 0, 0) is upright with w first, and upside down with w last.
 - Touches far from the box around their object. Almost always the point is in other units, in the object's own frame,
   or from another frame of the game.
 - Added objects that will not be felt, a scene in which nothing vibrates, a user's profile for other hands.
@@ -27,28 +27,28 @@ from scene2hap.session.network import body_of
 from scene2hap.session.scene_state import SceneState
 
 FAR_M = 0.05
-"""A finger tip is 2 cm thick, and a tracked hand is off by as much again; assumed."""
+"""A finger tip is 2 cm thick, and the tracking error of a hand is as large; assumed."""
 
 LOOKED_AT = 16
-"""Number of updates with touches that are looked at; of later ones it is one of so many. A game that gives wrong points
-goes on with it."""
+"""Number of first updates with touches that are checked. Later, one in this many is checked, since a game that gives
+wrong points continues to do so."""
 
 MOST_NAMED = 10
-"""Further silent objects of a session are not named: a game may spawn thousands, and Python keeps each text."""
+"""Most silent objects that a session names: a game may spawn thousands, and Python stores the text of each warning."""
 
 _MOST_POSES = 100
-# |cos| of half of 150 and of 30 degrees: no game turns things by more in a frame (assumed).
+# |cos| of half of 150 and of 30 degrees: no game rotates objects by more in a frame (assumed).
 _FLIPS, _STAYS = 0.26, 0.966
 
 
 class OtherActuatorWarning(UserWarning):
-    """A session's actuator is another one than that which the bundle's loops were made for."""
+    """The bundle's loops were made for another actuator than the session's."""
 
 
 class LikelyMistakes:
     """Warns of likely mistakes in the input of a session, each kind once or a few times.
 
-    `n_touches_off` counts the touches, of those looked at, that are more than `FAR_M` off the box around their object.
+    `n_touches_off` counts the checked touches that are more than `FAR_M` off the box around their object.
     """
 
     def __init__(self, state: SceneState) -> None:
@@ -60,7 +60,7 @@ class LikelyMistakes:
         self.n_touches_off = 0
 
     def in_moves(self, moved: Mapping[str, Pose]) -> None:
-        """Warn if the first poses turn all objects over, and hardly would if their quaternions began with w.
+        """Warn if the first poses turn all objects over, but hardly rotate them if read with w first.
 
         Call it before the objects move. Warns: SceneWarning.
         """
@@ -84,7 +84,7 @@ class LikelyMistakes:
             )
 
     def in_touches(self, felt: Felt) -> None:
-        """Count the touches that are off, and warn of the first of each hand. Warns: SceneWarning."""
+        """Count touches that are too far off, and warn about the first one of each hand. Warns: SceneWarning."""
         self._n_updates = n = self._n_updates + 1
         if n > LOOKED_AT and n % LOOKED_AT:
             return
@@ -107,7 +107,7 @@ class LikelyMistakes:
             )
 
     def in_added(self, object_id: str, haptics: ObjectHaptics | None, loops: Mapping[str, HapticLoop]) -> None:
-        """Warn of an added object that neither vibrates nor carries vibration, or that vibrates without loops.
+        """Warn about an added object that neither vibrates nor carries vibration, or that vibrates without loops.
 
         Warns: SceneWarning.
         """
@@ -128,7 +128,7 @@ class LikelyMistakes:
         )
 
     def _off_m(self, touch: Touch) -> float:
-        """Distance of a touch from the box around its object [m]. The surface itself takes too long to be searched."""
+        """Distance of a touch from the box around its object [m]. Searching the surface would take too long."""
         low, high = self._state.objects[touch.object_id].geometry.mesh.bounds_m
         at = self._state.graph.pose(touch.object_id).to_own([touch.point_m])[0]
         return float(np.linalg.norm(np.maximum(np.maximum(low - at, at - high), 0.0)))
@@ -145,8 +145,8 @@ class LikelyMistakes:
 def warn_if_other_actuator(bundle: HapticBundle, actuator: ActuatorProfile) -> None:
     """Warn if the loops of a bundle were made for an actuator of another response.
 
-    Limits of amplitude and power do not count: they are the safety layer's, and no loop is made by them. A bundle
-    without a record of its actuator, or without loops, fits any. Warns: OtherActuatorWarning.
+    Limits of amplitude and power are not compared: only the safety layer uses them, and loops do not depend on them. A
+    bundle without a record of its actuator, or without loops, fits any actuator. Warns: OtherActuatorWarning.
     """
     made_for = getattr(getattr(bundle, "made_with", None), "actuator", None)
     if not bundle.loops or not isinstance(made_for, ActuatorProfile) or _response(made_for) == _response(actuator):
@@ -160,14 +160,14 @@ def warn_if_other_actuator(bundle: HapticBundle, actuator: ActuatorProfile) -> N
 
 
 def warn_if_other_hands(named: Sequence[str], own: Sequence[str]) -> None:
-    """Warn if a user's profile names hands, and none of the session's. Warns: SceneWarning."""
+    """Warn if a user's profile names hands, but no hand of the session. Warns: SceneWarning."""
     if named and not set(named) & set(own):
         theirs, ours = (", ".join(map(repr, hands)) for hands in (named, own))
         warn_of(f"the user's profile is for the hands {theirs}; this session has {ours}. Rename one of them.")
 
 
 def _response(actuator: ActuatorProfile) -> ActuatorProfile:
-    """The parts of an actuator that decide how loops are made: band and response."""
+    """The parts of an actuator on which loops depend: band and response."""
     plain = ActuatorProfile()
     return replace(
         actuator,

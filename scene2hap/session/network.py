@@ -32,7 +32,7 @@ HEAD_NOUNS = frozenset(_HEAD_NOUNS.split())
 
 
 def is_assembled(haptics: ObjectHaptics) -> bool:
-    """Whether an object is furniture whose material no person chose; a chosen material keeps its own loss."""
+    """Whether an object is furniture whose material no person chose; a chosen material keeps its loss factor."""
     head = haptics.object_category.lower().rpartition(" ")[2]
     return head in HEAD_NOUNS and haptics.provenance.get("material") != USER
 
@@ -40,7 +40,7 @@ def is_assembled(haptics: ObjectHaptics) -> bool:
 def body_of(haptics: ObjectHaptics | None, surface: DominantSurface | None = None) -> Plate | None:
     """The plate of an object whose material and thickness are known, within the outline of its surface, if given.
 
-    Furniture loses as much as assembled furniture does, unless a person chose its material.
+    Furniture gets at least the loss factor of assembled furniture, unless a person chose its material.
     """
     if haptics is None or haptics.material is None or not all(edge > 0 for edge in haptics.estimated_size_m):
         return None
@@ -68,8 +68,8 @@ Corners = dict[str, tuple[Pose, SceneObject, Body, Pose]]
 class PlatePoses(Mapping[str, Pose]):
     """Poses of the corners of the objects' plates, each computed on first access.
 
-    A model needs a few of many, in its own thread. `corners` is kept from state to state: the corner of an object that
-    did not move is not computed again. Threads may share it, since each entry states the pose that it holds for.
+    A model needs few of them, in its own thread. `corners` is a cache for several scene states: the corner of an object
+    that did not move is not computed again. Threads may share it, since each entry states the pose that it is for.
     """
 
     def __init__(
@@ -119,7 +119,7 @@ def _corner(surface: DominantSurface, length_m: float, width_m: float, *, has_ou
 def excitations_of(
     rows: Iterable[LoopRow], bodies: Mapping[str, Body], haptics: Mapping[str, ObjectHaptics]
 ) -> tuple[Excitation, ...]:
-    """One excitation per source, in their order."""
+    """One excitation per row, in the order of the rows."""
     return tuple(
         [
             _excitation(
@@ -139,5 +139,5 @@ def _mass_kg(body: Body | None, haptics: ObjectHaptics | None) -> float:
     return UNKNOWN_MASS_KG if haptics is None or haptics.mass_kg is None else haptics.mass_kg
 
 
-# Sources that come and go one by one leave the others as they were, and an excitation checks its numbers.
+# Cached: adding or removing a source does not change the others, and making an excitation checks its numbers.
 _excitation = lru_cache(maxsize=1024)(Excitation)

@@ -1,4 +1,4 @@
-"""Connection of a session to its sink: through the safety layer, faded at both ends."""
+"""Output of a session to its sink, through the safety layer, with a fade at start and stop."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from scene2hap.session.config import SessionConfig
 from scene2hap.session.frame import HapticFrame
 
 LONGEST_FADE_OUT_S = 0.25
-"""How long `stop` waits for a sink to take the fade; one without its device may never do."""
+"""Longest time for which `stop` waits until the sink has taken the fade; without its device it may never take it."""
 
 
 class Output:
-    """A sink with the safety layer before it.
+    """A sink, and the safety layer before it.
 
-    Raises: ConfigError: the sink lacks a method, or as the sink's own constructor.
+    Raises: ConfigError: the sink lacks a method; also the errors of the sink's constructor.
     """
 
     def __init__(self, sink: ActuatorSink | str | Mapping[str, Any] | None, config: SessionConfig) -> None:
@@ -52,7 +52,7 @@ class Output:
 
     @property
     def is_started(self) -> bool:
-        """Whether the sink takes the mix."""
+        """Whether the sink is playing the mix."""
         return self._safety is not None
 
     @property
@@ -67,22 +67,22 @@ class Output:
             self.show(frame)
 
     def hold(self, limits: NDArray[np.float64]) -> None:
-        """Hold each channel within a limit (n_hands,) [-], besides the actuator's."""
+        """Hold each channel within a limit (n_hands,) [-], in addition to the actuator's limit."""
         self._limits = limits
         if self._safety is not None:
             self._safety.hold(limits)
 
     def show(self, frame: HapticFrame) -> None:
-        """Pass a frame to a started sink that takes gains."""
+        """Pass a frame to the sink if it is started and accepts gains."""
         if self._safety is not None and self._show is not None:
-            # Computed here: a sink reads it in a thread of its own, while the scene continues to change.
+            # Computed here: the sink reads the gains in its own thread, while the scene continues to change.
             _ = frame.gains
             self._show(frame)
 
     def start(self, fill: Fill, hands: Sequence[str]) -> None:
         """Send the samples of `fill` through the safety layer to the sink; does nothing if it is started already.
 
-        Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session plays on it;
+        Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session uses it;
         ConfigError: the actuator's budget is out of bounds.
         """
         if self._sink is None:
@@ -104,7 +104,7 @@ class Output:
         self._safety = safety
 
     def stop(self) -> None:
-        """Fade out, stop the sink and give it back; may be called twice."""
+        """Fade out, stop the sink and release it; may be called twice."""
         if self._sink is not None and self._safety is not None:
             self._fade_out()
             try:
@@ -114,7 +114,7 @@ class Output:
                 give_back_sink(self._sink, self)
 
     def abort(self) -> None:
-        """Stop after a failure. A sink that can tell it from a finished run leaves no half-written file behind."""
+        """Stop after a failure. A sink with a method `abort` can then discard a half-written file."""
         if self._sink is not None and self._safety is not None:
             if has_clock(self._sink):
                 self._fade_out()
@@ -126,9 +126,9 @@ class Output:
 
     @contextlib.contextmanager
     def reopened_for(self, hands: Sequence[str], fill: Fill) -> Iterator[None]:
-        """Let channels change: a started sink is faded out and stopped before, and opened again after.
+        """Change channels within this context: a started sink is faded out and stopped before, and opened again after.
 
-        Raises: SessionError: what a started sink writes has its channels once and for all; and as `start`.
+        Raises: SessionError: the started sink cannot change its channels; also the errors of `start`.
         """
         was_started = self._safety is not None
         if was_started and self._sink is not None and not has_clock(self._sink):
@@ -150,6 +150,6 @@ class Output:
         if has_clock(self._sink):
             safety.silent.wait(LONGEST_FADE_OUT_S)
         else:
-            # Closed by its owner already, it takes no more.
+            # No clock, so the sink must be pulled. A sink that its owner has closed accepts no more samples.
             with contextlib.suppress(DeviceError):
-                self._sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]  # no clock
+                self._sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]  # above

@@ -1,10 +1,10 @@
-"""The mix of a session, as loops and hands come and go, paused or not.
+"""The mix of a session, to which loops and hands can be added and removed, and which can be paused.
 
-Almost always one mixer plays all. Loops go to free slots of its bank. A new hand, or more loops than there are slots,
-get a mixer of their own, in phase with the first, and the mixes are added.
+Almost always one mixer plays all loops, which are stored in the slots of its bank. A new hand, or more loops than there
+are slots, get another mixer, in phase with the first, and the mixes are added.
 
-Threads: `render` belongs to the audio thread, everything else to the game's. The audio thread reads one plan, which is
-replaced and never changed; neither waits for the other.
+Threads: call `render` on the audio thread, everything else on the game's. The audio thread reads an immutable plan,
+which the game's thread replaces. Neither thread waits for the other.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from scene2hap.session.prepared_loops import PreparedLoop, find, order, prepare
 from scene2hap.session.sources import LoopRow
 
 SPARE_SLOTS = 16
-"""Empty slots of a new bank, at least; as many again as there are loops, if that is more."""
+"""Least number of empty slots in a new bank; with more loops than this, one empty slot per loop."""
 
 Indices = NDArray[np.intp]
 
@@ -38,12 +38,12 @@ _MOST_ROUTES = 64
 class MixerInstance:
     """A mixer for some hands and a bank.
 
-    Parameters: hands : a token for each output; position : the frame of the session's clock at which it may begin.
+    Parameters: hands : a token for each output; position : the frame of the session's clock from which it may begin.
     """
 
     def __init__(self, config: SessionConfig, bank: SlotBank, hands: tuple[int, ...], position: int) -> None:
         rate = config.sample_rate_hz
-        # A whole number of tactile samples, so that its loops are in phase with everyone's.
+        # It begins at a whole number of tactile samples, so that its loops are in phase with those of other mixers.
         unit = rate // math.gcd(rate, bank.sample_rate_hz)
         self._begin = -(-position // unit) * unit
         self.bank = bank.shifted(self._begin * bank.sample_rate_hz // rate)
@@ -56,12 +56,12 @@ class MixerInstance:
             skip_silent=config.skip.silent_bands,
         )
         self._nothing = np.zeros((len(hands), 0, config.bands.n_bands), dtype=np.float32)
-        # The target gains and their slots, and the request that they came from: an equal request is skipped.
+        # The target gains, their slots, and the request for them: an equal request is skipped.
         self._gains, self._slots = self._nothing, list[int]()
         self._last_request: tuple[bytes, list[int], list[int]] | None = None
 
     def move_to(self, gains: NDArray[np.float32], slots: list[int], hands: list[int], at_frame: int) -> None:
-        """Move to gains (n_hands, n_slots, n_bands) of some slots for some of its hands, and to 0 for the rest."""
+        """Ramp to gains (n_hands, n_slots, n_bands) of some slots for some of its hands, and to 0 for the rest."""
         request = (gains.tobytes(), slots, hands)
         if request == self._last_request:
             return
@@ -72,16 +72,16 @@ class MixerInstance:
         self._last_request = request
 
     def fade(self, slots: list[int], at_frame: int) -> None:
-        """Move to 0 for some slots alone."""
+        """Ramp to 0 for these slots only."""
         kept = [i for i, slot in enumerate(self._slots) if slot not in slots]
         self._send(self._gains[:, kept], [self._slots[i] for i in kept], at_frame)
 
     def silence(self, at_frame: int) -> None:
-        """Move to 0."""
+        """Ramp to 0."""
         self._send(self._nothing, [], at_frame)
 
     def render(self, position: int, n_frames: int) -> Block:
-        """Samples (n_frames, n_hands) from a frame of the session's clock on, which only goes forward."""
+        """Samples (n_frames, n_hands) from frame `position` of the session's clock on; it must not decrease."""
         behind = position - self._begin - self.mixer.position
         if behind == 0:
             return self.mixer.render(n_frames)
@@ -98,12 +98,12 @@ class MixerInstance:
 
 
 _Route = tuple[MixerInstance, list[int] | None, list[int], list[int], Indices | None]
-"""A mixer, which sources it plays and in which slots, on which of its outputs, and of which channels; None for all."""
+"""A mixer, the columns of the gains that it plays, their slots, its outputs, and their channels; None for all."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Plan:
-    """The present outputs and mixers: a token of each output; each mixer, its outputs in use, and their channels."""
+    """The present outputs and mixers: a token of each output; each mixer, its used outputs, and their channels."""
 
     hands: tuple[int, ...]
     mixers: tuple[tuple[MixerInstance, Indices, Indices], ...]
@@ -116,7 +116,7 @@ class _Plan:
 
 @dataclass(eq=False)
 class _Place:
-    """Bank and slot of a loop; `free_at` is the frame after which a loop that was given up has faded."""
+    """Bank and slot of a loop; `free_at` is the frame at which a removed loop has faded."""
 
     bank: SlotBank
     slot: int
@@ -124,9 +124,9 @@ class _Place:
 
 
 class Playback:
-    """The running mix.
+    """The mix of all loops and bursts, for all hands.
 
-    Parameters: rows : loops that gains may be set for; n_hands : outputs.
+    Parameters: rows : loops for which gains may be set; n_hands : number of outputs.
     """
 
     def __init__(self, config: SessionConfig, rows: Sequence[LoopRow], n_hands: int) -> None:
@@ -148,7 +148,7 @@ class Playback:
         self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
         self._plan = self._new_plan()
         self._bursts: Bursts | None = None  # at the first impact
-        # Twice the ramp, since gains that come too fast wait for each other.
+        # Twice the ramp, since gain changes in quick succession may have to wait.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
         for row in rows:
@@ -157,17 +157,17 @@ class Playback:
 
     @property
     def position(self) -> int:
-        """The frame that `render` gives next; it stands still in a pause."""
+        """The next frame of `render`; it does not advance in a pause."""
         return self._position
 
     @property
     def is_paused(self) -> bool:
-        """Whether the mix fades or has faded to silence."""
+        """Whether the mix is paused: it fades, or has faded, to silence."""
         return self._paused_from is not None
 
     @property
     def rows_not_mixed(self) -> int:
-        """Rows times cells that the mixers left out, since nothing lets them through."""
+        """Rows times cells that the mixers skipped, since their gains are 0."""
         return sum(mixer.mixer.stats.rows_skipped for mixer in self._mixers)
 
     def position_s(self, row: LoopRow) -> float:
@@ -183,7 +183,7 @@ class Playback:
         return np.array(found, dtype=np.float32).reshape(len(rows), 2, n_bands)
 
     def take_prepared(self) -> bool:
-        """Add the loops that the worker has prepared by now, silent until gains are set again; false for none."""
+        """Add the loops that are now prepared, silent until gains are set again. Returns false if there are none."""
         ready = [row for row, loop in self._coming.items() if loop.done()]
         for row in ready:
             self._let_in(row, self._coming.pop(row).result(), len(ready))
@@ -200,7 +200,7 @@ class Playback:
         at_frame: int,
         columns: Sequence[int] | None = None,
     ) -> None:
-        """Move to gains (n_hands, n_columns, n_bands) of some of the active rows, None for all, and to 0 for others."""
+        """Ramp to gains (n_hands, n_columns, n_bands) of some active rows (None for all), and to 0 for the others."""
         if self._paused_from is not None:
             return
         for mixer, own, slots, outputs, channels in self._routes_of(active, columns):
@@ -209,20 +209,20 @@ class Playback:
 
     @property
     def n_bursts(self) -> int:
-        """Number of bursts that sound, or are about to."""
+        """Number of bursts that are playing, or planned."""
         return 0 if self._bursts is None else self._bursts.n_playing
 
     def start_burst(
         self, waves: Sequence[NDArray[np.float32]], weights: Mapping[int, Sequence[float]], at_frame: int
     ) -> None:
-        """Add weighted waves (n,) to some channels, once, from a frame on; nothing in a pause."""
+        """Add weighted waves (n,) to some channels, once, from a frame on; do nothing in a pause."""
         if self._paused_from is None:
             self._bursts = self._bursts or Bursts()
             by_token = {self._hands[channel]: one for channel, one in weights.items() if channel < len(self._hands)}
             self._bursts.start(PlannedBurst(at_frame, waves, by_token))
 
     def _routes_of(self, active: Sequence[LoopRow], columns: Sequence[int] | None) -> list[_Route]:
-        """The routes of some active rows. They are cached, since lifting and putting down a source repeats a few."""
+        """The routes of some active rows. Cached, since moving a source repeats a few combinations of rows."""
         if self._active is not active or len(self._routes) >= _MOST_ROUTES:
             self._active = active
             self._routes.clear()
@@ -243,9 +243,9 @@ class Playback:
         return mixer, None if len(own) == len(rows) else own, slots, outputs.tolist(), None if is_alone else channels
 
     def change_rows(self, rows: Sequence[LoopRow], at_frame: int) -> None:
-        """Play other rows; rows that are no longer among them are faded out.
+        """Play these rows; fade out all others.
 
-        Loops that nobody has prepared yet come later, see `take_prepared`, unless preparing is to block.
+        Loops that are not prepared yet are added by `take_prepared`, unless preparing is set to block.
         """
         self._routes.clear()
         wanted = set(rows)
@@ -295,31 +295,31 @@ class Playback:
         return passage
 
     def running(self, passage: Passage, at_frame: int) -> Running:
-        """How fast and how strongly a passage runs at a frame."""
+        """Speed and amplitude of a passage at a frame."""
         return passage.running(self._tactile(at_frame))
 
     def end_frame(self, passage: Passage) -> int:
-        """The frame from which on a passage is over."""
+        """The frame at which a passage ends."""
         return -(-passage.end * self._config.sample_rate_hz // self._tactile_rate_hz)
 
     def _tactile(self, frame: int) -> int:
         return frame * self._tactile_rate_hz // self._config.sample_rate_hz
 
     def add_hand(self) -> None:
-        """Add an output, behind the others."""
+        """Add an output, after the others."""
         token, self._next_hand = self._next_hand, self._next_hand + 1
         self._hands.append(token)
         self._mixers += [MixerInstance(self._config, bank, (token,), self._position) for bank in self._banks]
         self._plan = self._new_plan()
 
     def remove_hand(self, channel: int) -> None:
-        """Take away an output."""
+        """Remove an output."""
         del self._hands[channel]
         self._mixers = [mixer for mixer in self._mixers if not set(mixer.hands).isdisjoint(self._hands)]
         self._plan = self._new_plan()
 
     def pause(self, at_frame: int) -> None:
-        """Fade to silence and then let the clock stand still."""
+        """Fade to silence, then stop the clock."""
         if self._paused_from is None:
             for mixer in self._mixers:
                 mixer.silence(at_frame)
@@ -328,7 +328,7 @@ class Playback:
             self._paused_from = at_frame
 
     def resume(self) -> None:
-        """Let the clock go on; gains are to be set again."""
+        """Continue the clock; gains must be set again."""
         self._paused_from = None
 
     def render(self, n_frames: int) -> Block:
@@ -383,7 +383,7 @@ class Playback:
         for bank in self._banks:
             if None in bank.slots:
                 return _Place(bank, bank.slots.index(None))
-        # So that few mixers follow, however many loops come one by one: each has as many slots as all before it.
+        # Each new bank has as many slots as all before it, so that adding many loops one by one needs few mixers.
         bank = self._new_bank(max(n_wanted, len(self._places) // 2))
         self._banks.append(bank)
         self._mixers.append(MixerInstance(self._config, bank, tuple(self._hands), self._position))

@@ -1,4 +1,4 @@
-"""Map of the level that a hand would feel of a source on a scene, from above. Needs the extra `plots`."""
+"""Map from above of the level at which a hand would feel a source on each surface. Needs the extra `plots`."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
 RANGE_DB = 60.0
-"""How far below the loudest place colours go: full scale lies 45 dB over the threshold of touch."""
+"""Range of the colours below the highest level [dB]: full scale is 45 dB over the threshold of touch."""
 CELLS = 96
-"""Along the longer side of the scene. Twice as many take four times as long."""
+"""Number of cells along the longer side of the scene. Twice as many take four times as long."""
 _AT_ONCE = 1024
-"""Points of a query, so that a large grid needs no large arrays of all sources."""
+"""Most points of one query, since a query for a large grid would need large arrays for all sources."""
 
 
 def plot_felt(
@@ -39,7 +39,7 @@ def plot_felt(
 ) -> Figure | SubFigure:
     """Colour the uppermost surfaces by level. See `HapticSession.plot_felt`.
 
-    Parameters: gains_of : gains (n_points,) [-] of that source at that hand if it touched such points.
+    Parameters: gains_of : returns the gains (n_points,) [-] of that source at that hand for touches.
     """
     figure = new_figure(8.0, 5.0) if axes is None else axes.figure
     axes = figure.add_subplot() if axes is None else axes
@@ -64,7 +64,7 @@ def _gains(view: TopView, hand: str, gains_of: Callable[[Sequence[Touch]], NDArr
     cells, points_m = view.points_m()
     ids = [item.id for item in view.scene.objects]
     numbers = view.top.ravel()[cells]
-    # A query for one object after the other costs a model least.
+    # Points are sorted by object, since a model answers these queries fastest.
     order = np.argsort(numbers, kind="stable")
     places = zip(numbers[order].tolist(), points_m[order].tolist(), strict=True)
     touches = [Touch(hand, ids[number], (x, y, z)) for number, (x, y, z) in places]

@@ -1,6 +1,6 @@
 """Prepared fields, evaluated for the present poses.
 
-The newest field may cover only the objects near the hands. The last field that covers all objects serves the others.
+The newest field may cover only the objects near the hands. For the others the last field of all objects is used.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ Point = tuple[float, float, float]
 class LastField:
     """A `LiveField` from a field that was prepared for an earlier scene state.
 
-    A touch is evaluated at the same place of the object at that time. Sources unknown to the field are silent. While
-    the field is outdated, sources without a path to the touched object are silent, whatever the field says.
+    A touch is evaluated at the same point of the object, at the pose that the object had in that state. Sources unknown
+    to the field are silent. While the field is outdated, sources without a path to the touched object are silent too.
 
-    Parameters: then : where objects were when it was prepared; now : where an object is; reach : the objects that
-    are connected now; is_current : whether the field was prepared for the present state.
+    Parameters: then : poses for which the field was prepared; now : returns the present pose of an object; reach : the
+    present groups of connected objects; is_current : whether the field was prepared for the present state.
     """
 
     most = math.inf
@@ -63,7 +63,7 @@ class LastField:
         return gains if all(len(hand) == 1 for hand in hands) else self._largest(gains, hands)
 
     def _answers(self, touched: Sequence[TouchedPoint]) -> tuple[list[Gains], list[list[int]]]:
-        """The field's values, evaluated once for each object, and the touches that they belong to."""
+        """Evaluate the field once for each object. Returns the values and, for each object, the rows of its touches."""
         rows: dict[str, list[int]] = {}
         for row, (object_id, _) in enumerate(touched):
             rows.setdefault(object_id, []).append(row)
@@ -98,8 +98,9 @@ def put_together(
 ) -> Gains:
     """Join the results of several queries into rows (n, *shape).
 
-    Parameters: answers : of so many rows, each (n_own, n_theirs, n_bands); columns : which of ours are known, and where
-    they are among theirs; among : for each row the columns of ours that may be other than 0, None for all.
+    Parameters: answers : one per query, (n_own, n_theirs, n_bands); rows : the rows of each query; columns : the shared
+    sources, as columns of the result and of the queries; among : for each row the columns of the result that may be
+    other than 0, None for all.
     """
     gains, (ours, theirs) = np.zeros((len(among), *shape)), columns
     for found, own in zip(answers, rows, strict=True):
@@ -113,7 +114,7 @@ def put_together(
 
 @lru_cache(maxsize=64)
 def _shared(ours: tuple[str, ...], theirs: tuple[str, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Columns of the ids that both have: in ours, and in theirs."""
+    """Columns of the shared ids: in `ours`, and in `theirs`."""
     column = {source_id: i for i, source_id in enumerate(ours)}
     pairs = [(column[x], there) for there, x in enumerate(theirs) if x in column]
     here, there = np.array(pairs, dtype=np.intp).reshape(-1, 2).T.copy()
@@ -123,7 +124,7 @@ def _shared(ours: tuple[str, ...], theirs: tuple[str, ...]) -> tuple[NDArray[np.
 class FieldInUse:
     """A `LiveField` of the newest prepared fields. It reports touches, so that touched objects are prepared first.
 
-    Parameters: as_now : makes a live field of a prepared one; note : called with the touches. `use` comes first.
+    Parameters: as_now : makes a live field of a prepared one; note : called with the touches. Call `use` first.
     """
 
     most = math.inf
@@ -138,7 +139,7 @@ class FieldInUse:
         self._prepared: Prepared | None = None
 
     def use(self, newest: Prepared, whole: Prepared) -> None:
-        """Continue with the newest field, which may not cover all objects, and one that covers the others."""
+        """Use the newest field, which may not cover all objects, and a field that covers the others."""
         if self._prepared is not whole:
             self._whole, self._prepared = self._as_now(whole), whole
         self._newest = self._whole if newest is whole else self._as_now(newest)

@@ -1,8 +1,8 @@
-"""Scenes prepared in advance around what hands touch, so that an impact is felt with the next block.
+"""Scenes prepared in advance around touched objects, so that an impact is felt with the next block.
 
-A worker solves the joints around the touched objects once, for forces at any point of all that is connected with them
-(`propagation.coupled.impact_solution`), and again after contacts changed or a hand touched something else. Until then
-the last answer stays in use.
+A worker solves the joints around the touched objects once, for forces at any point of all connected objects
+(`propagation.coupled.impact_solution`). It solves them again after contacts changed or a hand touched another object.
+Until then the last solution stays in use.
 """
 
 from __future__ import annotations
@@ -30,27 +30,27 @@ Point = tuple[float, float, float]
 AT_REST_S, EVERY_S = 0.05, 1.0
 """A scene is prepared again once its contacts have rested for `AT_REST_S`, or after `EVERY_S` of changes [s]."""
 MOST = 4
-"""Number of touched objects for which a scene is prepared, the last ones; two hands touch two."""
+"""Number of touched objects, the latest ones, for which a scene is prepared; two hands touch two."""
 
 
 class Answer(NamedTuple):
-    """Gains (n_hands, n_frequencies) [-] of some hands."""
+    """Gains (n_hands, n_frequencies) [-] of the hands `among`."""
 
     among: Collection[int]
     gains: Floats
 
 
 class Ordered(NamedTuple):
-    """For which objects a scene is prepared, and the version of its contacts."""
+    """The touched objects for which a scene is prepared, and the version of its contacts."""
 
     touched: tuple[str, ...]
     version: int
 
 
 class StruckAhead:
-    """Prepares the scene around objects as hands touch them. `expect` and `answer` belong to the game's thread.
+    """Prepares the scene around touched objects. Call `expect` and `answer` on the game's thread.
 
-    Parameters: submit : has a worker call a function.
+    Parameters: submit : passes a function to a worker.
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class StruckAhead:
         self._settled_version = -1
 
     def expect(self, object_ids: Collection[str]) -> None:
-        """Order the scene around these objects unless it is prepared for the present contacts; one at a time."""
+        """Request the scene around these objects, unless it is prepared for the present contacts; one at a time."""
         version = self._state.graph.version
         if version == self._settled_version and object_ids == self._expected:
             return
@@ -79,7 +79,7 @@ class StruckAhead:
                 self._settled_version = version
 
     def wait(self, timeout_s: float | None) -> bool:
-        """Wait until all that is expected is prepared; false after the timeout [s]."""
+        """Wait until all expected objects are prepared; false after the timeout [s]."""
         end_s = math.inf if timeout_s is None else time.monotonic() + timeout_s
         while True:
             rest_s = None if timeout_s is None else max(0.0, end_s - time.monotonic())
@@ -95,9 +95,9 @@ class StruckAhead:
         hands: Mapping[int, Sequence[TouchedPoint]],
         frequencies_hz: Floats,
     ) -> Answer | None:
-        """Return the gains of an impact at those hands for which it is prepared; the largest of each hand's touches.
+        """Return the gains of an impact at each hand that is prepared for it: the largest over the hand's touches.
 
-        None if there is no such hand.
+        None if no hand is prepared.
         """
         if self._prepared is None:
             return None
@@ -121,7 +121,7 @@ class StruckAhead:
         return np.array([self._state.on_plate(object_id, point_m)], dtype=np.float64)
 
     def _order_next(self, version: int, *, rests: bool) -> bool:
-        """Order the scene if an expected object is missing, or if it is outdated and contacts rest. True if so."""
+        """Request the scene if it lacks an expected object, or if it is outdated and `rests`. Returns true if so."""
         expected = [x for x in self._expected if x in self._state.bodies]
         is_missing = not set(expected) <= set(self._ordered.touched)
         if not expected or not (is_missing or (version != self._ordered.version and rests)):
@@ -134,13 +134,13 @@ class StruckAhead:
     def _order(self, version: int) -> None:
         touched, bodies = tuple(self._touched), self._state.bodies
         self._ordered, self._ordered_at_s = Ordered(touched, version), time.monotonic()
-        # An object that is connected with no other is in no network.
+        # An object that touches no other of known material is in no network, so the whole scene is prepared for it.
         put_together = self._state.network(touched if all(map(self._state.touches_a_body, touched)) else None)
 
         def work() -> None:
             try:
                 scene = prepare_struck(self._model, put_together(touched).network, touched)
-            except Scene2HapError:  # the field in use fails in the same way, and says so
+            except Scene2HapError:  # the field in use fails in the same way, and warns
                 self._prepared = None
             else:
                 self._prepared = bodies, scene

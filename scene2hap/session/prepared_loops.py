@@ -1,8 +1,8 @@
 """Loops ready to be mixed: split into bands, with the peaks that `audibility` compares.
 
-Preparing a loop takes some 100 ms, so each content is prepared once in a process, however many objects, sessions and
-copies of its samples there are. A worker prepares loops that come while a session plays. A prepared loop stays as long
-as its clip, and the newest `KEPT_BYTES` a while longer, for objects that come and go.
+Preparing a loop takes some 100 ms. So a process prepares each content once, for all objects, sessions and copies of
+the samples. A worker prepares loops that are added while a session plays. A prepared loop is cached as long as its clip
+lives. The newest `KEPT_BYTES` are cached longer, for objects that are removed and added again.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import LoopBank
 
 KEPT_BYTES = 32 * 2**20
-"""Memory of unused loops that are kept."""
+"""Size of the cache of the newest loops, whose clips may be gone."""
 PEAKS_RATE_HZ = 8000
-"""Rate at which peaks are looked for: eight samples per wave at 1 kHz miss it by a factor of cos(pi/8) at most."""
+"""Rate at which peaks are searched: eight samples per wave at 1 kHz miss a peak by a factor of cos(pi/8) at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +54,7 @@ def find(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop | 
 
 
 def prepare(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop:
-    """A clip's loop, made at once unless one of the same content is kept."""
+    """Return a clip's loop, from the cache or computed in this thread."""
     found = find(clip, bands, tactile_rate_hz)
     if found is not None:
         return found
@@ -85,7 +85,7 @@ def _made(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop:
 
 
 def peaks_of(clip: AudioClip, bands: Bands) -> NDArray[np.float64]:
-    """Peak of a loop in each band (2, n_bands): over the threshold of touch, then re full scale."""
+    """Peaks of a loop in each band (2, n_bands): relative to the threshold of touch, then re full scale."""
     spectrum = np.fft.rfft(clip.samples.astype(np.float64))
     frequencies = np.fft.rfftfreq(len(clip.samples), 1 / clip.sample_rate_hz)
     n = max(1, round(len(clip.samples) * PEAKS_RATE_HZ / clip.sample_rate_hz))

@@ -1,8 +1,8 @@
-"""Which sources can reach which objects: those connected over contacts.
+"""Connected components of the contact graph: the objects that each source can reach.
 
-The groups are kept as contacts come and go. A contact that comes joins two of them. When contacts go, one searches from
-both sides of each in turn, so that only the smaller part is searched: a mug that is lifted off a table in a
-furnished house costs a mug, not a house. Objects with many contacts, such as a floor, come last.
+The groups are updated incrementally. A new contact joins two groups. When contacts vanish, searches start from both
+ends of each and take turns, so that only the smaller part is searched: lifting a mug off a table in a furnished house
+searches the mug, not the house. Objects with many contacts, such as a floor, are searched last.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class _Group:
 class _Search:
     """A graph search from one end of a contact that vanished.
 
-    `waiting` is a heap of degrees and ids, `cost` how many contacts it has looked at.
+    `waiting` is a heap of degrees and ids; `cost` is the number of contacts visited.
     """
 
     __slots__ = ("cost", "seen", "waiting")
@@ -45,15 +45,15 @@ class _Search:
 
     @property
     def next_cost(self) -> int:
-        """Number of contacts that the search has looked at after one more step."""
+        """Number of contacts visited after one more step."""
         return self.cost + self.waiting[0][0]
 
 
 class Reach:
     """Connected components of the contact graph, and the sources in each, kept up to date incrementally.
 
-    Parameters: beside : the neighbours of each object, at any weight, since weights change; read again by `follow`;
-    carriers : ids of all that may pass vibration on, sources included.
+    Parameters: beside : the neighbours of each object, at any weight, since weights change; `follow` reads it again;
+    carriers : ids of all objects that may pass on vibration, sources included.
     """
 
     def __init__(self, beside: Beside, carriers: Container[str], source_ids: Sequence[str]) -> None:
@@ -66,7 +66,7 @@ class Reach:
                 self._found(x)
 
     def follow(self, change: ContactChange) -> None:
-        """Apply a change of contacts; `beside` already has the new ones."""
+        """Apply a change of contacts; `beside` must already have the new contacts."""
         for a, b in change.appeared:
             self._join(a, b)
         ends: dict[_Group, set[str]] = {}
@@ -111,7 +111,7 @@ class Reach:
         return set().union(*(group.members for group in near if group.sources))
 
     def n_without(self, others: Iterable[str]) -> int:
-        """Number of objects that a source reaches over contacts, without some sources."""
+        """Number of objects that a source reaches over contacts, without the objects `others`."""
         return self._n_reached - sum([x in self._group for x in others])
 
     def _groups_with_sources(self) -> set[_Group]:

@@ -29,7 +29,7 @@ class ModelInput(NamedTuple):
 
 
 class SceneState:
-    """The objects of a session. Its mappings are replaced, never changed, so that another thread may go on reading."""
+    """The objects of a session. Mappings are replaced, never changed, so that another thread can read them."""
 
     def __init__(self, scene: SceneSnapshot, bundle: HapticBundle, *, follows_outlines: bool = False) -> None:
         self._scene, self._follows_outlines = scene, follows_outlines
@@ -56,11 +56,11 @@ class SceneState:
 
     @property
     def poses(self) -> Mapping[str, Pose]:
-        """Pose of every object; never modified, a move makes a new mapping."""
+        """Pose of every object. The mapping never changes; a move makes a new one."""
         return self.graph.poses
 
     def require(self, object_id: object, hint: str = "") -> None:
-        """Raise an UnknownObject, with a hint behind, if an object is not there."""
+        """Raise an UnknownObject, with a hint at the end of its message, if an object is not in the scene."""
         if isinstance(object_id, str) and object_id in self.objects:
             return
         hint = self._removed.hint(object_id) + hint
@@ -92,7 +92,7 @@ class SceneState:
         self.haptics = _with(self.haptics, object_id, None)
         self.bodies = _with(self.bodies, object_id, None)
         self._removed.add(object_id)
-        # Another thread may still fill the former one.
+        # A copy, since another thread may still write to the former mapping.
         self._corners = _with(self._corners, object_id, None)
         return change
 
@@ -105,13 +105,13 @@ class SceneState:
         """Coordinates of a world point [m] along length and width of an object's plate; None without a plate."""
         if object_id not in self.bodies:
             return None
-        # Not `poses`, which the next move would have to copy.
+        # Not `poses`: the next move would then have to copy the mapping.
         corner = PlatePoses(self.objects, self.bodies, {object_id: self.graph.pose(object_id)}, self._corners)
         ((x, y),) = ContactNetwork(self.bodies, (), corner).on_body(object_id, [point_m]).tolist()
         return x, y
 
     def reach(self, source_ids: Sequence[str]) -> Reach:
-        """Objects that each of the sources reaches now."""
+        """The present groups of connected objects, and the sources in each."""
         return Reach(self.graph.beside, {*self.bodies, *source_ids}, source_ids)
 
     def touches_a_body(self, object_id: str) -> bool:
@@ -119,10 +119,10 @@ class SceneState:
         return any(x in self.bodies for x in self.graph.beside.get(object_id, ()))
 
     def network(self, source_ids: Sequence[str] | None) -> Callable[[Collection[str]], ModelInput]:
-        """The model's input for the present state: all objects, or only those that a source reaches.
+        """Return a function that makes the model's input for the present state: all objects, or those a source reaches.
 
-        The result is a function of some objects; it gives only the objects connected to these, if a source is. It may
-        be called in another thread, and later: listing contacts costs more than an update may take.
+        Given some objects, the function includes only the objects connected to them, if a source is among these. It may
+        be called later and in another thread, since listing contacts takes longer than an update may.
         """
         objects, bodies, poses, junctions = self.objects, self.bodies, self.poses, dict(self.graph.junctions)
         spelling, corners = self._spelling, self._corners
@@ -143,7 +143,7 @@ class SceneState:
 
 
 class _Spelling:
-    """Makes contacts of junctions, and keeps those of junctions that have not changed."""
+    """Converts junctions to contacts, and caches the contacts of unchanged junctions."""
 
     def __init__(self) -> None:
         self._known: dict[Pair, tuple[Junction, tuple[Contact, ...]]] = {}
@@ -159,7 +159,7 @@ class _Spelling:
 
 
 def _with(mapping: Mapping[str, Thing], key: str, value: Thing | None) -> dict[str, Thing]:
-    """A copy with another value, or without the key for None."""
+    """A copy with another value of a key, or without the key if the value is None."""
     changed = dict(mapping)
     changed.pop(key, None)
     if value is not None:

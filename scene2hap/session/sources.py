@@ -1,4 +1,4 @@
-"""The vibrating objects of a session: their state, their level, and whether they may be heard."""
+"""The vibrating objects of a session: their states, levels and switches, and the contacts that they need."""
 
 from __future__ import annotations
 
@@ -68,8 +68,8 @@ class SourceInfo:
 class Source:
     """A vibrating object; `needs` is the contact that each state needs, by id or in words.
 
-    inferred : its inferred states, by name; is_resting : whether it rests by itself, as by a thermostat; passing : the
-    row that is played while it starts or stops.
+    inferred : its inferred states, by name; is_resting : whether it is in the off-time of its own cycle (thermostat);
+    passing : the row that is played while it starts or stops.
     """
 
     rows: Mapping[str, LoopRow]
@@ -83,12 +83,12 @@ class Source:
 
     @property
     def row(self) -> LoopRow:
-        """The row that is played: of the state that it is in, or of its start or stop."""
+        """The row that is played: that of its state, or of its start or stop."""
         return self.passing or self.rows[self.state]
 
     @property
     def is_running(self) -> bool:
-        """Whether it is on and does not rest."""
+        """Whether it is switched on, and not in the off-time of its cycle."""
         return self.is_on and not self.is_resting
 
 
@@ -126,7 +126,7 @@ class Sources:
         self._list()
 
     def remove(self, object_id: str) -> None:
-        """Forget a source."""
+        """Remove a source."""
         del self._sources[object_id]
         self._removed.add(object_id)
         self._list()
@@ -168,13 +168,13 @@ class Sources:
         self._active_rows = None
 
     def active_rows(self) -> tuple[LoopRow, ...]:
-        """The row of each source, in their order; the same tuple until one changes."""
+        """The played row of each source, in the order of `ids`; the same tuple until one changes."""
         if self._active_rows is None:
             self._active_rows = tuple([source.row for source in self._sources.values()])
         return self._active_rows
 
     def set(self, source_id: str, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None) -> bool:
-        """Set the arguments that are not None; true if the source is in another state then.
+        """Set the arguments that are not None. Returns true if this changed the state of the source.
 
         Raises: UnknownObject; SessionError: it has no such state, or the gain is out of bounds.
         """
@@ -197,21 +197,21 @@ class Sources:
 
     @property
     def ids(self) -> tuple[str, ...]:
-        """The sources, in the order in which they came; the same tuple until one comes or goes."""
+        """The ids in the order in which the sources were added; the same tuple until one is added or removed."""
         if self._ids is None:
             self._ids = tuple(self._sources)
         return self._ids
 
     @property
     def need_contacts(self) -> bool:
-        """Whether any of them vibrates only while it touches something."""
+        """Whether any source, in its present state, vibrates only while it touches something."""
         if self._need_contacts is None:
             self._need_contacts = any(one.needs.get(one.state) is not None for one in self._sources.values())
         return self._need_contacts
 
     @property
     def switch_themselves(self) -> bool:
-        """Whether any of them runs and rests in turns by itself, as by a thermostat, in any of its states."""
+        """Whether any source has a state in which it switches itself on and off in cycles (thermostat)."""
         if self._switch_themselves is None:
             states = (state for one in self._sources.values() for state in one.inferred.values())
             self._switch_themselves = any(state.on_s is not None for state in states)
@@ -222,7 +222,7 @@ class Sources:
     ) -> NDArray[np.float64]:
         """Present factor of each source's signal: 0 when off, muted, or without the contact that it needs.
 
-        A contact with a source that is switched off is none: no pan sizzles on a cold stove.
+        A contact with a source that is switched off does not count: no pan sizzles on a cold stove.
         """
 
         def is_off(object_id: str) -> bool:

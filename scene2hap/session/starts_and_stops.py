@@ -1,7 +1,7 @@
-"""Sources that start and stop, some of them by themselves, like a refrigerator.
+"""Starts and stops of sources, some of which switch themselves on and off in cycles, like a refrigerator.
 
-All times are on `render`'s clock, which stands still in a pause. A source that is switched off while it starts stops
-from its present amplitude, and the other way round. Starts and stops follow the curve of the recording, if any.
+All times are on `render`'s clock, which does not advance in a pause. A source that is switched off during its start
+stops from its present amplitude, and the other way round. Starts and stops follow the curve of the recording, if any.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ class _Passing:
 class Switching:
     """Starts and stops the sources of a session.
 
-    A source with turns of its own begins within its on-time, at a point that depends on its id alone, so that two
-    refrigerators do not start together.
+    A source with cycles begins within its on-time, at a point that depends on its id alone, so that two refrigerators
+    do not start together.
     """
 
     def __init__(self, sources: Sources, playback: Playback, sample_rate_hz: int) -> None:
         self._sources, self._playback, self._rate_hz = sources, playback, sample_rate_hz
         self._passing: dict[str, _Passing] = {}
-        # The frame at which the turn of a source ends, and the source, since another one may take its id.
+        # The frame at which a source's on-time or off-time ends, and the source, since another may get the same id.
         self._turns: dict[str, tuple[int, Source]] = {}
         self._known: tuple[str, ...] | None = None
 
     def switched(self, source_id: str, was_running: bool, now: int, *, by_hand: bool = True) -> None:
-        """Follow a source that may have been switched; one that a person switches on begins a turn."""
+        """Start or stop a source if it was switched. Switching on by a person begins a new on-time."""
         source = self._sources[source_id]
         if by_hand and source.is_on and source.is_resting:
             source.is_resting = False
@@ -45,7 +45,7 @@ class Switching:
             self._pass(source_id, source, now)
 
     def advance(self, now: int) -> bool:
-        """End the starts and stops that are over, and begin turns that are due; true if anything changed."""
+        """End finished starts and stops, and switch sources whose on-time or off-time is over. True if any changed."""
         if self._known is not self._sources.ids:
             self._look_around(now)
         over = [source_id for source_id, one in self._passing.items() if now >= one.end_frame]
@@ -65,7 +65,7 @@ class Switching:
         return bool(over or due)
 
     def _look_around(self, now: int) -> None:
-        """Follow sources that came or went."""
+        """Update the stored data after sources were added or removed."""
         self._known = self._sources.ids
         self._passing = {x: one for x, one in self._passing.items() if x in self._sources and self._sources[x].passing}
         before, self._turns = self._turns, {}
@@ -77,7 +77,7 @@ class Switching:
                 self._begin_turn(source_id, source, now, zlib.crc32(source_id.encode()) / 2**32)
 
     def _begin_turn(self, source_id: str, source: Source, now: int, share: float) -> None:
-        """Begin to run or to rest, with a share of that time already over."""
+        """Begin an on-time or off-time, of which a share has already passed."""
         inferred = source.inferred.get(source.state)
         lasts_s = None if inferred is None else inferred.off_s if source.is_resting else inferred.on_s
         if lasts_s is None:

@@ -1,8 +1,8 @@
-"""Levels and limits of one person: how strongly each hand, device and frequency is to be felt.
+"""Levels and limits of one person, for each hand, device and frequency.
 
 `UserProfile` holds the settings. `PersonalGains` applies the levels to gains before they are mixed, `PersonalLimit` the
-limits to the mix. Pruning works with the highest level of any hand and band, which is part of each source's level;
-hands and bands get their share of it afterwards. A source is thus left out only where no hand would feel it.
+limits to the mix. Pruning uses the highest level of any hand and band, which is part of each source's level. Each hand
+and band gets its share of that level after pruning. So a source is left out only if no hand would feel it.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ MOST_DB = 40.0
 """Bound on every level of a profile: a factor of 100."""
 
 LEAST_AMPLITUDE = 1e-4
-"""Smallest limit: -80 dB re full scale, which no actuator lets feel. Mute for silence."""
+"""Smallest limit: -80 dB re full scale, which cannot be felt on any actuator. Mute for silence."""
 
 FULL_SCALE_S = 0.05
-"""Time over which a limit moves by full scale, so that a change of profile does not click."""
+"""Time in which a limit changes by full scale, so that a change of profile does not click [s]."""
 
 _MOST_POINTS = 1000
 
@@ -43,8 +43,8 @@ _MOST_POINTS = 1000
 class Comfort(Settings):
     """A level and a limit.
 
-    gain_db : added to the level of everything [dB].
-    max_amplitude : no sample exceeds it, in shares of full scale, 0.0001..1 [-].
+    gain_db : level that is added to the level of all vibration [dB].
+    max_amplitude : largest sample, as a share of full scale, 0.0001..1 [-].
     """
 
     of_what = "user"
@@ -59,8 +59,8 @@ class UserProfile(Comfort):
     gain_db : level of all vibration [dB].
     max_amplitude : largest sample at every hand, 0.0001..1 [-].
     curve_db : level against frequency, as points (frequency [Hz], level [dB]) of rising frequency, for people who feel
-        some frequencies more or less than others. Between points it is interpolated over the logarithm of frequency,
-        beyond them it is constant.
+        some frequencies more or less than others. The level is interpolated between points over the logarithm of
+        frequency, and constant beyond them.
     hands : a level and a limit for single hands, by name: left/right balance.
     devices : a level and a limit for single devices, by the name of the actuator that the session is set to.
     """
@@ -81,7 +81,7 @@ class UserProfile(Comfort):
         return points
 
     def level_db(self, hand: str, device: str, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
-        """Return the level that is added at a hand, on a device, at some frequencies [dB], in their shape."""
+        """Return the level at a hand, on a device, at some frequencies [dB], in the shape of the frequencies."""
         at_hz = np.asarray(frequencies_hz, dtype=np.float64)
         level = self.gain_db + sum(one.gain_db for one in self._special(hand, device))
         if not self.curve_db:
@@ -90,7 +90,7 @@ class UserProfile(Comfort):
         return np.asarray(level + np.interp(np.log(np.maximum(at_hz, 1e-9)), np.log(frequency), curve))
 
     def limits(self, hands: Sequence[str], device: str) -> NDArray[np.float64]:
-        """Return the largest sample at each hand on a device (n_hands,), in shares of full scale [-]."""
+        """Return the largest sample at each hand on a device (n_hands,), as a share of full scale [-]."""
         return np.array([min(one.max_amplitude for one in (self, *self._special(hand, device))) for hand in hands])
 
     @property
@@ -100,7 +100,7 @@ class UserProfile(Comfort):
         return not self.curve_db and all(one.gain_db == 0.0 and one.max_amplitude == 1.0 for one in parts)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write all settings that are not the default, as JSON. Raises: ConfigError: the file cannot be written."""
+        """Write all settings that differ from the default as JSON. Raises: ConfigError: the file cannot be written."""
         document: dict[str, Any] = {self.of_what: self.model_dump(mode="json", exclude_defaults=True)}
         file = checks.path("path", path, error=ConfigError)
         if file.suffix != ".json":
@@ -132,16 +132,16 @@ class PersonalGains:
         self.shares = (factors / self.highest[None, :, None]).astype(np.float32)
 
     def applied(self, gained: HandGains) -> HandGains:
-        """Gains of all hands with each hand's and band's share of the level."""
+        """Multiply the gains of all hands by the share of each hand and band."""
         shares, full = self.shares, gained.full
         mixed = gained.mixed * (shares if gained.columns is None else shares[:, list(gained.columns)])
         return HandGains(lambda: _given(full) * shares, mixed, gained.columns)
 
 
 class PersonalLimit:
-    """Holds each output within its limit by the soft limiter.
+    """Holds each output within its limit, with the soft limiter.
 
-    `limits` (n_hands,) [-] may be replaced at any time; the limit in force moves to them along a line.
+    `limits` (n_hands,) [-] may be replaced at any time; the limits in force change linearly to the new ones.
     """
 
     def __init__(self, limits: NDArray[np.float64], sample_rate_hz: float) -> None:

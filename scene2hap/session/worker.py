@@ -1,7 +1,7 @@
-"""The worker that prepares fields: first near the hands, then everywhere once nothing changes any more.
+"""The worker that prepares fields: first for the objects near the hands, then for all objects once the scene rests.
 
-Threads: orders come by a queue, of which all but the newest are skipped; the answer is left in one slot; neither side
-ever waits for the other.
+Threads: the worker takes the newest scene state from a queue and drops older ones. It publishes the result in a single
+slot. Neither side waits for the other.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ from scene2hap.scene.pose import Pose
 from scene2hap.session.scene_state import ModelInput
 
 AT_REST_S = 0.05
-"""Time without a change after which the whole scene is prepared, not only the objects that hands can feel."""
+"""Time without a change after which the whole scene is prepared, not only the objects near the hands [s]."""
 LAST_S = 2.0
-"""How long Python waits at its end for fields that are being prepared."""
+"""Longest time for which Python waits at exit for fields that are being prepared [s]."""
 
 
 @dataclass(eq=False)
 class Situation:
     """A scene state for which a field is prepared.
 
-    Parameters: network : makes the model's input, for the objects connected to some objects or for all objects if
-    none are given, in any thread; poses : of all objects then; requested_at_s, outdated_at_s : when this state began
-    and ended, by `time.monotonic` [s].
+    Parameters: network : makes the model's input in any thread, for the objects connected to the given objects, or for
+    all objects if none are given; poses : of all objects in this state; requested_at_s, outdated_at_s : begin and end
+    of this state, by `time.monotonic` [s].
     """
 
     number: int
@@ -66,7 +66,7 @@ Order = Situation | Sign
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """A field, its scene state, the objects that it covers (None for all), and those prepared by `expect`."""
+    """A field, its scene state, the objects that it covers (None for all), and the objects prepared by `expect`."""
 
     field: PropagationField
     situation: Situation
@@ -74,7 +74,7 @@ class Prepared:
     expected: set[str] = dataclasses.field(default_factory=set)
 
     def expect(self, touched: Sequence[TouchedPoint]) -> None:
-        """Evaluate the field at touches in advance, so that `update` does not pay for the first evaluation."""
+        """Evaluate the field at touches in advance, since the first evaluation would slow down `update`."""
         for object_id, point_m in touched:
             if self.covers is None or object_id in self.covers:
                 self.expected.add(object_id)
@@ -89,7 +89,7 @@ class Prepared:
 class Desk:
     """The data that a keeper shares with its worker.
 
-    The worker has no reference to the keeper, so that a keeper that nobody uses is freed.
+    The worker has no reference to the keeper, so that an unused keeper can be freed.
     """
 
     model: PropagationModel
@@ -99,12 +99,12 @@ class Desk:
     has_answered: Event = dataclasses.field(default_factory=Event)
     touched: Sequence[TouchedPoint] = ()
     n_followed: int = 0
-    """Orders that were carried out, or dropped for a newer one."""
+    """Number of orders that were carried out, or dropped for a newer one."""
     # Fields that are no longer in use. The worker frees their memory, since that takes time.
     spent: deque[Prepared] = dataclasses.field(default_factory=lambda: deque(maxlen=4))
 
     def prepare(self, situation: Situation, near: Collection[str] = ()) -> Prepared:
-        """A field of the objects connected to some objects; of all objects if none are given."""
+        """Prepare a field of the objects connected to the objects `near`; of all objects if none are given."""
         network, covers = situation.network(near)
         field = self.model.prepare(network, situation.excitations, self.bands)
         return Prepared(checked_field(self.model, field, situation.excitations), situation, covers)
@@ -129,7 +129,7 @@ class Desk:
                 order, n_orders = self._newest(self.orders.get())
 
     def _answer(self, order: Situation, near: Collection[str]) -> Prepared | None:
-        """Publish a field of the objects near some objects, of all if none are given; None if the model fails."""
+        """Prepare and publish a field; see `prepare`. If the model fails, publish the error and return None."""
         try:
             prepared = self.prepare(order, near)
         except Exception as problem:
@@ -141,7 +141,7 @@ class Desk:
             return prepared
 
     def _newest(self, order: Order) -> tuple[Order, int]:
-        """The order to carry out of all that wait, and their number: the end, else the newest scene state."""
+        """The next order (`END`, else the newest scene state), and the number of orders taken from the queue."""
         waiting = [order]
         with contextlib.suppress(Empty):
             while True:
@@ -164,7 +164,7 @@ def put_to_work(desk: Desk, newest: Prepared) -> Thread:
 
 @atexit.register
 def _end_all() -> None:
-    """Let workers finish, since Python reports an error if it ends while a worker is in a sparse solver."""
+    """Wait for the workers, since Python reports an error if it exits while a worker is in a sparse solver."""
     end_s = time.monotonic() + LAST_S
     workers = list(_WORKERS.items())
     for _, desk in workers:
