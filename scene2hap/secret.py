@@ -35,7 +35,7 @@ class Secret:
         return self
 
     def __reduce__(self) -> NoReturn:
-        raise TypeError("a service with a key is not pickled, lest the key reach a file; build it again instead.")
+        raise TypeError("a service with a key is not pickled: the key would reach a file. Build it again instead.")
 
     def reveal(self) -> str:
         """Return the key itself, "" if there is none.

@@ -26,7 +26,8 @@ _STRETCH = 4096
 """Frames of a burst that are summed at a time."""
 _NONE: Samples = np.empty(0, dtype=np.float32)
 _FIRST_S, _FIRST_CYCLE_S = 0.06, 0.04
-"""Time in which the peak of a sum is searched first [s], and longest first cycle of a wave [s], that of 30 Hz."""
+"""Time in which the peak of a sum is searched first, and end of the longest first cycle of a wave (30 Hz, with its
+attack) [s]."""
 
 
 @lru_cache(maxsize=256)

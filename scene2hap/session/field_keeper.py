@@ -25,6 +25,7 @@ from scene2hap.propagation.protocol import (
 )
 from scene2hap.propagation.reference import FeltNear
 from scene2hap.session.config import SessionConfig
+from scene2hap.session.deadline import Deadline
 from scene2hap.session.prepared_field import FieldInUse, LastField
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
@@ -137,22 +138,20 @@ class FieldKeeper:
         self._note(problem)
         return False
 
-    def wait(self, timeout_s: float | None = None) -> bool:
+    def wait(self, end: Deadline) -> bool:
         """Wait until no field is being prepared and `expect` has run for all touched objects, and use the new field.
 
-        Returns false after the timeout [s].
+        Returns false after the deadline.
         """
-        end_s = None if timeout_s is None else time.monotonic() + timeout_s
         self.order()
         while True:
             self._desk.has_answered.clear()
             self.take()
             if self._n_answered == self._requested.number and self._desk.n_followed == self._n_put:
                 return True
-            rest_s = None if end_s is None else end_s - time.monotonic()
-            if rest_s is not None and rest_s <= 0:
+            if end.left_s == 0:
                 return False
-            self._desk.has_answered.wait(rest_s)
+            self._desk.has_answered.wait(end.left_s)
 
     def _situation(self, number: int, excitations: Sequence[Excitation]) -> Situation:
         now, state = time.monotonic(), self._state
@@ -236,7 +235,7 @@ class LiveKeeper:
         """Return False: there is never a newer field."""
         return False
 
-    def wait(self, timeout_s: float | None = None) -> bool:
+    def wait(self, end: Deadline) -> bool:
         """Return True: nothing is being prepared."""
         return True
 

@@ -12,6 +12,7 @@ from scene2hap.propagation.live import LiveField, PricedField
 from scene2hap.propagation.protocol import Excitation
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
+from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explainer, Explanation
 from scene2hap.session.field_keeper import LiveKeeper, keeper_of
 from scene2hap.session.frame import Counts, HapticFrame, SessionStats, Touch
@@ -142,12 +143,12 @@ class HandFrames:
         """A frame in which all gains are 0."""
         return HapticFrame(self._nothing(len(hands)), hands, self._sources.ids)
 
-    def wait(self, timeout_s: float | None) -> bool:
-        """Wait for the worker; false after the timeout [s]."""
+    def wait(self, end: Deadline) -> bool:
+        """Wait for the worker; false after the deadline."""
         # There may be another field now, or `expect` may have changed this one.
         self._is_fresh = False
         self._catch_up()
-        return self.keeper.wait(timeout_s)
+        return self.keeper.wait(end)
 
     def explain(self, hand: str, *, is_paused: bool) -> Explanation:
         """Explain each source that a hand felt at the last frame (gain and path), or why the hand felt none."""

@@ -9,7 +9,6 @@ and `render` never waits for `update`.
 from __future__ import annotations
 
 import os
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -51,6 +50,7 @@ from scene2hap.session.arguments import (
     swapped_hint,
 )
 from scene2hap.session.config import SessionConfig
+from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.hand_frames import HandFrames
@@ -475,10 +475,8 @@ class HapticSession:
         """
         if timeout_s is not None:
             timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)
-        end_s = None if timeout_s is None else time.monotonic() + timeout_s
-        if not (self._playback.wait(timeout_s) and self._impacts.wait(timeout_s)):
-            return False
-        return self._hand_frames.wait(None if end_s is None else max(0.0, end_s - time.monotonic()))
+        end = Deadline(timeout_s)
+        return self._playback.wait(end) and self._impacts.wait(end) and self._hand_frames.wait(end)
 
     def render(self, n_frames: int) -> Block:
         """Return the next samples of the mix (n_frames, n_hands) float32 in [-1, 1], without the safety layer.

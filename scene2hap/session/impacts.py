@@ -27,6 +27,7 @@ from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
 from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, wave_of
 from scene2hap.session.config import SessionConfig
+from scene2hap.session.deadline import Deadline
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impact_gains import struck_later, struck_live
 from scene2hap.session.playback import Playback
@@ -207,9 +208,9 @@ class Impacts:
         since = self._playback.position - self._config.sample_rate_hz
         return tuple(one for one in reversed(self._recent) if one.at_sample >= since)
 
-    def wait(self, timeout_s: float | None) -> bool:
-        """Wait for all results of the workers; false after the timeout [s]."""
-        return not wait(self._waiting, timeout_s).not_done and (self._ahead is None or self._ahead.wait(timeout_s))
+    def wait(self, end: Deadline) -> bool:
+        """Wait for all results of the workers; false after the deadline."""
+        return not wait(self._waiting, end.left_s).not_done and (self._ahead is None or self._ahead.wait(end))
 
     def _levels(self, burst: Burst, waves: list[Samples], hands: list[str], profile: UserProfile | None) -> Floats:
         """Amplitude (n_hands, n) [-] of each sine at each of these hands, as if it touched the struck point."""

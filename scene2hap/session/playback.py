@@ -24,6 +24,7 @@ from scene2hap.render.loop_bank import SlotBank, position_s
 from scene2hap.render.mixer import Mixer
 from scene2hap.render.passage import Course, Passage, Running
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
+from scene2hap.session.deadline import Deadline
 from scene2hap.session.prepared_loops import PreparedLoop, find, order, prepare
 from scene2hap.session.sources import LoopRow
 
@@ -189,9 +190,9 @@ class Playback:
             self._let_in(row, self._coming.pop(row).result(), len(ready))
         return bool(ready)
 
-    def wait(self, timeout_s: float | None) -> bool:
-        """Wait for loops that are being prepared; false after the timeout [s]."""
-        return not wait(self._coming.values(), timeout_s).not_done
+    def wait(self, end: Deadline) -> bool:
+        """Wait for loops that are being prepared; false after the deadline."""
+        return not wait(self._coming.values(), end.left_s).not_done
 
     def set_gains(
         self,

@@ -7,7 +7,6 @@ Until then the last solution stays in use.
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future, wait
@@ -21,6 +20,7 @@ from scene2hap.propagation.coupled.impact_scene import StruckScene
 from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Body, CoupledModel
+from scene2hap.session.deadline import Deadline
 from scene2hap.session.impact_gains import at_least_itself
 from scene2hap.session.scene_state import SceneState
 
@@ -78,12 +78,10 @@ class StruckAhead:
             if not self._order_next(version, rests=rests) and rests:
                 self._settled_version = version
 
-    def wait(self, timeout_s: float | None) -> bool:
-        """Wait until all expected objects are prepared; false after the timeout [s]."""
-        end_s = math.inf if timeout_s is None else time.monotonic() + timeout_s
+    def wait(self, end: Deadline) -> bool:
+        """Wait until all expected objects are prepared; false after the deadline."""
         while True:
-            rest_s = None if timeout_s is None else max(0.0, end_s - time.monotonic())
-            if self._job is not None and wait([self._job], rest_s).not_done:
+            if self._job is not None and wait([self._job], end.left_s).not_done:
                 return False
             if not self._order_next(self._state.graph.version, rests=True):
                 return True

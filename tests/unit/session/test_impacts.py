@@ -25,6 +25,7 @@ from scene2hap.propagation.coupled.hand import PALM
 from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
+from scene2hap.session.deadline import Deadline
 from scene2hap.session.impacts import LEAST_INTERVAL_S, PEAK, Impact, struck_later
 from scenes import table_with_two_phones
 
@@ -243,7 +244,7 @@ def test_an_object_that_is_touched_next_is_prepared_beside_the_last_ones() -> No
         assert made.wait_prepared(30.0)
     made.update(touches=[Touch("left", "phone", phone)])
     assert made._impacts._ahead is not None
-    assert made._impacts._ahead.wait(0.0)
+    assert made._impacts._ahead.wait(Deadline(0.0))
     assert made.strike("table", STRUCK, with_object="cup", speed_m_s=2.0).felt
 
 
