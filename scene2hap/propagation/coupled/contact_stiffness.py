@@ -49,9 +49,10 @@ class ContactLaw:
         checks.number("loss_floor", self.loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
 
     def preload(self, masses_kg: Sequence[float], n_contacts: int) -> float:
-        """Load on each contact of a pair [N]: an equal share of the lighter object's weight, which rests on the other.
+        """Load on each contact of a pair [N]: equal shares of the weight of the lighter object.
 
-        Parameters: masses_kg : known masses of the pair's objects; without any, the load is `preload_n`.
+        The lighter object rests on the other. Parameters: masses_kg : known masses of the pair's objects; without any,
+        the load is `preload_n`.
         """
         if not masses_kg:
             return self.preload_n

@@ -155,8 +155,7 @@ class JointForces:
 
             Y_coupled(x, x') = Y(x, x') - Y(x, x_j) H Y(x_j, x')
 
-        All joints are solved again. Returns: (n_frequencies, n_own, n_own) complex128 [N/m], in the order of its
-        `ends`.
+        All joints are solved again. Returns: (n_frequencies, n_own, n_own) complex128 [N/m], in the order of `ends`.
         """
         return self.answers(np.empty(0, dtype=np.intp), [body_id])[1][body_id]
 

@@ -30,12 +30,11 @@ Complex: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]
 
 WORST_GROWTH = 1e4
-"""Largest accepted entry of L, the factor by which a row is subtracted from another: it costs four digits of
-fifteen."""
+"""Largest accepted entry of L, the factor by which a row is subtracted from another: it costs 4 digits of 15."""
 SLACK = 1e-13
 """Compliance added to each joint, relative to the receptances of its two bodies there. It prevents a division by zero
-where statics cannot determine the forces, as in four rigid feet of a rigid body. It is nine digits below all other
-terms."""
+where statics cannot determine the forces, as in four rigid feet of a rigid body. It is nine digits below anything
+else."""
 _DENSE = 170_000
 """Complex numbers of dense systems that are solved at once, 3 MB."""
 
