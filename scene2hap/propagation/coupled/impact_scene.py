@@ -152,8 +152,7 @@ class StruckScene:
     def _under_hand(
         self, object_id: str, ports: Floats, towards: Complex, moved: Complex, used: NDArray[np.intp]
     ) -> Complex:
-        """Deflections of ports (n_used, n_ports, 1) with a hand's load at each point alone, as in the model's
-        fields."""
+        """Deflections of ports (n_used, n_ports, 1) with a hand's load on each point alone, as in a model's fields."""
         if self._hand is None:
             return moved
         f, body, pair = self._frequencies_hz[used], self._bodies[object_id].body, (object_id, object_id)

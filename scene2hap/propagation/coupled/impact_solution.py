@@ -1,8 +1,8 @@
 """Solution of the joints around touched objects, for impacts on all objects that are connected with them.
 
-H is kept for the pairs of objects with the highest level for the memory that they take. The level of a pair is
-estimated at the joints of both, with a few of the frequencies. It is the response of the touched object to a force on
-the struck one, over the response where the force acts.
+H is kept for the pairs of objects with the highest level per byte. The level of a pair is estimated at the joints of
+both, with a few of the frequencies. It is the response of the touched object to a force on the struck one, over the
+response where the force acts.
 """
 
 from __future__ import annotations

@@ -21,8 +21,7 @@ SAME_POINT_M = 1e-6
 """Contacts of one pair that are closer than this are merged."""
 _PLACE_DIGITS = 6  # decimals of a position in metres, as `SAME_POINT_M`
 LEVEL = 0.9
-"""Least part of a contact's direction along a plate's normal that counts as normal to the plate, up to 26 degrees
-off."""
+"""A contact counts as normal to a plate if at least this part of its direction is, up to 26 degrees off."""
 
 
 def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLaw) -> list[Joint]:
@@ -160,7 +159,7 @@ def _known_mass_kg(network: ContactNetwork, object_id: str) -> float | None:
 
 
 def _material(network: ContactNetwork, object_id: str, *, stands: bool) -> Material | None:
-    """Material of an object at its contacts: that of its feet if it stands on them."""
+    """Material of an object at its contacts; that of its feet if it stands on them."""
     body = network.bodies.get(object_id)
     if stands and isinstance(body, Plate) and body.feet is not None:
         return body.feet
