@@ -39,8 +39,8 @@ LOSSLESS = 1e-9
 Floats = NDArray[np.float64]
 
 Pairs = Callable[[Floats], Floats]
-"""Function from points (n_points, 2) [m] to deflections, as alternating real and imaginary parts (n_points, 2
-n_frequencies)."""
+"""Function from points (n_points, 2) [m] to deflections (n_points, 2 n_frequencies), with real and imaginary parts
+alternating."""
 
 
 @runtime_checkable
