@@ -20,8 +20,7 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.scene.surface.outline import Outline
 
 LONGEST = 16
-"""Most cells along the longer side, as a multiple of the resolution; on more slender plates they are longer than
-wide."""
+"""Most cells along the longer side, in multiples of the resolution; more slender plates have cells longer than wide."""
 _SLACK = 0.01
 """Fraction by which cells of outlines may be larger, so that a polygon for a circle has as many cells as the circle."""
 _STRAIGHT_RAD = 1e-3

@@ -22,7 +22,7 @@ PIXELS = 5
 """Pixels along each side of a cell: the rim is known to a fraction of a pixel. Tuned: with more pixels, frequencies at
 the default resolution are no better, since the size of cells then determines the error."""
 _WHOLE = 1 - 1e-12
-"""Least share of a pixel that lies wholly within, but for rounding."""
+"""Least share from which a pixel counts as wholly within, but for rounding."""
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]

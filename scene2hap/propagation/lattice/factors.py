@@ -68,5 +68,5 @@ def diagonal_factors(matrix: csr_array) -> SuperLU:
     from scipy.sparse import csc_array
     from scipy.sparse.linalg import splu
 
-    columns = csc_array((matrix.data, matrix.indices, matrix.indptr), shape=matrix.shape)  # symmetric
+    columns = csc_array((matrix.data, matrix.indices, matrix.indptr), shape=matrix.shape)  # its own transpose
     return splu(columns, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
