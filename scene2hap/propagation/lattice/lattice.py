@@ -5,11 +5,11 @@
 The nodes carry a cubic spline (`spline_axis`). A bending spring joins three neighbours in a row; its strain is the
 spline's curvature u_xx or u_yy. A twisting spring joins four neighbours in a square; its strain is the twist u_xy. The
 weights W of springs, alone and in pairs, and the masses A are integrals over the plate, exact for the spline. Natural
-frequencies are therefore too high, never too low, and their error falls as the fourth power of the cell size (measured
-in tests/physics/test_mass_spring_damper.py); at a corner between a clamped and a free edge as the 1.7th.
+frequencies are therefore too high, never too low. Their error falls as the fourth power of the cell size (measured in
+tests/physics/test_mass_spring_damper.py); at a corner between a clamped and a free edge, as the 1.7th power.
 
-Where cells are tiny beside the plate, rounding of K drowns the longest waves. K u is then computed from the springs,
-whose strains are small for such waves. Most lattices never need their springs, so they are built at first use.
+Where cells are tiny beside the plate, the longest waves are lost in rounding of K. K u is then computed from the
+springs, whose strains are small for such waves. Most lattices never need their springs, so they are built at first use.
 
 Free edges need no equations of their own: the integrals end there, whether the edge is a side of the grid or an outline
 that runs through its cells (`outline_lattice`). A support holds the deflection of the spline at the grid's side, a
@@ -90,7 +90,7 @@ class Lattice:
 
     @property
     def stiffest_k4(self) -> float:
-        """Approximate largest eigenvalue of K over A [m^-4], where neighbours swing against each other."""
+        """Approximate largest eigenvalue of K over A [m^-4], where neighbours move against each other."""
         return _STIFFEST * sum(h**-2 for h in self.cell_m) ** 2
 
     def resized(self, plate: Plate, times: float) -> Lattice:

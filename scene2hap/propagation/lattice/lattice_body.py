@@ -32,8 +32,8 @@ def lattice_body(plate: Plate, resolution: int, max_frequency_hz: float, loss_fa
 class LatticeBasis:
     """The `ResponseBasis` of a lattice: its modes, and the series of each force.
 
-    shapes : (n_nodes, n_modes + n_forces TERMS); shares : (n_forces, n_modes) value of every mode at every force; spectra : see
-    `LatticeBody`.
+    shapes : (n_nodes, n_modes + n_forces TERMS); shares : (n_forces, n_modes) value of every mode at every force;
+    spectra : see `LatticeBody`.
     """
 
     lattice: Lattice

@@ -54,7 +54,7 @@ QUICK_WORK = 5e7
 _EXACT = 1e-7
 """Largest relative error of an accepted solution; the error of a frequency is its square."""
 DENSE_SHARE = 0.25
-"""Share of a lattice's modes that, if wanted, makes solving for all of them at once faster than Lanczos' method.
+"""Share of wanted modes from which all modes of a lattice are solved at once: this is then faster than Lanczos' method.
 Tuned."""
 _BURIED = 1e-8
 """Most that rounding may add to each eigenvalue if all are solved at once, relative to the largest wanted one: their
@@ -168,7 +168,7 @@ def _work(n_nodes: int, n_modes: float) -> float:
 
 
 def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
-    """Check the work for some modes. Raises: ModelDomainError: over `MOST_WORK`. Warns: SlowPlateWarning: seconds."""
+    """Check the work for these modes. Raises: ModelDomainError: over `MOST_WORK`. Warns: SlowPlateWarning: seconds."""
     n_nodes = n_nodes_of(plate, resolution)
     needed = _work(n_nodes, n_modes)
     if needed > MOST_WORK:

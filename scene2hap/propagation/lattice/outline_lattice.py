@@ -112,8 +112,7 @@ class _Nodes:
         return masses, stiffness
 
     def rows(self, node: Ints, values: Floats, counts: Ints) -> csr_array:
-        """Rows over the kept nodes, each of as many `values` at nodes as `counts` says; values at nodes left out are
-        dropped."""
+        """Rows over the kept nodes, each with `counts` of the `values` at these nodes; nodes left out are dropped."""
         row, is_kept = np.repeat(np.arange(len(counts)), counts), self.scale[node] > 0.0
         values = values[is_kept] * self.scale[node[is_kept]]
         return sparse(row[is_kept], self.number[node[is_kept]], values, (len(counts), self.n_kept))
