@@ -31,8 +31,8 @@ _Key = tuple[Any, ...]
 class ByteBoundedLru(Generic[Answer]):
     """LRU cache of a function of arrays: at most `room` values, and at most `MOST_BYTES` over all instances.
 
-    Each instance holds its own values, so that they are freed together with it: a value may refer to all data of its
-    body, which its `nbytes` does not count. Safe to call from several threads: a worker prepares a field while the
+    Each instance holds its values, so that they are freed together with the instance: a value may refer to all data of
+    its body, which its `nbytes` does not count. Safe to call from several threads: a worker prepares a field while the
     game's thread evaluates another.
     """
 

@@ -3,7 +3,8 @@
     k = 2 E* a       a = (3 F R / (4 |E*|))^(1/3)       1 / E* = sum over both sides of (1 - nu^2) / (E (1 + j eta))
 
 k = (6 E*^2 F R)^(1/3) is Hertz's law, linearised about the preload F. Real surfaces touch only at their highest points,
-so the apparent contact area says little about the stiffness. An area smaller than Hertz's spot bounds a.
+so the apparent contact area says little about the stiffness. But if this area is smaller than Hertz's spot, it limits
+the radius a.
 
 Letters: k [N/m] stiffness, E [Pa], nu [-], eta [-] loss factor, F [N] preload, R [m] radius of the tip, a [m] radius of
 the contact spot.

@@ -168,7 +168,10 @@ def _work(n_nodes: int, n_modes: float) -> float:
 
 
 def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
-    """Check the work for these modes. Raises: ModelDomainError: over `MOST_WORK`. Warns: SlowPlateWarning: seconds."""
+    """Check the work of solving modes.
+
+    Raises: ModelDomainError: it is above `MOST_WORK`. Warns: SlowPlateWarning: it takes seconds.
+    """
     n_nodes = n_nodes_of(plate, resolution)
     needed = _work(n_nodes, n_modes)
     if needed > MOST_WORK:
@@ -181,7 +184,7 @@ def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
     warn_if_slow(plate, round(min(n_modes, n_nodes)), round(math.sqrt(QUICK_WORK / n_nodes)), "modes of a lattice")
 
 
-@lru_cache(maxsize=8)  # bodies keep their own
+@lru_cache(maxsize=8)  # bodies keep their modes
 def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
     """Modes up to `MARGIN` times a frequency, in thirds of an octave above that of a half wave along the plate."""
     wanted = MARGIN**2 * (math.pi / max(plate.extent_m)) ** 4 * 4 ** (thirds / 3)

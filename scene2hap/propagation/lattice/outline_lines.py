@@ -18,8 +18,7 @@ FINER = 3.0
 """Usual cell size over that at a notch, per cell along the box's shorter side: 24 with 8 cells. Cells at notches thus
 shrink as the square of the others, and frequencies converge with second order, which cells of one size do not give."""
 FINEST = 48.0
-"""Largest usual cell size over that at a notch; beyond it, rounding of the stiffest springs would hide the longest
-waves."""
+"""Largest usual cell size over that at a notch; beyond it, the longest waves are lost in rounding of stiff springs."""
 GROWTH = 0.85
 """Growth of the cell size per distance from a notch."""
 PER_RADIUS = 2.4

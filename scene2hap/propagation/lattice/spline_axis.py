@@ -124,7 +124,7 @@ def _knots(lines: Floats, degree: int) -> Floats:
 
 
 def _differences(knots: Floats, degree: int) -> Floats:
-    """Factors of two neighbouring values of a spline in each value of its derivative, of one degree less (n, 2)."""
+    """Weights (n, 2) of two neighbouring values of a spline in each value of its derivative, of one degree less."""
     n = len(knots) - degree - 1
     per_m = degree / (knots[degree + 1 : n + degree] - knots[1:n])
     return np.column_stack([-per_m, per_m])

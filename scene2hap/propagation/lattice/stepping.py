@@ -64,7 +64,7 @@ class Stepper(Protocol):
     """Advances a state by one step."""
 
     def step(self, state: State, force: ArrayLike = 0.0, next_force: ArrayLike | None = None) -> State:
-        """Return the state one step later, under a force (n,) [N] that goes linearly to `next_force`, constant if
+        """Return the state one step later. The force (n,) [N] changes linearly to `next_force`, or stays if that is
         None."""
         ...
 
