@@ -56,7 +56,7 @@ class Contractible(Protocol):
 
 @runtime_checkable
 class Piecewise(Protocol):
-    """A body that returns its receptance a few frequencies at a time, so that the processor's cache holds them."""
+    """A body that returns its receptance a few frequencies at a time, each part used while it is in the cache."""
 
     def pieces(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
