@@ -29,18 +29,18 @@ _Key = tuple[Any, ...]
 
 
 class ByteBoundedLru(Generic[Answer]):
-    """LRU cache of a function of arrays: `room` values at most, and `MOST_BYTES` over all instances.
+    """LRU cache of a function of arrays: at most `room` values, and at most `MOST_BYTES` over all instances.
 
-    Each instance holds its own values, which go when it goes: a value may refer to all that its body is made of, which
-    its own size does not count. Safe to call from several threads: a worker prepares a field while the game's thread
-    evaluates another.
+    Each instance holds its values, so that they are freed together with the instance: a value may refer to all data of
+    its body, which its `nbytes` does not count. Safe to call from several threads: a worker prepares a field while the
+    game's thread evaluates another.
     """
 
-    # Of all instances: whose each value is, and its size, the most recently used last.
+    # Owner and size of every value of all instances, the most recently used last.
     _shelf: ClassVar[OrderedDict[_Key, tuple[ReferenceType[ByteBoundedLru[Any]], int]]] = OrderedDict()
     _held_bytes: ClassVar[int] = 0
     _lock: ClassVar[Lock] = Lock()
-    # Keys of instances that are gone. The garbage collector may run while this thread has the lock.
+    # Keys of deleted instances, to be removed later: the garbage collector may run while this thread has the lock.
     _gone: ClassVar[deque[_Key]] = deque()
     _numbers: ClassVar[Iterator[int]] = count()
 
@@ -52,7 +52,7 @@ class ByteBoundedLru(Generic[Answer]):
         self._gone.extend(self._own)
 
     def __call__(self, *arrays: NDArray[np.float64]) -> Answer:
-        """The function's value for these arrays. Arrays of equal bytes count as equal, so shapes must not vary."""
+        """Return the value for these arrays. Arrays with equal bytes count as equal, so shapes must not vary."""
         key = (self._number, *[array.tobytes() for array in arrays])
         with self._lock:
             if key in self._own:
@@ -80,7 +80,7 @@ class ByteBoundedLru(Generic[Answer]):
     def _forget(key: _Key) -> None:
         found = ByteBoundedLru._shelf.pop(key, None)
         if found is None:
-            return  # of an instance that is gone, and forgotten for room already
+            return  # the instance was deleted, and its value was evicted before
         owner, size = found
         ByteBoundedLru._held_bytes -= size
         if (lru := owner()) is not None:

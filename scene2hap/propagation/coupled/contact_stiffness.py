@@ -1,12 +1,13 @@
-"""Contact stiffness by Hertz: two surfaces that meet at a tip, loaded by a weight.
+"""Contact stiffness by Hertz's law, for two surfaces that meet at a tip under a preload.
 
     k = 2 E* a       a = (3 F R / (4 |E*|))^(1/3)       1 / E* = sum over both sides of (1 - nu^2) / (E (1 + j eta))
 
-k = (6 E*^2 F R)^(1/3) is Hertz's law, linearised about the preload F. Two real surfaces meet at their highest places
-only, so the apparent contact area says little; an area smaller than Hertz's spot does bound it.
+k = (6 E*^2 F R)^(1/3) is Hertz's law, linearised about the preload F. Real surfaces touch only at their highest points,
+so the apparent contact area says little about the stiffness. But if this area is smaller than Hertz's spot, it limits
+the radius a.
 
-Letters: k [N/m] stiffness, E [Pa], nu [-], eta [-] loss factor, F [N] preload, R [m] radius of the tip, a [m] of the
-spot.
+Letters: k [N/m] stiffness, E [Pa], nu [-], eta [-] loss factor, F [N] preload, R [m] radius of the tip, a [m] radius of
+the contact spot.
 Source: Johnson, Contact Mechanics (1985), section 4.2, and section 3.4 for the flat punch of radius a.
 """
 
@@ -21,22 +22,22 @@ from scene2hap.errors import ConfigError
 from scene2hap.materials import Material
 
 HARD_PLASTIC = Material("hard plastic", 1050.0, 2.4e9, 0.35, 0.02)
-"""Stands for the surface of a body whose material is unknown, such as the case of an appliance (ABS, handbook)."""
+"""Surface assumed for a body whose material is unknown, such as the case of an appliance (ABS, handbook)."""
 
 
 STANDARD_GRAVITY_M_S2 = 9.80665
 LEAST_PRELOAD_N = 1e-4
-"""A crumb; less would be no contact."""
+"""Smallest preload of a contact [N], as of a crumb; less would be no contact."""
 
 
 @dataclass(frozen=True)
 class ContactLaw:
     """Stiffness and loss of contacts.
 
-    Parameters: tip_radius_m : > 0 [m], of the corner, foot or high place on which things rest; preload_n : > 0 [N], the
-    weight on it where no mass is known (else see `preload`); loss_floor : 0..2 [-], smallest loss factor of a contact.
-    The defaults are assumed: a quarter of a 0.2 kg phone on a corner of 5 mm, and the loss of a dry joint.
-    Raises: ConfigError: out of bounds.
+    Parameters: tip_radius_m : > 0 [m], radius of the corner, foot or high point on which an object rests; preload_n :
+    > 0 [N], load on a contact where no mass is known (otherwise see `preload`); loss_floor : 0..2 [-], smallest loss
+    factor of a contact. Assumed defaults: a quarter of a 0.2 kg phone on a corner of 5 mm, and the loss of a dry joint.
+    Raises: ConfigError: a value is out of bounds.
     """
 
     tip_radius_m: float = 0.005
@@ -49,9 +50,10 @@ class ContactLaw:
         checks.number("loss_floor", self.loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
 
     def preload(self, masses_kg: Sequence[float], n_contacts: int) -> float:
-        """Weight on each contact of a pair [N]: that of the lighter object, which rests on the other, in equal shares.
+        """Load on each contact of a pair [N]: equal shares of the weight of the lighter object.
 
-        Parameters: masses_kg : of the objects of the pair whose mass is known; without any it is `preload_n`.
+        The lighter object rests on the other. Parameters: masses_kg : known masses of the pair's objects; without any,
+        the load is `preload_n`.
         """
         if not masses_kg:
             return self.preload_n
@@ -60,10 +62,10 @@ class ContactLaw:
     def stiffness(
         self, a: Material | None, b: Material | None, area_m2: float | None = None, preload_n: float | None = None
     ) -> tuple[float, float]:
-        """Stiffness [N/m] and loss factor [-] between two materials, None for one that is unknown.
+        """Stiffness [N/m] and loss factor [-] of a contact between two materials, each None if unknown.
 
-        Parameters: area_m2 : of the contact [m2], None if unknown; preload_n : the weight on it [N], None for the
-        law's own.
+        Parameters: area_m2 : area of the contact [m2], None if unknown; preload_n : load on the contact [N], None for
+        that of the law.
         """
         load_n = self.preload_n if preload_n is None else preload_n
         modulus = 1 / sum(

@@ -1,17 +1,17 @@
-"""Any number of bodies joined at points, by frequency-based substructuring.
+"""Coupling of any number of bodies at points, by frequency-based substructuring.
 
-Each body alone gives its receptance: deflection at points per force at points. Joints, springs with loss, act between
+Each body alone gives its receptance: deflection at points per force at points. Joints are springs with loss between two
 bodies. With the forces g of all joints,
 
     (B Y B^T + Z) g = B u_free                      Z = 1 / (k (1 + j eta) + j omega c)
     u(x) = u_free - sum over the body's joints of +-Y(x, x_j) g_j
 
-where Y is block-diagonal by body, and a row of B says "deflection of a minus that of b". A source is a body that would
-move by u_free = 1 on all of its joints, in phase, if nothing touched it. The cost grows with the joints, whatever the
-bodies are inside; loops and several joints per pair need no special care.
+where Y is block-diagonal by body, and each row of B takes the deflection of a minus that of b. A source is a body that
+would move by u_free = 1 at all of its joints, in phase, if nothing touched it. The cost depends on the number of
+joints, not on the model of each body. Loops and several joints per pair need no special treatment.
 
-Letters: Y [m/N] receptance, Z [m/N] compliance of a joint, g [N/m] force per free deflection, u [-], k [N/m],
-c [N s/m], eta [-] loss factor. Time runs as e^{+j omega t}.
+Letters: Y [m/N] receptance, Z [m/N] compliance of a joint, g [N/m] force per free deflection, u [-], k [N/m], c
+[N s/m], eta [-] loss factor. Time runs as e^{+j omega t}.
 Source: de Klerk, Rixen, Voormeeren, General framework for dynamic substructuring, AIAA J. 46 (2008) 1169, eq. 33.
 """
 
@@ -35,7 +35,7 @@ class ElasticBody(Protocol):
 
     @property
     def loss_factor(self) -> float:
-        """Smallest loss factor of its resonances [-], infinite if it has none: how finely a band is sampled."""
+        """Smallest loss factor of the resonances [-], infinite without any; it decides how finely bands are sampled."""
         ...
 
     def receptance(
@@ -45,15 +45,15 @@ class ElasticBody(Protocol):
 
         Parameters: points_m : (n_points, 2), forces_m : (n_forces, 2) [m], in the body's own coordinates, such as from
         a plate's corner along length and width; frequencies_hz : (n_frequencies,) > 0 [Hz].
-        Returns: (n_frequencies, n_points, n_forces) complex128 [m/N]; symmetric if points and forces are the same, and
-        with an imaginary part that is negative semidefinite then, for a body that gains no energy.
+        Returns: (n_frequencies, n_points, n_forces) complex128 [m/N]. If points and forces are the same, it is
+        symmetric, and for a body that gains no energy its imaginary part is negative semidefinite.
         """
         ...
 
 
 class Along(NamedTuple):
-    """Direction in which a joint pulls at a body (x, y, z), in the body's own coordinates, and the height over its
-    mid-plane [m]."""
+    """Direction (x, y, z) of a joint's force on a body, in the body's own coordinates, and the height of the joint over
+    the mid-plane [m]."""
 
     x: float
     y: float
@@ -68,9 +68,9 @@ NORMAL = Along(0.0, 0.0, 1.0, 0.0)
 class Joint:
     """A spring with loss between a point of one body and a point of another.
 
-    Parameters: a, b : two bodies; point_a_m, point_b_m : (x, y) [m], each in its body's own coordinates; stiffness_n_m
-    : >= 0 [N/m], infinite for a rigid joint; loss_factor : >= 0 [-]; damping_n_s_m : >= 0 [N s/m]; along_a, along_b :
-    the direction of the joint, as each body sees it.
+    Parameters: a, b : two bodies; point_a_m, point_b_m : (x, y) [m], each in its body's own coordinates;
+    stiffness_n_m : >= 0 [N/m], infinite for a rigid joint; loss_factor : >= 0 [-]; damping_n_s_m : >= 0 [N s/m];
+    along_a, along_b : direction of the joint in the coordinates of each body.
     """
 
     a: str
@@ -86,7 +86,7 @@ class Joint:
     def __post_init__(self) -> None:
         given = (self.stiffness_n_m, self.loss_factor, self.damping_n_s_m)
         if all(type(x) is float and x >= 0 for x in given) and max(given[1:]) < math.inf:
-            return  # a scene has hundreds, nearly all of them good
+            return  # fast path: a scene has hundreds of joints, nearly all of them valid
         if math.isnan(self.stiffness_n_m) or self.stiffness_n_m < 0:
             raise ModelDomainError(f"stiffness_n_m is {self.stiffness_n_m}; it must be at least 0, or infinite [N/m].")
         checks.number("loss_factor", self.loss_factor, "-", at_least=0.0, error=ModelDomainError)
@@ -94,7 +94,7 @@ class Joint:
 
 
 def compliances_m_n(joints: Sequence[Joint], frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
-    """Z (n_joints, n_frequencies) [m/N]; 0 if rigid, and very large for a spring that is not there."""
+    """Compliances Z of joints (n_joints, n_frequencies) [m/N]; 0 if rigid, very large without stiffness and damping."""
     k, eta, c = np.array([(one.stiffness_n_m, one.loss_factor, one.damping_n_s_m) for one in joints]).T[:, :, None]
     is_rigid = np.isinf(k)
     dynamic = np.where(is_rigid, 1.0, k) * (1 + 1j * eta)
@@ -106,8 +106,11 @@ def compliances_m_n(joints: Sequence[Joint], frequencies_hz: NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Ends:
-    """The joints of one body: points_m (n, 2) [m] where they are on it, or ports (n, 6) of an `InclinedBody` if one of
-    them pulls aside; rows (n,) which they are, and signs (n,), +1 where it is their a, -1 where their b."""
+    """The joints of one body.
+
+    points_m : (n, 2) [m], on the body, or ports (n, 6) of an `InclinedBody` if any joint is not along its normal;
+    rows : (n,) indices among all joints; signs : (n,) +1 where the body is the joint's a, -1 where it is b.
+    """
 
     points_m: NDArray[np.float64]
     rows: NDArray[np.intp]
@@ -118,9 +121,9 @@ class Ends:
 class JointForces:
     """The forces g in all joints, for each source.
 
-    bodies, joints, source_ids : as given; frequencies_hz : (n_f,) [Hz]; forces : (n_f, n_joints, n_sources) [N/m], on
-    b from a, per unit of the source's free deflection; ends : as of `ends_of`; receptances : of each body among its
-    joints (n_f, n_ends, n_ends) [m/N].
+    bodies, joints, source_ids : as given; frequencies_hz : (n_f,) [Hz]; forces : (n_f, n_joints, n_sources) [N/m], from
+    a on b, per unit of the source's free deflection; ends : see `ends_of`; receptances : of each body among its joints
+    (n_f, n_ends, n_ends) [m/N].
     """
 
     bodies: Mapping[str, ElasticBody]
@@ -132,7 +135,7 @@ class JointForces:
     receptances: Mapping[str, NDArray[np.complex128]]
 
     def deflection(self, body_id: str, points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """Deflection of a body per free deflection of each source, its own free motion included.
+        """Deflection of a body per free deflection of each source; that of a source includes its own free motion.
 
         Parameters: points_m : (n_points, 2) [m], in the body's own coordinates.
         Returns: (n_frequencies, n_points, n_sources) complex128 [-].
@@ -148,19 +151,19 @@ class JointForces:
         return moved
 
     def holding(self, body_id: str) -> NDArray[np.complex128]:
-        """H, the forces of all other bodies on a body at its joints, per free deflection at each of them.
+        """Forces H of all other bodies on a body at its joints, per free deflection at each of these joints.
 
             Y_coupled(x, x') = Y(x, x') - Y(x, x_j) H Y(x_j, x')
 
-        All joints are solved again. Returns: (n_frequencies, n_own, n_own) complex128 [N/m], in the order of its ends.
+        All joints are solved again. Returns: (n_frequencies, n_own, n_own) complex128 [N/m], in the order of `ends`.
         """
         return self.answers(np.empty(0, dtype=np.intp), [body_id])[1][body_id]
 
     def answers(
         self, rows: NDArray[np.intp], body_ids: Collection[str]
     ) -> tuple[NDArray[np.complex128], dict[str, NDArray[np.complex128]]]:
-        """Forces in all joints per free deflection across each of some (n_frequencies, n_joints, n_rows) [N/m], and
-        `holding` of some bodies. All joints are solved again."""
+        """Forces in all joints per free deflection across each joint of `rows` (n_frequencies, n_joints, n_rows) [N/m],
+        and `holding` of each body of `body_ids`. All joints are solved again."""
         free = np.zeros((len(self.joints), len(rows)))
         free[rows, np.arange(len(rows))] = 1.0
         elements, compliances = _system(self.receptances, self.ends, self.joints, self.frequencies_hz)
@@ -178,9 +181,9 @@ def couple(
 ) -> JointForces:
     """Solve all joints together.
 
-    Parameters: source_ids : bodies, each with a free deflection of 1 on all of its joints, one at a time;
-    frequencies_hz : (n_frequencies,) > 0 [Hz].
-    Raises: ModelDomainError: a joint ends at no body, or at one body twice.
+    Parameters: source_ids : bodies, each in turn with a free deflection of 1 at all of its joints; frequencies_hz :
+    (n_frequencies,) > 0 [Hz].
+    Raises: ModelDomainError: a joint ends at an unknown body, or has both ends at one body.
     """
     for joint in joints:
         unknown = [end for end in (joint.a, joint.b) if end not in bodies]
@@ -198,7 +201,7 @@ def couple(
 
 
 def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
-    """The joints of every body that has any."""
+    """Return the joints of every body that has any."""
     found: dict[str, list[tuple[tuple[float, ...], int, float]]] = {}
     inclined = inclined_in(joints)
     for row, joint in enumerate(joints):
@@ -212,7 +215,7 @@ def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
 
 
 def inclined_in(joints: Sequence[Joint]) -> set[str]:
-    """The bodies at which some joint pulls aside."""
+    """Return the bodies with a joint that is not along their normal."""
     ends = ((key, along) for one in joints for key, along in ((one.a, one.along_a), (one.b, one.along_b)))
     return {key for key, along in ends if along is not NORMAL}
 

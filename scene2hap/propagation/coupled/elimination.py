@@ -1,13 +1,14 @@
-"""The system of all joints of a group of bodies, solved at many frequencies.
+"""Solver for the linear system of all joints of a group of bodies, at many frequencies.
 
     A g = b,   A = sum over bodies of their signed receptances at their joints, + Z on the diagonal
 
 Every joint belongs to two bodies, so most entries of A are 0. The compiled kernel factors A = L D L^T without pivoting,
-in an order that keeps L sparse (`elimination_order`). Where a resonance of a part makes a factor large and would cost
-digits, that frequency is solved again, dense and with pivoting. Without compiled kernels all frequencies are.
+in an order that keeps L sparse (`elimination_order`). Where a resonance of a part makes an entry of L large, digits
+would be lost: that frequency is solved again, dense and with pivoting. Without compiled kernels, all frequencies are
+solved in this way.
 
-The joints of one body are all within the pattern of L, where the entries of A^-1 follow from the factor at twice its
-cost, whatever the number of joints.
+All joints of one body are within the sparsity pattern of L. The entries of A^-1 within this pattern follow from L at
+twice the cost of the factorisation, whatever the number of joints.
 
 Letters: A (n, n) symmetric, g forces, b free deflections, Z (n,) compliance of the joints; all at each frequency.
 Source: Takahashi, Fagan, Chin, Formation of a sparse bus impedance matrix (1973), for entries of the inverse.
@@ -29,20 +30,21 @@ Complex: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]
 
 WORST_GROWTH = 1e4
-"""Largest factor of a row that is taken from another: it costs four digits of fifteen."""
+"""Largest accepted entry of L, the factor by which a row is subtracted from another: it costs 4 digits of 15."""
 SLACK = 1e-13
-"""Compliance added to each joint, as a part of what its two bodies yield there: it keeps four rigid feet under a rigid
-body, whose forces statics cannot determine, from dividing by zero, and is nine digits below anything else."""
+"""Compliance added to each joint, relative to the receptances of its two bodies there. It prevents a division by zero
+where statics cannot determine the forces, as in four rigid feet of a rigid body. It is nine digits below anything
+else."""
 _DENSE = 170_000
-"""Complex numbers of dense systems that are held at once, 3 MB."""
+"""Complex numbers of dense systems that are solved at once, 3 MB."""
 
 
 @dataclass(frozen=True, eq=False)
 class Element:
-    """A body as its joints see it.
+    """A body, reduced to its joints.
 
-    rows : (n_own,) its joints; signs : (n_own,) +1 or -1 where it is their first or second body; receptance : (n_f,
-    n_own, n_own) [m/N], symmetric.
+    rows : (n_own,) indices of its joints; signs : (n_own,) +1 where it is the joint's first body, -1 where the second;
+    receptance : (n_f, n_own, n_own) [m/N], symmetric.
     """
 
     rows: NDArray[np.intp]
@@ -61,7 +63,7 @@ def solve(elements: Sequence[Element], compliance: Complex, free: Floats) -> Com
 def solve_and_invert(
     elements: Sequence[Element], compliance: Complex, free: Floats, numbers: Collection[int]
 ) -> tuple[Complex, dict[int, Complex]]:
-    """As `solve`, and A^-1 among the rows of the elements of these numbers, each (n_f, n_own, n_own)."""
+    """Forces, see `solve`, and A^-1 among the rows of each element in `numbers`, (n_f, n_own, n_own) each."""
     diagonal = compliance + _slack(elements, compliance.shape)
     pattern = pattern_of(tuple([tuple(element.rows.tolist()) for element in elements]))
     forces = np.empty((*free.shape, compliance.shape[1]), dtype=np.complex128)
@@ -88,15 +90,15 @@ def factored(
     forces: Complex,
     inverses_at: Mapping[int, Complex],
 ) -> NDArray[np.bool_]:
-    """Fill in the forces (n, n_sources, n_f), and A^-1 among the rows of some elements, as of `solve_and_invert`.
+    """Fill in the forces (n, n_sources, n_f) and the parts of A^-1, see `solve_and_invert`.
 
-    Returns (n_f,) whether each frequency kept its digits.
+    Returns (n_f,) whether the solution at each frequency kept its digits.
     """
     return np.zeros(diagonal.shape[1], dtype=bool)  # left to `dense`: a batched solve is the best that numpy offers
 
 
 def dense(elements: Sequence[Element], diagonal: Complex, free: Floats, frequencies: NDArray[np.intp]) -> Complex:
-    """Forces (n, n_sources, n_few) at a few of the frequencies, with pivoting."""
+    """Forces (n, n_sources, n_few) at the frequencies of these indices, by dense solves with pivoting."""
     n, found = len(diagonal), []
     for few in np.array_split(frequencies, -(-len(frequencies) * n**2 // _DENSE)):
         system = np.zeros((len(few), n, n), dtype=np.complex128)

@@ -1,8 +1,8 @@
-"""The order in which joints are eliminated, and where the factor of their matrix has entries.
+"""Elimination order of joints, and the sparsity pattern of the factor of their matrix.
 
-Bodies are joined two at a time. The two whose union has the fewest joints are joined first: the joints that they share
-are eliminated, and the rest is one body with the joints of both. The factor of a room is as wide as the fronts of its
-largest bodies, whatever the number of joints.
+Bodies are merged two at a time, first the two whose union has the fewest joints. A merge eliminates the joints that the
+two bodies share, and leaves one body with the other joints of both. The factor of a room is as wide as the fronts of
+its largest bodies, whatever the number of joints.
 
 Source: Duff, Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM TOMS 9 (1983) 302,
 whose elements are our bodies.
@@ -20,11 +20,12 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """Positions of the entries of a factored symmetric matrix of n rows, its rows in the order of elimination.
+    """Sparsity pattern of a factored symmetric matrix of n rows, with its rows in the order of elimination.
 
     place : (n,) position of each row in that order; begins : (n + 1,) first entry of each position; columns :
-    (n_entries,) positions of entries, in each row the diagonal first and then rising; entry : (n, n) number of the
-    entry at a row and a column position >= row, -1 for none; n_products : multiplications for one factor.
+    (n_entries,) column positions of entries, in each row the diagonal first, then rising; entry : (n, n) index of the
+    entry at a row position and a column position >= row, -1 for none; n_products : multiplications of one
+    factorisation.
     """
 
     place: NDArray[np.int32]
@@ -36,7 +37,7 @@ class Pattern:
 
 @lru_cache(maxsize=16)
 def pattern_of(rows_of: tuple[tuple[int, ...], ...]) -> Pattern:
-    """The pattern for elements with such rows. Cached, since most motions change no topology."""
+    """Return the pattern for elements with these rows. Cached, since most motions change no topology."""
     fronts = merged_fronts(rows_of)
     order = [row for shared, _ in fronts for row in shared]
     n = len(order)
@@ -57,7 +58,7 @@ def pattern_of(rows_of: tuple[tuple[int, ...], ...]) -> Pattern:
 
 
 def merged_fronts(rows_of: tuple[tuple[int, ...], ...]) -> list[tuple[list[int], list[int]]]:
-    """For each pair of elements that is joined: the rows that they share, which are eliminated, and their others."""
+    """Return for each merge of two elements the rows that they share, which are eliminated, and their other rows."""
     live = {key: set(rows) for key, rows in enumerate(rows_of)}
     owners: dict[int, set[int]] = {}
     for key, own in live.items():

@@ -1,4 +1,4 @@
-"""The mechanical impedance of a hand: masses in a row, joined by springs with dampers, the last held by its spring.
+"""Mechanical impedance of a hand: a chain of masses, springs and dampers, the last of which end at a fixed point.
 
     Z_n = j omega m_n + c_n + k_n / (j omega)
     Z_i = j omega m_i + 1 / (1 / Z_(i+1) + 1 / (c_i + k_i / (j omega)))          Z = Z_1
@@ -26,10 +26,10 @@ from scene2hap.errors import ConfigError
 class Hand:
     """A hand as a mechanical load on the touched object: a chain of masses, springs and dampers.
 
-    Parameters: masses_kg : at least one, >= 0, [0] is what touches; stiffnesses_n_m, dampings_n_s_m : as many, >= 0, of
-    the spring and the damper behind each mass; those of the last lead to a place that does not move. `PALM` and
-    `FINGERTIP` are hands that were measured.
-    Raises: ConfigError: out of bounds, or of different lengths.
+    Parameters: masses_kg : at least one, >= 0, the first touches the object; stiffnesses_n_m, dampings_n_s_m : as many,
+    >= 0, of the spring and the damper behind each mass; the last ones end at a fixed point. `PALM` and `FINGERTIP` are
+    measured hands.
+    Raises: ConfigError: a value is out of bounds, or the lengths differ.
     """
 
     masses_kg: Sequence[float]
@@ -71,20 +71,20 @@ class Hand:
 PALM = Hand((0.0299, 0.6623, 2.9023), (5335.0, 299_400.0, 2495.0), (227.5, 380.6, 30.3))
 """The palm of a man who grips with 25-50 N, along the forearm: 165-250 N s/m from 10 Hz to 500 Hz.
 
-Source: ISO 10068:1998, annex C, model 1, axis z_h, of three masses; grip and push as in its clause 4. The values are as
-papers that use the model quote them; the standard itself was not at hand.
+Source: ISO 10068:1998, annex C, model 1, axis z_h, of three masses; grip and push as in its clause 4. The values are
+quoted from papers that use the model; the standard itself was not at hand.
 """
 FINGERTIP = Hand((0.006,), (500.0,), (5.0,))
 """The tip of an index finger that presses with a few newtons, along its normal: 5-20 N s/m from 10 Hz to 500 Hz.
 
 Source: Hajian, Howe, Identification of the mechanical impedance at the human finger tip, J. Biomech. Eng. 119 (1997)
-109: in extension 3.5-8.7 g, 4-7.4 N s/m and 255-1255 N/m, as later papers quote it; here a hand in the middle of these.
+109: in extension 3.5-8.7 g, 4-7.4 N s/m and 255-1255 N/m, as quoted by later papers; the values here are in the middle.
 """
 HANDS = {"palm": PALM, "fingertip": FINGERTIP}
 
 
 def checked_hand(hand: Hand | Mapping[str, Any] | str | None) -> Hand | None:
-    """A hand as a setting: one, its name in `HANDS`, its own settings, or None. Raises: ConfigError."""
+    """Convert a setting to a hand: a `Hand`, its name in `HANDS`, its parameters, or None. Raises: ConfigError."""
     if hand is None or isinstance(hand, Hand):
         return hand
     if isinstance(hand, str) and hand in HANDS:

@@ -1,14 +1,14 @@
-"""Objects of a scene, prepared for impacts at any of their points and for hands at any point of some of them.
+"""Scene prepared for impacts at any point of its objects and for hands at any point of the touched ones.
 
     Y_c(q, p) = Y(q, p) - Y(q, x_q) H Y(x_p, p)        gain(q) = rms |omega^2 Y_c(q, p)| / rms |omega^2 Y_c(p, p)|
 
-over the band around a frequency (`sampling.AROUND`): the acceleration that arrives over that of the struck point. Y(q,
-p) is 0 if these are points of two objects. All joints of the scene are solved in advance (`struck_solution`), at
-frequencies that cover every impact. A strike costs the receptances of the struck and of the touched object alone, at a
-few points.
+over the band around a frequency (`sampling.AROUND`): acceleration at the touched point over acceleration at the struck
+point. Y(q, p) is 0 if q and p are points of two objects. All joints of the scene are solved in advance
+(`impact_solution`), at frequencies that cover every impact. A strike only needs receptances of the uncoupled struck and
+touched objects, at a few points.
 
-Letters: Y, Y_c [m/N] receptance of objects alone and coupled, p the struck point, q the touched one, x_p, x_q the
-joints of their objects, H [N/m] the forces in the latter joints per free deflection at the former.
+Letters: Y, Y_c [m/N] receptance of objects alone and coupled, p the struck point, q the touched point, x_p, x_q the
+joints of their objects, H [N/m] forces in the joints x_q per free deflection at the joints x_p.
 """
 
 from __future__ import annotations
@@ -30,19 +30,19 @@ from scene2hap.propagation.inclined_body import InclinedBody
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Pair = tuple[str, str]
-"""A touched object and a struck one."""
+"""Ids of a touched object and of a struck object."""
 
 IMPACT_BANDS = Bands((20.0, 40.0, 80.0, 160.0, 320.0, 480.0))
-"""What bursts have, from `impact.SLOWEST_HZ` to `impact.HIGHEST_MODE_HZ`, and a quarter of an octave on either side. A
-lower component, which is not felt, counts as one of 24 Hz."""
+"""Bands of the components of bursts: from `impact.SLOWEST_HZ` to `impact.HIGHEST_MODE_HZ`, and a quarter of an octave
+on either side. A lower component, which is not felt, counts as one of 24 Hz."""
 
 DENSITY = 0.6
-"""Frequencies over what `sampling` takes by itself, for 0.3 dB: twice exp(-pi 0.6 / 0.55) of a resonance's power."""
+"""Frequencies relative to the default of `sampling`, for 0.3 dB: twice exp(-pi 0.6 / 0.55) of a resonance's power."""
 
 
 @dataclass(frozen=True, eq=False)
 class HeldBody:
-    """A body, and its joints (n_joints, 2) [m] or (n_joints, 6), as of its `coupling.Ends`."""
+    """A body and the positions of its joints, (n_joints, 2) [m] or (n_joints, 6), see `coupling.Ends`."""
 
     body: ElasticBody
     joints_m: Floats
@@ -52,8 +52,8 @@ class StruckScene:
     """Gains from impacts on objects to points of touched ones.
 
     Parameters: bodies : of struck and touched objects; passed : H (n_frequencies, n_joints of the touched, n_joints of
-    the struck) of each pair, and of each struck object with itself, at frequencies (n_frequencies,) [Hz] that rise;
-    silent : connected pairs of which nothing is felt; hand : load at the struck and at touched points.
+    the struck) of each pair, and of each struck object with itself, at rising frequencies (n_frequencies,) [Hz];
+    silent : connected pairs whose impacts are not felt; hand : load at the struck and at touched points.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class StruckScene:
         self._bodies, self._passed, self._silent, self._hand = bodies, passed, silent, hand
         self._frequencies_hz = frequencies_hz
         between = (frequencies_hz[1:] + frequencies_hz[:-1]) / 2
-        # Each frequency stands for the step between these (n_frequencies + 1,).
+        # Each frequency represents the interval between two of these ends (n_frequencies + 1,).
         self._ends_hz = np.concatenate([frequencies_hz[:1], between, frequencies_hz[-1:]])
 
     @property
@@ -84,9 +84,9 @@ class StruckScene:
     ) -> Floats:
         """Acceleration at points of touched objects over that of the struck point.
 
-        Parameters: struck_m : (1, 2) [m], on the struck object, in its own coordinates; felt : touched objects that it
-        `knows`, each with a point (1, 2) [m] on it; frequencies_hz : (n_frequencies,) > 0 [Hz], middles of bands.
-        Returns: (n_felt, n_frequencies) float64 [-], >= 0; 1 at the struck point, and 0 where that is held still.
+        Parameters: struck_m : (1, 2) [m], on the struck object, in its own coordinates; felt : touched objects which
+        are known (`knows`), each with a point (1, 2) [m]; frequencies_hz : (n_frequencies,) > 0 [Hz], middles of bands.
+        Returns: (n_felt, n_frequencies) float64 [-], >= 0; 1 at the struck point, and 0 if that point is held still.
         """
         gains = np.zeros((len(felt), len(frequencies_hz)))
         rows: dict[str, list[int]] = {}
@@ -108,7 +108,7 @@ class StruckScene:
         return gains
 
     def _band(self, frequency_hz: float) -> tuple[slice, Floats]:
-        """Return the frequencies of the band around one, and how much of the step of each it covers [Hz]."""
+        """Return the frequencies in the band around one, and how much of the interval of each the band covers [Hz]."""
         low, high = AROUND.around_hz(max(frequency_hz, IMPACT_BANDS.edges_hz[0] * 1.2))
         begin, end = np.searchsorted(self._ends_hz, (low, high)).tolist()
         at = slice(max(begin - 1, 0), min(end, len(self._frequencies_hz)))
@@ -120,8 +120,8 @@ class StruckScene:
         f, struck = self._frequencies_hz[used], self._bodies[struck_id]
         on_it = np.concatenate([struck_m, points[struck_id]]) if struck_id in points else struck_m
         ports = _ports(struck.body, on_it)
-        # The impact pushes along the normal, which is the first direction. An array of its own, since bodies remember
-        # their receptance among the same points.
+        # The impact acts along the normal, which is the first direction. A copy, since bodies cache their receptance
+        # if points and forces are the same array.
         pushed = ports[:1].copy()
         towards = struck.body.receptance(ports, struck.joints_m, f)
         free = towards[:, :1].transpose(0, 2, 1)
@@ -140,9 +140,9 @@ class StruckScene:
         return np.concatenate(found, axis=1) * f[:, None] ** 2
 
     def _forces(self, pair: Pair, used: NDArray[np.intp], free: Complex) -> Complex:
-        """Forces in joints at some frequencies, from free deflections (n_used, n_struck, n): H times these."""
+        """Forces in joints at some frequencies: H times free deflections (n_used, n_struck, n)."""
         held = self._passed[pair]
-        # In runs of frequencies, since a copy of H takes longer than its product.
+        # Consecutive frequencies are multiplied as one slice, since copying H takes longer than the product.
         ends = np.flatnonzero(np.diff(used, append=-1) != 1) + 1
         forces = np.empty((len(used), held.shape[1], free.shape[2]), dtype=np.complex128)
         for begin, end in pairwise((0, *ends.tolist())):
@@ -152,7 +152,7 @@ class StruckScene:
     def _under_hand(
         self, object_id: str, ports: Floats, towards: Complex, moved: Complex, used: NDArray[np.intp]
     ) -> Complex:
-        """Deflections of ports (n_used, n_ports, 1) with the hand's load, each point alone, as fields of the model."""
+        """Deflections of ports (n_used, n_ports, 1) with a hand's load on each point alone, as in a model's fields."""
         if self._hand is None:
             return moved
         f, body, pair = self._frequencies_hz[used], self._bodies[object_id].body, (object_id, object_id)
@@ -167,11 +167,11 @@ class StruckScene:
 
 
 def _ports(body: ElasticBody, points_m: Floats) -> Floats:
-    """An inclined body has a port for each direction at each point."""
+    """Points of a body, or the ports of an inclined body: one for each direction at each point."""
     return body.felt(points_m) if isinstance(body, InclinedBody) else points_m
 
 
 def _lengths(moved: Complex, n_points: int) -> Floats:
-    """Over all directions, of deflections (n_frequencies, n_ports, 1): (n_frequencies, n_points)."""
+    """Lengths over all directions (n_frequencies, n_points), from deflections (n_frequencies, n_ports, 1)."""
     lengths: Floats = np.linalg.norm(moved[:, :, 0].reshape(len(moved), -1, n_points), axis=1)
     return lengths

@@ -1,7 +1,7 @@
-"""Solve the joints around touched objects for impacts on all objects that are connected with them.
+"""Solution of the joints around touched objects, for impacts on all objects that are connected with them.
 
-H is kept for the pairs of objects that are felt most for their memory. The level of a pair is estimated at the joints
-of both, with a few of the frequencies: the response of the touched object to a force on the struck one, over the
+H is kept for the pairs of objects with the highest level per byte. The level of a pair is estimated at the joints of
+both, with a few of the frequencies. It is the response of the touched object to a force on the struck one, over the
 response where the force acts.
 """
 
@@ -20,14 +20,14 @@ Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 MOST_HELD_BYTES = 128_000_000
-"""Of a scene that is prepared for impacts: an object of 120 contacts at a loss of 0.01, or a furnished group."""
+"""Memory of all H of a scene: enough for an object of 120 contacts at a loss of 0.01, or for a furnished group."""
 AT_ONCE_BYTES = 64_000_000
-"""Solved at a time; all joints of a room at all frequencies take gigabytes."""
+"""Memory of the frequencies that are solved at a time; all joints of a room at all frequencies take gigabytes."""
 FEW = 8
-"""Of so many frequencies one is used for levels."""
+"""One of this many frequencies is used to estimate levels."""
 SILENT = 10 ** (-78 / 20)
-"""Level at joints below which nothing is felt: a gain of -54 dB is none (`session.impacts`), and gains elsewhere on
-both objects were at most 24 dB above it, at 36 points of each of 2,800 pairs in two furnished kitchens."""
+"""Level at joints below which nothing is felt. A gain of -54 dB counts as none (`session.impacts`), and gains elsewhere
+on both objects were at most 24 dB above this level, at 36 points of each of 2,800 pairs in two furnished kitchens."""
 
 
 def solve_struck(
@@ -40,7 +40,7 @@ def solve_struck(
 ) -> StruckScene:
     """Solve connected groups of bodies for impacts on any of their objects and hands on the touched ones.
 
-    Pairs for which there is no memory are left out.
+    Pairs that do not fit into `MOST_HELD_BYTES` are left out.
     """
     connected = [_Group(bodies, joints, object_ids, touched_ids) for joints in groups if joints]
     levels = {pair: level for group in connected for pair, level in group.levels(frequencies_hz[::FEW]).items()}
@@ -48,7 +48,7 @@ def solve_struck(
     n_joints = {key: len(ends.rows) for group in connected for key, ends in group.ends.items()}
 
     def costs(pair: Pair) -> tuple[bool, float, Pair]:
-        # Touched objects themselves first. What is felt at full strength is felt no more.
+        # Impacts on the touched objects themselves come first. Levels above 1, full strength, count as 1.
         return pair[0] != pair[1], n_joints[pair[0]] * n_joints[pair[1]] / min(max(levels[pair], SILENT), 1.0), pair
 
     for touched_id, struck_id in sorted(levels, key=costs):
@@ -79,7 +79,7 @@ class _Group:
         self._touched_ids = [key for key in self.object_ids if key in touched_ids]
 
     def levels(self, frequencies_hz: Floats) -> dict[Pair, float]:
-        """The largest gain in any band, from any joint of an object to any of a touched one."""
+        """Largest gain in any band from any joint of an object to any of a touched one, infinite within one object."""
         powers: dict[Pair, Floats] = {}
         pairs = {(x, struck_id) for struck_id in self.object_ids for x in (struck_id, *self._touched_ids)}
         for part, solved, held in self._solved(pairs, frequencies_hz):
@@ -112,7 +112,7 @@ class _Group:
     def _solved(
         self, pairs: Collection[Pair], frequencies_hz: Floats
     ) -> Iterator[tuple[Floats, JointForces, dict[Pair, Complex]]]:
-        """A few frequencies at a time: these, the group and H of pairs."""
+        """Yield, for a few frequencies at a time, these frequencies, the solved group and H of the pairs."""
         alone = {struck_id for touched_id, struck_id in pairs if touched_id == struck_id}
         others = [(touched_id, struck_id) for touched_id, struck_id in pairs if touched_id != struck_id]
         touched = [self.ends[x].rows for x in self._touched_ids]

@@ -1,4 +1,4 @@
-"""The joints that couple the bodies of a scene, from its contacts, and the groups that they connect to sources."""
+"""Joints that couple the bodies of a scene at its contacts, and the groups of bodies that they connect to sources."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 
 SAME_POINT_M = 1e-6
-"""Contacts of one pair that are nearer than this are one."""
-_PLACE_DIGITS = 6  # of metres, as `SAME_POINT_M`
+"""Contacts of one pair that are closer than this are merged."""
+_PLACE_DIGITS = 6  # decimals of a position in metres, as `SAME_POINT_M`
 LEVEL = 0.9
-"""A contact whose direction has this part along a plate's normal pushes along it, up to 26 degrees off."""
+"""A contact counts as normal to a plate if at least this part of its direction is, up to 26 degrees off."""
 
 
 def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLaw) -> list[Joint]:
-    """The joints between bodies that carry vibration, in an order that does not depend on the contacts' order.
+    """Return the joints between bodies that carry vibration, in an order that does not depend on the contacts' order.
 
-    A contact's weight scales its stiffness; without weight it is none. Coinciding contacts of a pair act side by side,
-    so that their stiffnesses add up.
+    A contact's weight scales its stiffness; a contact of weight 0 makes no joint. Coinciding contacts of a pair act in
+    parallel, so their stiffnesses add up.
     """
     pairs: dict[tuple[str, str], list[Contact]] = defaultdict(list)
     for contact in network.contacts:
@@ -45,12 +45,12 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         for object_id, contacts in touching.items()
     }
     directions = {object_id: iter(_directions(network, object_id, touching[object_id])) for object_id in touching}
-    stiffness = cache(law.stiffness)  # of few kinds
+    stiffness = cache(law.stiffness)  # joints are of few kinds
     joints: list[Joint] = []
     for (a, b), contacts in pairs.items():
         mass_a, mass_b = _known_mass_kg(network, a), _known_mass_kg(network, b)
         preload_n = law.preload([mass for mass in (mass_a, mass_b) if mass is not None], len(contacts))
-        # The lighter one stands on the other; without masses neither does.
+        # The lighter object stands on the other; if no mass is known, neither stands.
         a_rests = mass_a is not None and (mass_b is None or mass_a < mass_b)
         b_rests = mass_b is not None and (mass_a is None or mass_b <= mass_a)
         materials = (_material(network, a, stands=a_rests), _material(network, b, stands=b_rests))
@@ -66,7 +66,7 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
 
 
 def legs_of(network: ContactNetwork, object_id: str, plate: Plate) -> list[tuple[float, float]]:
-    """Contacts of an object to objects farther below its plate than the plate is thick: legs, walls or a frame."""
+    """Contacts of an object farther from its plate's mid-plane than the plate is thick: legs, walls or a frame."""
     pose = network.poses.get(object_id)
     points = [one.point_m for one in network.contacts if object_id in (one.a, one.b) and one.weight > 0]
     if pose is None or not points:
@@ -111,12 +111,12 @@ def _remembered(
 def _on_body(
     network: ContactNetwork, object_id: str, points_m: tuple[tuple[float, float, float], ...]
 ) -> tuple[tuple[float, float], ...]:
-    """As `ContactNetwork.on_body`, cached: most objects stay where they are."""
+    """See `ContactNetwork.on_body`. Cached, since most objects stay where they are."""
     return _remembered(network.bodies.get(object_id), network.poses.get(object_id), points_m)
 
 
 def _directions(network: ContactNetwork, object_id: str, contacts: Sequence[Contact]) -> Sequence[Along]:
-    """Direction in which each contact pulls at an object; the plate's normal where no contact has another one."""
+    """Direction in which each contact acts on an object: `NORMAL` for all, unless one differs (`LEVEL`)."""
     body, pose = network.bodies.get(object_id), network.poses.get(object_id)
     if not isinstance(body, Plate) or pose is None:
         return [NORMAL] * len(contacts)
@@ -125,7 +125,7 @@ def _directions(network: ContactNetwork, object_id: str, contacts: Sequence[Cont
         return [NORMAL] * len(contacts)
     found = []
     for contact, height_m in zip(contacts, pose.to_own([one.point_m for one in contacts])[:, 2].tolist(), strict=True):
-        # Either way is the same spring; but both of its bodies must take the same.
+        # Both signs give the same spring, but both of its bodies must use the same sign.
         normal = contact.normal or z
         sign = 1.0 if max(normal, key=abs) > 0 else -1.0
         found.append(Along(sign * _dot(x, normal), sign * _dot(y, normal), sign * _dot(z, normal), height_m))
@@ -159,7 +159,7 @@ def _known_mass_kg(network: ContactNetwork, object_id: str) -> float | None:
 
 
 def _material(network: ContactNetwork, object_id: str, *, stands: bool) -> Material | None:
-    """Material of an object where it is touched; that of its feet if it stands on them."""
+    """Material of an object at its contacts; that of its feet if it stands on them."""
     body = network.bodies.get(object_id)
     if stands and isinstance(body, Plate) and body.feet is not None:
         return body.feet

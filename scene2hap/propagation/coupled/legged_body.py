@@ -1,6 +1,6 @@
-"""A plate with the mass of the rest of its object: legs, walls and a frame, as masses where the object stands.
+"""A plate with point masses where its object stands, for the rest of the object: legs, walls and a frame.
 
-A mass m below a point l of a plate pulls by omega^2 m u(l). With the plate's receptance Y and those masses,
+A mass m at a point l of a plate exerts a force of omega^2 m u(l). With the plate's receptance Y and these masses,
 
     Y'(x, x') = Y(x, x') - Y(x, l) (Y(l, l) + Z)^-1 Y(l, x')        Z = -1 / (omega^2 m), diagonal
 
@@ -26,9 +26,9 @@ Complex = NDArray[np.complex128]
 
 
 class LeggedBody:
-    """An `ElasticBody` with masses.
+    """A plate with point masses, an `ElasticBody`.
 
-    Parameters: plate : the plate alone; legs_m : (n_legs, 2) [m] where they are; masses_kg : (n_legs,).
+    Parameters: plate : the plate alone; legs_m : (n_legs, 2) [m], positions of the masses; masses_kg : (n_legs,).
     """
 
     def __init__(self, plate: ElasticBody, legs_m: Floats, masses_kg: Floats) -> None:
@@ -46,7 +46,7 @@ class LeggedBody:
         towards = self.plate.receptance(points_m, self.legs_m, frequencies_hz)
         pulled = self.pulled(forces_m, frequencies_hz)
         answer = plain + towards @ pulled
-        # To the last bit, which rounding is not.
+        # Symmetric to the last bit, which rounding alone would not give.
         return (answer + answer.transpose(0, 2, 1)) / 2 if points_m is forces_m else answer
 
     def _pulled(self, forces_m: Floats, frequencies_hz: Floats) -> Complex:
@@ -60,7 +60,7 @@ class LeggedBody:
 
 
 class LeggedShapes(LeggedBody):
-    """A `LeggedBody` whose plate has a `ResponseBasis`, and so has itself."""
+    """A `LeggedBody` with a `ResponseBasis`, for a plate that has one."""
 
     def response_basis(self, forces_m: Floats) -> LeggedBasis:
         """See `HasResponseBasis`."""
@@ -70,7 +70,7 @@ class LeggedShapes(LeggedBody):
 
 @dataclass(frozen=True, eq=False)
 class LeggedBasis:
-    """A `ResponseBasis`: that of the plate, pushed by the legs as well."""
+    """The `ResponseBasis` of the plate, with the forces of the legs added."""
 
     body: LeggedBody
     forces_m: Floats
@@ -92,6 +92,6 @@ class LeggedBasis:
 
 
 def legged(plate: ElasticBody, legs_m: Floats, masses_kg: Floats) -> LeggedBody:
-    """A plate with masses; with a `ResponseBasis` if it has one."""
+    """Return a plate with point masses; it has a `ResponseBasis` if the plate has one."""
     kind = LeggedShapes if isinstance(plate, HasResponseBasis) else LeggedBody
     return kind(plate, legs_m, masses_kg)

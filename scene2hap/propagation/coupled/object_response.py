@@ -11,16 +11,16 @@ from scene2hap.compiled import compiled
 
 Floats = NDArray[np.float64]
 Gains = Callable[[Floats], Floats]
-"""From points on a body (n_points, 2) [m] to gains (n_points, n_own, n_bands) of some sources [-]."""
+"""Function from points on a body (n_points, 2) [m] to gains (n_points, n_own, n_bands) of some sources [-]."""
 
 
 @compiled
 class ObjectResponse:
-    """Evaluates gains at points of one object after the scene is solved.
+    """Gains at points of one object after the scene is solved.
 
-    Parameters: place : from points of the world (n_points, 3) to those on its body (n_points, 2) [m]; gains : of the
-    sources that reach it; columns : (n_own,) where they are among all sources; shape : (n_sources, n_bands) of all;
-    own : the column of the source that it is itself, -1 if it is none.
+    Parameters: place : maps world points (n_points, 3) to points on the body (n_points, 2) [m]; gains : of the sources
+    that reach the object; columns : (n_own,) indices of these among all sources; shape : (n_sources, n_bands) of all;
+    own : column of the object itself as a source, -1 if it is none.
     """
 
     def __init__(
@@ -45,8 +45,8 @@ class ObjectResponse:
 
 @compiled
 class Magnitudes:
-    """Magnitudes of complex numbers given as real and imaginary parts by turns: from points (n_points, 2) to (n_points,
-    n, 1)."""
+    """Magnitudes (n_points, n, 1) at points (n_points, 2) of complex numbers, from alternating real and imaginary
+    parts."""
 
     def __init__(self, pairs: Callable[[Floats], Floats]) -> None:
         self._pairs = pairs

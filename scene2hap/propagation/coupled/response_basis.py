@@ -1,7 +1,7 @@
 """Shape functions that span a body's deflection under forces at given points.
 
-Deflection at any frequency is a sum of them. Everything that does not depend on the touched point (contacts, sources,
-frequencies) is summed before a touch.
+The deflection at any frequency is a weighted sum of them. All sums that do not depend on the touched point (over
+contacts, sources, frequencies) are computed before a touch.
 """
 
 from __future__ import annotations

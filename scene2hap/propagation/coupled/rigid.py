@@ -2,7 +2,7 @@
 
     Y(x, x') = -1 / omega^2 * (1/m + (x - x_c) (x' - x_c) / I_y + (y - y_c) (y' - y_c) / I_x)
 
-Letters: Y [m/N] receptance, m [kg], I_x, I_y [kg m2] inertia of a box about its middle, where x_c, y_c are.
+Letters: Y [m/N] receptance, m [kg], I_x, I_y [kg m2] moments of inertia of a box about its middle (x_c, y_c).
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from scene2hap.propagation.modes import first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
 
 _THICK = 1 / 5
-"""Part of a side above which a thickness is too large for a plate to bend along it; thin-plate theory is far gone by
-then."""
+"""Largest thickness over a side for which a plate can bend along the side; thin-plate theory is not valid beyond."""
 COMPACT_HZ, HOLLOW_HZ = 10_000.0, 2000.0
-"""First mode above which a free body is rigid in all that a hand feels, up to 1 kHz. Below 10 kHz a small plate yields
-about as much as its contacts, which shifts resonances: one with a first mode at 2-5 kHz would err by 1-12 dB at the
-95th percentile (docs/figures/accuracy.md). The weight of hollow bodies counts for more than how they would bend."""
+"""Frequencies of the first mode above which a free body counts as rigid for all that a hand feels, up to 1 kHz. A small
+plate with a first mode below 10 kHz yields about as much as its contacts, which shifts resonances: with a first mode at
+2-5 kHz, the error would be 1-12 dB at the 95th percentile (docs/figures/accuracy.md). For hollow bodies, mass matters
+more than bending."""
 
 
 def is_hollow(plate: Plate) -> bool:
@@ -34,14 +34,14 @@ def is_hollow(plate: Plate) -> bool:
 
 
 def is_too_thick(plate: Plate) -> bool:
-    """Whether a plate is a block that does not bend: a solid one along its longer side, a hollow one along either."""
+    """Whether a plate is too thick to bend: a solid plate along its longer side, a hollow one along either side."""
     side = min(plate.extent_m) if is_hollow(plate) else max(plate.extent_m)
     return plate.thickness_m > _THICK * side
 
 
 def is_stiff(plate: Plate, above_hz: float) -> bool:
     """Whether the first mode of a free plate is above a frequency [Hz]."""
-    # The first mode of a free beam along the longer side is a trial deflection, so the plate's lies below (Rayleigh).
+    # The first mode of a free beam along the longer side is a trial deflection: the plate's mode is lower (Rayleigh).
     longer = max(plate.extent_m)
     if 22.374 / (longer * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi) < above_hz:
         return False
@@ -50,17 +50,17 @@ def is_stiff(plate: Plate, above_hz: float) -> bool:
 
 @lru_cache(maxsize=4096)
 def is_compact(plate: Plate) -> bool:
-    """Whether a plate is so stiff that it moves as a whole. One that is held at an edge would not move at all, and is
-    left as the stiff plate that it is."""
+    """Whether a plate is so stiff that it moves as a rigid body. False for a plate that is held at an edge: as a rigid
+    body it would not move at all."""
     least_hz = HOLLOW_HZ if is_hollow(plate) else COMPACT_HZ
     return plate.edges == "FFFF" and (is_too_thick(plate) or is_stiff(plate, least_hz))
 
 
 @dataclass(frozen=True, eq=False)
 class RigidMotion:
-    """A rigid body, ready to be coupled: up and down, and, where its size is known, rocking.
+    """A rigid body as an `ElasticBody`: it moves up and down and, if its size is known, it rocks.
 
-    `size_m` as of `RigidBody`; points count from its corner.
+    `size_m` as in `RigidBody`; points are measured from the body's corner.
     """
 
     mass_kg: float
@@ -69,7 +69,7 @@ class RigidMotion:
 
     @classmethod
     def of(cls, body: Plate | RigidBody | None, mass_kg: float, *, rocks: bool) -> RigidMotion:
-        """A body of that mass, with the size of `body` if it rocks."""
+        """Return a rigid body of this mass, with the size of `body` if it rocks."""
         if isinstance(body, Plate):
             size: tuple[float, float, float] | None = (body.length_m, body.width_m, body.thickness_m)
         else:
@@ -93,13 +93,14 @@ class RigidMotion:
     def motions(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Displacement of points (n_points, 2) [m] in each motion (n_points, n_motions).
 
-        It is 1 as all go up; if the body rocks, the distance from the middle along length and width [m] as it turns.
+        It is 1 in the vertical motion. If the body rocks, it is the distance from the middle along length and width [m]
+        in the two rotations.
         """
         up = np.ones((len(points_m), 1))
         return up if self.size_m is None else np.concatenate([up, points_m - self._middle_m], axis=1)
 
     def _moved_by(self, forces_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Acceleration of each motion by forces at points (n_forces, 2) [m], per force (n_motions, n_forces)."""
+        """Acceleration of each motion per force at points (n_forces, 2) [m]: (n_motions, n_forces)."""
         inertias = np.array([self.mass_kg])
         if self.size_m is not None:
             turning = self.mass_kg / 12 * (np.square(self.size_m[:2]) + self.size_m[2] ** 2)
@@ -115,7 +116,7 @@ class RigidMotion:
 
 @dataclass(frozen=True, eq=False)
 class RigidBasis:
-    """A `ResponseBasis`: the motions of a rigid body. moved_by : (n_motions, n_forces)."""
+    """The `ResponseBasis` of a rigid body: its motions. moved_by : (n_motions, n_forces)."""
 
     body: RigidMotion
     moved_by: NDArray[np.float64]

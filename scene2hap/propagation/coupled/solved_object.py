@@ -3,12 +3,12 @@
     u(x, f) = sum over contacts c of Y(x, x_c, f) g_c(f)
 
 If each source has one frequency, everything that does not depend on x is summed over the contacts on the first touch
-(`contracted`), so a touch costs the same for any number of contacts. In bands a touch takes a product of small
-matrices for every frequency, until the object is expected to be touched often: then the sum over contacts and
-frequencies is computed in advance (`band_shapes`), which takes as long as some dozen touches. Under a hand
-(`hand_load`) neither is possible, since each point and frequency has a factor of its own.
+(`contracted`), so a touch costs the same for any number of contacts. In bands, a touch takes a product of small
+matrices for every frequency. If the object is expected to be touched often, the sum over contacts and frequencies is
+computed in advance (`band_shapes`), which takes as long as some dozen touches. Under a hand (`hand_load`) neither is
+possible, since the hand's factor depends on point and frequency.
 
-Letters: as `coupling`.
+Letters: see `coupling`.
 """
 
 from __future__ import annotations
@@ -29,22 +29,23 @@ from scene2hap.propagation.coupled.response_basis import HasResponseBasis
 from scene2hap.propagation.inclined_body import FeltInSpace, InclinedBody
 
 MOST_CONTRACTED = 64
-"""Sources that are contracted: an object keeps up to some 100 kB for each. More are summed at every touch."""
+"""Most sources that are contracted: an object keeps up to some 100 kB for each. More are summed at every touch."""
 POINTS_AT_ONCE = 32
-"""Points at which responses at many frequencies are held at once."""
+"""Points whose responses at many frequencies are in memory at once."""
 
 LOSSLESS = 1e-9
-"""Part of the power that goes to and fro below which what stays is rounding."""
+"""Net power into a body over the power exchanged at its joints, below which the net power is only rounding."""
 
 Floats = NDArray[np.float64]
 
 Pairs = Callable[[Floats], Floats]
-"""From points (n_points, 2) [m] to deflections (n_points, 2 n_frequencies), real and imaginary part by turns."""
+"""Function from points (n_points, 2) [m] to deflections (n_points, 2 n_frequencies), with real and imaginary parts
+alternating."""
 
 
 @runtime_checkable
 class Contractible(Protocol):
-    """A body without a `ResponseBasis` that can sum over known forces before the point is known."""
+    """A body without a `ResponseBasis` that can sum over known forces before the touched point is known."""
 
     def under(
         self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
@@ -55,12 +56,12 @@ class Contractible(Protocol):
 
 @runtime_checkable
 class Piecewise(Protocol):
-    """A body that gives its receptance a few frequencies at a time, while they are in the cache."""
+    """A body that returns its receptance a few frequencies at a time, each part used while it is in the cache."""
 
     def pieces(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
     ) -> Iterator[tuple[slice, NDArray[np.complex128]]]:
-        """As `ElasticBody.receptance`, with the part of the frequencies."""
+        """Yield each part of the frequencies and the receptance there, see `ElasticBody.receptance`."""
         ...
 
 
@@ -102,10 +103,10 @@ def contracted(
 class SolvedObject:
     """An object that some sources reach.
 
-    points_m : (n_joints, 2) [m], or ports (n_joints, 6) of an `InclinedBody`; rows, signs : (n_joints,) where its
-    joints are in the forces of its group and which way they pull; forces : (n_all_joints, n_sources, n_frequencies), or
-    without the last axis if each source has one frequency [N/m]; columns : (n_sources,) which of all sources these are;
-    joints : all of its group; load : a hand that may touch it, if any.
+    points_m : (n_joints, 2) [m], or ports (n_joints, 6) of an `InclinedBody`; rows, signs : (n_joints,) indices of its
+    joints in the forces of its group and their signs, see `coupling.Ends`; forces : (n_all_joints, n_sources,
+    n_frequencies), or without the last axis if each source has one frequency [N/m]; columns : (n_sources,) indices of
+    these sources among all; joints : all of its group; load : a hand that may touch it, if any.
     """
 
     body: ElasticBody
@@ -120,8 +121,8 @@ class SolvedObject:
 
     @property
     def own_forces(self) -> NDArray[np.complex128]:
-        """Forces that act on this object at its joints ([n_frequencies,] n_joints, n_sources); taken out of its group's
-        at first use."""
+        """Forces that act on this object at its joints ([n_frequencies,] n_joints, n_sources); extracted from those of
+        the group at first use."""
         if self._own is None:
             taken = self.forces[self.rows]
             taken *= -self.signs.reshape(-1, *[1] * (taken.ndim - 1))
@@ -137,10 +138,10 @@ class SolvedObject:
     def shares_of_power(self, column: int, band: int, sampling: Sampling) -> Floats:
         """Share of each joint in the power of a source that enters this object in a band (n_joints,).
 
-        The power through a joint is Re(g* j omega u) / 2, with u the deflection there. What an object brings through
-        one joint and takes away through another does not count, and one that takes away more brings nothing. It is 0
-        for all joints of a body without loss that passes nothing on; there the part of |g u| counts, by which it is
-        held.
+        The power through a joint is Re(g* j omega u) / 2, with u the deflection there. Power that another object brings
+        through one joint and takes away through another does not count; an object that takes away more than it brings
+        has no share. A body without loss that passes nothing on gets no power through any joint. Shares are then those
+        of |g u| at the joints.
         """
         mine = np.flatnonzero(self.columns == column)
         if not mine.size:
@@ -162,7 +163,7 @@ class SolvedObject:
         return shares
 
     def gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
-        """Gains at points on the object, of its sources; quick ones in any case if each has one frequency."""
+        """Gains of its sources at points on the object; fast if `is_expected` or if each source has one frequency."""
         if self.load is not None:
             return LoadedGains(self.body, self.points_m, self.own_forces, self.columns, self.load, sampling)
         if isinstance(self.body, InclinedBody):

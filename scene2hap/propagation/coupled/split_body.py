@@ -1,4 +1,4 @@
-"""A plate with edges up to a frequency, and without edges above it."""
+"""A plate that has edges up to a frequency and is infinite above it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from scene2hap.propagation.infinite_plate import InfiniteBody
 
 @dataclass(frozen=True, eq=False)
 class SplitBody:
-    """An `ElasticBody` with edges up to a frequency, and without them above."""
+    """An `ElasticBody` that has edges up to `limit_hz` and is infinite above it."""
 
     below: ElasticBody
     above: InfiniteBody

@@ -1,12 +1,12 @@
-"""A whole scene for the physical models: a body for each object, coupled at their contacts.
+"""Solution of a whole scene for the physical models: one body per object, coupled at their contacts.
 
-What attenuation means: deflection at the touch over what the source would do if nothing touched it. The source is a
-rigid body with one free vibration on all of its contacts, in phase; for one contact, with mobilities Y of source,
+Attenuation is the deflection at the touched point over the deflection of the source if nothing touched it. The source
+is a rigid body with one free vibration at all of its contacts, in phase. For one contact, with mobilities Y of source,
 receiver and contact,
 
     v = v_free Y_transfer / (Y_source + Y_receiver + Y_contact)
 
-Compact bodies move as a whole; so does every source. Objects that no source can reach are never solved.
+Compact bodies and all sources move as rigid bodies. Objects that no source can reach are never solved.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ _PROBE, _PROBE_KG = "\0probe", 1e-9
 class Assembly:
     """A scene whose plates are not solved yet.
 
-    groups : connected bodies, by their sources and joints; rigid : those that move as a whole, sources among
-    them; plates : those that bend and that a source can reach; top_hz : highest frequency of interest.
+    groups : connected groups of bodies, by their sources and joints; rigid : rigid bodies, sources included; plates :
+    bodies that bend and that a source can reach; top_hz : highest frequency of interest.
     """
 
     network: ContactNetwork
@@ -62,9 +62,10 @@ class Assembly:
     top_hz: float
 
     def solve(self, elastic: Mapping[str, ElasticBody], density: float = 1.0, hand: Hand | None = None) -> CoupledField:
-        """The field, given a body for each of the plates.
+        """Solve the field.
 
-        Parameters: density : frequencies per band relative to the needed ones; hand : load at touched points.
+        Parameters: elastic : a body for each of the plates; density : frequencies per band relative to the needed ones;
+        hand : load at touched points.
         """
         source_ids = tuple(item.source_id for item in self.excitations)
         bodies = self._bodies(elastic)
@@ -78,14 +79,16 @@ class Assembly:
     def struck(
         self, touched_ids: Collection[str], elastic: Mapping[str, ElasticBody], hand: Hand | None = None
     ) -> StruckScene:
-        """All objects that are connected with touched ones, on each of which is a source, for impacts, given a body for
-        each of the plates."""
+        """Solve all objects that are connected with touched ones, for impacts. Each touched object must carry a source.
+
+        Parameters: elastic : a body for each of the plates; hand : load at the struck and at touched points.
+        """
         bodies = self._bodies(elastic)
         groups, frequencies_hz = [joints for _, joints in self.groups], self._sampling(bodies, DENSITY).frequencies_hz
         return solve_struck(bodies, groups, self.network.bodies.keys(), touched_ids, frequencies_hz, hand)
 
     def _bodies(self, elastic: Mapping[str, ElasticBody]) -> dict[str, ElasticBody]:
-        """All bodies, with their legs, and inclined where a joint pulls aside."""
+        """All bodies, with their legs; an `InclinedBody` where a joint is not along the normal."""
         bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
         for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
             bodies[object_id] = self._inclined(object_id, elastic.get(object_id))
@@ -118,7 +121,7 @@ def assemble(
     law: ContactLaw,
     outside_domain: OutsideDomain = "warn",
 ) -> Assembly:
-    """Find connected groups, rigid bodies and plates. Parameters, errors and warnings as `prepare_coupled`."""
+    """Find connected groups, rigid bodies and plates. For parameters, errors and warnings see `prepare_coupled`."""
     require_input(network, excitations, bands)
     mass_kg = {item.source_id: item.mass_kg for item in excitations}
     joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
@@ -149,13 +152,13 @@ def prepare_coupled(
     density: float = 1.0,
     hand: Hand | None = None,
 ) -> CoupledField:
-    """The field of a scene.
+    """Prepare the field of a scene.
 
-    Parameters: elastic_body : makes the body of a plate that is not compact, for frequencies up to some top [Hz];
-    law : stiffness of contacts; density : frequencies per band over what is needed, for checks; hand : what loads an
-    object where it is touched, None for nothing.
-    Raises, warns: ModelDomainError or ThinPlateWarning, as `outside_domain` says, for an object whose bending waves
-    are shorter than six of its thicknesses.
+    Parameters: elastic_body : makes the body of a plate that is not compact, for frequencies up to a limit [Hz]; law :
+    stiffness of contacts; density : frequencies per band relative to the needed ones, for checks; hand : load at
+    touched points, None for none.
+    Raises, warns: ModelDomainError or ThinPlateWarning, as `outside_domain` says, for an object whose bending waves are
+    shorter than six of its thicknesses.
     """
     scene = assemble(network, excitations, bands, law, outside_domain)
     top_hz = scene.top_hz if bands.edges_hz else _next_step_hz(scene.top_hz)
@@ -163,24 +166,24 @@ def prepare_coupled(
 
 
 def prepare_struck(model: CoupledModel, network: ContactNetwork, touched_ids: Collection[str]) -> StruckScene:
-    """A scene, for impacts on any point of what is connected with touched objects.
+    """Prepare a scene for impacts on any point of the objects that are connected with touched ones.
 
     The only sources are probes on the touched objects, too light to change anything.
-    Raises: ModelDomainError: as the model's `prepare`.
+    Raises: ModelDomainError: see the model's `prepare`.
     """
     probes = {f"{_PROBE}{i}": object_id for i, object_id in enumerate(touched_ids)}
     places = {probe: network.poses.get(object_id, Pose()).position_m for probe, object_id in probes.items()}
     contacts = [Contact(probe, object_id, places[probe]) for probe, object_id in probes.items()]
     with_probes = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
     sources = [Excitation(probe, 100.0, 100.0, _PROBE_KG) for probe in probes]
-    # Whoever prepares the field in use is warned of thick plates.
+    # Preparing the field in use already warns of thick plates.
     scene = assemble(with_probes, sources, IMPACT_BANDS, model.contact, "ignore")
     elastic = {key: model.elastic_body(plate, scene.top_hz) for key, plate in scene.plates.items()}
     return scene.struck(touched_ids, elastic, model.hand)
 
 
 def _next_step_hz(frequency_hz: float) -> float:
-    """The next of twenty steps per decade: sources come and go, and bodies are reused between them."""
+    """Round up to one of twenty steps per decade, so that bodies are reused when sources come and go."""
     return 10 ** (math.ceil(20 * math.log10(frequency_hz)) / 20) if frequency_hz > 0 else 0.0
 
 
@@ -214,9 +217,9 @@ def _solved(
 
 @dataclass(frozen=True, eq=False)
 class CoupledField:
-    """A scene, prepared: the forces in all contacts of the objects that a source reaches.
+    """A prepared scene: the forces in all contacts of the objects that a source reaches.
 
-    An object's response is prepared at the first query, or when it is expected.
+    The response of an object is prepared at the first query, or by `expect`.
     """
 
     source_ids: tuple[str, ...]
@@ -228,17 +231,17 @@ class CoupledField:
     _expected: set[str] = field(init=False, repr=False, default_factory=set)
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
-        """Deflection over the sources' free ones; above 1 where something resonates. See `PropagationField`."""
+        """Deflection over the free deflection of each source; above 1 at resonances. See `PropagationField`."""
         points = as_points(points_m, 3)
         found = self._responses.get(object_id)
         if found is None:
-            # Another thread may have expected it by now.
+            # Another thread may have called `expect` by now.
             found = self._responses.setdefault(object_id, self._response(object_id))
         return found(points)
 
     def expect(self, object_id: str) -> None:
         """Prepare an object for many queries, see `ExpectantField`."""
-        # If each source has one frequency, a response that exists is as fast as it can be.
+        # If each source has one frequency, an existing response cannot become faster.
         ready = self._responses if self.sampling.is_single else self._expected
         if object_id not in ready:
             self._responses[object_id] = self._response(object_id, is_expected=True)
@@ -275,8 +278,10 @@ def _nothing_arrives(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
 def checked_law(
     contact: ContactLaw | Mapping[str, Any], outside_domain: OutsideDomain, loss_floor: float = 0.0
 ) -> ContactLaw:
-    """The settings that all models over coupled bodies share: checked, the contact law as it is or from its own
-    settings, so that a table of TOML will do. Raises: ConfigError."""
+    """Check the settings that all models of coupled bodies share, and return the contact law.
+
+    Parameters: contact : a law, or its settings, such as a table of TOML. Raises: ConfigError.
+    """
     checks.number("loss_floor", loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
     check_choice(outside_domain)
     if isinstance(contact, ContactLaw):

@@ -1,1 +1,1 @@
-"""A plate as a lattice of masses and bending springs, of a rectangle or within an outline, and its motion in time."""
+"""Plates as lattices of masses and bending springs, rectangular or within an outline, and their motion in time."""

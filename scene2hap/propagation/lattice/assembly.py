@@ -1,7 +1,8 @@
-"""Sums of small matrices of pieces in sparse ones.
+"""Assembly of sparse matrices from the small matrices of pieces.
 
-A row's neighbours lie within a few steps of it in the grid, so that each of its entries has a slot of its own: which
-step, and which copy of what is there. Values are added up in slots, all pieces at once, and the empty ones left out.
+A row's neighbours lie within a few steps of it in the grid. Each of its entries therefore has its own slot, given by
+the step and by the number of the copy at that place. The values of all pieces are added up in slots at once, and empty
+slots are left out.
 """
 
 from __future__ import annotations
@@ -18,15 +19,15 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 Block = tuple[Floats, int, int]
-"""Values (n_pieces, a, b, c, d) of the rows from `first` on, counted (a, c), and the columns from `other` on, counted
-(b, d); `first` and `other`."""
+"""Values (n_pieces, a, b, c, d), `first` and `other`: rows start at `first` and are counted (a, c), columns start at
+`other` and are counted (b, d)."""
 
 
 class Pattern:
-    """Where the matrices of all pieces add up.
+    """Sparsity pattern of the sum of the matrices of all pieces.
 
-    Parameters: number : of each row and column of a piece (n_pieces, k), among n; local : its place in the grid,
-    relative to its piece (k,); place : of each of the n, rising.
+    Parameters: number : (n_pieces, k) index of each row and column of a piece among all n; local : (k,) place of each
+    in the grid, relative to its piece; place : (n,) place of all in the grid, rising.
     """
 
     def __init__(self, number: Ints, local: Ints, place: Ints) -> None:
@@ -45,8 +46,11 @@ class Pattern:
         return len(self._place)
 
     def summed(self, *matrices: Sequence[Block]) -> tuple[Ints, Ints, list[Floats]]:
-        """Rows, columns and values of the sums over all pieces of matrices given by their blocks, each in order.
-        Entries are those that are not 0 in the first."""
+        """Sum each of several matrices over all pieces.
+
+        Parameters: matrices : the blocks of each, all in the same order.
+        Returns: rows, rising, columns, and the values of each sum at the entries that are not 0 in the first.
+        """
         sums = [np.zeros(len(self._place) * self._width) for _ in matrices]
         for several in zip(*matrices, strict=True):
             values, first, other = several[0]
@@ -67,13 +71,13 @@ class Pattern:
 
 
 def copies_of(places: Ints) -> Ints:
-    """Which copy each one is (n,) of those at the same place, given the places (n,), rising."""
+    """Number of each copy (n,) among those at the same place, given rising places (n,)."""
     copies: Ints = np.arange(len(places)) - np.searchsorted(places, places)
     return copies
 
 
 def sparse(rows: Ints, columns: Ints, values: Floats, shape: tuple[int, int]) -> csr_array:
-    """A sparse matrix from its entries, their rows rising."""
+    """Return a sparse matrix from its entries, given with rising rows."""
     from scipy.sparse import csr_array
 
     starts = np.searchsorted(rows, np.arange(shape[0] + 1))

@@ -20,17 +20,17 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.scene.surface.outline import Outline
 
 LONGEST = 16
-"""Cells along the longer side, in resolutions: on plates more slender than that they are longer than wide."""
+"""Most cells along the longer side, in multiples of the resolution; more slender plates have cells longer than wide."""
 _SLACK = 0.01
-"""How much larger cells of outlines may be, so that a circle of corners has as many as a true one."""
+"""Fraction by which cells of outlines may be larger, so that a polygon for a circle has as many cells as the circle."""
 _STRAIGHT_RAD = 1e-3
 MOST_NODES = 100_000
-"""Nodes beyond which a lattice is refused: its factors then fill about a gigabyte."""
+"""Most nodes of a lattice: its factors then fill about a gigabyte."""
 
 
 @lru_cache(maxsize=64)
 def aligned(outline: Outline) -> tuple[Outline, NDArray[np.float64], NDArray[np.float64]]:
-    """The outline as the grid has it: turned so that the sides of its notches run along the lines; see
+    """Outline turned so that the sides of its notches run along the grid's lines, with the matrix and shift of
     `Outline.turned`. Fine lines around the ends of a slanted slot would cross at four places, not two."""
     slant = outline.slant_rad
     if abs(slant) < _STRAIGHT_RAD:
@@ -39,12 +39,12 @@ def aligned(outline: Outline) -> tuple[Outline, NDArray[np.float64], NDArray[np.
 
 
 def narrow_side_m(plate: Plate) -> float:
-    """Side that `resolution` counts: the shorter one, or the least width of an outline, turned or not [m]."""
+    """Side [m] that `resolution` counts: the shorter one, or the least width of an outline, turned or not."""
     return min(plate.extent_m) if plate.outline is None else min(plate.outline.width_m, *plate.extent_m)
 
 
 def cells_of(plate: Plate, resolution: int) -> tuple[int, int]:
-    """Cells along length and width: `resolution` along the narrow side and, up to `LONGEST`, square ones."""
+    """Numbers of cells along length and width: `resolution` along the narrow side, and square cells up to `LONGEST`."""
     narrow, slack = narrow_side_m(plate), 1e-9 if plate.outline is None else _SLACK
     extent_m = plate.extent_m if plate.outline is None else aligned(plate.outline)[0].extent_m
     along, across = (
@@ -63,7 +63,7 @@ def lines_of(plate: Plate, resolution: int) -> tuple[NDArray[np.float64], NDArra
 
 
 def n_nodes_of(plate: Plate, resolution: int) -> int:
-    """Number of nodes of its lattice, those held by edges included."""
+    """Number of nodes of a plate's lattice, those held by edges included."""
     if plate.outline is not None:
         return math.prod(len(lines) + 2 for lines in lines_of(of_size_one(plate)[0], resolution))
     return math.prod(n + 3 for n in cells_of(plate, resolution))
@@ -71,9 +71,9 @@ def n_nodes_of(plate: Plate, resolution: int) -> int:
 
 @lru_cache(maxsize=16)
 def bending_lattice(plate: Plate, resolution: int) -> Lattice:
-    """The lattice of a plate, see `cells_of`.
+    """Return the lattice of a plate, see `cells_of`.
 
-    Raises: ModelDomainError: it has more than `MOST_NODES` nodes.
+    Raises: ModelDomainError: it would have more than `MOST_NODES` nodes.
     """
     if (n_nodes := n_nodes_of(plate, resolution)) > MOST_NODES:
         raise ModelDomainError(

@@ -1,8 +1,8 @@
 """Connected parts of the cells of a grid over an outline, and the nodes that they share.
 
-Each cell is divided into pixels, and a pixel counts by the share of it that lies within. At the rim that share is split
-between the pixel and its neighbours so that its centroid stays where it is. Without this the rim would move outwards,
-by an error of the second order in the pixel. Where a slot or a notch cuts a cell or the reach of a node into parts,
+Each cell is divided into pixels. A pixel counts by the share of it that lies within the outline. At the rim, this share
+is split between the pixel and its neighbours so that its centroid does not move. Otherwise the rim would move outwards,
+by an error of second order in the pixel size. Where a slot or a notch cuts a cell or the support of a node into parts,
 each part has its own nodes, so that the gap transmits nothing.
 
 Source: for the split, C. K. Birdsall, D. Fuss, Journal of Computational Physics 3 (1969) 494 (clouds in cells).
@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from scene2hap.scene.surface.outline import Outline
 
 PIXELS = 5
-"""Pixels along each side of a cell: the rim is known to a fraction of one of them. Tuned: with more, frequencies at the
-default resolution are no better, since cells then decide their error."""
+"""Pixels along each side of a cell: the rim is known to a fraction of a pixel. Tuned: with more pixels, frequencies at
+the default resolution are no better, since the size of cells then determines the error."""
 _WHOLE = 1 - 1e-12
-"""Share from which a pixel lies within as a whole, but for rounding."""
+"""Least share from which a pixel counts as wholly within, but for rounding."""
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -32,9 +32,9 @@ Ints = NDArray[np.intp]
 class CellPieces:
     """Connected parts of cells.
 
-    cells : (nx, ny) of the grid; inside : pixels (nx PIXELS, ny PIXELS) that belong to the plate; piece : of each of
-    these pixels; cell : of each piece (n_pieces, 2); shares : of each pixel of its cell, above 1 beside the rim
-    (n_pieces, PIXELS, PIXELS).
+    cells : (nx, ny), numbers of cells of the grid; inside : (nx PIXELS, ny PIXELS) whether each pixel belongs to the
+    plate; piece : index of the piece of each pixel inside; cell : (n_pieces, 2) cell of each piece; shares : (n_pieces,
+    PIXELS, PIXELS) of each pixel of the piece's cell, above 1 beside the rim.
     """
 
     cells: tuple[int, int]
@@ -45,7 +45,7 @@ class CellPieces:
 
     @classmethod
     def of(cls, outline: Outline, lines: tuple[Floats, Floats]) -> CellPieces:
-        """From an outline and the lines between pixels [m]; of a plate in parts, the largest counts."""
+        """Make pieces from an outline and the lines between pixels [m]; only the largest part of a plate counts."""
         from scipy.ndimage import label
 
         cells = (len(lines[0]) - 1) // PIXELS, (len(lines[1]) - 1) // PIXELS
@@ -57,7 +57,7 @@ class CellPieces:
             beside = _nearest(inside)
             coverage = np.where(parts[tuple(beside)] == largest, coverage, 0.0)
             inside = parts == largest
-        # With a gap around each cell, a part never reaches into the next one.
+        # With a gap around each cell, a part never reaches into the next cell.
         apart = np.zeros((cells[0], PIXELS + 1, cells[1], PIXELS + 1), dtype=bool)
         apart[:, :PIXELS, :, :PIXELS] = inside.reshape(cells[0], PIXELS, cells[1], PIXELS)
         labels, n_pieces = label(apart.reshape(cells[0] * (PIXELS + 1), -1))
@@ -74,19 +74,21 @@ class CellPieces:
         return found
 
     def _add_rim(self, rim: Ints, coverage: Floats, off: Floats, sides_m: list[Floats]) -> None:
-        """Count pixels (2, n) that lie within in part, or in narrow gaps, given the shares of all pixels, where their
-        centroids are (`Outline.covered`), and their sides along x and y [m]."""
+        """Add rim pixels (2, n), which lie partly within or in narrow gaps, to the shares.
+
+        Parameters: coverage, off : share and centroid of pixels, see `Outline.covered`; sides_m : along x and y [m].
+        """
         if not rim.size:
             return
         off = off[:, rim[0], rim[1]]
-        # The pixel itself, its neighbours to that side along x and along y, and the one between these two.
+        # The pixel itself, its neighbours on the side of the centroid along x and along y, and the diagonal neighbour.
         is_beside = np.array([[0, 1, 0, 1], [0, 0, 1, 1]])[..., None]
         share = np.where(is_beside, np.abs(off)[:, None], 1 - np.abs(off)[:, None]).prod(axis=0).ravel()
         own = np.tile(rim, 4)
         there = (rim[:, None] + is_beside * np.sign(off)[:, None].astype(np.intp)).reshape(2, -1)
         there = there.clip(0, np.array(self.inside.shape)[:, None] - 1)
         there = np.where(self.inside[tuple(there)], there, own)
-        # Pixels beside all pieces count with the nearest one; where that is in another cell, at its nearest pixel.
+        # Pixels beside all pieces count with the nearest piece, at its nearest pixel if the piece is in another cell.
         is_in = self.inside[tuple(there)]
         near = there if is_in.all() else np.where(is_in, there, self.nearest_pixel[:, there[0], there[1]])
         piece = self.piece[tuple(near)]
@@ -98,19 +100,19 @@ class CellPieces:
 
     @property
     def steps(self) -> tuple[int, int]:
-        """Places from a node of the grid to the next along x and y: they run fastest across the longer side, which
-        keeps matrices in a narrow band."""
+        """Steps in place from a node of the grid to the next along x and y. Places are counted along the shorter side
+        first, which keeps the band of matrices narrow."""
         nx, ny = self.cells
         return (ny + 3, 1) if nx >= ny else (1, nx + 3)
 
     @cached_property
     def nearest_pixel(self) -> Ints:
-        """To each pixel, the nearest of those that belong to the plate (2, nx PIXELS, ny PIXELS)."""
+        """Nearest pixel of the plate to each pixel (2, nx PIXELS, ny PIXELS)."""
         return _nearest(self.inside)
 
     @property
     def is_whole(self) -> NDArray[np.bool_]:
-        """The pieces (n_pieces,) that are whole cells, but for rounding."""
+        """Whether each piece (n_pieces,) is a whole cell, but for rounding."""
         whole: NDArray[np.bool_] = np.abs(self.shares - 1.0).max(axis=(1, 2), initial=0.0) < 1e-14
         return whole
 
@@ -126,8 +128,8 @@ class CellPieces:
         return found[0], found[1]
 
     def nearest(self, points_m: Floats, x_m: Floats, y_m: Floats) -> tuple[Ints, Floats]:
-        """The piece of each point, given the lines between pixels, and where it is; beside the plate, the middle of
-        the nearest pixel."""
+        """Piece of each point, given the lines between pixels, and the point's position; for a point beside the plate,
+        the middle of the nearest pixel."""
         pixel = [
             np.clip(np.searchsorted(lines, points_m[:, axis], side="right") - 1, 0, len(lines) - 2)
             for axis, lines in enumerate((x_m, y_m))
@@ -143,10 +145,10 @@ class CellPieces:
 
 
 def nodes_of(pieces: CellPieces) -> tuple[Ints, Ints]:
-    """The nodes (n_pieces, 16) of each piece, and the place (n_nodes,) in the grid of each node, rising: a node whose
-    reach of 4 by 4 cells is cut into parts has one copy in each of them.
+    """Nodes (n_pieces, 16) of each piece, and the place (n_nodes,) of each node in the grid, rising.
 
-    Pieces side by side share the nodes that reach both; what so hangs together is one node.
+    A node whose support of 4 by 4 cells is cut into parts has one copy in each part. Adjacent pieces share the nodes
+    whose support includes both; nodes that are connected in this way are one node.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -169,7 +171,7 @@ def nodes_of(pieces: CellPieces) -> tuple[Ints, Ints]:
 
 
 def places(along: range, across: range, steps: tuple[int, int]) -> Ints:
-    """The places in the grid of a block of it, counted along y first (n_along n_across,); see `CellPieces.steps`."""
+    """Places of a block of the grid (n_along n_across,), counted along y first; see `CellPieces.steps`."""
     found: Ints = np.add.outer(steps[0] * np.array(along), steps[1] * np.array(across)).ravel()
     return found
 

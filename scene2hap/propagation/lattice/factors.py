@@ -1,8 +1,8 @@
-"""Factors of a sparse, symmetric, positive matrix: in a band where that is small, else sparse ones.
+"""Factors of a sparse, symmetric, positive-definite matrix: in a band if that is small, otherwise sparse.
 
-A lattice's nodes run along the shorter side of its grid, so that its matrix is a band of three lines of nodes. LAPACK
-factorises a band without searching for an order first, which takes most of the time of sparse factors of some hundred
-nodes.
+A lattice's nodes are numbered along the shorter side of its grid, so that its matrix is a band of three lines of nodes.
+LAPACK factorises a band without a search for an elimination order. With some hundred nodes, this search takes most of
+the time of a sparse factorisation.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from scipy.sparse.linalg import SuperLU
 
 MOST_IN_BAND = 200_000
-"""Numbers in a band up to which it is faster: what then fits in a processor's cache. Tuned."""
+"""Numbers in a band up to which it is faster, because it fits into a processor's cache. Tuned."""
 
 Floats = NDArray[np.float64]
 
@@ -26,13 +26,13 @@ class Factors(Protocol):
     """Factors of a matrix A."""
 
     def solve(self, rhs: Floats) -> Floats:
-        """x of A x = b, for b (n,) or (n, m)."""
+        """Solve A x = b for x, with b (n,) or (n, m)."""
         ...
 
 
 class BandFactors:
-    """Cholesky's, of a lower band (n, width), column by column from the diagonal on. `is_good` says whether the matrix
-    was positive."""
+    """Cholesky factors of a lower band (n, width), given by columns from the diagonal on. `is_good` says whether the
+    matrix was positive definite."""
 
     def __init__(self, band: Floats) -> None:
         from scipy.linalg import lapack
@@ -49,7 +49,7 @@ class BandFactors:
 
 
 def positive_factors(matrix: csr_array) -> Factors:
-    """Those of a symmetric, positive matrix."""
+    """Factors of a symmetric, positive-definite matrix."""
     row = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
     below = row - matrix.indices
     width = int(below.max(initial=0)) + 1
@@ -64,7 +64,7 @@ def positive_factors(matrix: csr_array) -> Factors:
 
 
 def diagonal_factors(matrix: csr_array) -> SuperLU:
-    """Sparse ones of a symmetric matrix, with pivots on the diagonal."""
+    """Sparse factors of a symmetric matrix, with pivots on the diagonal."""
     from scipy.sparse import csc_array
     from scipy.sparse.linalg import splu
 

@@ -1,9 +1,9 @@
-"""A lattice alone, ready to be coupled: its receptance between any points, from its modes and the series beyond them.
+"""Receptance of a lattice alone between any points, from its modes and the series for all higher modes.
 
     D_c Y(x, x0) = sum over modes of phi(x) phi(x0) / (k_n^4 - z)  +  sum over j of (z + s)^j R_j(x, x0)
     z = k^4 / (1 + j eta)
 
-Letters: as `lattice_modes`; Y [m/N] receptance, D_c = D (1 + j eta) [N m].
+Letters: see `lattice_modes`; Y [m/N] receptance, D_c = D (1 + j eta) [N m].
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ def lattice_body(plate: Plate, resolution: int, max_frequency_hz: float, loss_fa
 
 @dataclass(frozen=True, eq=False)
 class LatticeBasis:
-    """A `ResponseBasis`: the lattice's modes, and the series of each force.
+    """The `ResponseBasis` of a lattice: its modes, and the series of each force.
 
-    shapes : (n_nodes, n_modes + n_forces TERMS); shares : of every mode in every force (n_forces, n_modes); spectra :
-    see `LatticeBody`.
+    shapes : (n_nodes, n_modes + n_forces TERMS); shares : (n_forces, n_modes) value of every mode at every force;
+    spectra : see `LatticeBody`.
     """
 
     lattice: Lattice
@@ -82,7 +82,7 @@ class LatticeBody:
             look = self.modes.lattice.interpolation(points_m)
             static, of_points = look @ stiffer, look @ self.modes.shapes
         static = static.reshape(len(points_m), len(forces_m), TERMS)
-        # Among the same points every pair counts once.
+        # If points and forces are the same, each pair is computed once.
         row, column = np.indices(static.shape[:2])
         pair = np.nonzero(row >= column if points_m is forces_m else row >= 0)
         resonant = of_points[pair[0]] * shares[pair[1]]
@@ -100,14 +100,14 @@ class LatticeBody:
         return LatticeBasis(self.modes.lattice, shapes, shares, self._spectra)
 
     def _pushed(self, forces_m: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
-        """Share of every mode in every force (n_forces, n_modes); the series at the nodes (n_nodes, n_forces TERMS) and
-        where the forces push (n_forces, n_forces TERMS)."""
+        """Value of every mode at every force (n_forces, n_modes); the series at the nodes (n_nodes, n_forces TERMS) and
+        at the forces (n_forces, n_forces TERMS)."""
         forces = self.modes.lattice.interpolation(forces_m).T.toarray()
         stiffer = np.moveaxis(self.modes.stiffer(forces), 0, 2).reshape(len(forces), -1)
         return forces.T @ self.modes.shapes, stiffer, forces.T @ stiffer
 
     def _spectrum(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Real and imaginary part, by turns, of each term at each frequency (n_modes + TERMS, 2 n_frequencies)."""
+        """Alternating real and imaginary parts of each term at each frequency (n_modes + TERMS, 2 n_frequencies)."""
         loss = complex(1, self.loss_factor)
         z = self.plate.wavenumber_rad_m(frequencies_hz) ** 4 / loss
         modes = 1 / (self.modes.k4[:, None] - z)

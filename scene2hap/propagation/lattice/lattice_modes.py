@@ -1,17 +1,18 @@
-"""Harmonic answers of a lattice: its modes up to a frequency, and the static share of all that are stiffer.
+"""Harmonic response of a lattice: its modes up to a frequency, and a series for all higher modes.
 
     u(z) = Phi (Lambda - z)^-1 Phi^T p + sum over j of (z + s)^j R_j            z = k_c^4
     R_j = (G A)^j G p',  G = (K + s A)^-1,  p' = p - A Phi Phi^T p
 
-for (K - z A) u = p, where A holds the masses of the nodes. The series is that of the modes left out, which lie above z;
-each term leaves less than half of the error before. One factorisation of K + s A gives the modes, by Lanczos' method,
-and the series.
+for (K - z A) u = p, where A holds the masses of the nodes. The series is the response of the modes left out, which lie
+above z; each term leaves less than half of the error before. One factorisation of K + s A gives both the modes, by
+Lanczos' method, and the series.
 
-The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave. Where one solve alone would bury
-that wave in rounding, it is refined by its own residual, computed from the springs (`Lattice.restoring`).
+The stiffest springs of a lattice are up to 1e16 times as stiff as its longest wave. Where one solve alone would lose
+that wave in rounding, the solution is refined by its residual, which is computed from the springs
+(`Lattice.restoring`).
 
-Letters: k [rad/m] wavenumber, Lambda [m^-4] eigenvalues k^4, Phi [1/m] shapes normalised over the area, p [-] force
-for D = 1, s [m^-4] shift, c complex.
+Letters: k [rad/m] wavenumber, Lambda [m^-4] eigenvalues k^4, Phi [1/m] shapes normalised over the area, p [-] force for
+D = 1, s [m^-4] shift, c complex.
 """
 
 from __future__ import annotations
@@ -40,29 +41,29 @@ if TYPE_CHECKING:
 MARGIN = 1.5
 """Modes are solved up to this many times the top frequency; the series takes over from there."""
 TERMS = 4
-"""Terms of the series. Measured on furniture: with them the answer is within 0.02 dB of a direct solve at p95."""
+"""Terms of the series. Measured on furniture: with them the response is within 0.02 dB of a direct solve at p95."""
 _ABOVE_ROUNDING = 1e4
-"""How far the shift lies above the rounding of K: of a solution a ten thousandth is lost at most."""
+"""Least ratio of the shift to the rounding of K: a solution loses at most a ten thousandth."""
 QUICK_NODES = 6_000
-"""Nodes whose lowest modes take less than about a second."""
+"""Nodes of a lattice whose lowest modes take less than about a second."""
 MOST_WORK = 1e8
-"""Nodes times modes squared beyond which modes are not solved for: that is what Lanczos' method costs. A plate then
-takes some seconds at most."""
+"""Most nodes times modes squared for which modes are solved: the cost of Lanczos' method. A plate then takes some
+seconds at most."""
 QUICK_WORK = 5e7
-"""Of these, what takes less than about a second."""
+"""Nodes times modes squared that take less than about a second."""
 _EXACT = 1e-7
-"""Relative error at which a solution is good: that of a frequency is its square."""
+"""Largest relative error of an accepted solution; the error of a frequency is its square."""
 DENSE_SHARE = 0.25
-"""Share of its modes from which a lattice is solved for all of them at once, which is then faster than Lanczos' method.
+"""Share of wanted modes from which all modes of a lattice are solved at once: this is then faster than Lanczos' method.
 Tuned."""
 _BURIED = 1e-8
-"""Part of the largest value wanted that rounding may add to each if all are found at once: their error is that of the
-stiffest springs."""
+"""Most that rounding may add to each eigenvalue if all are solved at once, relative to the largest wanted one: their
+error is that of the stiffest springs."""
 
 
 @dataclass(frozen=True, eq=False)
 class LatticeModes:
-    """The lowest modes of a lattice and the factors that answer for the rest.
+    """The lowest modes of a lattice, and the factors for the response of the others.
 
     k4 : (n_modes,) [m^-4], rising, 0 for rigid motions; shapes : (n_nodes, n_modes) [1/m]; shift_k4 : s.
     """
@@ -80,14 +81,14 @@ class LatticeModes:
         return found
 
     def resized(self, plate: Plate, size_m: float) -> LatticeModes:
-        """Those of a plate of the same shape, so many times as large. It keeps the factors: K + s A is the same."""
+        """Return the modes of a plate of the same shape, `size_m` times as large. The factors stay, as K + s A does."""
         lattice = self.lattice.resized(plate, size_m)
         return LatticeModes(
             lattice, self.k4 / size_m**4, self.shapes / size_m**2, self.shift_k4 / size_m**4, self.factors
         )
 
     def stiffer(self, forces: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The series' terms R_j for forces (n_nodes, n_forces) -> (TERMS, n_nodes, n_forces)."""
+        """Terms R_j of the series (TERMS, n_nodes, n_forces) for forces (n_nodes, n_forces)."""
         masses = self.lattice.masses
         terms = np.empty((TERMS, *forces.shape))
         force = forces
@@ -100,10 +101,10 @@ class LatticeModes:
 
 
 def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> LatticeModes:
-    """Modes that answer up to a frequency [Hz].
+    """Modes for the response up to a frequency [Hz].
 
-    They are remembered by shape, resolution and frequency in thirds of an octave: plates that differ in size, thickness
-    or material have the same ones, as long as Poisson's ratio is the same.
+    They are cached by shape, resolution and frequency in thirds of an octave. Plates that differ in size, thickness or
+    material share them if Poisson's ratio is the same.
     Raises: ModelDomainError: too many nodes, see `bending_lattice`; too many modes, see `MOST_WORK`.
     """
     lowest_hz = (math.pi / max(plate.extent_m) / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
@@ -139,12 +140,12 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
 
 
 def n_modes_up_to(plate: Plate, frequency_hz: float) -> float:
-    """About how many modes a plate with free edges has up to a frequency [Hz] (Weyl)."""
+    """Approximate number of modes of a plate with free edges up to a frequency [Hz] (Weyl)."""
     return _n_modes_to(plate, float(plate.wavenumber_rad_m(frequency_hz)))
 
 
 def _n_modes_to(plate: Plate, k: float) -> float:
-    """About how many modes a plate with free edges has up to a wavenumber [rad/m] (Weyl)."""
+    """Approximate number of modes of a plate with free edges up to a wavenumber [rad/m] (Weyl)."""
     return (plate.area_m2 * k**2 + 2 * sum(plate.extent_m) * k) / (4 * math.pi)
 
 
@@ -167,7 +168,10 @@ def _work(n_nodes: int, n_modes: float) -> float:
 
 
 def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
-    """Raises: ModelDomainError: so many modes would take more than `MOST_WORK`. Warns: SlowPlateWarning: seconds."""
+    """Check the work of solving modes.
+
+    Raises: ModelDomainError: it is above `MOST_WORK`. Warns: SlowPlateWarning: it takes seconds.
+    """
     n_nodes = n_nodes_of(plate, resolution)
     needed = _work(n_nodes, n_modes)
     if needed > MOST_WORK:
@@ -180,9 +184,9 @@ def check_work(plate: Plate, resolution: int, n_modes: float) -> None:
     warn_if_slow(plate, round(min(n_modes, n_nodes)), round(math.sqrt(QUICK_WORK / n_nodes)), "modes of a lattice")
 
 
-@lru_cache(maxsize=8)  # bodies keep their own
+@lru_cache(maxsize=8)  # bodies keep their modes
 def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
-    """Modes up to `MARGIN` times a frequency, so many thirds of an octave above that of a half wave along the plate."""
+    """Modes up to `MARGIN` times a frequency, in thirds of an octave above that of a half wave along the plate."""
     wanted = MARGIN**2 * (math.pi / max(plate.extent_m)) ** 4 * 4 ** (thirds / 3)
     lattice, factors, shift = _factorised(plate, resolution, wanted)
     k4, shapes = _all_below(lattice, factors, shift, wanted)
@@ -193,7 +197,7 @@ def _modes_up_to(plate: Plate, resolution: int, thirds: int) -> LatticeModes:
 def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, Factors, float]:
     """The lattice, the factors of K + s A, and s, for modes up to k^4."""
     lattice = bending_lattice(plate, resolution)
-    # Large enough beside the rounding of K for refinement to converge, small beside the modes of interest.
+    # Large compared with the rounding of K, for refinement to converge; small compared with the modes of interest.
     shift = max(1e-2 * top_k4, _ABOVE_ROUNDING * lattice.rounding_k4)
     return lattice, positive_factors(_shifted(lattice, shift)), shift
 
@@ -207,11 +211,11 @@ def _shifted(lattice: Lattice, shift_k4: float) -> csr_array:
 def solve_shifted(
     lattice: Lattice, factors: Factors, shift_k4: float, forces: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Deflections u of (K + s A) u = p, (n_nodes, ...) each, refined where rounding would show."""
+    """Solve (K + s A) u = p for deflections u, (n_nodes, ...) each, refined where rounding would show."""
     found: NDArray[np.float64] = factors.solve(forces)
     if lattice.is_clear:
         return found
-    # Each pass gains the digits that the shift has above the rounding of K.
+    # Each pass divides the error by the ratio of the shift to the rounding of K.
     for _ in range(math.ceil(math.log(_EXACT) / math.log(lattice.rounding_k4 / shift_k4)) - 1):
         found += factors.solve(forces - lattice.restoring(found) - shift_k4 * (lattice.masses @ found))
     return found
@@ -231,7 +235,7 @@ def _all_below(
     expected = _n_modes_to(lattice.plate, wanted_k4**0.25)
     if expected > DENSE_SHARE * n and np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * wanted_k4:
         k4, shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd", check_finite=False)
-        # Some more than wanted, since `_ritz` takes away what rounding adds to a value.
+        # Some more than wanted, since `_ritz` removes the rounding error of an eigenvalue.
         shapes = shapes[:, k4 <= (1 + _BURIED) * wanted_k4]
     else:
         shapes = largest(compliance, masses, 1 / (wanted_k4 + shift_k4), expected)
@@ -239,7 +243,7 @@ def _all_below(
 
 
 def _ritz(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The modes within the span of shapes (Ritz): exact to the square of what the shapes still miss."""
+    """Modes within the span of shapes (Ritz); their error is the square of the error of the shapes."""
     from scipy.linalg import eigh
 
     if not shapes.shape[1]:

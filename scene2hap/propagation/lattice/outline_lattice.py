@@ -1,11 +1,11 @@
-"""A lattice within an outline: cells that its rim crosses count by the part of them that lies within.
+"""A lattice within an outline: each cell that the rim crosses counts by its part within.
 
 The grid covers the outline's box. W, A and K are sums over the connected parts of its cells (`cell_pieces`), each
 integrated pixel by pixel (`pixel_integrals`).
 
-Source: for cells that are cut, J. Parvizian, A. Duester, E. Rank, Computational Mechanics 41 (2007) 121 (finite cell
-method), here without their fictitious stiffness: nodes that have next to nothing of the plate are left out, and all
-others scaled to equal masses.
+Source: for cut cells, J. Parvizian, A. Duester, E. Rank, Computational Mechanics 41 (2007) 121 (finite cell method),
+here without its fictitious stiffness: nodes with next to nothing of the plate are left out, and all others are scaled
+to equal masses.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 _LEAST = 1e-9
-"""Share of a node's usual stiffness below which it is left out."""
+"""Stiffness of a node, relative to the median of all, below which the node is left out."""
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 
 def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, SplineAxis]) -> Lattice:
-    """The lattice of a plate within its outline, over these lines."""
+    """Return the lattice of a plate within its outline, over the lines of these axes."""
     x, y = axes
     pixels_x, pixels_y = (PixelProducts.of(axis) for axis in axes)
     pixels = pixels_x.lines, pixels_y.lines
@@ -72,9 +72,9 @@ def outline_lattice(plate: Plate, outline: Outline, axes: tuple[SplineAxis, Spli
 class _Nodes:
     """The nodes of all pieces.
 
-    of_pieces : (n_pieces, 16); place : in the grid (n_nodes,), rising; number : of those kept, in the same order, -1 of
-    the others (n_nodes,); scale : what a kept node's value stands for, 0 of the others (n_nodes,); stiffness : diagonal
-    of K without these scales (n_nodes,) [m^-2].
+    of_pieces : (n_pieces, 16) nodes of each piece; place : (n_nodes,) in the grid, rising; number : (n_nodes,) index
+    among the kept nodes, in the same order, -1 of the others; scale : (n_nodes,) deflection per value of a kept node, 0
+    of the others; stiffness : (n_nodes,) diagonal of K without these scales [m^-2].
     """
 
     of_pieces: Ints
@@ -85,7 +85,7 @@ class _Nodes:
 
     @classmethod
     def of(cls, pieces: CellPieces, mass: Floats, elastic: Floats) -> _Nodes:
-        """Those of the pieces, whose matrices (n_pieces, 4, 4, 4, 4) say what they have of the plate."""
+        """Make the nodes of pieces, given the mass and stiffness matrices (n_pieces, 4, 4, 4, 4) of the pieces."""
         of_pieces, place = nodes_of(pieces)
         masses, alone = (
             np.bincount(of_pieces.ravel(), np.einsum("niikk->nik", each).ravel()).astype(np.float64)
@@ -99,11 +99,11 @@ class _Nodes:
 
     @property
     def n_kept(self) -> int:
-        """How many there are in the lattice."""
+        """Number of kept nodes."""
         return int(np.count_nonzero(self.scale))
 
     def summed(self, mass: Floats, elastic: Floats, local: Ints) -> tuple[csr_array, csr_array]:
-        """A and K from the matrices of all pieces and the place of each node, relative to its piece (16,)."""
+        """Assemble A and K from the matrices of all pieces and the place of each node, relative to its piece (16,)."""
         row, column, sums = Pattern(self.of_pieces, local, self.place).summed([(mass, 0, 0)], [(elastic, 0, 0)])
         scale = self.scale[row] * self.scale[column]
         is_kept = scale > 0.0
@@ -112,7 +112,7 @@ class _Nodes:
         return masses, stiffness
 
     def rows(self, node: Ints, values: Floats, counts: Ints) -> csr_array:
-        """Rows over the kept nodes, each of so many `values`, at these nodes; those of nodes left out are dropped."""
+        """Rows over the kept nodes, each with `counts` of the `values` at these nodes; nodes left out are dropped."""
         row, is_kept = np.repeat(np.arange(len(counts)), counts), self.scale[node] > 0.0
         values = values[is_kept] * self.scale[node[is_kept]]
         return sparse(row[is_kept], self.number[node[is_kept]], values, (len(counts), self.n_kept))
@@ -120,10 +120,10 @@ class _Nodes:
 
 @dataclass(frozen=True, eq=False)
 class _Springs:
-    """The springs of all pieces: those that bend along x and along y, and those that twist. Pieces share those between
-    the same nodes.
+    """The springs of all pieces, which bend along x or y, or twist. Pieces share springs between the same nodes.
 
-    strains : B (n_springs, n_nodes); bending, twisting : where the weights of 8 and 8, and of 9, of each piece add up.
+    strains : B (n_springs, n_nodes); bending, twisting : patterns of the sums of the weights of each piece's 8 and 8
+    bending springs and 9 twisting springs.
     """
 
     strains: csr_array
@@ -132,7 +132,7 @@ class _Springs:
 
     @classmethod
     def of(cls, nodes: _Nodes, pieces: CellPieces, axes: tuple[SplineAxis, SplineAxis]) -> _Springs:
-        """Those between nodes, over these lines."""
+        """Make the springs between nodes, over the lines of these axes."""
         cell, n = pieces.cell, len(pieces.cell)
         grid = nodes.of_pieces.reshape(n, 4, 4)
         bend_x, bend_y = (axis.bend[cell[:, k, None] + np.arange(2)] for k, axis in enumerate(axes))
@@ -152,7 +152,7 @@ class _Springs:
         node, strain, counts, number, local, place = [], [], [], [], [], []
         for end, part in zip(ends, strains, strict=True):
             each, parts = end.reshape(-1, end.shape[3]), part.reshape(-1, part.shape[3])
-            # Two opposite ends tell a spring: what lies between them is connected.
+            # Two opposite ends identify a spring, since the part between them is connected.
             key = each[:, 0] * n_copies + copy[each[:, -1]]
             is_one = np.zeros(len(nodes.place) * n_copies, dtype=bool)
             is_one[key] = True
@@ -165,7 +165,7 @@ class _Springs:
             number.append(spring.reshape(n, -1))
             local.append(places(range(end.shape[1]), range(end.shape[2]), pieces.steps))
             place.append(nodes.place[each[one, 0]])
-        # The two kinds that bend count together, one after the other, each in a grid of its own.
+        # Both kinds of bending springs share one pattern, one after the other, each in its own grid.
         number[1] += len(place[0])
         local[1] += 2 * n_places
         place[1] += 2 * n_places
@@ -176,7 +176,7 @@ class _Springs:
         )
 
     def weights(self, integrals: PieceIntegrals, nu: float) -> csr_array:
-        """W, (n_springs, n_springs)."""
+        """Weights W of the springs (n_springs, n_springs)."""
         poisson = integrals.of((nu, ("1", "3"), ("3", "1")))
         bending = [
             (integrals.of((1.0, ("1", "1"), ("3", "3"))), 0, 0),

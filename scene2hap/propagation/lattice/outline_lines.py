@@ -1,8 +1,8 @@
 """Lines of a lattice within an outline: closer where the outline has a notch.
 
-At a corner that points into the plate, as of a slot, a sink or an L, curvature grows without bound, and cells are to be
-small there; away from it they grow with the distance. Lines also run through such corners. A round hole squeezes
-curvature into its neighbourhood, so cells there follow its radius.
+At a corner that points into the plate, as of a slot, a sink or an L, curvature grows without bound. Cells must be small
+there, and grow with the distance from the corner. Lines also run through such corners. A round hole concentrates
+curvature near its rim, so cells there follow its radius.
 """
 
 from __future__ import annotations
@@ -15,22 +15,21 @@ from numpy.typing import NDArray
 from scene2hap.scene.surface.outline import Outline
 
 FINER = 3.0
-"""How much smaller than others cells at a notch are, per cell along the box's shorter side: 24 times with 8. So they
-shrink as the square of the others, and frequencies converge by the second order, which they would not in cells of one
-size."""
+"""Usual cell size over that at a notch, per cell along the box's shorter side: 24 with 8 cells. Cells at notches thus
+shrink as the square of the others, and frequencies converge with second order, which cells of one size do not give."""
 FINEST = 48.0
-"""And at most; the stiffest springs would bury the longest waves in rounding."""
+"""Largest usual cell size over that at a notch; beyond it, the longest waves are lost in rounding of stiff springs."""
 GROWTH = 0.85
-"""How much larger a cell is, per its distance from a notch."""
+"""Growth of the cell size per distance from a notch."""
 PER_RADIUS = 2.4
-"""Cells along a curve that points into the plate, such as the rim of a round hole, are at most so much of its radius
-over the cells along the box's shorter side: 0.3 with 8."""
+"""Largest cell size along a curve that points into the plate, such as the rim of a round hole, over its radius, times
+the number of cells along the box's shorter side: 0.3 of the radius with 8 cells."""
 
 Floats = NDArray[np.float64]
 
 
 def outline_lines(outline: Outline, cells: tuple[int, int]) -> tuple[Floats, Floats]:
-    """The lines of a lattice of at least this many cells along the outline's box, across both axes [m]."""
+    """Return the lines of a lattice along both axes [m], with at least this many cells along the outline's box."""
     x0, y0, x1, y1 = outline.box_m
     (corners, radii_m), n = outline.inward, min(cells)
     finer, curves_m = min(FINER * n, FINEST), PER_RADIUS / n * radii_m
@@ -41,10 +40,10 @@ def outline_lines(outline: Outline, cells: tuple[int, int]) -> tuple[Floats, Flo
 
 
 def _lines(low: float, high: float, n: int, inward: Floats, curves_m: Floats, finer: float) -> Floats:
-    """Lines from `low` to `high` and through the notches, as far as these are not closer than the smallest cell.
+    """Lines from `low` to `high` and through the notches, unless these are closer than the smallest cell.
 
-    inward : where corners point into the plate (n,) [m]; curves_m : largest cells on the curve there, 0 at a notch (n,)
-    [m].
+    inward : (n,) positions of corners that point into the plate [m]; curves_m : (n,) largest cell size on the curve
+    there, 0 at a notch [m].
     """
     usual = (high - low) / n
     least = usual / finer

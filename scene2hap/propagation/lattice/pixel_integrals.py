@@ -1,8 +1,8 @@
 """Integrals of products of splines over pieces of cells, pixel by pixel.
 
-Every spline of a cell is one along x times one along y, so that the integral of a product over a pixel is one along x
-times one along y. A cut cell adds up its pixels by the share of each that lies within; a whole cell takes the sums over
-all pixels at once.
+Every spline of a cell is a spline along x times one along y. The integral of a product over a pixel is therefore an
+integral along x times one along y. Pixels of a cut cell are added up by the share of each that lies within; a whole
+cell takes the sums over all pixels at once.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from scene2hap.propagation.lattice.spline_axis import SplineAxis
 
 Floats = NDArray[np.float64]
 Term = tuple[float, tuple[str, str], tuple[str, str]]
-"""A factor, and the functions (`PixelProducts`) of the two along x and of the two along y."""
+"""A factor, two functions along x and two along y, by their names in `PixelProducts.slices`."""
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
@@ -25,9 +25,9 @@ _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 class PixelProducts:
     """Integrals over the pixels along one axis.
 
-    lines : between pixels, which include the axis's own [m]; products : of the functions of each cell, by two's
-    (n_cells, PIXELS, n, n); slices : which of these n are the splines of degrees 1, 2 and 3 ("1", "2", "3"), and the
-    first and second derivatives of the last ("slope", "bend").
+    lines : between pixels, which include the axis's own [m]; products : of each two functions of a cell (n_cells,
+    PIXELS, n, n); slices : which of these n functions are the splines of degrees 1, 2 and 3 ("1", "2", "3"), and the
+    first and second derivatives of those of degree 3 ("slope", "bend").
     """
 
     lines: Floats
@@ -36,7 +36,7 @@ class PixelProducts:
 
     @classmethod
     def of(cls, axis: SplineAxis) -> PixelProducts:
-        """`PIXELS` in each cell."""
+        """Integrate over `PIXELS` pixels in each cell of an axis."""
         h = np.diff(axis.lines)[:, None] / PIXELS
         n = len(h)
         lines = np.append(axis.lines[:-1, None] + h * np.arange(PIXELS), axis.lines[-1])
@@ -57,7 +57,7 @@ class PixelProducts:
         return cls(lines, products.reshape(n, PIXELS, *products.shape[1:]), slices)
 
     def of_pair(self, pair: tuple[str, str]) -> Floats:
-        """Those of two functions (n_cells, PIXELS, a, b)."""
+        """Integrals of the products of two functions (n_cells, PIXELS, a, b)."""
         return self.products[:, :, self.slices[pair[0]], self.slices[pair[1]]]
 
 
@@ -70,8 +70,8 @@ class PieceIntegrals:
         self._whole, self._cut = np.flatnonzero(pieces.is_whole), np.flatnonzero(~pieces.is_whole)
 
     def of(self, *terms: Term) -> Floats:
-        """The sum of terms: products of one function along x times one along y, a and c of their cell, and another
-        such two, b and d (n_pieces, a, b, c, d)."""
+        """Integrals of the sum of terms (n_pieces, a, b, c, d): the product of functions a along x and c along y of a
+        cell, times the product of b along x and d along y."""
         x = [factor * self._axes[0].of_pair(pair) for factor, pair, _ in terms]
         y = [self._axes[1].of_pair(pair) for _, _, pair in terms]
         along, across = (np.stack(each, axis=2).reshape(len(each[0]), PIXELS, len(terms), -1) for each in (x, y))

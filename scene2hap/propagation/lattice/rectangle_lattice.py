@@ -1,4 +1,4 @@
-"""The lattice of a rectangular plate: all integrals are products of those along its two axes."""
+"""Lattice of a rectangular plate: all integrals are products of integrals along its two axes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def rectangle_lattice(plate: Plate, axes: tuple[SplineAxis, SplineAxis]) -> Lattice:
-    """The lattice of a rectangle over these lines, its edges held as they are."""
+    """Return the lattice of a rectangular plate over the lines of these axes, with the edges of the plate."""
     from scipy.sparse import block_array, csr_array, eye_array, kron
 
     (x, y), nu = axes, plate.material.poisson_ratio
@@ -54,7 +54,7 @@ def rectangle_lattice(plate: Plate, axes: tuple[SplineAxis, SplineAxis]) -> Latt
 
 
 def _sparse(rows: NDArray[np.float64]) -> csr_array:
-    """A matrix from what is not 0 of each row, from the diagonal on."""
+    """Sparse matrix from the nonzero entries of each row (n, width), from the diagonal on."""
     from scipy.sparse import csr_array
 
     n, width = rows.shape

@@ -1,11 +1,11 @@
-"""Cubic B-splines along one coordinate: the masses and the elastic energies of a lattice.
+"""Cubic B-splines along one coordinate, for the masses and the elastic energies of a lattice.
 
     u = sum of c_i b_i,    u' = sum of (S c)_i q_i,    u'' = sum of (B c)_i g_i
 
 b, q and g are splines of the third, second and first degree over the same lines. A deflection is given by a value c at
-each of n + 3 nodes, for n cells between lines; its slope and its curvature are splines over first and second
-differences of these values, which are the strains of springs between neighbours. The first value is the deflection at
-the end.
+each of n + 3 nodes, for n cells between lines. Its slope and its curvature are splines with first and second
+differences of these values as coefficients. The differences are the strains of springs between neighbours. The first
+value is the deflection at the end.
 
 Source: C. de Boor, A Practical Guide to Splines (1978), chapter X.
 """
@@ -24,15 +24,15 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 _HELD = {"F": 0, "S": 1, "C": 2}
-"""Nodes that an edge holds: a support the deflection, a clamp the slope, too."""
+"""Number of nodes that an edge holds: a support holds the deflection, a clamp also the slope."""
 
 
 @dataclass(frozen=True, eq=False)
 class SplineAxis:
     """Nodes and springs along one coordinate.
 
-    lines : between cells, rising (n + 1,) [m]; slope : what is not 0 of each row of S (n + 2, 2) [m^-1], from the
-    diagonal on; bend : of B (n + 1, 3) [m^-2].
+    lines : (n + 1,) between cells, rising [m]; slope : (n + 2, 2) nonzero entries of each row of S, from the diagonal
+    on [m^-1]; bend : (n + 1, 3) those of B [m^-2].
     """
 
     lines: Floats
@@ -41,9 +41,9 @@ class SplineAxis:
 
     @classmethod
     def of(cls, lines: Floats) -> SplineAxis:
-        """The axis of these lines (n + 1,), rising [m]."""
+        """Return the axis of lines (n + 1,), rising [m]."""
         slope, curvature = (_differences(_knots(lines, degree), degree) for degree in (3, 2))
-        # Each row of B is a difference of two of S.
+        # Each row of B is a difference of two rows of S.
         bend = np.zeros((len(curvature), 3))
         bend[:, :2] = curvature[:, :1] * slope[:-1]
         bend[:, 1:] += curvature[:, 1:] * slope[1:]
@@ -56,22 +56,22 @@ class SplineAxis:
 
     @cached_property
     def _knots(self) -> Floats:
-        """Those of cubic splines, without the first and last, which count for none of them."""
+        """Knots of cubic splines, without the first and the last, which affect none of them."""
         return _knots(self.lines, 2)
 
     @property
     def slope_of_cells(self) -> Floats:
-        """S of the nodes that each cell has (n, 3, 4) [m^-1]."""
+        """S for the four nodes of each cell (n, 3, 4) [m^-1]."""
         return _banded(self.slope, 3)
 
     @property
     def bend_of_cells(self) -> Floats:
-        """B of the nodes that each cell has (n, 2, 4) [m^-2]."""
+        """B for the four nodes of each cell (n, 2, 4) [m^-2]."""
         return _banded(self.bend, 2)
 
     def splines(self, x_m: Floats) -> tuple[NDArray[np.intp], dict[int, Floats]]:
-        """The cell of each place within the axis, (n_places,), and the values of the splines of degrees 1 to 3 that it
-        has, (n_places, degree + 1) each; spline k of a cell is the axis's of number cell + k."""
+        """Cell of each place within the axis (n_places,), and the values there of the cell's splines of degrees 1 to 3,
+        (n_places, degree + 1) each. Spline k of a cell is spline cell + k of the axis."""
         n = len(self.lines) - 1
         cell = np.clip(np.searchsorted(self.lines, x_m, side="right") - 1, 0, n - 1)
         # De Boor's recursion.
@@ -88,12 +88,12 @@ class SplineAxis:
         return cell, found
 
     def at(self, x_m: Floats) -> tuple[NDArray[np.intp], Floats]:
-        """Nodes and the values of their splines (n_places, 4) at places, or at the nearest end of the axis."""
+        """Nodes and the values of their splines (n_places, 4) at places; beyond the axis, at its nearest end."""
         cell, values = self.splines(np.clip(x_m, self.lines[0], self.lines[-1]))
         return cell[:, None] + np.arange(4), values[3]
 
     def free(self, edges: str) -> slice:
-        """The nodes that its ends leave free, each F, S or C."""
+        """Nodes that the ends of the axis leave free; each end is F, S or C."""
         return slice(_HELD[edges[0]], self.n_nodes - _HELD[edges[1]])
 
     def products(self, degree: int, other_degree: int) -> csr_array:
@@ -105,7 +105,7 @@ class SplineAxis:
 
     @cached_property
     def _at_gauss(self) -> tuple[dict[int, csr_array], dia_array]:
-        """Splines of each degree at the places of Gauss's rule, and its weights on a diagonal."""
+        """Splines of each degree at the points of Gauss quadrature, and its weights on a diagonal."""
         from scipy.sparse import csr_array, diags_array
 
         places, weights = np.polynomial.legendre.leggauss(4)
@@ -124,14 +124,14 @@ def _knots(lines: Floats, degree: int) -> Floats:
 
 
 def _differences(knots: Floats, degree: int) -> Floats:
-    """From a spline's values to those of its derivative, of one degree less: each from two neighbours (n, 2)."""
+    """Weights (n, 2) of two neighbouring values of a spline in each value of its derivative, of one degree less."""
     n = len(knots) - degree - 1
     per_m = degree / (knots[degree + 1 : n + degree] - knots[1:n])
     return np.column_stack([-per_m, per_m])
 
 
 def _banded(rows: Floats, count: int) -> Floats:
-    """Every `count` rows in a row as a matrix over 4 nodes (n, count, 4)."""
+    """Every `count` consecutive rows as a matrix over 4 nodes (n, count, 4)."""
     n, width = len(rows) - count + 1, rows.shape[1]
     found = np.zeros((n, count, 4))
     for k in range(count):

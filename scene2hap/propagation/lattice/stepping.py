@@ -1,6 +1,6 @@
 """Time stepping of vibrating systems by two unconditionally stable integrators.
 
-    M u'' + C u' + K u = f(t),   f straight between the steps
+    M u'' + C u' + K u = f(t),   f linear between the steps
 
 `ExactStepper` takes modes, q'' + 2 zeta omega q' + omega^2 q = f, and has no error but rounding. With the impulse
 response g, the step response p = integral of g and the ramp response r = integral of p,
@@ -13,12 +13,12 @@ of the step, so that steps far longer than the fastest period lose no digits:
 
     (M + dt/2 C + dt^2/4 K) w = M v0 + dt/2 ((f0 + f1)/2 - s0),   u1 = u0 + dt w,   v1 = 2 w - v0,   s1 = s0 + dt K w
 
-It turns undamped modes at (2/dt) atan(omega dt/2) rather than omega, and keeps their energy. The force of the springs
-s = K u is carried along: a body that nothing holds moves ever farther, and rounding of K u, which grows with u, would
-push it as no spring does; K w stays as small as its motion.
+Undamped modes then oscillate at (2/dt) atan(omega dt/2) instead of omega, and keep their energy. The force of the
+springs s = K u is part of the state. A body that nothing holds moves ever farther, and rounding of K u, which grows
+with u, would push it as no spring does; K w stays as small as the motion.
 
 The loss of a plate, D (1 + j eta), has no causal counterpart in time. Stepping uses viscous modal damping of ratio
-zeta = eta/2, equal to it at each resonance; `viscous_difference_db` gives the difference elsewhere.
+zeta = eta/2, which is equal at each resonance; `viscous_difference_db` gives the difference elsewhere.
 
 Letters: u, q [m], v [m/s], f [N], omega [rad/s], zeta [-], dt [s].
 Source: Newmark, J. Eng. Mech. Div. ASCE 85 (1959); Craig and Kurdila, Fundamentals of Structural Dynamics, for the
@@ -44,7 +44,7 @@ LONGEST_STEP_S = 1e3
 """Bounds of a step: beyond them dt^2 leaves no digits beside 1 in any system that touch could feel."""
 
 MOST_ROUNDING = 1e-12
-"""Error of a step, beside the mass, that matrices may bring: the rounding of dt^2 K / 4."""
+"""Largest error of a step from rounding of dt^2 K / 4, relative to the mass."""
 
 
 class State(NamedTuple):
@@ -55,7 +55,7 @@ class State(NamedTuple):
 
 
 class _Carried(State):
-    """A state that was stepped to, with the force K u of its springs (n,) [N]."""
+    """A state that a step returned, with the force K u of its springs (n,) [N]."""
 
     elastic: NDArray[np.float64] | None = None
 
@@ -64,7 +64,8 @@ class Stepper(Protocol):
     """Advances a state by one step."""
 
     def step(self, state: State, force: ArrayLike = 0.0, next_force: ArrayLike | None = None) -> State:
-        """The state one step on, under a force (n,) [N] that goes straight to `next_force`, or stays where None."""
+        """Return the state one step later. The force (n,) [N] changes linearly to `next_force`, or stays if that is
+        None."""
         ...
 
     def energy(self, state: State) -> float:
@@ -91,7 +92,7 @@ class ExactStepper:
         g, p, r = _responses(omega, zeta, dt)
         self._omega2 = omega**2
         self._kept = 1 - self._omega2 * p, g, -self._omega2 * g, 1 - self._omega2 * p - 2 * zeta * omega * g
-        if (omega * dt >= 1).any():  # the same, without the difference of near equals at long steps
+        if (omega * dt >= 1).any():  # the same, without cancellation at long steps
             decay, phase = np.exp(-zeta * omega * dt), omega * np.sqrt((1 - zeta) * (1 + zeta)) * dt
             long = omega * dt >= 1
             cosine = decay * np.cos(phase)
@@ -101,7 +102,7 @@ class ExactStepper:
         self._ramped = r / dt, p / dt
 
     def step(self, state: State, force: ArrayLike = 0.0, next_force: ArrayLike | None = None) -> State:
-        """The state one step on; see `Stepper`."""
+        """Return the state one step later, see `Stepper`."""
         q, v = state
         qq, qv, vq, vv = self._kept
         displacement, velocity = qq * q + qv * v, vq * q + vv * v
@@ -118,14 +119,14 @@ class ExactStepper:
 
 
 class NewmarkStepper:
-    """Any linear system by average acceleration.
+    """Any linear system, stepped by average acceleration.
 
-    Parameters: mass, damping, stiffness : (n,) diagonals, or (n, n) matrices, dense or sparse, symmetric and never
-    negative, mass positive; [kg], [N s/m], [N/m]; dt_s : step [s].
+    Parameters: mass, damping, stiffness : (n,) diagonals, or (n, n) matrices, dense or sparse, symmetric and positive
+    semidefinite, mass positive; [kg], [N s/m], [N/m]; dt_s : step [s].
     Raises: ModelDomainError: shapes that do not fit, a value that is not finite, a mass that is not positive; matrices
-    so stiff for the step that rounding of the fastest motion would drown the slowest. Modes have no such bound.
-    Rounding adds up where nothing holds a body: of the energy of a hinged plate 1.2e-11 was lost or won over 10^4 steps
-    of 1 ms, 1.5e-9 over 2 x 10^5 and 2.2e-8 over 10^6. Step its modes for longer.
+    so stiff for the step that the slowest motion would be lost in rounding of the fastest. Modes have no such bound.
+    Rounding adds up where nothing holds a body: the energy of a hinged plate changed by 1.2e-11 of itself over 10^4
+    steps of 1 ms, by 1.5e-9 over 2 x 10^5 and by 2.2e-8 over 10^6. For longer runs, step its modes.
     """
 
     def __init__(self, mass: Any, damping: Any, stiffness: Any, dt_s: float) -> None:
@@ -154,7 +155,7 @@ class NewmarkStepper:
         self._solve = (lambda x: x / effective) if diagonal else _factorised(effective)
 
     def step(self, state: State, force: ArrayLike = 0.0, next_force: ArrayLike | None = None) -> State:
-        """The state one step on; see `Stepper`."""
+        """Return the state one step later, see `Stepper`."""
         u, v = state
         elastic = self._elastic(state)
         pull = np.asarray(force, dtype=np.float64) - elastic
@@ -162,7 +163,7 @@ class NewmarkStepper:
             pull = pull + (np.asarray(next_force, dtype=np.float64) - np.asarray(force, dtype=np.float64)) / 2
         mean = self._solve(self._times(self._mass, v) + self._dt / 2 * pull)
         moved = _Carried(u + self._dt * mean, 2 * mean - v)
-        if not self._is_diagonal:  # of modes by themselves, K u rounds no worse than u
+        if not self._is_diagonal:  # in a diagonal system, K u rounds no worse than u
             moved.elastic = elastic + self._dt * self._times(self._stiffness, mean)
         return moved
 
@@ -179,7 +180,7 @@ class NewmarkStepper:
 
 
 def newmark_frequency_rad_s(omega_rad_s: ArrayLike, dt_s: float) -> NDArray[np.float64]:
-    """The frequency at which `NewmarkStepper` turns an undamped mode: (2/dt) atan(omega dt/2) [rad/s]."""
+    """Frequency of an undamped mode in `NewmarkStepper`: (2/dt) atan(omega dt/2) [rad/s]."""
     dt = _step(dt_s)
     turned: NDArray[np.float64] = 2 / dt * np.arctan(np.asarray(omega_rad_s, dtype=np.float64) * dt / 2)
     return turned

@@ -1,4 +1,4 @@
-"""Plates of one shape: they share a lattice, whatever their size, thickness or material."""
+"""Plates of unit size: plates of one shape share a lattice, whatever their size, thickness or material."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from scene2hap.scene.surface.outline import Outline, Ring
 
 @lru_cache(maxsize=64)
 def of_size_one(plate: Plate) -> tuple[Plate, float]:
-    """A plate of the same shape, of 1 m and of a material that has the same Poisson's ratio; and how large the other is
-    [m]. Corners count to a thousand millionth, so that rounding makes no other shape."""
+    """Return a plate of the same shape, of 1 m and of a material with the same Poisson's ratio, and the size of the
+    given plate [m]. Corners are rounded to a thousand millionth, so that rounding makes no other shape."""
     size_m = max(plate.extent_m)
     outline = plate.outline
     if outline is not None:
@@ -27,7 +27,7 @@ def of_size_one(plate: Plate) -> tuple[Plate, float]:
 
 @lru_cache(maxsize=32)
 def outline_of(rings_m: tuple[Ring, ...]) -> Outline:
-    """One outline for all plates of a shape, which checks and measures itself once."""
+    """Outline shared by all plates of a shape, so that it is checked and measured once."""
     return Outline(rings_m)
 
 
