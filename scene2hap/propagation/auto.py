@@ -64,7 +64,7 @@ class AutoFidelity:
 
     Parameters: tolerance_db : 0.1..6 [dB], allowed error of a band's gain against `ModalPlate`; gains below -40 dB re
     the source count as -40 dB. The tolerance held in all of 1,570 touches in real scenes
-    (docs/figures/propagation.md). loss_floor, contact, outside_domain, hand : see `ModalPlate`.
+    (docs/figures/propagation.md); loss_floor, contact, outside_domain, hand : see `ModalPlate`.
     Raises: ConfigError: a setting out of bounds.
     """
 

@@ -5,10 +5,10 @@
     lattice   `MassSpringDamper`             for plates with an outline that are not rigid
     coarse    modes of a small basis         error `MODAL_DB`, calibrated
     medium    ...
-    modal     `ModalPlate`                   reference of all errors
+    modal     `ModalPlate`                   reference for all errors
 
-Every modal rung has resonances one by one, the static response of the remaining spectrum, and the near field; the rungs
-differ in their polynomial bases. Errors are those of band gains, floored at -40 dB re the source, in the worst band.
+Every modal rung sums single resonances, the static response of all stiffer modes, and the near field; the rungs differ
+in their polynomial bases. Errors are those of band gains, floored at -40 dB re the source, in the worst band.
 Calibrated bounds are at least the 99th percentile over 600 draws of `benchmarks/auto_fidelity.py --calibrate`, none of
 which is among the draws that it reports. The rigid rung errs most if a source resonates on several feet, especially
 near a corner: by 210 dB (f / f_1)^2 at worst in 600 draws.

@@ -15,7 +15,7 @@ from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 
 THIN_WAVELENGTHS = 6.0
-"""Shortest wavelength for which thin-plate theory is valid, in thicknesses. Its frequencies are then already 15 % above
+"""Shortest wavelength for which thin-plate theory is used, in thicknesses. There its frequencies are already 15 % above
 those of Mindlin's plate, which includes shear (6.5 % at ten thicknesses). Waves in furniture are longer up to 1 kHz.
 
 Source: the usual engineering rule; Cremer, Heckl, Petersson, Structure-Borne Sound.
@@ -67,7 +67,7 @@ def off_zero(plate: Plate, frequencies_hz: NDArray[np.float64]) -> NDArray[np.fl
     """Replace 0 Hz in frequencies (n_frequencies,) by a small one, since a loose plate has a limit there but no value.
 
     The small frequency is a millionth of the frequency at which k L = 1 on the longer side L. The lowest resonance of a
-    held plate is 3.5 times the latter (a cantilever), so its deflection is the static one to 1e-13.
+    held plate is 3.5 times the latter (a cantilever), so the plate's deflection is the static one to 1e-13.
     """
     slow_hz = (plate.wavenumber_per_root_omega * max(plate.extent_m)) ** -2 / (2 * np.pi)
     off: NDArray[np.float64] = np.where(frequencies_hz > 0, np.maximum(frequencies_hz, _LEAST_HZ), 1e-6 * slow_hz)

@@ -8,8 +8,8 @@ contact, as a half sine of the duration T = 1 / (2 f_c). The struck point then v
 
 Y is the mobility of a plate without edges; during an impact, a large plate has the same mobility. The share of the
 impact at frequency f is S(f) = |cos(pi f T) / (1 - (2 f T)^2)|: a rubber ball excites no high mode. Furniture stands on
-legs, so its edges are between free and supported. The modes of a supported plate are used, which are known in closed
-form: no eigenproblem has to be solved when something lands. Like all modes they rise with stiffness and fall with size
+legs, so its edges are between free and supported. The modes of a supported plate are used, since they are known in
+closed form, without an eigenproblem when something lands. Like all modes they rise with stiffness and fall with size
 and weight.
 
 Letters: J [N s], e [-] restitution, m, m_s [kg] of the struck body and of the striker, k [N/m], D [N m], m' [kg/m2],
@@ -52,7 +52,8 @@ MOST_MODES = 5
 LEAST_SHARE = 0.01
 """Modes below this part of the strongest one are left out: the struck point is on a node of theirs."""
 FINGER_KG, FINGER_N_M = 0.1, 2e4
-"""Mass and stiffness of the default striker: a fingertip with part of the hand, with a thud of 70 Hz; assumed."""
+"""Mass and stiffness of the default striker: a fingertip with part of the hand, soft enough for a thud of 70 Hz;
+assumed."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -189,7 +189,7 @@ def inclined(plate: Plate, bending: ElasticBody | None, mass_kg: float | None = 
         return InclinedShapes(None, Box(mass_kg, size_m))
     motions = Sheet(in_plane_modes(plate, mass_kg), mass_kg, size_m) if plate.edges == "FFFF" else Held()
     kind = InclinedShapes if isinstance(bending, HasResponseBasis) else InclinedBody
-    # A plate without edges has no resonances, so its loss factor is infinite.
+    # A plate without edges has no resonances and an infinite loss factor: strain takes that of the material.
     loss = bending.loss_factor if math.isfinite(bending.loss_factor) else plate.material.loss_factor
     return kind(bending, motions, loss)
 

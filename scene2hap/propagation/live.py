@@ -111,5 +111,5 @@ class LiveModel(Protocol):
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
     ) -> LiveField:
-        """Make a field that reads the graph at every query. The graph may change between queries, the bodies not."""
+        """Make a field that reads the graph at every query. The graph may change between queries, bodies not."""
         ...

@@ -189,7 +189,7 @@ class MassSpringDamper:
         Modes up to `max_frequency_hz` are stepped with viscous damping of ratio eta/2 (`stepping`), which may be 0.
         Higher modes follow the force without delay.
 
-        Parameters: force_n : (n_samples,) [N], linear between samples; others : see `plate_transfer`.
+        Parameters: force_n : (n_samples,) [N], linear between samples; see `plate_transfer` for the others.
         Returns: (n_points, n_samples) float64 [m]; the first sample has the static response of the higher modes only.
         """
         force = checks.floats("force_n", force_n, "N", error=ModelDomainError)

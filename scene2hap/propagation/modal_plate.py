@@ -51,7 +51,7 @@ class ModalPlate:
     """Physical model of a finite plate: a sum over its modes, with edges and resonances.
 
     Parameters: loss_floor : 0..2 [-], smallest loss factor of a plate. Tables give the loss of the bare material, 1e-4
-    for a metal, while joints and supports bring assembled objects to 0.005-0.02; the default 0.01 lies between.
+    for a metal, while joints and supports bring assembled objects to 0.005-0.02; the default 0.01 lies between;
     contact : stiffness of contacts, or its settings; outside_domain : reaction to an object of a scene that is thicker
     than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or "ignore"; hand : load
     on an object at the touched point: "palm", "fingertip", a `Hand` or its settings, None for no load.

@@ -5,7 +5,7 @@
 K is the Ritz stiffness matrix of `ritz`. A plate with equal edges at both ends of an axis has modes that are even or
 odd along it, so the eigenproblem splits into up to four smaller ones. Each is solved for the compliance (K + s)^-1,
 whose largest eigenvalues belong to the lowest modes. The eigenvalues of K itself grow as the eighth power of the basis
-size: rounding errors would then exceed rigid motions and the lowest modes of large or slender plates. Stiffer modes are
+size: rounding errors would then hide rigid motions and the lowest modes of large or slender plates. Stiffer modes are
 not computed. Powers of the compliance approximate their response, in a larger basis than that of the modes
 (`Fineness`).
 

@@ -1,7 +1,7 @@
-"""The near field of a force on a plate, as far as a polynomial basis cannot represent it.
+"""The part of a force's near field on a plate that a polynomial basis cannot represent.
 
-Around a driven point lies a dimple narrower than the distance 1/K between the zeros of a polynomial basis. It is that
-of the infinite plate, without wavenumbers below K (derived here):
+Around a driven point lies a dimple narrower than the distance 1/K between the zeros of a polynomial basis. It is taken
+from the infinite plate, without wavenumbers below K (derived here):
 
     residual = 1 / (2 pi D_c) integral from K to infinity of J0(kappa r) kappa / (kappa^4 - k_c^4) d kappa
              ~ g(K r) artanh(k_c^2 / K^2) / (4 pi D_c k_c^2)      g(a) = 2 integral from 1 to infinity of J0(a t) / t^3
@@ -49,7 +49,7 @@ moves 8/3.5 times as much as the inside. Exact for S, an approximation otherwise
 
 
 FAR = 20.0
-"""Argument a beyond which g(a) is left out: it is below 0.02 there, and distant edges would contribute."""
+"""Argument a beyond which g(a) is left out: it is below 0.02 there, and distant edges would otherwise contribute."""
 _N_PIECES = 4096
 
 
@@ -153,7 +153,8 @@ def beyond_cutoff_of_square(a2: Floats, pieces: Floats) -> Floats:
 
 @lru_cache(maxsize=1)
 def table() -> Floats:
-    """Values of g, evenly spaced in sqrt(a), and steps to the next value (n_pieces + 1, 2); the last of both is 0."""
+    """Values of g, evenly spaced in the root of a, in which g is smooth, and steps to the next value (n_pieces + 1, 2).
+    The last of both is 0."""
     values = beyond_cutoff(FAR * (np.arange(_N_PIECES + 1) / _N_PIECES) ** 2)
     steps = np.append(np.diff(values), 0.0)
     values[-1] = 0.0

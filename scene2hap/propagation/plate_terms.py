@@ -71,7 +71,7 @@ class ForcedPlate:
     def sizes(self) -> Floats:
         """Typical magnitude of each mode, then of the remainder of each force and node (n_modes + n_forces N_NODES,).
 
-        They are norms of the coefficients of cosines; near fields are left out, since all nodes of a force have them.
+        Magnitudes are norms of coefficients of cosines; near fields are left out, since all nodes of a force have them.
         """
         sizes: Floats = np.sqrt(np.concatenate([np.square(one).sum(axis=0) for one in (self.modes, self.rest)]))
         return sizes

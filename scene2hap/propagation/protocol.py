@@ -190,7 +190,7 @@ class CoupledModel(PropagationModel, Protocol):
         ...
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
-        """Return a plate that is not compact as a body for coupling, for frequencies up to `max_frequency_hz`."""
+        """Return a plate that is not compact as a body for coupling up to `max_frequency_hz` [Hz]."""
         ...
 
 

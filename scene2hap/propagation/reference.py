@@ -33,7 +33,7 @@ from scene2hap.scene.pose import Pose
 NEAR_M = 0.1
 """Distance from where a source stands at which its level is that of the law [m]."""
 LARGEST = 1e3
-"""Largest factor by which a source is raised or lowered [-], for sources that hardly arrive at a point."""
+"""Largest factor by which a source is raised or lowered [-], so that faint sources are not raised without limit."""
 _N_AROUND = 8
 
 Floats = NDArray[np.float64]

@@ -29,11 +29,11 @@ CLOSE = 1e-3
 _MISSED = CLOSE**2 / 3
 """Part of the square of each source's motion that each of three steps may lose."""
 _MORE = 8
-"""Random combinations in addition to those that the band below needed; doubled until they hold enough."""
+"""Number of random combinations in addition to those that the band below needed; doubled until they hold enough."""
 _AT_ONCE = 64
 """Random columns that are drawn at once, and cached."""
 _ROUNDING = 1e-13
-"""Added to the square in each shape, since a source may need fewer shapes than all sources together."""
+"""Added to the diagonal of R^T R, since a source may need fewer shapes than all sources together."""
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -117,8 +117,8 @@ def _of_length_one(weights: Floats) -> tuple[Floats, Floats]:
 
 
 def _few(columns: Floats, n_mixed: int) -> tuple[Floats, Floats]:
-    """Orthonormal basis of columns (m, n) except for twice `_MISSED`, and the length of the columns along each of its
-    directions."""
+    """Orthonormal basis of columns (m, n), up to a loss of twice `_MISSED`, and the length of the columns along each of
+    its directions."""
     basis = _range_of(columns, n_mixed)
     within = basis.T @ columns
     squares, turned = np.linalg.eigh(within @ within.T)
@@ -135,7 +135,7 @@ def _factors(within: Floats) -> Floats:
 
 
 def _range_of(columns: Floats, n_mixed: int) -> Floats:
-    """Orthonormal basis of columns (m, n) except for `_MISSED`."""
+    """Orthonormal basis of columns (m, n), up to a loss of `_MISSED`."""
     most, whole = min(columns.shape), np.square(columns).sum()
     while n_mixed < most:
         basis, _ = np.linalg.qr(columns @ _mixing(columns.shape[1], n_mixed))

@@ -33,7 +33,7 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False)
 class _Octave:
-    """The frequencies from index begin to end.
+    """One octave: the frequencies from index begin to end.
 
     n_near : number of the lowest modes that are summed one by one; far : (n_far, N_NODES) values of all other modes at
     the nodes; spectra : of near modes, nodes and the other terms, real and imaginary parts interleaved.

@@ -181,7 +181,7 @@ class ContactPaths:
         return found
 
     def _neighbours_onward(self, here: str, hops: int) -> Iterable[tuple[str, list[ContactEdge]]]:
-        """The neighbours of an object through which a path over `hops` contacts may lead to a source."""
+        """The neighbours of an object through which a path may lead to a source, after `hops` contacts."""
         onward = self._onward.get(here, {}).items()
         if self._max_hops is None or hops + 1 < self._max_hops:
             return onward
