@@ -8,9 +8,9 @@ receptance of the plate without edges. B is the factor by which a resonance exce
 whose shape is twice its mean at both points, 4 / (eta omega M), over the mean mobility pi n / (2 M), as the rms over a
 band of width b. At a free edge a mode is sqrt(2) times as large as inside, for each axis that ends there. A plate
 without reflections yields 3.4 times as much at an edge, and 9.4 times at a corner. Therefore r has a factor of sqrt(2)
-for each axis with a free end, since the hand may be anywhere, and another if the source stands within a quarter wave of
-that end. Below its first resonance omega_1 a held plate yields less, 5.2 / (M (omega_1^2 - omega^2)). Derived here. The
-bound exceeded the loudest gain, also at edges and corners, in every draw of tests/physics/test_auto_fidelity.py.
+for each axis with a free end, since the hand may be anywhere. It has another if the source stands within a quarter wave
+of that end. Below its first resonance omega_1 a held plate yields less, 5.2 / (M (omega_1^2 - omega^2)). Derived here.
+The bound exceeded the loudest gain, also at edges and corners, in every draw of tests/physics/test_auto_fidelity.py.
 
 Letters: g [-] gain, F_b [N/m], m [kg], M [kg] mass of the plate, K [N/m] complex, Y [m/N], D [N m], k [rad/m],
 n [s/rad], eta [-], b [Hz].

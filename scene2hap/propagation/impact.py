@@ -1,7 +1,7 @@
 """The response of a body to an impact: a few decaying sines at the struck point.
 
-Two bodies that meet at a speed v exchange the momentum J = (1 + e) v / (1/m + 1/m_s) through the spring of their
-contact, as a half sine of the duration T = 1 / (2 f_c). The struck point then vibrates with the accelerations
+Two bodies that meet at a speed v exchange the momentum J = (1 + e) v / (1/m + 1/m_s). The spring of their contact makes
+the force a half sine of duration T = 1 / (2 f_c). The struck point then vibrates with the accelerations
 
     contact     2 pi f_c J (1/m + pi f_c Y)        f_c = sqrt(k (1/m + 1/m_s)) / (2 pi),   Y = 1 / (8 sqrt(D m'))
     modes       2 pi f_n J phi_n^2 S(f_n)          f_n of a plate that is supported along its edges

@@ -2,12 +2,11 @@
 
     K c = k^4 c          omega = k^2 sqrt(D / m)          integral of m phi_i phi_j = 1 kg if i = j, else 0
 
-K is the Ritz stiffness matrix of `ritz`. A plate with equal edges at both ends of an axis has modes that are even or
-odd along it, so the eigenproblem splits into up to four smaller ones. Each is solved for the compliance (K + s)^-1,
-whose largest eigenvalues belong to the lowest modes. The eigenvalues of K itself grow as the eighth power of the basis
-size: rounding errors would then hide rigid motions and the lowest modes of large or slender plates. Stiffer modes are
-not computed. Powers of the compliance approximate their response, in a larger basis than that of the modes
-(`Fineness`).
+K is the Ritz stiffness matrix of `ritz`. If the edges at both ends of an axis are equal, modes are even or odd along
+it. The eigenproblem then splits into up to four smaller ones. Each is solved for the compliance (K + s)^-1, whose
+largest eigenvalues belong to the lowest modes. The eigenvalues of K itself grow as the eighth power of the basis size:
+rounding errors would then hide rigid motions and the lowest modes of large or slender plates. Stiffer modes are not
+computed. Powers of the compliance approximate their response, in a larger basis than that of the modes (`Fineness`).
 
 Letters: k [rad/m] wavenumber, D [N m], m [kg/m2] mass per area, omega [rad/s], phi [kg^-1/2] shape, s [m^-4] shift.
 Source: see `ritz`.

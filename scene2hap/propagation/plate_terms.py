@@ -4,9 +4,9 @@
     q = k^4 / (1 + j eta)
 
 The first sum has the modes up to 1.5 times the top frequency. The second sum is the remainder of `modal_plate`: the
-rest of the Ritz spectrum and the near field. The remainder changes little with q (its nearest pole is at 2.25 times the
-highest q), so Chebyshev interpolation between its values rho_i at four nodes q_i, by Lagrange polynomials l_i, is
-accurate to 1e-3. A touch then costs three small matrix products, and no frequency needs a sum of its own.
+rest of the Ritz spectrum and the near field. The remainder changes little with q, since its nearest pole is at 2.25
+times the highest q. Chebyshev interpolation from its values rho_i at four nodes q_i, with Lagrange polynomials l_i, is
+therefore accurate to 1e-3. A touch then costs three small matrix products, and no frequency needs a sum of its own.
 
 Letters: Y [m/N] receptance, D_c [N m] complex bending stiffness, phi [1/m] shape normalised over the area, k [rad/m],
 q [m^-4], rho [m^2], eta [-].

@@ -3,9 +3,9 @@
     sum over n of a_n / (k_n^4 - q)          q = k^4 / (1 + j eta)
 
 Within an octave, the sum over modes far above it is smooth in q. Chebyshev interpolation from `N_NODES` nodes gives it
-to a part in 10^12: modes from 1.5 times the octave's top frequency on lie at 2.25 times its highest q or beyond, where
-each node improves it by a factor of 6.9. Therefore the lower octaves, which hold most frequencies of third-octave
-bands, need a few modes each, and the whole sum needs half of the products.
+to a part in 10^12: modes from 1.5 times the octave's top frequency on lie at 2.25 times its highest q or beyond. There
+each node improves the interpolation by a factor of 6.9. The lower octaves, which hold most frequencies of third-octave
+bands, therefore need a few modes each, and the whole sum needs half of the products.
 
 Letters: a shapes [m^-2], k [rad/m], q [m^-4], eta [-].
 """

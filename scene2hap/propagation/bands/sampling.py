@@ -7,8 +7,8 @@ of a band cuts a resonance, the midpoint rule has an error of d^2 / 24 times the
 frequencies next to each edge cancel this error (the slope from two differences, derived here).
 
 Bands around the dominant frequencies of sources overlap. They share the frequencies of one geometric series. The
-outermost frequencies of a band are weighted by the part of their step that the band covers, so that a source's gain
-does not depend on the other sources.
+weight of a band's outermost frequencies is the part of their step that the band covers. A source's gain therefore does
+not depend on the other sources.
 """
 
 from __future__ import annotations
