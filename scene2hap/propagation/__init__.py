@@ -1,4 +1,4 @@
-"""How vibration spreads from its sources over touching objects to a hand."""
+"""Propagation models: how vibration spreads from its sources over touching objects to a hand."""
 
 from typing import TYPE_CHECKING, Any
 

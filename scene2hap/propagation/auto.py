@@ -53,7 +53,7 @@ class AutoField(CoupledField):
     choices: Mapping[str, Choice] = field(default_factory=dict)
 
     def explain(self) -> str:
-        """The choices as text, a line for each object that a source reaches."""
+        """Return the choices as text, one line for each object that a source reaches."""
         return "\n".join(str(choice) for choice in self.choices.values())
 
 
@@ -63,9 +63,9 @@ class AutoFidelity:
     """Physical model that picks the cheapest of six plate models for each object, within a stated error.
 
     Parameters: tolerance_db : 0.1..6 [dB], allowed error of a band's gain against `ModalPlate`; gains below -40 dB re
-    the source count as -40 dB. It held in all of 1,570 touches in real scenes (docs/figures/propagation.md).
-    loss_floor, contact, outside_domain, hand : as of `ModalPlate`.
-    Raises: ConfigError: out of bounds.
+    the source count as -40 dB. The tolerance held in all of 1,570 touches in real scenes
+    (docs/figures/propagation.md); loss_floor, contact, outside_domain, hand : see `ModalPlate`.
+    Raises: ConfigError: a setting out of bounds.
     """
 
     tolerance_db: float = 1.0
@@ -84,7 +84,7 @@ class AutoFidelity:
         object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> AutoField:
-        """The field of a scene; `AutoField.choices` holds each object's rung. Errors, warnings: as of `ModalPlate`."""
+        """Prepare the field of a scene, with each object's rung in `choices`. Errors and warnings: see `ModalPlate`."""
         scene = assemble(network, excitations, bands, self.contact, self.outside_domain)
         choices = {key: Choice(key, "rigid", 0.0, "a source, or so stiff that every rung is") for key in scene.rigid}
         for object_id in sorted(scene.plates):
@@ -109,7 +109,7 @@ class AutoFidelity:
         return situation.choose("plate", self.tolerance_db, may_be_infinite=False)
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
-        """A plate, ready to be coupled, for frequencies up to `max_frequency_hz` [Hz]; of the rung of `choose`."""
+        """Return a plate as a body for coupling up to `max_frequency_hz` [Hz], of the rung of `choose`."""
         rung = self.choose(plate, max_frequency_hz).rung
         return body_of(rung, plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
 
@@ -118,7 +118,7 @@ class AutoFidelity:
     ) -> NDArray[np.complex128]:
         """Amplitude at points of one plate over the amplitude at the driven point, by the rung of `choose`.
 
-        Parameters, returns, errors and warnings as `ModalPlate.plate_transfer`.
+        Parameters, returns, errors and warnings: see `ModalPlate.plate_transfer`.
         """
         f = as_frequencies(frequencies_hz)
         drive = points_on(plate, drive_m)
@@ -136,7 +136,7 @@ class AutoFidelity:
     ) -> NDArray[np.complex128]:
         """Deflection at points over the force at the driven point, by the rung of `choose` [m/N].
 
-        Parameters, returns, errors and warnings as `ModalPlate.plate_receptance`.
+        Parameters, returns, errors and warnings: see `ModalPlate.plate_receptance`.
         """
         loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
         f = as_frequencies(frequencies_hz, positive_because=loose)
@@ -164,7 +164,7 @@ class AutoFidelity:
         for joint in joints:
             pushing.setdefault(joint.b if joint.a == object_id else joint.a, []).append(joint)
         if not pushing.keys() <= mass_kg.keys():
-            return situation  # what pushes it is not known before the scene is solved
+            return situation  # the motion of an object that is no source is unknown before the scene is solved
         own_hz = [
             edge
             for item in scene.excitations
@@ -177,6 +177,6 @@ class AutoFidelity:
         return replace(situation, peak_db=peak)
 
     def _density(self) -> float:
-        """Density of frequencies relative to that of `sampling`, for a share of the tolerance."""
+        """Density of frequencies relative to that of `sampling`, for `SAMPLING_SHARE` of the tolerance."""
         spacing = math.pi / math.log(2 / (10 ** (SAMPLING_SHARE * self.tolerance_db / 10) - 1))
         return min(1.0, SPACING / min(spacing, 1.0))

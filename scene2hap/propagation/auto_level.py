@@ -1,16 +1,16 @@
-"""Upper bound of a plate's level relative to its sources, before anything is solved.
+"""Upper bound on a plate's level relative to its sources, known before the scene is solved.
 
     g(f) <= F_b Y_inf B            F_b = 1 / |1 / K - 1 / (omega^2 m)|          Y_inf = 1 / (8 D k^2)
     B = max(r^2, 8 r / (pi omega n eta) sqrt(min(1, pi eta f / (2 b))))
 
-F_b is what a source of mass m pushes with, per unit of its free motion, through contacts of stiffness K against a wall;
-Y_inf the receptance of the plate without edges; B how far a resonance of modal density n rises above it: a mode whose
-shape is twice its mean at both points, 4 / (eta omega M), over the mean mobility pi n / (2 M), as the rms over a band
-of width b. At a free edge a mode is sqrt(2) times as large as inside, for each of the axes that end there, and a plate
-without echoes yields 3.4 times as much, 9.4 times at a corner: r is a factor of sqrt(2) for each axis with a free end,
-since the hand may be anywhere, and another if the source stands within a quarter wave of that end. Below the first
-resonance omega_1 a plate that is held yields less, 5.2 / (M (omega_1^2 - omega^2)). Derived here. It exceeded the
-loudest gain, at edges and corners too, in each of the draws of tests/physics/test_auto_fidelity.py.
+F_b is the blocked force, per unit of free motion, of a source of mass m behind contacts of stiffness K. Y_inf is the
+receptance of the plate without edges. B is the factor by which a resonance exceeds Y_inf at modal density n: a mode
+whose shape is twice its mean at both points, 4 / (eta omega M), over the mean mobility pi n / (2 M), as the rms over a
+band of width b. At a free edge a mode is sqrt(2) times as large as inside, for each axis that ends there. A plate
+without reflections yields 3.4 times as much at an edge, and 9.4 times at a corner. Therefore r has a factor of sqrt(2)
+for each axis with a free end, since the hand may be anywhere. It has another if the source stands within a quarter wave
+of that end. Below its first resonance omega_1 a held plate yields less, 5.2 / (M (omega_1^2 - omega^2)). Derived here.
+The bound exceeded the loudest gain, also at edges and corners, in every draw of tests/physics/test_auto_fidelity.py.
 
 Letters: g [-] gain, F_b [N/m], m [kg], M [kg] mass of the plate, K [N/m] complex, Y [m/N], D [N m], k [rad/m],
 n [s/rad], eta [-], b [Hz].
@@ -40,10 +40,10 @@ def peak_level_db(
     bands: Bands,
     own_hz: list[float],
 ) -> float:
-    """Bound on the gain anywhere on a plate that sources push [dB].
+    """Upper bound on the gain anywhere on a plate that sources push [dB].
 
-    Parameters: pushed_by : mass [kg] of each source on the plate, and its joints there; places_m : (n, 2) where all of
-    these are on the plate [m]; own_hz : frequencies of the sources, used without bands.
+    Parameters: pushed_by : mass [kg] of each source on the plate, and its joints there; places_m : (n, 2) positions of
+    all these joints on the plate [m]; own_hz : frequencies of the sources [Hz], used if `bands` has no edges.
     """
     edges = bands.widths_hz()
     f = np.geomspace(edges[0, 0], edges[-1, 1], N_FREQUENCIES) if len(edges) else np.array(own_hz)
@@ -59,7 +59,7 @@ def _rise_at_hand(plate: Plate) -> float:
 
 
 def _rise_at(plate: Plate, places_m: NDArray[np.float64], omega: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Factor of the receptance at a pushed point by the free edges within a quarter wave (n_frequencies,)."""
+    """Factor (n_frequencies,) by which free edges within a quarter wave raise the receptance at pushed points."""
     quarter_m = math.pi / 2 / np.asarray(plate.wavenumber_rad_m(omega / (2 * math.pi)))
     rise = np.ones(len(omega))
     for axis, side_m in enumerate((plate.length_m, plate.width_m)):
@@ -79,13 +79,13 @@ def _push(omega: NDArray[np.float64], mass_kg: float, joints: list[Joint]) -> ND
 def _receptance(
     plate: Plate, eta: float, omega: NDArray[np.float64], share: float, rise: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """The largest receptance of a plate [m/N]."""
+    """Upper bound on the receptance of a plate (n_frequencies,) [m/N]."""
     D, mass = plate.bending_stiffness_nm, plate.mass_kg
     m = plate.material.density_kg_m3 * plate.thickness_m
     n = plate.length_m * plate.width_m / (4 * math.pi) * math.sqrt(m / D)
     boost = 8 / (math.pi * omega * n * eta) * math.sqrt(min(1.0, math.pi * eta / (2 * share)))
     bound: NDArray[np.float64] = np.maximum(rise**2, rise * boost) / (8 * np.sqrt(D * m) * omega)
-    # A plate clamped all round is the stiffest; its first mode is below 36 / S in any case.
+    # A plate clamped all round is the stiffest; its omega_1 is at most 36 sqrt(D / m) / (shorter side)^2.
     could_be_first = 36.0 * max(plate.length_m / plate.width_m, plate.width_m / plate.length_m)
     if n_rigid_motions(plate) == 0 and omega[0] < could_be_first / (plate.length_m * plate.width_m) * math.sqrt(D / m):
         below = (2 * math.pi * first_bending_hz(plate)) ** 2 - omega**2

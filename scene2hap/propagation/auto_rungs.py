@@ -1,17 +1,17 @@
-"""The rungs of `auto`: models of one plate from the cheapest to `ModalPlate`, and bounds of their errors against it.
+"""The rungs of `auto`: models of one plate from the cheapest to `ModalPlate`, and bounds on their errors against it.
 
-    rigid     moves as a whole               wrong by 250 dB (f / f_1)^2, calibrated
-    infinite  has no edges                   wrong by what rises above the floor of -40 dB, derived (`auto_level`)
-    lattice   `MassSpringDamper`             what plates with an outline take that are not rigid
-    coarse    modes of a small basis         wrong by `MODAL_DB`, calibrated
+    rigid     moves as a whole               error 250 dB (f / f_1)^2, calibrated
+    infinite  has no edges                   error is the level above the floor of -40 dB, derived (`auto_level`)
+    lattice   `MassSpringDamper`             for plates with an outline that are not rigid
+    coarse    modes of a small basis         error `MODAL_DB`, calibrated
     medium    ...
-    modal     `ModalPlate`                   what all are held against
+    modal     `ModalPlate`                   reference for all errors
 
-Every modal rung keeps its resonances one by one, the static share of all else, and the near field; they differ in the
-polynomials that they are made of. Errors are those of band gains, floored at -40 dB re the source, in the worst band.
-Calibrated: at least the 99th percentile over 600 draws of `benchmarks/auto_fidelity.py --calibrate`, none of which is
-among those that it reports. The rigid rung errs most where a source resonates on several feet, above all near a corner:
-by 210 dB (f / f_1)^2 at worst in 600 draws.
+Every modal rung sums single resonances, the static response of all stiffer modes, and the near field; the rungs differ
+in their polynomial bases. Errors are those of band gains, floored at -40 dB re the source, in the worst band.
+Calibrated bounds are at least the 99th percentile over 600 draws of `benchmarks/auto_fidelity.py --calibrate`, none of
+which is among the draws that it reports. The rigid rung errs most if a source resonates on several feet, especially
+near a corner: by 210 dB (f / f_1)^2 at worst in 600 draws.
 
 Letters: f [Hz] top frequency, f_1 [Hz] first bending mode.
 """
@@ -32,7 +32,7 @@ from scene2hap.propagation.modes import FINE, Fineness, first_bending_hz
 from scene2hap.propagation.plate import Plate
 
 FLOOR_DB = -40.0
-"""Gains below this are as good as none: errors are counted from here, re the source."""
+"""Floor of gains in errors, re the source: lower gains count as this."""
 RIGID_DB = 250.0
 FINENESS = {
     "coarse": Fineness(1.1 / math.pi, 3, 6, least_wider=0),
@@ -44,11 +44,11 @@ MODAL_DB = {
     "held": {"coarse": 5.0, "medium": 2.3},
     "free": {"coarse": 4.6, "medium": 0.9},
 }
-"""Error of each basis by what holds the plate: "free" are two free edges or more; the rest is "held", and quiet where
-sources cannot bring it above `QUIET_DB`. Near edges that hold, a plate hardly moves, and small bases err most."""
+"""Error of each basis by the plate's edges: "free" has two free edges or more; the rest is "held", and quiet if sources
+cannot raise its level above `QUIET_DB`. Near a held edge a plate hardly moves, and small bases err most there."""
 QUIET_DB = 5.0
 _COARSE_CELLS = 4
-"""Cells of a lattice that has the first bending mode of an outline within some percent."""
+"""Resolution of a lattice that gives the first bending mode of an outline within some percent."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class Situation:
     peak_db: float = math.inf
 
     def choose(self, object_id: str, tolerance_db: float, *, may_be_infinite: bool = True) -> Choice:
-        """The cheapest rung whose bound is within the tolerance [dB]; `ModalPlate` if none is."""
+        """Choose the cheapest rung whose bound is within the tolerance [dB]; `ModalPlate` if none is."""
         ratio = self._bending(tolerance_db)
         if RIGID_DB * ratio**2 <= tolerance_db:
             why = f"{self.top_hz:g} Hz is {ratio:.2g} of its first bending mode"
@@ -93,27 +93,27 @@ class Situation:
         return Choice(object_id, "modal", 0.0, f"no smaller basis serves a plate that is {held}")
 
     def _bending(self, tolerance_db: float) -> float:
-        """Top frequency over that of the first bending mode; infinite where a simple bound is exceeded."""
+        """Ratio of the top frequency to the first bending mode's; infinite for a held plate or above a simple bound."""
         longer = max(self.plate.length_m, self.plate.width_m)
-        # A free beam along the longer side is a trial deflection, so the first mode lies below its own (Rayleigh).
+        # A free beam along the longer side is a trial deflection, so the plate's first mode is below it (Rayleigh).
         beam_hz = 22.374 / (longer * self.plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
         if self.plate.edges != "FFFF" or RIGID_DB * (self.top_hz / beam_hz) ** 2 > tolerance_db:
             return math.inf
         if self.plate.outline is not None and len(self.plate.outline.inward[0]):
-            # Arms of an L, tongues beside a slot and rings bend sooner than the rectangle.
+            # Arms of an L, tongues beside a slot and rings bend at lower frequencies than the rectangle.
             return self.top_hz / float(lowest_frequencies_hz(self.plate, _COARSE_CELLS, 4)[3])
         return self.top_hz / first_bending_hz(replace(self.plate, outline=None))
 
     @property
     def held(self) -> str:
-        """The row of `MODAL_DB`."""
+        """Key of the plate's row in `MODAL_DB`."""
         if self.plate.edges.count("F") >= 2:
             return "free"
         return "held, and quiet" if self.peak_db < QUIET_DB else "held"
 
 
 def body_of(rung: str, plate: Plate, max_frequency_hz: float, loss_factor: float) -> ElasticBody:
-    """The body that a rung makes of a plate, for frequencies up to `max_frequency_hz` [Hz]."""
+    """Make the body of a plate by the model of a rung, for frequencies up to `max_frequency_hz` [Hz]."""
     return _MAKERS[rung](plate, max_frequency_hz, loss_factor)
 
 
@@ -130,4 +130,4 @@ _MAKERS: dict[str, Callable[[Plate, float, float], ElasticBody]] = {
     **{rung: _modal(fineness) for rung, fineness in FINENESS.items()},
 }
 RUNGS = tuple(_MAKERS)
-"""From the cheapest to the dearest."""
+"""Names of the rungs, from the cheapest to the most expensive."""

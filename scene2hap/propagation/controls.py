@@ -59,14 +59,14 @@ class FullPropagation:
 
 @dataclass(frozen=True)
 class ReachField:
-    """Attenuation 1 on the objects that a source reaches, 0 elsewhere."""
+    """A field with gain 1 on the objects that a source reaches, and 0 elsewhere."""
 
     reach: tuple[tuple[str, frozenset[str]], ...]
     n_bands: int
 
     @property
     def source_ids(self) -> tuple[str, ...]:
-        """The sources, in the order of the answer's second axis."""
+        """Ids of the sources, in the order of the second axis of `attenuation`."""
         return tuple(source_id for source_id, _ in self.reach)
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:

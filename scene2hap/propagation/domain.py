@@ -15,14 +15,14 @@ from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 
 THIN_WAVELENGTHS = 6.0
-"""Shortest wavelength that thin-plate theory serves, in thicknesses. There its frequencies are already 15 % above those
-of Mindlin's plate, which shears (6.5 % at ten thicknesses); furniture stays above it up to 1 kHz.
+"""Shortest wavelength for which thin-plate theory is used, in thicknesses. There its frequencies are already 15 % above
+those of Mindlin's plate, which includes shear (6.5 % at ten thicknesses). Waves in furniture are longer up to 1 kHz.
 
 Source: the usual engineering rule; Cremer, Heckl, Petersson, Structure-Borne Sound.
 """
 
 _LEAST_HZ = 1e-100
-"""Below, k^4 would not be a number above 0."""
+"""Frequency below which k^4 would underflow to 0."""
 
 
 class ThinPlateWarning(UserWarning):
@@ -35,7 +35,7 @@ class SlowPlateWarning(UserWarning):
 
 @lru_cache(maxsize=4096)
 def warn_if_slow(plate: Plate, size: int, most: int, what: str) -> None:
-    """Warn once per plate, by `SlowPlateWarning`, of a problem larger than `most`, which takes about a second."""
+    """Issue a `SlowPlateWarning`, once per plate, if `size` exceeds `most`, which takes about a second."""
     if size > most:
         warnings.warn(
             f"{size} {what} of a plate of {plate.length_m:g} × {plate.width_m:g} × {plate.thickness_m:g} m are worked "
@@ -46,10 +46,10 @@ def warn_if_slow(plate: Plate, size: int, most: int, what: str) -> None:
 
 
 def as_frequencies(frequencies_hz: ArrayLike, *, positive_because: str = "") -> NDArray[np.float64]:
-    """Frequencies as (n_frequencies,) float64 [Hz], >= 0; one may come as a bare number.
+    """Convert frequencies to (n_frequencies,) float64 [Hz], >= 0; a single one may be a bare number.
 
-    Parameters: positive_because : why 0 Hz cannot be answered; empty where it can.
-    Raises: ModelDomainError: another shape; a frequency that is negative, not finite, or 0 where that has no answer.
+    Parameters: positive_because : why 0 Hz is an error; empty if 0 Hz is valid.
+    Raises: ModelDomainError: another shape; a frequency that is negative, not finite, or 0 where 0 Hz is an error.
     """
     f = np.atleast_1d(checks.floats("frequencies_hz", frequencies_hz, "Hz", error=ModelDomainError))
     if f.ndim != 1:
@@ -64,10 +64,10 @@ def as_frequencies(frequencies_hz: ArrayLike, *, positive_because: str = "") -> 
 
 
 def off_zero(plate: Plate, frequencies_hz: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Frequencies (n_frequencies,) [Hz] with a small one for 0, where a loose plate has a limit but no value.
+    """Replace 0 Hz in frequencies (n_frequencies,) by a small one, since a loose plate has a limit there but no value.
 
-    It is a millionth of that with k L = 1 on the longer side L. The lowest resonance of a held plate is at 3.5 times
-    that (a cantilever), so that its deflection is the static one to 1e-13.
+    The small frequency is a millionth of the frequency at which k L = 1 on the longer side L. The lowest resonance of a
+    held plate is 3.5 times the latter (a cantilever), so the plate's deflection is the static one to 1e-13.
     """
     slow_hz = (plate.wavenumber_per_root_omega * max(plate.extent_m)) ** -2 / (2 * np.pi)
     off: NDArray[np.float64] = np.where(frequencies_hz > 0, np.maximum(frequencies_hz, _LEAST_HZ), 1e-6 * slow_hz)
@@ -89,7 +89,7 @@ def floored_loss(plate: Plate, loss_floor: float) -> float:
 
 
 def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:
-    """Warn once per plate, by `ThinPlateWarning`, if six thicknesses exceed its wavelength at the top frequency."""
+    """Issue a `ThinPlateWarning`, once per plate, if six thicknesses exceed its wavelength at the top frequency."""
     require_plate(plate)
     if frequencies_hz.size == 0:
         return
@@ -103,7 +103,7 @@ OutsideDomain = Literal["warn", "raise", "ignore"]
 
 
 def check_choice(outside_domain: str) -> None:
-    """Raises: ConfigError: it is none of "warn", "raise" and "ignore"."""
+    """Raise a ConfigError unless `outside_domain` is "warn", "raise" or "ignore"."""
     if outside_domain not in get_args(OutsideDomain):
         raise ConfigError(f"outside_domain is {outside_domain!r}; it must be 'warn', 'raise' or 'ignore'.")
 
@@ -132,7 +132,7 @@ def _thin_limit_hz(plate: Plate) -> float:
 
 @lru_cache(maxsize=4096)
 def _warn_once(plate: Plate) -> None:
-    # The caller of the model, past this function, `warn_if_thick` and the model itself.
+    # Level 4 is the caller of the model, beyond this function, `warn_if_thick` and the model itself.
     warnings.warn(_too_thick(plate), ThinPlateWarning, stacklevel=4)
 
 
@@ -145,7 +145,7 @@ def _too_thick(plate: Plate) -> str:
 
 
 def driven_on_held_edge(plate: Plate, drive_m: NDArray[np.float64]) -> ModelDomainError:
-    """The error of a transfer whose driven point (1, 2) [m] does not move."""
+    """Return the error for a transfer whose driven point (1, 2) [m] does not move."""
     return ModelDomainError(
         f"the driven point ({drive_m[0, 0]:g}, {drive_m[0, 1]:g}) m lies on an edge that does not move (boundary "
         f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."

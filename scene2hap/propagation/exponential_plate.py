@@ -2,9 +2,9 @@
 
     Gamma(R) = exp(-k |R - R0|)         k^4 = rho h omega^2 / D         D = E h^3 / (12 (1 - nu^2))
 
-It is a style, legible rather than physical: exp(-k r) is the evanescent near field of a driven plate alone, while the
-wave that travels decays far more slowly. People in the paper's second study preferred it to no and to full
-propagation, so it is the default.
+The law is a style, legible rather than physical: exp(-k r) is only the evanescent near field of a driven plate, while
+the travelling wave decays far more slowly. Participants of the paper's second study preferred it to no propagation and
+to full propagation, so it is the default.
 
 Source: Jingu, AliAbbasi et al., Scene2Hap, CHI 2026, section "Vibration Propagation and Attenuation".
 """
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
 
 REFERENCE_HZ = 250.0
-"""Where the loss of a contact of weight w is exactly w; at other frequencies it follows the law like any distance."""
+"""Frequency at which the loss of a contact of weight w is exactly w; elsewhere it follows the law like any distance."""
 
 
 @clear_construction
@@ -52,7 +52,7 @@ class ExponentialPlate:
     floor_db : lower bound of the level wherever a source arrives at all, <= 0 [dB]; None for the law without a bound.
         The law silences a thin sheet of metal within 10 cm; with a bound the sheet is felt.
     outside_domain : "warn" once per object, "raise" or "ignore" where the wavelength is below six thicknesses
-        (`domain.THIN_WAVELENGTHS`). The law is a style that may be applied to anything, so it ignores by default.
+        (`domain.THIN_WAVELENGTHS`). The law is a style that suits any object, so the default is "ignore".
     Raises: ConfigError: a setting out of bounds.
     """
 
@@ -112,7 +112,7 @@ class ExponentialPlate:
     ) -> LiveLaw:
         """Return the law's field over a contact graph that changes between queries; see `LiveModel`.
 
-        Raises, warns: as `prepare`, but of all bodies at once.
+        Raises, warns: see `prepare`; for all bodies at once.
         """
         source_ids = tuple(excitation.source_id for excitation in excitations)
         prices = self._prices(bodies, excitations, bands)
@@ -125,7 +125,7 @@ class ExponentialPlate:
         return LiveLaw(paths, source_ids, gamma, self._floor)
 
     def _prices(self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands) -> dict[str, float]:
-        """Cost of a metre through each body, after checking that the law's theory holds for it."""
+        """Return the cost of a metre through each body, after checking that thin-plate theory holds for it."""
         plates = {object_id: body for object_id, body in bodies.items() if isinstance(body, Plate)}
         if self.outside_domain != "ignore":
             top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
@@ -148,7 +148,7 @@ class ExponentialPlate:
 
 @dataclass(frozen=True, eq=False)
 class ExponentialField:
-    """The paper's law, prepared: effective lengths L [m c], so that Gamma = exp(-L sqrt(omega))."""
+    """A prepared field of the paper's law, by effective lengths L [m c]: Gamma = exp(-L sqrt(omega))."""
 
     source_ids: tuple[str, ...]
     arrivals: Mapping[str, Arrivals]

@@ -1,17 +1,18 @@
 """The response of a body to an impact: a few decaying sines at the struck point.
 
-Two bodies that meet at a speed v exchange the momentum J = (1 + e) v / (1/m + 1/m_s) through the spring of their
-contact, as a half sine of the time T = 1 / (2 f_c). The struck point moves by
+Two bodies that meet at a speed v exchange the momentum J = (1 + e) v / (1/m + 1/m_s). The spring of their contact makes
+the force a half sine of duration T = 1 / (2 f_c). The struck point then vibrates with the accelerations
 
     contact     2 pi f_c J (1/m + pi f_c Y)        f_c = sqrt(k (1/m + 1/m_s)) / (2 pi),   Y = 1 / (8 sqrt(D m'))
     modes       2 pi f_n J phi_n^2 S(f_n)          f_n of a plate that is supported along its edges
 
-as acceleration. Y is the mobility of a plate without edges, which is what a large one shows while an impact lasts;
-S(f) = |cos(pi f T) / (1 - (2 f T)^2)| is the share of an impact of that length at f: a rubber ball excites no high
-mode. Furniture stands on legs, between free and supported; the latter's modes are known in closed form, rise with
-stiffness and fall with size and weight as all do, and cost no eigenproblem when something lands.
+Y is the mobility of a plate without edges; during an impact, a large plate has the same mobility. The share of the
+impact at frequency f is S(f) = |cos(pi f T) / (1 - (2 f T)^2)|: a rubber ball excites no high mode. Furniture stands on
+legs, so its edges are between free and supported. The modes of a supported plate are used, since they are known in
+closed form, without an eigenproblem when something lands. Like all modes they rise with stiffness and fall with size
+and weight.
 
-Letters: J [N s], e [-] restitution, m, m_s [kg] of the struck body and of what strikes, k [N/m], D [N m], m' [kg/m2],
+Letters: J [N s], e [-] restitution, m, m_s [kg] of the struck body and of the striker, k [N/m], D [N m], m' [kg/m2],
 phi [kg^-1/2].
 Source: Cremer, Heckl, Petersson, Structure-Borne Sound, chapters 3 and 5, for both mobilities; Goldsmith, Impact
 (1960), chapter 4, for the half sine.
@@ -36,29 +37,30 @@ from scene2hap.propagation.protocol import Body
 Floats = NDArray[np.float64]
 
 RESTITUTION = 0.3
-"""Of cups, books and tools on furniture; assumed (0 is clay, 0.9 a glass ball on steel)."""
+"""Coefficient of restitution of cups, books and tools on furniture; assumed (0 is clay, 0.9 a glass ball on steel)."""
 SLOWEST_HZ, FASTEST_HZ = 30.0, 250.0
-"""Bounds of the frequency of a contact [Hz]: a slower one is a push, a faster one a click, played where touch is most
-sensitive."""
+"""Bounds on the frequency of a contact [Hz]: a slower contact is a push; a faster one is a click, and is played where
+touch is most sensitive."""
 HIGHEST_MODE_HZ = 400.0
-"""Above, touch is less sensitive, and onsets become audible."""
+"""Highest mode that is used [Hz]; above, touch is less sensitive, and onsets become audible."""
 CONTACT_LOSS = 0.3
-"""A contact that lets go again rings for a cycle or two; assumed."""
+"""Loss factor of a contact that separates again [-]: it rings for a cycle or two; assumed."""
 SHORTEST_S, LONGEST_S = 0.008, 0.1
-"""A mode falls to 1/e within these: a shorter one is a click, and what would ring longer is damped by what stands on it
-and by hands; assumed."""
+"""Bounds on the time in which a mode falls to 1/e [s]: a shorter decay is a click; a longer one is damped by hands and
+by objects on the plate; assumed."""
 MOST_MODES = 5
 LEAST_SHARE = 0.01
-"""Of the strongest mode, below which one is left out: on a node."""
+"""Modes below this part of the strongest one are left out: the struck point is on a node of theirs."""
 FINGER_KG, FINGER_N_M = 0.1, 2e4
-"""The default striker: a fingertip with its part of the hand, soft enough for a thud of 70 Hz; assumed."""
+"""Mass and stiffness of the default striker: a fingertip with part of the hand, soft enough for a thud of 70 Hz;
+assumed."""
 
 
 @dataclass(frozen=True, eq=False)
 class Burst:
-    """Decaying sines at a struck point, from the contact's to the strongest mode's and on.
+    """Decaying sines at a struck point: first the contact, then the modes from the strongest.
 
-    frequencies_hz, decays_s (to 1/e), accelerations_m_s2 : (n,) float64, n >= 1, amplitudes at the beginning.
+    frequencies_hz, decays_s (to 1/e), accelerations_m_s2 (initial amplitudes) : (n,) float64, n >= 1.
     """
 
     frequencies_hz: Floats
@@ -77,9 +79,10 @@ def burst_of(
 ) -> Burst:
     """Compute the vibration of the struck point after an impact on a body.
 
-    Parameters: struck : None for one of unknown material, as stiff as hard plastic and as heavy as what strikes; at_m :
-    from the corner of a plate along length and width [m], None for its middle; striker : the other body, None for an
-    unknown one, or a finger; speed_m_s : at which they meet; impulse_n_s : exchanged, instead of a speed.
+    Parameters: struck : the struck body, None for one of unknown material, which counts as hard plastic with the
+    striker's mass; at_m : struck point from the corner of a plate along length and width [m], None for its middle;
+    striker : the other body, None for an unknown one or a finger; speed_m_s : speed at which they meet; impulse_n_s :
+    exchanged momentum, instead of a speed.
     """
     per_kg, contact_hz = _contact(struck, striker, is_finger)
     momentum = (1 + RESTITUTION) * speed_m_s / per_kg if impulse_n_s is None else impulse_n_s
@@ -121,7 +124,7 @@ def _modes(plate: Plate, at_m: tuple[float, float] | None, lasts_s: float) -> Fl
     modes = _supported(plate, lasts_s)
     x, y = (plate.length_m / 2, plate.width_m / 2) if at_m is None else at_m
     along, across = np.sin(modes.along * x) ** 2, np.sin(modes.across * y) ** 2
-    # By velocity, since the threshold of touch rises about as frequency does.
+    # Ranked by velocity, since the threshold of touch is about proportional to frequency.
     velocities: Floats = (along[:, None] * across * modes.velocities).ravel()
     n_weaker = len(velocities) - MOST_MODES
     strongest = velocities.argpartition(n_weaker)[n_weaker:] if n_weaker > 0 else np.arange(len(velocities))
@@ -134,11 +137,11 @@ def _modes(plate: Plate, at_m: tuple[float, float] | None, lasts_s: float) -> Fl
 
 
 class _Supported(NamedTuple):
-    """Modes of a plate that is supported along its edges, after an impact of some length.
+    """Modes of a plate with supported edges after an impact of some duration.
 
-    along (m,), across (n,) : wavenumbers along its length and width [rad/m]; velocities (m, n) : of each mode's
-    antinode per momentum [m/s / (N s)], 0 above `HIGHEST_MODE_HZ`; per_velocity (3, m n) : frequency [Hz], decay [s]
-    and acceleration per velocity [rad/s].
+    along (m,), across (n,) : wavenumbers along its length and width [rad/m]; velocities (m, n) : velocity of each
+    mode's antinode per momentum [m/s / (N s)], 0 above `HIGHEST_MODE_HZ`; per_velocity (3, m n) : frequency [Hz], decay
+    [s] and acceleration per velocity [rad/s].
     """
 
     along: Floats
@@ -149,7 +152,7 @@ class _Supported(NamedTuple):
 
 @lru_cache(maxsize=1024)
 def _supported(plate: Plate, lasts_s: float) -> _Supported:
-    """The modes up to `HIGHEST_MODE_HZ` and some above; none of a plate that is too thick to bend.
+    """The modes up to `HIGHEST_MODE_HZ` and some above; none for a plate that is too thick to bend.
 
     Cached: the same objects land again and again on the same plates.
     """
@@ -157,7 +160,7 @@ def _supported(plate: Plate, lasts_s: float) -> _Supported:
     if is_too_thick(plate):
         return _Supported(np.empty(0), np.empty(0), np.empty((0, 0)), np.empty((3, 0)))
     lowest = math.pi / 2 / plate.wavenumber_per_root_omega**2
-    # No more than a floor needs to have its strongest.
+    # At most 40 per side, which include the strongest modes of a floor.
     m, n = (min(40, int(side * math.sqrt(HIGHEST_MODE_HZ / lowest)) + 1) for side in (length, width))
     along: Floats = np.arange(1, m + 1, dtype=np.float64) * (math.pi / length)
     across: Floats = np.arange(1, n + 1, dtype=np.float64) * (math.pi / width)
@@ -169,7 +172,7 @@ def _supported(plate: Plate, lasts_s: float) -> _Supported:
 
 
 def _share(cycles: Floats) -> Floats:
-    """S of a half sine that lasts so many cycles; pi / 4 at a half."""
+    """S at f T = `cycles`; its limit at a half is pi / 4."""
     near = np.abs(cycles - 0.5) < 1e-6
     safe = np.where(near, 0.0, cycles)
     return np.where(near, math.pi / 4, np.abs(np.cos(math.pi * safe) / (1 - (2 * safe) ** 2)))

@@ -1,9 +1,9 @@
-"""A plate with free edges in its own plane, by its modes there: it moves, turns and, at higher frequencies, strains.
+"""In-plane modes of a plate with free edges: translation, rotation and, at higher frequencies, strain.
 
     U = C/2 integral of u_x^2 + v_y^2 + 2 nu u_x v_y + (1 - nu)/2 (u_y + v_x)^2        C = E h / (1 - nu^2)
 
-u and v are sums of the polynomials of `ritz`. Furniture has its first mode of this kind at 1 to 3 kHz, so that a few
-polynomials hold all that a hand feels; at 800 Hz their strain still counts for a decibel or two.
+u and v are sums of the polynomials of `ritz`. Furniture has its first mode with strain at 1 to 3 kHz, so a few
+polynomials suffice for all that a hand feels; at 800 Hz strain still contributes a decibel or two.
 
 Letters: u, v [m] along x and y, E [Pa], h [m], nu [-] Poisson's ratio.
 Source: Bardell, Langley, Dunsdon, On the free in-plane vibration of isotropic rectangular plates, J. Sound Vib. 191
@@ -21,18 +21,18 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.ritz import axis_basis, products
 
 N_TERMS = 10
-"""Polynomials of each axis. Tuned: with 7, some upright boards are 0.5 dB off at the 95th percentile, with 10 none is
-0.46; with 15 some are again: a point force has no limit in the plane, and so many resolve less than the thickness.
-"""
+"""Polynomials of each axis. Tuned: with 7, some upright boards are 0.5 dB off at the 95th percentile; with 10 none is
+0.46 dB off; with 15 some are again. The in-plane displacement at a point force has no limit, and 15 polynomials resolve
+details smaller than the thickness."""
 
 Floats = NDArray[np.float64]
 
 
 class InPlaneModes:
-    """The modes of a plate in its plane; shapes have a modal mass of 1 kg.
+    """The in-plane modes of a plate; shapes have a modal mass of 1 kg.
 
-    Parameters: mass_kg : of all that goes along, spread evenly. `squares` : (n_modes,) squared angular frequencies
-    [s^-2], of which the first three are 0.
+    Parameters: mass_kg : all mass that moves in the plane, spread evenly. `squares` : (n_modes,) squared angular
+    frequencies [s^-2], of which the first three are 0.
     """
 
     def __init__(self, plate: Plate, mass_kg: float) -> None:
@@ -57,5 +57,5 @@ class InPlaneModes:
 
 @lru_cache(maxsize=128)
 def in_plane_modes(plate: Plate, mass_kg: float) -> InPlaneModes:
-    """Cached, since every change of a contact prepares the scene again."""
+    """Return a plate's in-plane modes. Cached, since every change of a contact prepares the scene again."""
     return InPlaneModes(plate, mass_kg)

@@ -1,12 +1,12 @@
-"""Bodies that are pushed along their plane, as an upright board, a cabinet or a refrigerator on a floor.
+"""Bodies with forces along their plane, such as an upright board, a cabinet or a refrigerator on a floor.
 
-A plate bends under forces along its normal alone. Along its plane it goes, turns and strains as `in_plane` says, and
-pitches over contacts in front of it and behind. A compact body goes and turns as a whole. A port is a point of a body
-and a direction in which a joint pulls; between two of them
+A plate bends only under forces along its normal. Under forces along its plane it moves, turns and strains (see
+`in_plane`), and it pitches if contacts are in front of or behind its mid-plane. A compact body moves and turns as a
+whole. A port is a point of a body and the direction of a joint's force there. The receptance between two ports is
 
     Y = n n' Y_b(x, x') + sum over the motions of s_i s_i' / (omega_i^2 (1 + j eta) - omega^2)
 
-where n is the direction's part along the normal, and s_i how far the port goes in a motion of modal mass 1.
+where n is the direction's component along the normal, and s_i the port's displacement in a motion of modal mass 1.
 
 Letters: Y_b [m/N] receptance of the plate in bending, omega_i [rad/s] 0 for the motions of a rigid box, eta [-].
 """
@@ -25,14 +25,14 @@ from scene2hap.propagation.coupled.response_basis import AnyFloat, HasResponseBa
 from scene2hap.propagation.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
 
-_ASIDE = 1e-6  # A direction with no more than this along the normal bends nothing.
+_ASIDE = 1e-6  # Component along the normal up to which a direction does not bend the plate.
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
 class Box:
-    """The motions of a rigid box, along three axes and about them.
+    """The motions of a rigid box: translations along three axes and rotations about them.
 
     Parameters: mass_kg; size_m : length, width and thickness.
     """
@@ -44,16 +44,16 @@ class Box:
         self.squares = np.zeros(6)
 
     def shapes(self, ports: Floats) -> Floats:
-        """How far each port goes in each motion (n, 6) [kg^-1/2]."""
+        """Displacement of each port in each motion (n, 6) [kg^-1/2]."""
         along = ports[:, 3:]
         shapes: Floats = np.concatenate([along, np.cross(ports[:, :3] - self._middle_m, along)], axis=1) / self._roots
         return shapes
 
 
 class Sheet:
-    """The motions of a plate in its plane, and its pitching about the two axes there as a box.
+    """The in-plane motions of a plate, and its pitching about the plane's two axes as a rigid box.
 
-    Parameters: modes, mass_kg, size_m : of the plate and all that goes along.
+    Parameters: modes, mass_kg, size_m : of the plate and everything that moves with it.
     """
 
     def __init__(self, modes: InPlaneModes, mass_kg: float, size_m: tuple[float, float, float]) -> None:
@@ -62,29 +62,29 @@ class Sheet:
         self.squares = np.concatenate([modes.squares, np.zeros(2)])
 
     def shapes(self, ports: Floats) -> Floats:
-        """How far each port goes in each motion (n, n_motions) [kg^-1/2]."""
+        """Displacement of each port in each motion (n, n_motions) [kg^-1/2]."""
         height, along = ports[:, 2:3], ports[:, 3:5]
         own = np.einsum("kpm,pk->pm", self._modes.shapes(np.ascontiguousarray(ports[:, :2])), along)
         return np.concatenate([own, height * along[:, ::-1] * (-1.0, 1.0) / self._roots], axis=1)
 
 
 class Held:
-    """No motion: an edge holds the plate."""
+    """The motions of a plate that an edge holds: none."""
 
     squares = np.empty(0)
 
     def shapes(self, ports: Floats) -> Floats:
-        """None (n, 0)."""
+        """An empty array (n, 0)."""
         return np.empty((len(ports), 0))
 
 
 @dataclass(frozen=True, eq=False)
 class InclinedBody:
-    """An `ElasticBody` between ports (n, 6): x, y and height over its mid-plane [m], and a unit direction, all in its
-    own coordinates.
+    """An `ElasticBody` between ports (n, 6): x, y and height over the mid-plane [m], and a unit direction, all in the
+    body's coordinates.
 
-    Parameters: bending : the plate along its normal, None for a compact body; motions : all others; strain_loss : loss
-    factor of motions that strain the plate.
+    Parameters: bending : the plate's motion along its normal, None for a compact body; motions : all other motions;
+    strain_loss : loss factor of motions that strain the plate.
     """
 
     bending: ElasticBody | None
@@ -97,7 +97,7 @@ class InclinedBody:
         return math.inf if self.bending is None else self.bending.loss_factor
 
     def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
-        """See `ElasticBody`; both are ports."""
+        """See `ElasticBody`; points and forces are ports."""
         pushed = self.motions.shapes(forces_m)
         moved = pushed if points_m is forces_m else self.motions.shapes(points_m)
         # One real product for all frequencies takes a third of the time of one complex product for each.
@@ -114,20 +114,20 @@ class InclinedBody:
         return answer
 
     def yielding(self, frequencies_hz: Floats) -> Complex:
-        """How far each motion goes under its own force (n_frequencies, n_motions)."""
+        """Modal receptance of each motion (n_frequencies, n_motions) [s^2]."""
         stiff = self.motions.squares * complex(1.0, self.strain_loss)
         yielding = 1 / (stiff - (2 * np.pi * frequencies_hz[:, None]) ** 2)
         return yielding.astype(np.complex128, copy=False)
 
     def felt(self, points_m: Floats) -> Floats:
-        """The ports of places (n, 2) [m] that together tell how far these go: (3 n, 6), direction by direction."""
+        """Ports (3 n, 6) of points (n, 2) [m] in three directions: all points along the normal, then along y and x."""
         n = len(points_m)
         flat = np.column_stack([points_m, np.zeros(n)])
         return np.concatenate([np.column_stack([flat, np.tile(axis, (n, 1))]) for axis in np.eye(3)[::-1]])
 
 
 class InclinedShapes(InclinedBody):
-    """An `InclinedBody` whose bending is none or has a `ResponseBasis`, and so has itself."""
+    """An `InclinedBody` with a `ResponseBasis`: its bending is None or has one too."""
 
     def response_basis(self, forces_m: Floats) -> InclinedBasis:
         """See `HasResponseBasis`."""
@@ -139,10 +139,10 @@ class InclinedShapes(InclinedBody):
 
 @dataclass(frozen=True, eq=False)
 class InclinedBasis:
-    """A `ResponseBasis` at ports: the body's motions, and behind them the shapes in which it bends.
+    """A `ResponseBasis` at ports: first the body's motions, then the shapes in which it bends.
 
-    pushed : (n_motions, n_forces); bent : None if no force bends it; columns, along : (n_bending,) the forces that do,
-    and their parts along the normal.
+    pushed : (n_motions, n_forces) displacement of each force's port in each motion; bent : None if no force bends the
+    body; columns, along : (n_bending,) the forces that bend it, and their components along the normal.
     """
 
     body: InclinedBody
@@ -166,7 +166,7 @@ class InclinedBasis:
         return np.concatenate([own, self.bent.weights(frequencies_hz, bending)])
 
     def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[Floats], NDArray[AnyFloat]]:
-        """See `ResponseBasis`; from ports."""
+        """See `ResponseBasis`; points are ports."""
         n_motions = len(self.pushed)
         bent = None if self.bent is None else self.bent.mixed(np.ascontiguousarray(weights[n_motions:]))
 
@@ -181,7 +181,7 @@ class InclinedBasis:
 
 
 def inclined(plate: Plate, bending: ElasticBody | None, mass_kg: float | None = None) -> InclinedBody:
-    """The body of a plate that bends as `bending`, or that is compact; of its own mass unless another is given."""
+    """Make the body of a plate that bends as `bending`, None for a compact one; `mass_kg` defaults to the plate's."""
     if mass_kg is None:
         mass_kg = plate.moving_mass_kg
     size_m = plate.length_m, plate.width_m, plate.thickness_m
@@ -189,19 +189,19 @@ def inclined(plate: Plate, bending: ElasticBody | None, mass_kg: float | None = 
         return InclinedShapes(None, Box(mass_kg, size_m))
     motions = Sheet(in_plane_modes(plate, mass_kg), mass_kg, size_m) if plate.edges == "FFFF" else Held()
     kind = InclinedShapes if isinstance(bending, HasResponseBasis) else InclinedBody
-    # A plate without edges has no resonances and tells no loss.
+    # A plate without edges has no resonances and an infinite loss factor: strain takes that of the material.
     loss = bending.loss_factor if math.isfinite(bending.loss_factor) else plate.material.loss_factor
     return kind(bending, motions, loss)
 
 
 def _bending(ports: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
-    """Which ports have a part along the normal, where they are (n, 2) [m], and that part."""
+    """Indices of the ports with a component along the normal, their positions (n, 2) [m], and this component."""
     rows = np.flatnonzero(np.abs(ports[:, 5]) > _ASIDE)
     return rows, np.ascontiguousarray(ports[rows, :2]), ports[rows, 5]
 
 
 class FeltInSpace:
-    """Gains of a body that goes in three directions: the length of the motion, from that along each."""
+    """Gains of a body that moves in three directions: the length of the motion, from its three components."""
 
     def __init__(self, gains: Callable[[Floats], Floats], body: InclinedBody) -> None:
         self._gains, self._body = gains, body

@@ -3,9 +3,9 @@
     w(r) / F = -j Pi(k_c r) / (8 D_c k_c^2)        Pi(x) = H0^(2)(x) - (2j / pi) K0(x)
     D_c = D (1 + j eta)                            k_c = k (1 + j eta)^(-1/4)
 
-H0^(2) is the wave that travels, falling as 1/sqrt(r) and exp(-eta k r / 4); K0 the near field, gone within a
-wavelength. It is the level that a large plate has on average over frequency, and what remains of any plate when its
-loss is so high that nothing comes back from the edges.
+H0^(2) is the travelling wave, which falls as 1/sqrt(r) and exp(-eta k r / 4). K0 is the near field, which vanishes
+within a wavelength. The result is the frequency average of a large plate's level, and the response of any plate whose
+loss is so high that no wave returns from the edges.
 
 Letters: w [m] deflection, F [N], r [m], k [rad/m], D [N m] bending stiffness, m [kg/m2] mass per area, eta [-] loss
 factor, c complex. Time runs as e^{+j omega t}.
@@ -36,12 +36,12 @@ from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 
 NEAREST_KR = 1e-4
-"""Below this kr both terms of Pi grow without bound and their difference is 1 to 1e-8: it is then set to 1."""
+"""Below this kr both terms of Pi grow without bound and their difference is 1 to 1e-8: Pi is then set to 1."""
 FARTHEST_KR = 1e8
-"""The library routine for H0 gives up near 1e9; farther points answer as from here, where |Pi| is below 1e-4."""
+"""The library routine for H0 fails near 1e9; farther points get the value at this kr, where |Pi| is below 1e-4."""
 
 WAVELESS_HZ = 2000.0
-"""First mode above which a free plate has no waves up to 1 kHz: a rigid body is nearer to it than an infinite plate."""
+"""First mode above which a free plate has no waves up to 1 kHz: a rigid body is then the better model."""
 
 _FARTHEST_M = 1e9
 
@@ -82,10 +82,10 @@ class InfinitePlate:
     It ignores the length and the width of a plate, and has no resonances. In a scene, small stiff plates are rigid
     (`WAVELESS_HZ`).
 
-    Parameters: contact : stiffness of contacts, or its settings; outside_domain : what to do about an object of a scene
-    that is thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or
-    "ignore"; hand : as of `ModalPlate`.
-    Raises: ConfigError: out of bounds.
+    Parameters: contact : stiffness of contacts, or its settings; outside_domain : reaction to an object of a scene that
+    is thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or "ignore";
+    hand : see `ModalPlate`.
+    Raises: ConfigError: a setting out of bounds.
     """
 
     contact: ContactLaw = field(default_factory=ContactLaw)
@@ -109,7 +109,7 @@ class InfinitePlate:
         )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody | RigidMotion:
-        """Return a plate as a body that can be coupled to others at any frequency; one without waves as rigid."""
+        """Return a plate as a body for coupling at any frequency; a plate without waves (`WAVELESS_HZ`) is rigid."""
         if plate.edges == "FFFF" and is_stiff(plate, WAVELESS_HZ):
             return RigidMotion.of(plate, plate.moving_mass_kg, rocks=True)
         return InfiniteBody(plate, plate.material.loss_factor)
@@ -134,7 +134,7 @@ class InfinitePlate:
     ) -> NDArray[np.complex128]:
         """Return the deflection at points over the force at the driven point: -j Pi(k_c r) / (8 D_c k_c^2).
 
-        Parameters, errors and warnings as `plate_transfer`, with frequencies above 0.
+        Parameters, errors and warnings: see `plate_transfer`; frequencies must be above 0.
         Returns: (n_points, n_frequencies) complex128 [m/N].
         """
         f = as_frequencies(frequencies_hz, positive_because="nothing holds the infinite plate in place")
@@ -164,10 +164,10 @@ TABLE_X = 100.0
 
 
 def _looked_up(x: NDArray[np.float64], eta: float) -> NDArray[np.complex128]:
-    """Pi(k_c r) for x = k r, to 1e-4, from a table: a scene needs millions of values, and a Hankel function takes a
-    microsecond."""
+    """Interpolate Pi(k_c r) at x = k r from a table, to 1e-4: a scene needs millions of values, and a Hankel function
+    takes a microsecond."""
     ray = complex(1, eta) ** -0.25
-    # Told without its phase and decay, Pi is smooth.
+    # Without its phase and decay, Pi is smooth.
     spread: NDArray[np.complex128] = np.interp(x, *_table(eta)) * np.exp(-1j * ray * x)
     far = x > TABLE_X
     spread[far] = spreading((ray * x[far]).astype(np.complex128))
@@ -176,7 +176,7 @@ def _looked_up(x: NDArray[np.float64], eta: float) -> NDArray[np.complex128]:
 
 @lru_cache(maxsize=64)
 def _table(eta: float) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
-    # Pi bends most near 0, and ever less where it falls as 1 / sqrt(x).
+    # Pi has the highest curvature near 0, and less and less where it falls as 1 / sqrt(x).
     ray, x = complex(1, eta) ** -0.25, np.concatenate([np.linspace(0.0, 1.0, 200), np.geomspace(1.0, TABLE_X, 800)[1:]])
     return x, spreading((ray * x).astype(np.complex128)) * np.exp(1j * ray * x)
 
@@ -196,7 +196,7 @@ def _damped_wavenumber(plate: Plate, eta: float, frequencies_hz: NDArray[np.floa
 def _spread(
     plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: NDArray[np.float64]
 ) -> NDArray[np.complex128]:
-    # Farther off nothing is left, and the square of a distance is still a number.
+    # Beyond this distance the wave has vanished; the limit keeps squares of distances finite.
     offsets = np.clip(as_points(points_m, 2) - as_points(drive_m, 2), -_FARTHEST_M, _FARTHEST_M)
     r = np.hypot(offsets[:, 0], offsets[:, 1])
     return spreading(np.outer(r, _damped_wavenumber(plate, plate.material.loss_factor, frequencies_hz)))

@@ -29,7 +29,7 @@ Prices = list[list[float]]
 
 
 def checked(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.float64]:
-    """A field's result as an array. Raises: ModelDomainError: it has another shape, which kernels do not check."""
+    """Return a field's result as an array. Raises: ModelDomainError: another shape, which kernels do not check."""
     gains: NDArray[np.float64] = np.asarray(found, dtype=np.float64)
     if gains.shape != shape:
         raise ModelDomainError(
@@ -40,11 +40,11 @@ def checked(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.float64
 
 
 class LiveField(Protocol):
-    """Gains over the contacts as they are now."""
+    """A field that reads the contacts at each query."""
 
     @property
     def source_ids(self) -> tuple[str, ...]:
-        """The sources, in the order of the answer's second axis."""
+        """Ids of the sources, in the order of the second axis of `strongest`."""
         ...
 
     @property
@@ -55,7 +55,7 @@ class LiveField(Protocol):
     def strongest(self, hands: Sequence[Sequence[TouchedPoint]]) -> NDArray[np.float64]:
         """Largest response over each source's free vibration at the points that a hand touches.
 
-        Parameters: hands : the touched points of each; a hand that touches nothing feels nothing.
+        Parameters: hands : the touched points of each hand; a hand that touches nothing feels nothing.
         Returns: a new array (n_hands, n_sources, n_bands) float64 [-], >= 0; 1 on the source itself.
         """
         ...
@@ -81,13 +81,13 @@ class PricedField(LiveField, Protocol):
         ...
 
     def at(self, prices: Prices, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
-        """The response at given costs, of the sources in some columns only; otherwise as `strongest`."""
+        """The response at given costs, for the sources in `columns`, None for all; otherwise see `strongest`."""
         ...
 
 
 @runtime_checkable
 class PointField(Protocol):
-    """A live field that also answers for a source that is a point of an object, such as where something lands."""
+    """A live field that also has gains of a point source on an object, such as where something lands."""
 
     def from_point(
         self,
@@ -98,7 +98,7 @@ class PointField(Protocol):
     ) -> NDArray[np.float64]:
         """Response at each hand over that at a point of an object [m], world.
 
-        Parameters: hands : the touched points of each; frequencies_hz : (n_frequencies,) > 0 [Hz].
+        Parameters: hands : the touched points of each hand; frequencies_hz : (n_frequencies,) > 0 [Hz].
         Returns: (n_hands, n_frequencies) float64 [-], >= 0, 0 where nothing arrives.
         """
         ...
@@ -111,5 +111,5 @@ class LiveModel(Protocol):
     def live(
         self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
     ) -> LiveField:
-        """A field over a graph that is read at every query and may change between queries; the bodies stay."""
+        """Make a field that reads the graph at every query. The graph may change between queries, bodies not."""
         ...

@@ -1,10 +1,10 @@
-"""A plate as a lattice of masses, springs and dampers: answers to harmonic forces, and motion in time.
+"""A plate as a lattice of masses, springs and dampers: its response to harmonic forces, and its motion in time.
 
     w(x) / F(x0) = P(x) (K D (1 + j eta) - omega^2 m A)^-1 P(x0)^T
 
-K and A are the springs and masses of `lattice`, P its interpolation. Nothing is assumed about shapes, so that it
-follows outlines that are no rectangles: round tops, an L, a cut-out for a sink. On rectangles it is a second opinion on
-`ModalPlate`, made of different stuff, and costs more; the error falls as the fourth power of the cell.
+K and A are the stiffness and mass matrices of `lattice`, P its interpolation. The lattice assumes nothing about shapes,
+so it follows outlines that are not rectangles: round tops, an L, a cut-out for a sink. On rectangles it checks
+`ModalPlate` by an independent method, at a higher cost. Its error falls as the fourth power of the cell size.
 
 Letters: w [m], F [N], D [N m] bending stiffness, m [kg/m2] mass per area, eta [-] loss factor, k_c [rad/m] damped
 wavenumber, k_c^4 = m omega^2 / (D (1 + j eta)). Time runs as e^{+j omega t}.
@@ -60,7 +60,7 @@ CELLS_PER_WAVE = 4.0
 """Fewest cells in a bending wavelength; with four, the lattice turns it 0.7 % too fast."""
 FINEST = 256
 LEAST_LIMIT_HZ = 1.0
-"""Below this nothing vibrates that is felt, so that no lattice is of use that serves less."""
+"""Vibration below this frequency is not felt, so a lattice with a lower limit is of no use."""
 
 
 class CoarsenedWarning(UserWarning):
@@ -73,9 +73,8 @@ class MassSpringDamper:
     """Physical model of a plate as a lattice in bending, within any outline; it can be stepped in time.
 
     Parameters: resolution : fewest cells along the shorter side, 4..256; a plate whose waves are shorter than
-    `CELLS_PER_WAVE` of them gets as many as they need; loss_floor, contact, outside_domain, hand : as of
-    `ModalPlate`.
-    Raises: ConfigError: out of bounds.
+    `CELLS_PER_WAVE` cells gets as many as the waves need; loss_floor, contact, outside_domain, hand : see `ModalPlate`.
+    Raises: ConfigError: a setting out of bounds.
     """
 
     resolution: int = 8
@@ -99,7 +98,7 @@ class MassSpringDamper:
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
         """Prepare the field of a scene: all lattices coupled at their contacts, see `substructuring`.
 
-        Raises: ModelDomainError: a plate that takes too many nodes for its lowest modes; no loss at all; an object
+        Raises: ModelDomainError: a plate whose lowest modes need too many nodes; no loss at all; an object
         outside the domain, or a plate that is coarsened (`elastic_body`), if so configured. Warns: ThinPlateWarning,
         CoarsenedWarning, otherwise.
         """
@@ -108,12 +107,12 @@ class MassSpringDamper:
         )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
-        """Return a plate as a body that can be coupled to others up to `max_frequency_hz` [Hz]; see `lattice_body`.
+        """Return a plate as a body for coupling up to `max_frequency_hz` [Hz]; see `lattice_body`.
 
-        A plate whose lattice would take more cells, nodes or modes than can be solved in seconds, as a rug's, is a
-        `SplitBody`: a lattice as high as can be, and a plate without edges above.
-        Raises: ModelDomainError: even its lowest modes are too many, or it is one and `outside_domain` is "raise".
-        Warns: CoarsenedWarning, otherwise.
+        A lattice may need more cells, nodes or modes than can be solved in seconds, such as a rug's. The body is then a
+        `SplitBody`: a lattice up to the highest possible frequency, and a plate without edges above it.
+        Raises: ModelDomainError: even the lowest modes are too many, or `outside_domain` is "raise" and a `SplitBody`
+        is needed. Warns: CoarsenedWarning, otherwise.
         """
         eta, limit_hz = floored_loss(plate, self.loss_floor), max_frequency_hz
         while self._is_too_much(plate, limit_hz) and limit_hz > LEAST_LIMIT_HZ:
@@ -139,10 +138,10 @@ class MassSpringDamper:
         """Return the amplitude at points of one plate over that at the driven point; above 1 where the plate resonates.
 
         Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
-        frequencies_hz : (n_frequencies,) [Hz], >= 0; 0 is answered as a limit.
+        frequencies_hz : (n_frequencies,) [Hz], >= 0; the result at 0 is the limit.
         Returns: (n_points, n_frequencies) complex128 [-].
-        Raises: ModelDomainError: a point outside the plate; a driven point that an edge holds still; waves that take
-        more than `FINEST` cells; no loss at all, since a resonance is then infinite.
+        Raises: ModelDomainError: a point outside the plate; a driven point on an edge that does not move; waves that
+        need more than `FINEST` cells; no loss at all, since a resonance is then infinite.
         Warns: ThinPlateWarning: the wavelength falls below six thicknesses.
         """
         f = as_frequencies(frequencies_hz)
@@ -158,8 +157,8 @@ class MassSpringDamper:
     ) -> NDArray[np.complex128]:
         """Return the deflection at points over the force at the driven point.
 
-        Parameters, errors and warnings as `plate_transfer`, but that a held point answers 0, and that 0 Hz is refused
-        for a plate that nothing holds in place.
+        Parameters, errors and warnings: see `plate_transfer`. Differences: the deflection is 0 for a held point, and
+        0 Hz is an error for a plate that nothing holds in place.
         Returns: (n_points, n_frequencies) complex128 [m/N].
         """
         loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
@@ -169,7 +168,7 @@ class MassSpringDamper:
     def natural_frequencies_hz(self, plate: Plate, n_modes: int) -> NDArray[np.float64]:
         """Return the lattice's lowest natural frequencies (n_modes,) float64 [Hz], rising, 0 for rigid motions.
 
-        Their error falls as the fourth power of the cell; at a resolution of 8 the first six are within 0.4 %.
+        Their error falls as the fourth power of the cell size; at a resolution of 8 the first six are within 0.4 %.
         """
         count = int(checks.number("n_modes", n_modes, "-", at_least=1, error=ModelDomainError))
         return lowest_frequencies_hz(plate, self.resolution, count)
@@ -187,11 +186,11 @@ class MassSpringDamper:
     ) -> NDArray[np.float64]:
         """Compute the deflection in time under a force at the driven point, from rest.
 
-        Modes up to `max_frequency_hz` are stepped with viscous damping of ratio eta/2 (`stepping`), which needs no
-        loss; higher modes follow the force at once.
+        Modes up to `max_frequency_hz` are stepped with viscous damping of ratio eta/2 (`stepping`), which may be 0.
+        Higher modes follow the force without delay.
 
-        Parameters: force_n : (n_samples,) [N], straight between samples; the rest as `plate_transfer`.
-        Returns: (n_points, n_samples) float64 [m], the first at rest but for the static share.
+        Parameters: force_n : (n_samples,) [N], linear between samples; see `plate_transfer` for the others.
+        Returns: (n_points, n_samples) float64 [m]; the first sample has the static response of the higher modes only.
         """
         force = checks.floats("force_n", force_n, "N", error=ModelDomainError)
         if force.ndim != 1 or not np.isfinite(force).all():
@@ -235,7 +234,7 @@ class MassSpringDamper:
         return found
 
     def _fine_enough(self, plate: Plate, f: NDArray[np.float64]) -> int:
-        """A resolution that serves these frequencies; refuses them where none does, and warns of a plate too thick."""
+        """Resolution for these frequencies; raises an error above `FINEST`, and warns of a plate that is too thick."""
         top = float(f.max(initial=0.0))
         needed = _needed_resolution(plate, top)
         if needed > FINEST:
@@ -245,7 +244,7 @@ class MassSpringDamper:
 
 
 def _needed_resolution(plate: Plate, frequency_hz: float) -> int:
-    """Cells along the shorter side that leave every cell a `CELLS_PER_WAVE`th of a wave, at most a thousand million."""
+    """Cells along the shorter side that give `CELLS_PER_WAVE` cells per wavelength, at most a thousand million."""
     widest = max(narrow_side_m(plate), max(plate.extent_m) / LONGEST)
     waves = float(plate.wavenumber_rad_m(frequency_hz)) / (2 * math.pi) * widest
     return math.ceil(min(CELLS_PER_WAVE * waves, 1e9))

@@ -18,26 +18,25 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.plate_terms import ContractedShapes, ForcedPlate, PlateTerms
 
 MOST_REMEMBERED = 65_536
-"""Complex numbers of a receptance among contacts that is remembered, 1 MB: things that stay where they are need not be
+"""Complex numbers of the largest receptance among contacts that is cached, 1 MB: objects that stay in place need not be
 summed again when others move."""
 NO_RETURN = 3.0
-"""A wave that has fallen by this exponent (26 dB), exp(-eta k L / 4) on a path of the shorter side L, has no noticeable
-echo."""
+"""Decay exponent eta k L / 4 of a wave along the shorter side L above which it has no noticeable echo (26 dB)."""
 
 
 @lru_cache(maxsize=128)
 def modal_body(
     plate: Plate, max_frequency_hz: float, loss_factor: float, fineness: Fineness = FINE
 ) -> ModalBody | SplitBody:
-    """The body of a plate. Cached, since every change of a contact prepares the scene again.
+    """Return the body of a plate. Cached, since every change of a contact prepares the scene again.
 
-    Where a rug or a foil has too many modes to solve for, or so much loss that nothing comes back from its edges, it is
-    a `SplitBody`, whose upper frequencies see no edges.
+    A rug or a foil may have too many modes to solve, or so much loss that no wave returns from its edges. It is then a
+    `SplitBody`, which ignores the edges at upper frequencies.
     """
     shorter = min(plate.length_m, plate.width_m)
     k = min(float(plate.wavenumber_rad_m(max_frequency_hz)), 4 * NO_RETURN / (loss_factor * shorter))
     limit_hz = (k / plate.wavenumber_per_root_omega) ** 2 / (2 * np.pi)
-    most = max(QUICK_BLOCK, largest_block(plate, 0.0))  # what a narrow plate needs at any frequency
+    most = max(QUICK_BLOCK, largest_block(plate, 0.0))  # a narrow plate needs the latter at any frequency
     while largest_block(plate, MARGIN * limit_hz) > most:
         limit_hz *= 0.9
     if limit_hz >= max_frequency_hz * (1 - 1e-9):
@@ -101,7 +100,7 @@ class ModalBody:
         return ModalBasis(self._at_forces(forces_m), self.spectrum)
 
     def spectrum(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """Each of the plate's terms at each frequency (n_terms, n_frequencies)."""
+        """Value of each of the plate's terms at each frequency (n_terms, n_frequencies)."""
         q, scale = self._damped(frequencies_hz)
         return self.terms.spectrum(q) * scale
 
@@ -115,7 +114,7 @@ class ModalBody:
 
     def _symmetric(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         terms = self._at_forces(points_m)(points_m)
-        return (terms + terms.transpose(1, 0, 2)) / 2  # to the last bit, which rounding is not
+        return (terms + terms.transpose(1, 0, 2)) / 2  # exactly symmetric, despite rounding
 
     def _damped(self, frequencies_hz: NDArray[np.float64]) -> tuple[NDArray[np.complex128], complex]:
         """q (n_frequencies,) [m^-4], and 1 / D_c [1/(N m)]."""

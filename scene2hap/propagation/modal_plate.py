@@ -3,8 +3,8 @@
     w(x) / F(x0) = sum over the Ritz spectrum of phi(x) phi(x0) / (D_c (k_n^4 - k_c^4))  +  residual(x, x0)
     D_c = D (1 + j eta)                  k_c^4 = k^4 / (1 + j eta)
 
-The spectrum of `modes` is summed to its end: modes up to 1.5 times the top frequency one by one, and the rest, too
-stiff to resonate, by powers of their compliance. The residual is what polynomials cannot follow, see `near_field`.
+The whole spectrum of `modes` is summed: modes up to 1.5 times the top frequency one by one, and the rest, which is too
+stiff to resonate, by powers of the compliance. The residual is the near field beyond the polynomials; see `near_field`.
 
 Letters: phi [1/m] shape normalised over the area, D [N m], k [rad/m], eta [-] loss factor, c complex. Time runs as
 e^{+j omega t}.
@@ -51,11 +51,11 @@ class ModalPlate:
     """Physical model of a finite plate: a sum over its modes, with edges and resonances.
 
     Parameters: loss_floor : 0..2 [-], smallest loss factor of a plate. Tables give the loss of the bare material, 1e-4
-    for a metal, while joints and supports bring assembled objects to 0.005-0.02; the default 0.01 lies between.
-    contact : stiffness of contacts, or its settings; outside_domain : what to do about an object of a scene that is
-    thicker than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or "ignore"; hand
-    : what loads an object where it is touched: "palm", "fingertip", a `Hand` or its settings, None for nothing.
-    Raises: ConfigError: out of bounds.
+    for a metal, while joints and supports bring assembled objects to 0.005-0.02; the default 0.01 lies between;
+    contact : stiffness of contacts, or its settings; outside_domain : reaction to an object of a scene that is thicker
+    than thin-plate theory allows (`domain.THIN_WAVELENGTHS`): "warn" once per object, "raise" or "ignore"; hand : load
+    on an object at the touched point: "palm", "fingertip", a `Hand` or its settings, None for no load.
+    Raises: ConfigError: a setting out of bounds.
     """
 
     loss_floor: float = 0.01
@@ -71,7 +71,7 @@ class ModalPlate:
         object.__setattr__(self, "hand", checked_hand(self.hand))
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
-        """Prepare the field of a scene: all bodies coupled at their contacts, see `substructuring`.
+        """Prepare the field of a scene: all bodies coupled at their contacts; see `substructuring`.
 
         Raises: ModelDomainError: too many modes (`plate_modes`); no loss at all, since a resonance is then infinite;
         an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
@@ -81,7 +81,7 @@ class ModalPlate:
         )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
-        """Return a plate as a body that can be coupled to others up to `max_frequency_hz` [Hz]; see `modal_body`."""
+        """Return a plate as a body for coupling up to `max_frequency_hz` [Hz]; see `modal_body`."""
         _require_rectangle(plate)
         return modal_body(plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
 
@@ -91,9 +91,9 @@ class ModalPlate:
         """Return the amplitude at points of one plate over that at the driven point; above 1 where the plate resonates.
 
         Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
-        frequencies_hz : (n_frequencies,) [Hz], >= 0; 0 is answered as a limit.
+        frequencies_hz : (n_frequencies,) [Hz], >= 0; the result at 0 is the limit.
         Returns: (n_points, n_frequencies) complex128 [-].
-        Raises: ModelDomainError: a point outside the plate; a driven point on an edge that holds it still; too many
+        Raises: ModelDomainError: a point outside the plate; a driven point on an edge that does not move; too many
         modes (`plate_modes`); no loss at all, since a resonance is then infinite.
         Warns: ThinPlateWarning: the wavelength falls below six thicknesses.
         """
@@ -111,8 +111,8 @@ class ModalPlate:
     ) -> NDArray[np.complex128]:
         """Return the deflection at points over the force at the driven point.
 
-        Parameters, errors and warnings as `plate_transfer`, but that a held point answers 0, and that 0 Hz is refused
-        for a plate that nothing holds in place.
+        Parameters, errors and warnings: see `plate_transfer`. Differences: the deflection is 0 for a held point, and
+        0 Hz is an error for a plate that nothing holds in place.
         Returns: (n_points, n_frequencies) complex128 [m/N].
         """
         loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""

@@ -2,14 +2,14 @@
 
     K c = k^4 c          omega = k^2 sqrt(D / m)          integral of m phi_i phi_j = 1 kg if i = j, else 0
 
-K is the Ritz stiffness of `ritz`. A plate with alike edges on both ends of an axis has modes that are even or odd
-along it, so the eigenproblem falls into up to four smaller ones. Each is solved for the compliance (K + s)^-1, whose
-largest eigenvalues are the lowest modes: those of K grow as the eighth power of the basis size, and would bury rigid
-motions and the lowest modes of large or slender plates in rounding. What is stiffer than the modes is never solved for:
-powers of the compliance approximate its response, in a basis that is wider than that of the modes (`Fineness`).
+K is the Ritz stiffness matrix of `ritz`. If the edges at both ends of an axis are equal, modes are even or odd along
+it. The eigenproblem then splits into up to four smaller ones. Each is solved for the compliance (K + s)^-1, whose
+largest eigenvalues belong to the lowest modes. The eigenvalues of K itself grow as the eighth power of the basis size:
+rounding errors would then hide rigid motions and the lowest modes of large or slender plates. Stiffer modes are not
+computed. Powers of the compliance approximate their response, in a larger basis than that of the modes (`Fineness`).
 
 Letters: k [rad/m] wavenumber, D [N m], m [kg/m2] mass per area, omega [rad/s], phi [kg^-1/2] shape, s [m^-4] shift.
-Source: as `ritz`.
+Source: see `ritz`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from scene2hap.propagation.ritz import AxisBasis, axis_bases, products, stiffnes
 Number = TypeVar("Number", np.float64, np.complex128)
 
 LARGEST_BLOCK = 3000
-"""Functions in one eigenproblem beyond which a plate is refused; it takes some 20 s, and hundreds of modes."""
+"""Most functions in one eigenproblem; more are an error. This many take some 20 s, and give hundreds of modes."""
 QUICK_BLOCK = 1000
 """Functions in one eigenproblem that take less than about a second."""
 MARGIN = 1.5
@@ -43,25 +43,25 @@ SHIFT = 1e-2
 
 
 _HELD_WAVE = 5.0
-"""Along a side that is held, a deflection falls off within the plate's width b: functions follow waves up to this k b.
-Tuned: the static deflection of a long strip is within 0.2 dB of Timoshenko's; with 7 within 0.1 dB, at thrice the cost.
+"""Along held edges a deflection falls off within the plate's width b: functions resolve waves up to this k b at least.
+Tuned: the static deflection of a long strip is within 0.2 dB of Timoshenko's; with 7, within 0.1 dB at thrice the cost.
 """
 ORDERS = 4
-"""Powers of compliance in `ModeBlock.beyond`: each is worth a factor of 6.8 below the top frequency, 5e-4 in all."""
+"""Powers of compliance in `ModeBlock.beyond`. Each gains a factor of 6.8 below the top frequency, 5e-4 in all."""
 _PLACES = (1 + np.cos(np.pi * (np.arange(ORDERS) + 0.5) / ORDERS)) / 2
 _THROUGH = np.linalg.inv(np.vander(_PLACES, increasing=True))
-"""From values at Chebyshev's places between 0 and 1 to the coefficients of the polynomial through them."""
+"""Matrix from values at the Chebyshev nodes between 0 and 1 to the coefficients of the interpolating polynomial."""
 
 
 @dataclass(frozen=True)
 class Fineness:
-    """How many functions an axis of length L has, for waves up to k: per_k_length * k L + more, at least `least`.
+    """Number of functions on an axis of length L, for waves up to k: per_k_length * k L + more, at least `least`.
 
-    A polynomial needs pi per wavelength, which is 1 / 2 for k L. What is stiffer than the modes takes `wider` times as
-    many: where a basis ends, responses ripple along both axes through the force, by 1 % of their rms, which is 1 dB
-    where the plate hardly moves. More functions to factorise cost much less than more functions to find modes in.
-    There are at least `least_wider`: contacts close together see where a small basis ends. Blocks above `QUICK_BLOCK`
-    are left as they are.
+    A wavelength needs pi polynomials, which is k L / 2 for the axis. The response of the stiffer spectrum uses `wider`
+    times as many functions: the truncation of a basis makes responses ripple along both axes through the force, by 1 %
+    of their rms, which is 1 dB where the plate hardly moves. More functions cost much less in a factorisation than in
+    an eigenproblem. The wider basis has at least `least_wider` functions, since truncating a small basis affects
+    contacts close together. Blocks above `QUICK_BLOCK` are not widened.
     """
 
     per_k_length: float = 1.75 / math.pi
@@ -72,16 +72,16 @@ class Fineness:
 
 
 FINE = Fineness()
-"""What `plate_modes` takes; the least is tuned for the small plates of `modal_plate`."""
+"""Fineness of `plate_modes`; `least` is tuned for the small plates of `modal_plate`."""
 
 
 @dataclass(frozen=True, eq=False)
 class ModeBlock:
-    """The modes of one symmetry, and how all that is stiffer answers.
+    """The modes of one symmetry, and the response of the stiffer spectrum, whose modes are not computed.
 
     x, y : the wider basis of each axis, n = n_x n_y products; k4 : (n_modes,) k^4 [m^-4], rising, 0 for rigid motions;
-    vectors : (n, n_modes) orthonormal columns; shift : s [m^-4]; stiffer_k4 : below the k^4 of all that is no mode
-    [m^-4].
+    vectors : (n, n_modes) orthonormal columns; shift : s [m^-4]; stiffer_k4 : lower bound on k^4 of the stiffer
+    spectrum [m^-4].
     """
 
     x: AxisBasis
@@ -93,21 +93,21 @@ class ModeBlock:
     stiffer_k4: float
 
     def deflections(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Every mode at points (n_points, 2) [m], normalised over the area -> (n_points, n_modes) [1/m]."""
+        """Every mode's shape at points (n_points, 2) [m], normalised over the area -> (n_points, n_modes) [1/m]."""
         return products(self.x, self.y, points_m) @ self.vectors
 
     @cached_property
     def _factor(self) -> NDArray[np.float64]:
-        """Cholesky's factor of K + shift."""
+        """Cholesky factor of K + shift."""
         return _cholesky(self.x, self.y, self.poisson_ratio, self.shift)
 
     def beyond(self, forces: NDArray[np.float64], q: NDArray[Number]) -> NDArray[Number]:
-        """How what is stiffer than the modes answers to forces (n, n_forces), for q (n_q,) = k^4 / (1 + j eta) [m^-4]:
+        """Response of the stiffer spectrum to forces (n, n_forces), for q (n_q,) = k^4 / (1 + j eta) [m^-4]:
         (K - q)^-1 without its modes -> (n, n_forces, n_q), by a polynomial in the compliance
 
             C sum over j of a_j(q) C^j forces          C = (K + s)^-1
 
-        The sum equals 1 / (1 - (q + s) C) at Chebyshev's places between 0 and the largest compliance without modes.
+        The sum equals 1 / (1 - (q + s) C) at the Chebyshev nodes between 0 and the largest compliance without modes.
         """
         from scipy.linalg.lapack import dpotrs
 
@@ -131,7 +131,7 @@ class PlateModes:
 
     x, y : basis functions of each axis; blocks : modes by symmetry, one block for each pair of symmetries along both
     axes; block, column : (n_modes,) place of each mode in the blocks; of_modes : numbers of basis functions along
-    length and width that the modes consist of, the first ones.
+    length and width that modes consist of, the first of each axis.
     """
 
     plate: Plate
@@ -144,7 +144,7 @@ class PlateModes:
 
     @cached_property
     def terms(self) -> tuple[int, int]:
-        """Basis functions along length and width."""
+        """Numbers of basis functions along length and width."""
         return sum(basis.n_functions for basis in self.x), sum(basis.n_functions for basis in self.y)
 
     @cached_property
@@ -176,7 +176,7 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
     """Compute the lowest `n_modes` modes of a plate, or all up to `max_frequency_hz`, rigid motions included.
 
     Frequencies are within 1e-3 of converged ones, from above. Shear and rotary inertia are left out, see
-    `domain.THIN_WAVELENGTHS`. Answers are remembered by plate.
+    `domain.THIN_WAVELENGTHS`. Results are cached.
 
     Parameters: exactly one of n_modes >= 1 and max_frequency_hz >= 0 [Hz].
     Raises: ModelDomainError: neither or both, or so many modes that the eigenproblem grows past `LARGEST_BLOCK`.
@@ -199,13 +199,13 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
 
 
 def n_rigid_motions(plate: Plate) -> int:
-    """Motions without bending that the edges allow: three if all are free, one about a single hinge, else none."""
+    """Number of motions without bending that the edges allow: 3 if all are free, 1 about a single hinge, else 0."""
     return {"FFFF": 3, "FFFS": 1}.get("".join(sorted(plate.edges)), 0)
 
 
 @lru_cache(maxsize=4096)
 def first_bending_hz(plate: Plate) -> float:
-    """The lowest natural frequency above 0 [Hz], from above and within 1e-3, at a thousandth of what all modes cost."""
+    """Lowest natural frequency above 0 [Hz], from above and within 1e-3, at a thousandth of the cost of all modes."""
     x, y = plate.edges[:2], plate.edges[2:]
     bases = [(u, v) for u in axis_bases(x, plate.length_m, 8) for v in axis_bases(y, plate.width_m, 8)]
     nu, longest = plate.material.poisson_ratio, max(plate.length_m, plate.width_m)
@@ -214,16 +214,16 @@ def first_bending_hz(plate: Plate) -> float:
 
 
 def largest_block(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> int:
-    """Functions in the largest eigenproblem of `plate_modes` up to that frequency; its time grows with the cube."""
+    """Number of functions in the largest eigenproblem of `plate_modes`; its time grows with the cube of this number."""
     terms = _terms(plate, _wavenumber(plate, max_frequency_hz), fineness)
     edges = (plate.edges[:2], plate.edges[2:])
     return math.prod(math.ceil(n / 2) if pair[0] == pair[1] else n for n, pair in zip(terms, edges, strict=True))
 
 
 def points_on(plate: Plate, points_m: ArrayLike) -> NDArray[np.float64]:
-    """Points as (n_points, 2) float64 [m].
+    """Convert points on a plate to (n_points, 2) float64 [m].
 
-    Raises: ModelDomainError: a point outside the plate by more than a millionth of its size; polynomials run away.
+    Raises: ModelDomainError: a point outside the plate by more than a millionth of its size: polynomials diverge there.
     """
     require_plate(plate)
     points = as_points(points_m, 2)
@@ -243,7 +243,7 @@ def points_on(plate: Plate, points_m: ArrayLike) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=32)
 def _lowest(plate: Plate, count: int) -> PlateModes:
-    # Weyl's count of modes below k for free edges, (S k^2 + U k) / 4 pi, gives the start; edges that hold need more.
+    # Weyl's count of modes below k for free edges, (S k^2 + U k) / 4 pi, gives the start; held edges need a higher k.
     area, edge = plate.length_m * plate.width_m, 2 * (plate.length_m + plate.width_m)
     k = edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * count / edge**2) - 1)
     while True:
@@ -254,16 +254,16 @@ def _lowest(plate: Plate, count: int) -> PlateModes:
 
 
 def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
-    """As `plate_modes`, with a basis of another fineness."""
+    """Compute modes as `plate_modes` does, with a basis of another fineness."""
     return _modes_up_to(plate, max_frequency_hz, fineness)
 
 
 def _wavenumber(plate: Plate, frequency_hz: float) -> float:
-    """As `Plate.wavenumber_rad_m`; searches for modes go beyond `MAX_FREQUENCY_HZ`."""
+    """`Plate.wavenumber_rad_m` without its limit: searches for modes go beyond `MAX_FREQUENCY_HZ`."""
     return plate.wavenumber_per_root_omega * math.sqrt(2 * math.pi * frequency_hz)
 
 
-@lru_cache(maxsize=128)  # a room full of plates; a sheet of a hundred modes holds some 8 MB
+@lru_cache(maxsize=128)  # enough for a room of plates; a sheet with a hundred modes takes some 8 MB
 def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
     k = _wavenumber(plate, max_frequency_hz)
     terms, largest = _terms(plate, k, fineness), largest_block(plate, max_frequency_hz, fineness)
@@ -278,9 +278,9 @@ def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FIN
         )
     warn_if_slow(plate, largest, QUICK_BLOCK, "functions in one eigenproblem")
     shift = SHIFT * max(k, math.pi / max(plate.length_m, plate.width_m)) ** 4
-    # Rigid motions lie below a thousandth of the shift, and any bending above five times of it.
+    # Rigid motions lie below a thousandth of the shift, and all bending modes above five times the shift.
     limit = max(k**4 * (1 + 1e-9), 1e-3 * shift)
-    # No block grows past those that take a second.
+    # No block is widened beyond the size that takes a second.
     room = max(math.sqrt(QUICK_BLOCK / largest), 1.0)
     along, across = (math.ceil(n * min(room, max(fineness.wider, fineness.least_wider / n))) for n in terms)
     wider = _paired(plate, along, across)
@@ -294,13 +294,13 @@ def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FIN
     column = np.concatenate([np.arange(len(block.k4)) for block in blocks])
     order = np.argsort(k4, kind="stable")
     for rigid in order[: n_rigid_motions(plate)]:
-        blocks[block[rigid]].k4[column[rigid]] = k4[rigid] = 0.0  # rather than what rounding left of it
+        blocks[block[rigid]].k4[column[rigid]] = k4[rigid] = 0.0  # exactly, without rounding errors
     bases_x, bases_y = (tuple(dict.fromkeys(axis)) for axis in zip(*many, strict=True))
     return PlateModes(plate, bases_x, bases_y, tuple(blocks), block[order], column[order], terms)
 
 
 def _terms(plate: Plate, k: float, fineness: Fineness) -> tuple[int, int]:
-    """Functions along length and width; even and odd ones are as many, so that blocks of all symmetries are alike."""
+    """Numbers of functions along length and width, with as many even as odd ones, so that all blocks are alike."""
     k_along = max(k, _HELD_WAVE / plate.width_m) if _is_held(plate.edges[2:]) else k
     k_across = max(k, _HELD_WAVE / plate.length_m) if _is_held(plate.edges[:2]) else k
     return _paired(plate, _n_terms(k_along * plate.length_m, fineness), _n_terms(k_across * plate.width_m, fineness))
@@ -321,7 +321,7 @@ def _pairs(plate: Plate, terms: tuple[int, int]) -> list[tuple[AxisBasis, AxisBa
 def _padded(
     vectors: NDArray[np.float64], few: tuple[AxisBasis, AxisBasis], many: tuple[AxisBasis, AxisBasis]
 ) -> NDArray[np.float64]:
-    """Vectors over products of few functions, as those over products of many, whose first ones these are."""
+    """Extend vectors over products of few functions to products of many, whose first functions are the few."""
     (n_x, n_y), (more_x, more_y) = ((x.n_functions, y.n_functions) for x, y in (few, many))
     padded = np.zeros((more_x, more_y, vectors.shape[1]))
     padded[:n_x, :n_y] = vectors.reshape(n_x, n_y, -1)
@@ -337,12 +337,12 @@ def _n_terms(k_length: float, fineness: Fineness) -> int:
 
 
 def _cholesky(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float) -> NDArray[np.float64]:
-    """L of K + shift = L L^T, below its diagonal."""
+    """Lower triangle L of K + shift = L L^T."""
     from scipy.linalg.lapack import dpotrf
 
     matrix = stiffness(x, y, poisson_ratio)
     matrix.flat[:: len(matrix) + 1] += shift
-    # Turned, it is the same matrix in the order that LAPACK wants, which then need not copy it.
+    # The matrix is symmetric: its transpose is in LAPACK's column order and need not be copied.
     factor: NDArray[np.float64] = dpotrf(matrix.T, lower=1, overwrite_a=1)[0]
     return factor
 
@@ -350,7 +350,7 @@ def _cholesky(x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float) ->
 def _solve(
     x: AxisBasis, y: AxisBasis, poisson_ratio: float, shift: float, limit: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The modes of K c = k^4 c up to k^4 = `limit`: k^4 (n_modes,), rising, and vectors (n, n_modes)."""
+    """Solve K c = k^4 c up to k^4 = `limit`. Returns k^4 (n_modes,), rising, and vectors (n, n_modes)."""
     from scipy.linalg.lapack import dormqr, dpotri, dstein, dsterf, dsytrd
 
     compliance = dpotri(_cholesky(x, y, poisson_ratio, shift), lower=1, overwrite_c=1)[0]

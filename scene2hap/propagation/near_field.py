@@ -1,24 +1,26 @@
-"""The near field of a force on a plate that polynomials cannot follow.
+"""The part of a force's near field on a plate that a polynomial basis cannot represent.
 
 Around a driven point lies a dimple narrower than the distance 1/K between the zeros of a polynomial basis. It is taken
-from the infinite plate, cut off below K (derived here):
+from the infinite plate, without wavenumbers below K (derived here):
 
     residual = 1 / (2 pi D_c) integral from K to infinity of J0(kappa r) kappa / (kappa^4 - k_c^4) d kappa
              ~ g(K r) artanh(k_c^2 / K^2) / (4 pi D_c k_c^2)      g(a) = 2 integral from 1 to infinity of J0(a t) / t^3
 
-together with its mirror images in the edges. Contacts are coupled by receptances at the driven point itself, where it
-matters most: without it the p95 error there is 0.5 to 2 dB, with it 0.05 to 0.3 dB. Nearer to a clamped edge than 4 %
-of the plate, or to a clamped corner than a tenth, where hardly anything moves, errors of several dB remain.
+together with its mirror images in the edges. Contacts are coupled by receptances at the driven point itself, where the
+residual matters most: the p95 error there is 0.5 to 2 dB without the residual and 0.05 to 0.3 dB with it. Errors of
+several dB remain where the plate hardly moves: within 4 % of the plate from a clamped edge, or a tenth from a clamped
+corner.
 
-An axis of length L has four images, the force among them, so that all cancel in pairs at an edge that holds. In a force
-at x0 and a point at x they are symmetric:
+An axis of length L has four images including the force, so that they cancel in pairs at a held edge. Their distances
+from a point at x are symmetric in x and the force's x0:
 
     r = |x - x0|, x + x0, 2 L - x - x0, 2 L - |x - x0|        weights 1, w_0, w_L, w_0 w_L
 
-The last is left out between two free edges, where there is nothing to cancel. K between two points is the larger of
-both, the least wave that neither basis follows. Then the near field is passive: each of its waves is J0(kappa r)
-between those points whose K it exceeds and 0 elsewhere, a matrix without negative eigenvalues (Bochner's theorem), and
-weighs kappa / (kappa^4 - k_c^4). Images farther than 2 L and weights above 1, at free edges, are exceptions from this.
+The last image is left out between two free edges, where nothing has to cancel. K between two points is the larger K of
+both: the basis resolves higher wavenumbers at neither point. The near field is then passive: a wave of wavenumber kappa
+contributes J0(kappa r) between points with K below kappa, and 0 elsewhere. This matrix has no negative eigenvalues
+(Bochner's theorem), and its weight is kappa / (kappa^4 - k_c^4). Images farther than 2 L, and weights above 1 at free
+edges, are exceptions.
 
 Letters: D [N m], k [rad/m], K [rad/m] cut-off of the basis, r [m], c complex.
 """
@@ -42,17 +44,17 @@ _Extent = tuple[float, float, float, float]
 Number = TypeVar("Number", np.float64, np.complex128)
 
 IMAGE = {"F": 8 / 3.5 - 1, "S": -1.0, "C": -1.0}
-"""Weight of a near field mirrored in an edge: one that holds takes all of it away; at a free one the edge of a half
-plate moves 8/3.5 times as much as the inside. Exact for S, an approximation otherwise."""
+"""Weight of the near field's mirror image in an edge: a held edge cancels the near field; a free edge of a half plate
+moves 8/3.5 times as much as the inside. Exact for S, an approximation otherwise."""
 
 
 FAR = 20.0
-"""a of g(a) beyond which it is left out: it is below 0.02 there, and edges far away would join in."""
+"""Argument a beyond which g(a) is left out: it is below 0.02 there, and distant edges would otherwise contribute."""
 _N_PIECES = 4096
 
 
 class NearField:
-    """The residual of forces at given points: deflection, for D_c = 1, that lies beyond the basis of `modes`.
+    """The residual of forces at given points: the deflection, for D_c = 1, beyond the basis of `modes`.
 
     Parameters: drive_m : (n_drives, 2) [m].
     """
@@ -64,9 +66,9 @@ class NearField:
         self.dimples = Dimples(drive_m, *weights, cut2, _extent(plate, modes.terms), table())
 
     def __call__(self, points_m: Floats, k2: NDArray[Number]) -> NDArray[Number]:
-        """At points (n_points, 2) [m], for k2 (n_frequencies,) k_c^2 [m^-2], complex or real, above 0, |k2| < K^2.
+        """Residual at points (n_points, 2) [m] for k2 = k_c^2 (n_frequencies,) [m^-2], complex or real, 0 < |k2| < K^2.
 
-        Returns: (n_points, n_drives, n_frequencies) [m^2], as k2, symmetric in its two points.
+        Returns: (n_points, n_drives, n_frequencies) [m^2], complex or real as k2, symmetric in point and force.
         """
         if np.isrealobj(k2):
             near: NDArray[Number] = cast("Any", self.dimples.near(points_m, k2.real))
@@ -75,7 +77,7 @@ class NearField:
 
 
 def _beyond(k2: NDArray[Number], shares: Floats, cut2: Floats) -> NDArray[Number]:
-    """The near field (n_points, n_drives, n_frequencies) of dimples, shares and K^2 (n_points, n_drives)."""
+    """Near field (n_points, n_drives, n_frequencies) from `shares` and K^2, both (n_points, n_drives)."""
     near: NDArray[Number] = np.arctanh(k2 / cut2[:, :, None])
     near *= shares[:, :, None]
     near /= 4 * np.pi * k2
@@ -84,9 +86,9 @@ def _beyond(k2: NDArray[Number], shares: Floats, cut2: Floats) -> NDArray[Number
 
 @compiled
 class Dimples:
-    """Where the near fields of forces are felt, and those of their images.
+    """Near fields of forces and of their mirror images, evaluated at points.
 
-    Parameters: drive_m : (n_drives, 2) [m]; x_weights, y_weights : (4,) of the images along each axis; cut2 :
+    Parameters: drive_m : (n_drives, 2) [m]; x_weights, y_weights : (4,) weights of the images along each axis; cut2 :
     (n_drives,) K^2 at the forces; extent : see `_extent`; pieces : see `table`.
     """
 
@@ -103,7 +105,7 @@ class Dimples:
         self._weights = np.outer(x_weights, y_weights).ravel()
 
     def at(self, points_m: Floats) -> tuple[Floats, Floats]:
-        """At points (n_points, 2) [m]: the sum of g(K r) over images, and K^2 [m^-2], both (n_points, n_drives)."""
+        """Sum of g(K r) over images, and K^2 [m^-2], both (n_points, n_drives), at points (n_points, 2) [m]."""
         cut2 = np.maximum(_cutoffs_squared(points_m, self._extent)[:, None], self._cut2)
         per_length, per_width = self._extent[:2]
         x = _separations(points_m[:, :1], self._drive_m[:, 0], 2 / per_length)
@@ -112,7 +114,7 @@ class Dimples:
         a2 = (x**2)[:, :, :, None] + (y**2)[:, :, None, :]
         a2 *= cut2[:, :, None, None]
         shares = beyond_cutoff_of_square(a2.reshape(*cut2.shape, 16), self._pieces) @ self._weights
-        # Beside an edge that holds, images take away a little too much; a plate gives way to a force, never against it.
+        # Beside a held edge, images cancel a little too much; but a driven point never moves against its force.
         shares[driven] = np.maximum(shares[driven], 0.0)
         return shares, cut2
 
@@ -122,22 +124,22 @@ class Dimples:
 
 
 def _separations(x_m: Floats, drive_m: Floats, length_m: float) -> Floats:
-    """From a force and its three images to points, along one axis; last axis 4, see the head of this module [m]."""
+    """Distances (..., 4) [m] from a force and its three images to points along one axis; see the module docstring."""
     apart, sum_m = np.abs(x_m - drive_m), x_m + drive_m
     return np.stack([apart, sum_m, 2 * length_m - sum_m, 2 * length_m - apart], axis=-1)
 
 
 def _weights(edges: str) -> Floats:
-    """Of these four images, for the two edges of an axis."""
+    """Weights (4,) of these images, for the two edges of an axis."""
     first, last = IMAGE[edges[0]], IMAGE[edges[1]]
     return np.array([1.0, first, last, 0.0 if edges == "FF" else first * last])
 
 
 def beyond_cutoff_of_square(a2: Floats, pieces: Floats) -> Floats:
-    """g(a) by a^2 from a table of it, true to 1e-6; the array that it is given is used up.
+    """Interpolate g(a) at a^2 from a `table` of it, to 1e-6. Overwrites `a2`.
 
-    Not by numpy's interp, which releases the interpreter's lock: a game's thread that queries beside a worker would
-    wait 5 ms for it.
+    numpy's interp is not used, since it releases the interpreter's lock: a game's thread that queries beside a worker
+    would wait 5 ms for the lock.
     """
     t = np.sqrt(a2, out=a2)
     np.sqrt(t, out=t)
@@ -151,7 +153,8 @@ def beyond_cutoff_of_square(a2: Floats, pieces: Floats) -> Floats:
 
 @lru_cache(maxsize=1)
 def table() -> Floats:
-    """g over the root of a, in which it is smooth, and steps to the next (n_pieces + 1, 2); the last of both is 0."""
+    """Values of g, evenly spaced in the root of a, in which g is smooth, and steps to the next value (n_pieces + 1, 2).
+    The last of both is 0."""
     values = beyond_cutoff(FAR * (np.arange(_N_PIECES + 1) / _N_PIECES) ** 2)
     steps = np.append(np.diff(values), 0.0)
     values[-1] = 0.0
@@ -159,11 +162,11 @@ def table() -> Floats:
 
 
 def cutoff_squared(modes: PlateModes, points_m: Floats) -> Floats:
-    """K^2 at points: the wavenumber beyond which the basis is blind there, as the radius of an equivalent circle.
+    """K^2 at points: K is the wavenumber above which the basis resolves nothing, as the radius of an equivalent circle.
 
-    Polynomials of degree below n on a length L follow waves up to n / sqrt(1 - xi^2) * 2 / L on each axis, a rectangle
-    of wavenumbers. What lies beyond it weighs as the integral of 1 / kappa^4, which the circle of radius K shares.
-    Least energy fits curvature, whose degree is that of the deflection, factors p and q included, less two.
+    Polynomials of degree below n on a length L resolve waves up to n / sqrt(1 - xi^2) * 2 / L on each axis, which makes
+    a rectangle of wavenumbers. The circle of radius K has the same integral of 1 / kappa^4 over wavenumbers outside it.
+    Minimum energy fits the curvature, whose degree is that of the deflection, factors p and q included, less two.
 
     Parameters: points_m : (n_points, 2) [m]. Returns: (n_points,) float64 [m^-2], very large at the edges.
     """
@@ -175,7 +178,7 @@ def _cutoffs_squared(points_m: Floats, extent: _Extent) -> Floats:
 
 
 def _cutoff_squared(x_m: float, y_m: float, per_length: float, per_width: float, kx: float, ky: float) -> float:
-    # One number at a time: a hand touches one point, where an array costs as much as ten points do.
+    # Scalars instead of arrays: a hand touches one point, for which an array costs as much as for ten points.
     xi, eta = x_m * per_length - 1, y_m * per_width - 1
     kx /= math.sqrt(max(1 - xi * xi, 1e-30))
     ky /= math.sqrt(max(1 - eta * eta, 1e-30))
@@ -185,7 +188,7 @@ def _cutoff_squared(x_m: float, y_m: float, per_length: float, per_width: float,
 
 @lru_cache(maxsize=1024)
 def _extent(plate: Plate, terms: tuple[int, int]) -> _Extent:
-    """2 over length and width [1/m], and what waves a basis of so many terms follows in the middle of each [rad/m]."""
+    """2 over length and width [1/m], and the highest wavenumbers that `terms` resolve in the middle of each [rad/m]."""
     along, across = (sum("FSC".index(edge) for edge in pair) for pair in (plate.edges[:2], plate.edges[2:]))
     per_length, per_width = 2 / plate.length_m, 2 / plate.width_m
     kx, ky = (terms[0] + along - 2) * per_length, (terms[1] + across - 2) * per_width
@@ -194,7 +197,7 @@ def _extent(plate: Plate, terms: tuple[int, int]) -> _Extent:
 
 def beyond_cutoff(a: Floats) -> Floats:
     """g(a) = 2 integral from 1 to infinity of J0(a t) / t^3 dt = J0(a) - (a J1(a) + a^2 C(a)) / 2, with C(a) the
-    integral of J0(u) / u from a; brought to 0 within the last 1 before `FAR`, lest rounding there decide anything."""
+    integral of J0(u) / u from a; faded to 0 over the last unit before `FAR`, so that rounding there has no effect."""
     from scipy.special import it2j0y0, j0, j1
 
     near = np.clip(FAR - a, 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""A thin plate: its constants and the wavenumber of the bending waves that it carries.
+"""Thin plates, with their constants and the wavenumber of their bending waves, and rigid bodies.
 
 Letters: E [Pa] Young's modulus, nu [-] Poisson's ratio, rho [kg/m3] density, h [m] thickness,
 D [N m] bending stiffness per width, omega [rad/s], k [rad/m].
@@ -21,10 +21,10 @@ from scene2hap.materials import Material, lookup
 from scene2hap.scene.surface.outline import Outline
 
 MAX_FREQUENCY_HZ = 1e9
-"""Far beyond any vibration; assumed, so that no square of a frequency is too large for a number."""
+"""Highest valid frequency [Hz], far beyond any vibration; assumed, so that squares of frequencies do not overflow."""
 
 _SIZES_M = {"at_least": 1e-30, "at_most": 1e6}
-"""Far beyond any plate; assumed, so that no third power of a size is too small or too large for a number [m]."""
+"""Bounds on sizes [m], far beyond any plate; assumed, so that third powers of sizes do not under- or overflow."""
 
 _EDGES = {"free": "FFFF", "simply-supported": "SSSS", "clamped": "CCCC"}
 
@@ -36,12 +36,12 @@ class Plate:
 
     Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
     "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width;
-    object_mass_kg : mass of the whole object, which counts where it moves as a whole, None for that of the plate [kg];
-    feet : material on which the object rests on heavier ones, None for its own; outline : of a plate that is no
-    rectangle, within length and width, with free edges; None for the rectangle. `MassSpringDamper` and `AutoFidelity`
-    follow it, `ModalPlate` refuses it, and to the others a plate has no edges.
-    Raises: ModelDomainError: a dimension is not positive and finite, the boundary is not one of these, or it holds a
-    plate with an outline.
+    object_mass_kg : mass of the whole object [kg], used where it moves as a whole, None for the plate's mass; feet :
+    material of the feet on which the object rests on heavier ones, None for its own; outline : outline of a plate that
+    is not a rectangle, within length and width, with free edges; None for the rectangle. `MassSpringDamper` and
+    `AutoFidelity` follow it, `ModalPlate` raises an error, and other models ignore edges.
+    Raises: ModelDomainError: a dimension is not positive and finite, the boundary is not one of these, or an edge of a
+    plate with an outline is not free.
     """
 
     length_m: float
@@ -96,7 +96,7 @@ class Plate:
 
     @classmethod
     def of_outline(cls, outline: Outline, thickness_m: float, material: Material, **others: Any) -> Plate:
-        """Make the plate of an outline; its corner is that of the outline's box. Other parameters as of `Plate`.
+        """Make the plate of an outline; its corner is that of the outline's box. Other parameters: see `Plate`.
 
         The outline is shifted so that its box starts at (0, 0): points on the plate are measured from there.
         """
@@ -111,7 +111,7 @@ class Plate:
 
     @property
     def extent_m(self) -> tuple[float, float]:
-        """Length and width, or those of the box around its outline [m]."""
+        """Length and width of the plate, or of the box around its outline [m]."""
         return (self.length_m, self.width_m) if self.outline is None else self.outline.extent_m
 
     @property
@@ -126,7 +126,7 @@ class Plate:
 
     @property
     def moving_mass_kg(self) -> float:
-        """Mass of the object where it moves as a whole [kg]."""
+        """Mass of the whole object [kg], used where it moves as a whole."""
         return self.mass_kg if self.object_mass_kg is None else self.object_mass_kg
 
     @cached_property
@@ -140,7 +140,7 @@ class Plate:
 
     @cached_property
     def wavenumber_per_root_omega(self) -> float:
-        """c in k = c sqrt(omega) [rad/m (rad/s)^-1/2]: the plate's part of the wavenumber."""
+        """c in k = c sqrt(omega) [rad/m (rad/s)^-1/2]: the wavenumber's dependence on the plate."""
         rho, h = self.material.density_kg_m3, self.thickness_m
         return math.sqrt(math.sqrt(rho * h / self.bending_stiffness_nm))
 
@@ -173,8 +173,8 @@ def require_plate(plate: object) -> None:
 class RigidBody:
     """A compact body, such as a mug, that moves as a whole and does not bend.
 
-    Parameters: mass_kg > 0 [kg]; size_m : length, width, thickness > 0 [m] of the box whose inertia it has when it
-    rocks, None for a body that does not; material : of its surface where others touch it, None if unknown.
+    Parameters: mass_kg > 0 [kg]; size_m : length, width, thickness > 0 [m] of a box with the body's inertia in rocking,
+    None for a body that does not rock; material : material of its contact surface, None if unknown.
     Raises: ModelDomainError: a mass or size that is not positive and finite.
     """
 
@@ -191,5 +191,5 @@ class RigidBody:
 
     @property
     def moving_mass_kg(self) -> float:
-        """Its mass [kg], as of a Plate."""
+        """Mass [kg]; see `Plate.moving_mass_kg`."""
         return self.mass_kg

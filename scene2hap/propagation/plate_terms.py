@@ -3,10 +3,10 @@
     D_c Y(x, x0) = sum over modes of phi(x) phi(x0) / (k_n^4 - q)  +  sum over i of rho_i(x, x0) l_i(q)
     q = k^4 / (1 + j eta)
 
-The modes are those up to 1.5 times the top frequency. What `modal_plate` adds to them, the rest of the Ritz spectrum
-and the near field, changes so little with q that its values rho_i at four places q_i and the polynomials l_i through
-them give it to 1e-3 (its nearest pole is at 2.25 times the highest q). A touch then costs three small matrix products,
-and no frequency needs a sum of its own.
+The first sum has the modes up to 1.5 times the top frequency. The second sum is the remainder of `modal_plate`: the
+rest of the Ritz spectrum and the near field. The remainder changes little with q, since its nearest pole is at 2.25
+times the highest q. Chebyshev interpolation from its values rho_i at four nodes q_i, with Lagrange polynomials l_i, is
+therefore accurate to 1e-3. A touch then costs three small matrix products, and no frequency needs a sum of its own.
 
 Letters: Y [m/N] receptance, D_c [N m] complex bending stiffness, phi [1/m] shape normalised over the area, k [rad/m],
 q [m^-4], rho [m^2], eta [-].
@@ -40,9 +40,9 @@ Complex = NDArray[np.complex128]
 class ForcedPlate:
     """A plate under forces at given points.
 
-    modes : (n_first, n_modes), phi : (n_forces, n_modes) shapes, in the first cosines along each axis and at the
-    forces; rest : (n_products, n_forces N_NODES), what is stiffer, in all cosines; near : what lies beyond the basis;
-    k2 : (N_NODES,) [m^-2].
+    modes : (n_first, n_modes) mode shapes as coefficients of the first cosines along each axis; phi : (n_forces,
+    n_modes) mode shapes at the forces; rest : (n_products, n_forces N_NODES) response of the stiffer spectrum as
+    coefficients of all cosines; near : near field beyond the basis; k2 : (N_NODES,) roots of the nodes q_i [m^-2].
     """
 
     plate: PlateTerms
@@ -69,16 +69,16 @@ class ForcedPlate:
 
     @property
     def sizes(self) -> Floats:
-        """About how large the modes are, and then what else each force does by its nodes (n_modes + n_forces N_NODES,).
+        """Typical magnitude of each mode, then of the remainder of each force and node (n_modes + n_forces N_NODES,).
 
-        Products of cosines are so; near fields are left out, since all of a force's nodes have theirs.
+        Magnitudes are norms of coefficients of cosines; near fields are left out, since all nodes of a force have them.
         """
         sizes: Floats = np.sqrt(np.concatenate([np.square(one).sum(axis=0) for one in (self.modes, self.rest)]))
         return sizes
 
     def weights(self, spectrum: Complex, forces: Complex) -> Complex:
-        """How much of these shapes (n_modes + n_forces N_NODES, n, n_f) there is, for terms at frequencies (n_terms,
-        n_f) and forces (n_forces, n, n_f)."""
+        """Weights of these shapes (n_modes + n_forces N_NODES, n, n_f) under forces (n_forces, n, n_f), from the
+        spectrum of the terms (n_terms, n_f)."""
         n_modes = self.phi.shape[1]
         modal = real_times(self.phi.T, forces)
         modal *= spectrum[:n_modes, None]
@@ -86,7 +86,7 @@ class ForcedPlate:
         return np.concatenate([modal, by_node.reshape(len(forces) * N_NODES, *forces.shape[1:])])
 
     def mixed(self, weights: NDArray[AnyFloat]) -> ContractedShapes[AnyFloat]:
-        """Sums of these shapes, see `ResponseBasis`."""
+        """Sums of these shapes; see `ResponseBasis`."""
         n_modes = self.phi.shape[1]
         beyond = np.ascontiguousarray(weights[n_modes:])
         smooth = self.rest @ beyond
@@ -99,9 +99,9 @@ class ForcedPlate:
 class ContractedShapes(Generic[AnyFloat]):
     """Deflection under known forces, summed in advance and evaluated at points given later.
 
-    Parameters: size : of `fill_cosines`; smooth : (n_products, n) what each of those products adds; dimples, k2 : near
-    fields (n_forces, n_k2), and beyond : (n_forces n_k2, n) what each of them adds; both in the precision in which sums
-    are wanted.
+    Parameters: size : last four parameters of `fill_cosines`; smooth : (n_products, n) coefficients of its products;
+    dimples, k2 : near fields (n_forces, n_k2); beyond : (n_forces n_k2, n) coefficients of the near fields. The sums
+    have the precision of `smooth` and `beyond`.
     """
 
     def __init__(
@@ -117,7 +117,7 @@ class ContractedShapes(Generic[AnyFloat]):
         self._beyond: NDArray[AnyFloat] = beyond
 
     def __call__(self, points_m: Floats) -> NDArray[AnyFloat]:
-        """At points (n_points, 2) [m]: (n_points, n)."""
+        """Deflections (n_points, n) at points (n_points, 2) [m]."""
         cosines = np.empty((len(points_m), len(self._smooth)))
         fill_cosines(cosines, points_m, *self._size)
         near = self._dimples.near(points_m, self._k2).reshape(len(points_m), len(self._beyond))
@@ -128,7 +128,7 @@ class ContractedShapes(Generic[AnyFloat]):
 @compiled
 def fill_cosines(found: Floats, points_m: Floats, per_length: float, per_width: float, n_x: int, n_y: int) -> None:
     """Fill (n_points, n_x n_y) with cos(i acos(xi)) cos(j acos(eta)), xi and eta from -1 to 1 along both sides."""
-    # Numbers one by one: a hand touches one point, for which five calls of numpy take longer.
+    # Scalars instead of arrays: a hand touches one point, for which five calls of numpy take longer.
     angles = np.array(
         [
             (math.acos(min(max(x * per_length - 1, -1.0), 1.0)), math.acos(min(max(y * per_width - 1, -1.0), 1.0)))
@@ -161,24 +161,24 @@ class PlateTerms:
         self._phi = self.first(shapes.T).T.copy()
 
     def first(self, values: Floats) -> Floats:
-        """Of values (n, n_products), those of the products that modes are made of (n, n_first)."""
+        """Select from values (n, n_products) those of the products that modes consist of (n, n_first)."""
         along, across = self._n_first
         return values.reshape(len(values), *self.n_cosines)[:, :along, :across].reshape(len(values), along * across)
 
     def add_first(self, values: Floats, more: Floats) -> None:
-        """Add to values (n_products, n) those of the products that modes are made of (n_first, n)."""
+        """Add `more` (n_first, n) to those values (n_products, n) whose products modes consist of."""
         along, across = self._n_first
         values.reshape(*self.n_cosines, -1)[:along, :across] += more.reshape(along, across, -1)
 
     @property
     def n_cosines(self) -> tuple[int, int]:
-        """How many polynomials there are along each axis."""
+        """Number of Chebyshev polynomials along each axis."""
         x, y = (len(axis.family.chebyshev) for axis in self._axes)
         return x, y
 
     @property
     def n_modes(self) -> int:
-        """How many of the terms are modes; `N_NODES` follow them."""
+        """Number of terms that are modes; `N_NODES` other terms follow."""
         return len(self._k4)
 
     def spectrum(self, q: NDArray[np.complex128]) -> NDArray[np.complex128]:
@@ -186,7 +186,7 @@ class PlateTerms:
         return np.concatenate([1 / (self._k4[:, None] - q), self._between(q)])
 
     def sums(self, q: NDArray[np.complex128], scale: complex) -> OctaveSums:
-        """What adds up terms at many frequencies, times `scale`."""
+        """Return the `OctaveSums` that sum terms at frequencies by their q, times `scale`."""
         return OctaveSums(self._k4, self._between(q), q, scale)
 
     def _between(self, q: NDArray[np.complex128]) -> NDArray[np.complex128]:
@@ -204,7 +204,7 @@ class PlateTerms:
         for block, (along, across) in zip(self.modes.blocks, self._places(), strict=True):
             forces = by_axes[:, along, across].reshape(len(forces_m), -1).T
             stiff.append(block.beyond(forces, self._nodes).reshape(forces.shape[0], -1))
-        # One column per force and node: how the rest of the spectrum answers to it.
+        # One column per force and node: the response of the rest of the spectrum to the force.
         rest = self._in_cosines(self._spread(stiff, side_by_side=False))
         return ForcedPlate(self, self._phi, phi, rest, NearField(self.modes, forces_m), np.sqrt(self._nodes))
 
@@ -215,8 +215,8 @@ class PlateTerms:
         return found
 
     def _in_cosines(self, columns: Floats) -> Floats:
-        """Columns in products of the axes' functions, converted to those of `cosines`: a hand touches one point at a
-        time, where few calls take less time than few products."""
+        """Convert columns over products of the axes' functions to those of `cosines`: a hand touches one point at a
+        time, for which few calls save more time than few products."""
         x, y = (axis.family.chebyshev * math.sqrt(2 / axis.length_m) for axis in self._axes)
         along = x @ columns.reshape(x.shape[1], -1)
         both = y @ along.reshape(len(x), y.shape[1], -1)
@@ -228,8 +228,8 @@ class PlateTerms:
         return (x[:, :, None] * y[:, None, :]).reshape(len(points_m), -1)
 
     def _spread(self, by_block: list[Floats], *, side_by_side: bool = True) -> Floats:
-        """Columns in each block's own products, converted to all products: beside those of other blocks, or added to
-        them."""
+        """Convert columns over each block's products to all products: side by side, or all blocks in the same
+        columns."""
         widths = [columns.shape[1] for columns in by_block]
         ends = np.cumsum(widths) if side_by_side else np.array(widths)
         spread = np.zeros((*self.modes.terms, int(ends[-1])))
@@ -240,7 +240,7 @@ class PlateTerms:
         return spread.reshape(math.prod(self.modes.terms), -1 if spread.size else 0)
 
     def _places(self) -> list[tuple[slice, slice]]:
-        """Where the functions of each block are among all of each axis."""
+        """Position of each block's functions among all functions of each axis."""
         ends_x, ends_y = (np.cumsum([0, *(b.n_functions for b in bases)]) for bases in (self.modes.x, self.modes.y))
         along, across = ([slice(*pair) for pair in pairwise(ends)] for ends in (ends_x, ends_y))
         return list(product(along, across))

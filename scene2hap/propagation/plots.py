@@ -1,4 +1,4 @@
-"""Picture of a source's gain all over a plate. Needs the extra `plots`."""
+"""Map of a source's gain over a plate. Needs the extra `plots`."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 RANGE_DB = 40.0
-"""How far below the loudest place colours go."""
+"""Range of the colours below the loudest place [dB]."""
 CELLS = 64
-"""Along the longer side."""
+"""Cells of the map along the longer side."""
 
 
 def plot_field(
@@ -40,9 +40,9 @@ def plot_field(
 ) -> Figure:
     """Draw the attenuation over a plate as a map in dB, with the contacts of the source and a touch.
 
-    Parameters: field : prepared from `network`, by any model; object_id : a plate of it; source_id : one of the
-    field's, its first by default; band : which of the field's bands; touch_m : (3,) or (n, 3) [m], world;
-    path : where to write it as well, in the format of its ending, as .png.
+    Parameters: field : prepared from `network`, by any model; object_id : a plate of the network; source_id : one of
+    the field's sources, by default the first; band : index of the field's band; touch_m : (3,) or (n, 3) [m], world;
+    path : file to write as well, in the format of its suffix, such as .png.
     Returns: a matplotlib Figure.
     Raises: MissingExtra: matplotlib is not installed. ModelDomainError: no plate of that id, no such source or band.
     """
@@ -80,7 +80,7 @@ def plot_field(
 
 
 def _map(field: PropagationField, network: ContactNetwork, object_id: str, plate: Plate) -> NDArray[np.float64]:
-    """Gains in the middles of cells (n_x, n_y, n_sources, n_bands)."""
+    """Gains at the centres of cells (n_x, n_y, n_sources, n_bands)."""
     longer = max(plate.length_m, plate.width_m)
     x, y = (
         (np.arange(n) + 0.5) / n * side

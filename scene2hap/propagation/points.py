@@ -16,7 +16,7 @@ from scene2hap.scene.pose import Pose
 
 
 def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
-    """Points as (n_points, dimensions) float64 [m]; one point may come without its outer brackets.
+    """Convert points to (n_points, dimensions) float64 [m]; a single point may come without outer brackets.
 
     Raises: ModelDomainError: another shape, or a coordinate that is not finite.
     """
@@ -47,20 +47,20 @@ def of_tuples(points_m: object, dimensions: int) -> NDArray[np.float64] | None:
 
 @compiled
 def are_finite(points: NDArray[np.float64]) -> bool:
-    """Whether all coordinates (n_points, n_axes) are."""
-    # A sum of squares is finite only if everything in it is: one quick call, where nearly all points are good.
+    """Whether all coordinates (n_points, n_axes) are finite."""
+    # A sum of squares is finite only if all its terms are: one quick call is enough, since nearly all points are valid.
     return math.isfinite(np.vdot(points, points)) or bool(np.isfinite(points).all())
 
 
 @compiled
 class InRectangle:
-    """A rectangle in the world, its corner at `pose`."""
+    """A rectangle in the world, with its corner at `pose`."""
 
     def __init__(self, pose: Pose, length_m: float, width_m: float) -> None:
         self._pose, self._sides_m = pose, (length_m, width_m)
 
     def __call__(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """World points (n, 3) in its frame (n, 2) [m], along length and width; those beside it at its nearest edge."""
+        """Convert world points (n, 3) to (n, 2) [m] along length and width; those beside it go to its nearest edge."""
         flat = self._pose.to_own(points_m)[:, :2]
         return np.minimum(np.maximum(flat, 0.0), self._sides_m)
 

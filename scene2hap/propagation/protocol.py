@@ -1,7 +1,7 @@
 """The interface of propagation models: how much of each source arrives at a point of an object.
 
-Two phases, since a scene is prepared seldom and evaluated often: ``prepare`` computes what depends on the scene and its
-contacts, ``PropagationField.attenuation`` what depends on the touched point.
+A model works in two phases, since a scene is prepared seldom and evaluated often. ``prepare`` computes everything that
+depends on the scene and its contacts, ``PropagationField.attenuation`` everything that depends on the touched point.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ class ContactNetwork:
     """Input of a propagation model: the bodies of a scene by object id, their contacts and their poses.
 
     An object without a body, because its material is unknown, does not carry vibration; it may still be a source.
-    `poses` puts the frame of a body into the world: its origin in a corner of the plate's mid-plane, x along the
-    length, y along the width. A plate without a pose has its corner at the world's origin and its sides along x and y.
+    `poses` places the frame of each body in the world: its origin is a corner of the plate's mid-plane, x runs along
+    the length, y along the width. A plate without a pose has its corner at the world's origin and its sides along x, y.
     """
 
     bodies: Mapping[str, Body]
@@ -74,12 +74,13 @@ class ContactNetwork:
     def on_body(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Convert world points to (n_points, 2) [m] along length and width of a body, from its corner.
 
-        Points beside a body are moved to its nearest edge, as if a rigid leg led there; a body without size keeps them.
+        Points beside a body are moved to its nearest edge, as if a rigid leg led there. A body without size does not
+        move them.
         """
         return self.placing(object_id)(as_points(points_m, 3))
 
     def placing(self, object_id: str) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-        """Return a function that converts as `on_body` does, for points (n_points, 3) of one body, without checks."""
+        """Return the conversion of `on_body` for one body, as a function of points (n_points, 3), without checks."""
         pose, body = self.poses.get(object_id), self.bodies.get(object_id)
         size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
         if size_m:
@@ -117,10 +118,10 @@ class ExpectantField(PropagationField, Protocol):
 
 @dataclass(frozen=True)
 class Carrier:
-    """A contact through which vibration comes into an object.
+    """A contact through which vibration enters an object.
 
-    Parameters: by : the object on its other side; point_m : where it is [m], world, as it was when prepared; share : of
-    all power that comes in, 0..1.
+    Parameters: by : the object on the other side; point_m : position in the world when the field was prepared [m];
+    share : part of all power that enters the object, 0..1.
     """
 
     by: str
@@ -133,7 +134,7 @@ class CarryingField(PropagationField, Protocol):
     """A field in which a source arrives over all paths at once, so that no single path explains it."""
 
     def carriers(self, object_id: str, source_id: str, band: int) -> tuple[Carrier, ...]:
-        """The contacts through which a source comes into an object in a band, the strongest first; shares add up to 1.
+        """Contacts through which a source's vibration enters an object in a band, strongest first; shares sum to 1.
 
         Returns: empty where nothing arrives, and on the source itself.
         """
@@ -143,9 +144,9 @@ class CarryingField(PropagationField, Protocol):
 def checked_field(
     model: PropagationModel, field: PropagationField, excitations: Sequence[Excitation]
 ) -> PropagationField:
-    """The field that a model prepared.
+    """Return the field that a model prepared, after checking it.
 
-    Raises: ModelDomainError: it is none, or has other sources than were requested.
+    Raises: ModelDomainError: it is no `PropagationField`, or its sources are not those of `excitations`.
     """
     made_by = f"{type(model).__name__}.prepare"
     if problem := lacking(field, _FIELD):
@@ -167,7 +168,7 @@ _FIELD: Members = {"source_ids": None, "attenuation": ("object_id", "points_m")}
 
 @runtime_checkable
 class PropagationModel(Protocol):
-    """Interface of propagation models: `prepare` solves a scene once, the field that it returns is queried often."""
+    """Interface of propagation models: `prepare` solves a scene once and returns a field that is queried often."""
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
         """Prepare the field of a whole scene, over as many contacts as the model allows."""
@@ -176,7 +177,7 @@ class PropagationModel(Protocol):
 
 @runtime_checkable
 class CoupledModel(PropagationModel, Protocol):
-    """A model whose bodies are coupled at their contacts, see `substructuring`."""
+    """A model whose bodies are coupled at their contacts; see `substructuring`."""
 
     @property
     def contact(self) -> ContactLaw:
@@ -185,16 +186,16 @@ class CoupledModel(PropagationModel, Protocol):
 
     @property
     def hand(self) -> Hand | None:
-        """What loads an object where it is touched."""
+        """Hand that loads an object at the touched point; None for no load."""
         ...
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
-        """A plate that is not compact, ready to be coupled, for frequencies up to some top [Hz]."""
+        """Return a plate that is not compact as a body for coupling up to `max_frequency_hz` [Hz]."""
         ...
 
 
 def require_input(network: object, excitations: object, bands: object) -> None:
-    """Raise a ModelDomainError unless these are what `prepare` of a model takes."""
+    """Raise a ModelDomainError unless these are valid arguments of a model's `prepare`."""
     some = next(iter(excitations), None) if isinstance(excitations, Sequence) else excitations
     is_excitation = isinstance(some, Excitation) or (some is None and isinstance(excitations, Sequence))
     for name, value, is_right, wanted in (

@@ -1,9 +1,9 @@
-"""A stated reference level, so that one model may take the place of another.
+"""A common reference level, so that one model can replace another.
 
-The law of the paper starts at 1 where a source stands and decays; a source that is a mass on a plate moves the plate by
-less, and a resonant plate by more. Models that are swapped therefore change every level by -16 to +37 dB. Here each
-source is scaled by one number, so that 0.1 m from where it stands it is felt as strongly as by the law. How a model
-spreads vibration, over distance, frequency and objects, stays its own.
+The paper's law starts at a gain of 1 where a source stands, and decays. A source that is a mass on a plate moves the
+plate less, and a resonant plate more. Replacing one model by another therefore changes every level by -16 to +37 dB.
+`FeltNear` scales each source by one factor, so that 0.1 m from where the source stands, its level is that of the law.
+The model's dependence on distance, frequency and objects is kept.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from scene2hap.propagation.protocol import (
 from scene2hap.scene.pose import Pose
 
 NEAR_M = 0.1
-"""Distance from where a source stands at which it is felt as by the law [m]."""
+"""Distance from where a source stands at which its level is that of the law [m]."""
 LARGEST = 1e3
-"""A source is made stronger or weaker by so much at most [-]: what hardly reaches a point is not blown up."""
+"""Largest factor by which a source is raised or lowered [-], so that faint sources are not raised without limit."""
 _N_AROUND = 8
 
 Floats = NDArray[np.float64]
@@ -44,7 +44,7 @@ Floats = NDArray[np.float64]
 class FeltNear:
     """A model with the reference level of the paper's law, at `NEAR_M` from where each source stands.
 
-    Parameters: model : any; on a source itself its gain stays 1.
+    Parameters: model : any model; the gain on a source itself stays 1.
     """
 
     model: PropagationModel
@@ -52,16 +52,16 @@ class FeltNear:
 
     @property
     def usual_bands(self) -> Bands:
-        """Those of the model."""
+        """The usual bands of the model."""
         return getattr(self.model, "usual_bands", Bands.dominant())
 
     @property
     def follows_outlines(self) -> bool:
-        """As the model."""
+        """Whether the model follows outlines."""
         return getattr(self.model, "follows_outlines", False)
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
-        """The model's field, scaled. Raises, warns: as the model."""
+        """Prepare the model's field and scale it. Raises, warns: see the model."""
         field = self.model.prepare(network, excitations, bands)
         law = ExponentialPlate().prepare(network, excitations, bands)
         factors = _factors(field, law, _rings(network, excitations))
@@ -70,14 +70,14 @@ class FeltNear:
 
 @dataclass(frozen=True, eq=False)
 class ScaledField:
-    """A field in which each source is stronger or weaker by a factor, but for the source itself."""
+    """A field whose gains are scaled by a factor for each source, except on the source itself."""
 
     field: PropagationField
     factors: Mapping[str, float]
 
     @property
     def source_ids(self) -> tuple[str, ...]:
-        """As of the field."""
+        """Ids of the sources; see `PropagationField`."""
         return self.field.source_ids
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> Floats:
@@ -87,20 +87,20 @@ class ScaledField:
         return found
 
     def expect(self, object_id: str) -> None:
-        """See `ExpectantField`; without effect where the field has nothing to expect."""
+        """See `ExpectantField`; has no effect if `field` is not one."""
         if isinstance(self.field, ExpectantField):
             self.field.expect(object_id)
 
 
 class _ScaledCarryingField(ScaledField):
     def carriers(self, object_id: str, source_id: str, band: int) -> tuple[Carrier, ...]:
-        """See `CarryingField`; shares know no level."""
+        """See `CarryingField`; shares do not depend on the level."""
         assert isinstance(self.field, CarryingField)
         return self.field.carriers(object_id, source_id, band)
 
 
 def _rings(network: ContactNetwork, excitations: Sequence[Excitation]) -> dict[str, list[tuple[str, Floats]]]:
-    """For each object on which sources stand: the sources, and points (n, 3) [m] around where they do, on its body."""
+    """For each object with sources on it: the sources, and points (n, 3) [m] of its body around each source."""
     stands: dict[tuple[str, str], list[tuple[float, float, float]]] = {}
     source_ids = {item.source_id for item in excitations}
     for contact in network.contacts:

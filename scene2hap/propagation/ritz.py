@@ -1,12 +1,13 @@
-"""A thin plate in polynomials: Ritz's basis for each axis, and the bending energy between products of them.
+"""Ritz basis of a thin plate: polynomials along each axis, and the stiffness matrix of their products.
 
     w(x, y) = sum_ij c_ij X_i(x) Y_j(y)           X_i(xi) = (1 + xi)^p (1 - xi)^q P_i(xi),   xi = 2 x / L - 1
     U = D/2 integral of (w_xx + w_yy)^2 - 2 (1 - nu) (w_xx w_yy - w_xy^2)
 
-p and q are 0, 1, 2 at a free, simply supported, clamped edge: the conditions on deflection and slope are met exactly,
-those on moment and shear are what least energy finds. Legendre polynomials times these factors, made orthonormal, are
-the Jacobi polynomials of weights 2q, 2p times the same factors, so no orthonormalisation is needed. Each X_i is kept by
-its coefficients in normalised Legendre polynomials, where differentiation is a matrix and an integral a dot product.
+p and q are 0, 1, 2 at a free, simply supported, clamped edge: the basis meets the conditions on deflection and slope
+exactly, and minimum energy leads to those on moment and shear. Legendre polynomials times these factors, made
+orthonormal, are the Jacobi polynomials of weights 2q, 2p times the same factors, so no orthonormalisation is needed.
+Each X_i is stored as coefficients of normalised Legendre polynomials, for which differentiation is a matrix and an
+integral a dot product.
 
 Letters: L [m] length of an axis, nu [-] Poisson's ratio, D [N m] bending stiffness, xi [-] -1 to 1.
 Source: Leissa, The free vibration of rectangular plates, J. Sound Vib. 31 (1973), for the energy and the method;
@@ -23,21 +24,21 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 _FIXED = {"F": 0, "S": 1, "C": 2}
-"""Derivatives from the zeroth on that vanish at an edge."""
+"""Number of derivatives, from the zeroth on, that vanish at an edge."""
 
 
 @dataclass(frozen=True, eq=False)
 class Family:
-    """Functions of xi, orthonormal on -1..1, whatever the length of their axis; shared by all plates of those edges.
+    """Functions of xi, orthonormal on -1..1, for axes of any length; shared by all plates with the same edges.
 
-    coefficients : (n_legendre, n_functions) in normalised Legendre polynomials.
+    coefficients : (n_legendre, n_functions) of normalised Legendre polynomials.
     """
 
     coefficients: NDArray[np.float64]
 
     @cached_property
     def chebyshev(self) -> NDArray[np.float64]:
-        """The functions' coefficients in Chebyshev polynomials cos(n arccos xi)."""
+        """The functions as coefficients of Chebyshev polynomials cos(n arccos xi)."""
         n = len(self.coefficients)
         angle = np.pi * (np.arange(n) + 0.5) / n
         values = legendre.legvander(np.cos(angle), n - 1) * _norms(n) @ self.coefficients
@@ -64,7 +65,7 @@ class AxisBasis:
 
     @property
     def n_functions(self) -> int:
-        """How many functions."""
+        """Number of functions."""
         return len(self.family.coefficients.T)
 
     def values(self, x_m: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -98,7 +99,7 @@ class AxisBasis:
 
 
 def axis_bases(edges: str, length_m: float, n_terms: int) -> tuple[AxisBasis, ...]:
-    """The basis of one axis: even and odd functions apart where both edges are alike, since modes do not mix them.
+    """The bases of one axis: even and odd functions apart if both edges are equal, since modes do not mix them.
 
     Parameters: edges : two letters F, S, C for the edges at 0 and at length; n_terms : functions in all.
     """
@@ -111,14 +112,16 @@ def axis_basis(edges: str, length_m: float, n_terms: int) -> AxisBasis:
 
 
 def stiffness(x: AxisBasis, y: AxisBasis, poisson_ratio: float) -> NDArray[np.float64]:
-    """Bending energy between products X_i(x) Y_j(y), over D/2; the mass matrix over (rho h)/2 is the identity.
+    """Stiffness matrix of the products X_i(x) Y_j(y), their bending energy over D/2.
 
-    Returns: (n_x n_y, n_x n_y) float64 [m^-4], symmetric, positive but for rigid motions. Its eigenvalues are k^4.
+    The mass matrix over (rho h)/2 is the identity.
+
+    Returns: (n_x n_y, n_x n_y) float64 [m^-4], symmetric, positive except for rigid motions. Its eigenvalues are k^4.
     """
     nu, n_x, n_y = poisson_ratio, x.n_functions, y.n_functions
     along = np.stack([x.curvature, np.eye(n_x), nu * x.crossed, nu * x.crossed.T, 2 * (1 - nu) * x.slope])
     across = np.stack([np.eye(n_y), y.curvature, y.crossed.T, y.crossed, y.slope])
-    # Five products of an axis with the other, added up by one matrix product.
+    # Sum of five Kronecker products, by one matrix product.
     summed = along.reshape(5, -1).T @ across.reshape(5, -1)
     ordered: NDArray[np.float64] = summed.reshape(n_x, n_x, n_y, n_y).transpose(0, 2, 1, 3)
     return ordered.reshape(n_x * n_y, n_x * n_y)
@@ -132,7 +135,7 @@ def products(x: AxisBasis, y: AxisBasis, points_m: NDArray[np.float64]) -> NDArr
 
 @lru_cache(maxsize=512)
 def _families(edges: str, n_terms: int) -> tuple[Family, ...]:
-    """The families that do not mix, and last all of them in that order."""
+    """The families that do not mix, and last a family with the functions of all of them in that order."""
     parities = (slice(0, None, 2), slice(1, None, 2)) if edges[0] == edges[1] else (slice(None),)
     coefficients = _coefficients(edges, n_terms)
     apart = [coefficients[:, parity] for parity in parities]

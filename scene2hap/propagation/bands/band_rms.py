@@ -3,8 +3,8 @@
     mean square = 2 / (f2 - f1) * integral from u1 to u2 of u exp(-b u) du,  u = sqrt(f),  b = 2 L sqrt(2 pi)
                 = 2 / ((f2 - f1) b^2) * (g(b u1) - g(b u2)),                 g(x) = (1 + x) exp(-x)
 
-The difference of two values of g loses digits where b is small; there it is written with functions of b (u2 - u1) that
-stay exact as that goes to 0, which takes longer.
+The difference of two values of g loses digits where b is small. There it is computed from functions of b (u2 - u1)
+that stay exact as their argument goes to 0, which takes longer.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
 
-_MOST = 700.0  # Beyond this exp(-x) is no normal number, which processors handle slowly.
-# Least x dx of a band for which the difference keeps 12 digits: it is about x dx exp(-x), with an error of 2e-16.
+_MOST = 700.0  # Beyond this exp(-x) becomes a denormal number, which processors handle slowly.
+# Least x dx of a band for which the difference of g keeps 12 digits: it is about x dx exp(-x), with an error of 2e-16.
 _LEAST = 1e-3
 
 
@@ -39,21 +39,21 @@ def band_rms(length: NDArray[np.float64], edges_hz: NDArray[np.float64]) -> NDAr
     )
     mean_square = 2 * np.exp(-b * u1) * (u1 * width * first + width**2 * second) / (u2**2 - u1**2)
     gains: NDArray[np.float64] = np.sqrt(np.clip(mean_square, 0.0, 1.0))
-    gains[length == 0] = 1.0  # to the last bit: the source itself
+    gains[length == 0] = 1.0  # exactly 1: the source itself
     return gains
 
 
 @compiled
 class BandRms:
-    """The gains of neighbouring bands between these rising edges [Hz], for a few lengths at a time: by the difference,
-    where that keeps 12 digits."""
+    """Gains of adjacent bands between rising edges [Hz], for a few lengths at a time: by the difference of g where it
+    keeps 12 digits."""
 
     def __init__(self, edges_hz: Sequence[float]) -> None:
         edges = np.array(edges_hz)
         self._bands_hz = np.stack([edges[:-1], edges[1:]], axis=1)
         b = 2 * np.sqrt(2 * math.pi * edges)
         self._least = math.sqrt(_LEAST / float((b[:-1] * np.diff(b)).min()))
-        # Bands first: what belongs to one edge lies side by side, so that neighbours are subtracted in one stride.
+        # Bands first: the values of one edge are contiguous, so that adjacent edges are subtracted in one stride.
         self._minus_edges = -b[:, None]
         self._scales = np.sqrt(2 / np.diff(edges) / (8 * math.pi))[:, None]
 

@@ -1,14 +1,13 @@
-"""The rms of a body's deflection under known forces over bands, as lengths of short vectors.
+"""Rms over bands of a body's deflection under known forces, as lengths of short vectors.
 
     g_b(x)^2 = sum over f in b of w_f |u(x, f)|^2 = |R_b Q_b^T P^T s(x)|^2       u(x, f) = sum over i of s_i(x) W_i(f)
 
-In a band a body moves in a few shapes only, those of the modes nearby, however many contacts push it and frequencies
-resolve its resonances; and these are few in all bands together. P is an orthonormal basis of all columns W(f), P Q_b
-one of those in a band, so that no source misses more than `CLOSE` of itself in any band, and R_b^T R_b the sum of
-w_f (P Q_b)^T W W^H P Q_b for one source. A basis that holds nearly all of many columns is found by mixing them at
-random.
+In a band a body moves only in a few shapes, those of the modes nearby, for any number of contacts and frequencies. In
+all bands together these shapes are few, too. P is an orthonormal basis of all columns W(f), and P Q_b a basis of the
+columns in band b; at most `CLOSE` of each source is lost in any band. R_b^T R_b is the sum of w_f (P Q_b)^T W W^H P Q_b
+for one source. Random combinations of the columns give a basis that holds nearly all of them.
 
-Letters: s shapes [m^-2 or m^2], W weights, u [-], w [-] part of its band that a frequency stands for.
+Letters: s shapes [m^-2 or m^2], W weights, u [-], w [-] part of its band that a frequency represents.
 Source: Halko, Martinsson, Tropp, Finding structure with randomness, SIAM Review 53 (2011) 217, algorithm 4.1.
 """
 
@@ -26,15 +25,15 @@ from scene2hap.propagation.coupled.object_response import Gains
 from scene2hap.propagation.coupled.response_basis import ResponseBasis
 
 CLOSE = 1e-3
-"""Part of each source's motion in a band, over the whole body, that may be missed: 60 dB below."""
+"""Part of each source's motion in a band, over the whole body, that may be lost: 60 dB below the motion."""
 _MISSED = CLOSE**2 / 3
-"""Of the square of each source's motion, by each of three steps."""
+"""Part of the square of each source's motion that each of three steps may lose."""
 _MORE = 8
-"""Mixed columns over those that the band below needed; twice as many where they do not hold enough."""
+"""Number of random combinations in addition to those that the band below needed; doubled until they hold enough."""
 _AT_ONCE = 64
-"""Random columns that are drawn at once, and kept."""
+"""Random columns that are drawn at once, and cached."""
 _ROUNDING = 1e-13
-"""Added to what each shape carries, since a source may need fewer than all sources together."""
+"""Added to the diagonal of R^T R, since a source may need fewer shapes than all sources together."""
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -42,11 +41,11 @@ Complex = NDArray[np.complex128]
 
 @compiled
 class BandLengths:
-    """Lengths of vectors, several for each of some spaces, in single precision.
+    """Lengths |R v| of vectors in several spaces, with n factors R for each space, in single precision.
 
-    Parameters: shapes : from points (n_points, 2) [m] to values (n_points, n_shapes); mixing : from these to vectors in
-    all spaces side by side (n_shapes, sum of all n_own); factors : R of each space, at least one, upper triangles (n,
-    n_own, n_own).
+    Parameters: shapes : function from points (n_points, 2) [m] to values (n_points, n_shapes); mixing : (n_shapes, sum
+    of all n_own) from these values to the vectors v of all spaces, side by side; factors : R of each space, at least
+    one, upper triangles (n, n_own, n_own).
     """
 
     def __init__(
@@ -70,7 +69,7 @@ class BandLengths:
 
 
 class SourceLengths:
-    """Lengths of vectors, with a space for each source."""
+    """Lengths as of `BandLengths`, with one space for each source."""
 
     def __init__(self, lengths: BandLengths) -> None:
         self._lengths = lengths
@@ -83,7 +82,7 @@ class SourceLengths:
 def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling, columns: NDArray[np.intp]) -> Gains:
     """Gains of sources at points of a body, from the contact forces of each source.
 
-    Parameters: forces : (n_frequencies, n_forces, n_sources); columns : (n_sources,) the sources' numbers.
+    Parameters: forces : (n_frequencies, n_forces, n_sources); columns : (n_sources,) indices of the sources.
     """
     sizes, n_before = response.sizes[:, None], 0
     bases, carried, factors = [], [], []
@@ -98,7 +97,7 @@ def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling, col
         n_before = basis.shape[1]
     every = np.concatenate(bases, axis=1)
     common, _ = _few(every * np.concatenate(carried), 2 * n_before + _MORE)
-    # Single precision is a thousand times as good as what is left out, and half of what has to be looked up.
+    # Single precision is a thousand times finer than the part left out, and halves the data that a touch reads.
     shapes = response.mixed((common / sizes).astype(np.float32))
     lengths_of_bands = BandLengths(shapes, (common.T @ every).astype(np.float32), factors)
     return lengths_of_bands if sampling.is_shared else SourceLengths(lengths_of_bands)
@@ -112,14 +111,14 @@ def _spaces(sampling: Sampling, columns: NDArray[np.intp]) -> Iterator[tuple[Ban
 
 
 def _of_length_one(weights: Floats) -> tuple[Floats, Floats]:
-    """Weights (n_shapes, n_sources, n), those of each source together of length 1 unless 0, and their lengths."""
+    """Weights (n_shapes, n_sources, n), scaled to length 1 for each source unless 0, and their lengths before."""
     lengths = np.sqrt(np.square(weights).sum(axis=(0, 2)))
     return weights / np.where(lengths > 0, lengths, 1.0)[:, None], lengths
 
 
 def _few(columns: Floats, n_mixed: int) -> tuple[Floats, Floats]:
-    """An orthonormal basis of some columns (m, n) but for twice what one step may miss, and how long they are along
-    each of its directions."""
+    """Orthonormal basis of columns (m, n), up to a loss of twice `_MISSED`, and the length of the columns along each of
+    its directions."""
     basis = _range_of(columns, n_mixed)
     within = basis.T @ columns
     squares, turned = np.linalg.eigh(within @ within.T)
@@ -128,7 +127,7 @@ def _few(columns: Floats, n_mixed: int) -> tuple[Floats, Floats]:
 
 
 def _factors(within: Floats) -> Floats:
-    """R of each source (n_sources, n_own, n_own) of columns (n_own, n_sources, n)."""
+    """R of each source (n_sources, n_own, n_own) for columns (n_own, n_sources, n)."""
     own = within.transpose(1, 0, 2)
     squares = own @ own.transpose(0, 2, 1) + _ROUNDING * np.eye(len(within))
     upper: Floats = np.linalg.cholesky(squares).transpose(0, 2, 1).astype(np.float64)
@@ -136,7 +135,7 @@ def _factors(within: Floats) -> Floats:
 
 
 def _range_of(columns: Floats, n_mixed: int) -> Floats:
-    """An orthonormal basis of some columns (m, n) but for what one step may miss."""
+    """Orthonormal basis of columns (m, n), up to a loss of `_MISSED`."""
     most, whole = min(columns.shape), np.square(columns).sum()
     while n_mixed < most:
         basis, _ = np.linalg.qr(columns @ _mixing(columns.shape[1], n_mixed))
@@ -152,5 +151,5 @@ def _random(n: int, n_mixed: int) -> Floats:
 
 
 def _mixing(n: int, n_mixed: int) -> Floats:
-    """Random numbers (n, n_mixed) by which columns are mixed; drawing them takes as long as mixing."""
+    """Random matrix (n, n_mixed) that combines columns; cached, since drawing it takes as long as the product."""
     return _random(n, -n_mixed // _AT_ONCE * -_AT_ONCE)[:, :n_mixed]

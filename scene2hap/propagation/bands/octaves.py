@@ -2,10 +2,10 @@
 
     sum over n of a_n / (k_n^4 - q)          q = k^4 / (1 + j eta)
 
-Within an octave, what modes far above it say is so smooth in q that its values at `N_NODES` places, and the polynomials
-through them, give it to a part in 10^12: modes from 1.5 times the octave's top frequency on lie at 2.25 times its
-highest q or beyond, where each of Chebyshev's nodes gains a factor of 6.9. So the lower octaves, which hold most
-frequencies of third-octave bands, need a few modes each, and the sum half of the products.
+Within an octave, the sum over modes far above it is smooth in q. Chebyshev interpolation from `N_NODES` nodes gives it
+to a part in 10^12: modes from 1.5 times the octave's top frequency on lie at 2.25 times its highest q or beyond. There
+each node improves the interpolation by a factor of 6.9. The lower octaves, which hold most frequencies of third-octave
+bands, therefore need a few modes each, and the whole sum needs half of the products.
 
 Letters: a shapes [m^-2], k [rad/m], q [m^-4], eta [-].
 """
@@ -21,11 +21,11 @@ from numpy.typing import NDArray
 
 N_NODES = 16
 FAR = 2.25
-"""k_n^4 over the highest q of an octave from which a mode is far above it."""
+"""Ratio of k_n^4 to the highest q of an octave from which on a mode is far above the octave."""
 CLOSE = 1e-12
-"""Part by which the polynomials may be wrong; where great losses turn q away from the nodes, every mode is summed."""
+"""Largest relative error of the interpolation; where high losses move q away from the nodes, every mode is summed."""
 FEWEST = 64
-"""Frequencies below which octaves cost more than they save."""
+"""Number of frequencies below which octaves cost more than they save."""
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -33,10 +33,10 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False)
 class _Octave:
-    """Frequencies begin..end.
+    """One octave: the frequencies from index begin to end.
 
-    n_near : how many of the lowest modes are summed one by one; far : (n_far, N_NODES) value of all others at the
-    nodes; spectra : of near modes, nodes and whatever else is summed, real and imaginary part by turns.
+    n_near : number of the lowest modes that are summed one by one; far : (n_far, N_NODES) values of all other modes at
+    the nodes; spectra : of near modes, nodes and the other terms, real and imaginary parts interleaved.
     """
 
     begin: int
@@ -47,15 +47,18 @@ class _Octave:
 
 
 class OctaveSums:
-    """Sums of terms: modes k_n^4 (n_modes,), rising, and others that are smooth over all frequencies, by their spectra
-    (n_others, n_f), at q (n_f,); all times `scale`."""
+    """Sums of terms at many frequencies: first modes, then terms that are smooth over all frequencies.
+
+    Parameters: k4 : (n_modes,) k_n^4 of the modes, rising; others : (n_others, n_f) spectra of the smooth terms; q :
+    (n_f,); scale : factor of all sums.
+    """
 
     def __init__(self, k4: Floats, others: Complex, q: Complex, scale: complex) -> None:
         self._octaves = [_octave(k4, others, q, scale, *ends) for ends in _ends(k4, np.abs(q))]
         self._n_frequencies = len(q)
         n_modes, n_terms = len(k4), len(k4) + len(others)
         split = [one for one in self._octaves if len(one.far)]
-        # Sums of far modes stand behind the terms; each octave takes its near modes, its nodes and the others.
+        # Sums of far modes follow the terms; each octave takes its near modes, its nodes and the other terms.
         self._far = np.zeros((n_terms, N_NODES * len(split)))
         taken, self._ends = [], [0]
         for one in self._octaves:
@@ -81,7 +84,7 @@ class OctaveSums:
         return sums
 
     def pieces(self, terms: Floats) -> Iterator[tuple[slice, Complex]]:
-        """The same, by parts of the frequencies."""
+        """Yield the sums in parts: a slice of the frequencies, and the sums there."""
         if len(self._octaves) > 1 or self._far.size:
             terms = np.concatenate([terms, terms @ self._far], axis=1).take(self._taken, axis=1)
         for one, ends in zip(self._octaves, pairwise(self._ends), strict=True):
@@ -89,8 +92,8 @@ class OctaveSums:
 
 
 def _ends(k4: Floats, size: Floats) -> list[tuple[int, int]]:
-    """Where octaves of frequency, a factor of 4 of q, begin and end, the highest first; the last holds all frequencies
-    that need few modes. They are one if they do not rise."""
+    """Indices at which octaves of frequency (a factor of 4 in q) begin and end, the highest first. The last one holds
+    all frequencies that need few modes. All are one octave if they do not rise or are fewer than `FEWEST`."""
     end, ends = len(size), []
     if end < FEWEST or (np.diff(size) <= 0).any():
         return [(0, end)]
@@ -120,10 +123,10 @@ def _octave(k4: Floats, others: Complex, q: Complex, scale: complex, begin: int,
 
 
 def _between(nodes: Floats, q: Complex) -> Complex:
-    """The polynomials through one node each (n_nodes, n_f), in their barycentric form."""
+    """Lagrange polynomials of the nodes (n_nodes, n_f), in barycentric form."""
     n = len(nodes)
     weights = (-1.0) ** np.arange(n) * np.sin(np.pi * (np.arange(n) + 0.5) / n)
-    with np.errstate(all="ignore"):  # on a node, to the last bit, it is not a number, and not taken
+    with np.errstate(all="ignore"):  # exactly on a node the result is NaN, and is not used
         shares = weights[:, None] / (q - nodes[:, None])
         between: Complex = shares / shares.sum(axis=0)
     return between

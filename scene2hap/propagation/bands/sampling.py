@@ -1,13 +1,14 @@
-"""The frequencies at which a scene is solved, and the gains of bands from the responses at these.
+"""Frequencies at which a scene is solved, and the gains of bands from the responses at them.
 
-The gain of a band is the rms of |H| over its width. |H|^2 near a resonance of loss eta is a Lorentzian of half-power
-width eta f; its mean over equally spaced frequencies d apart is off by 2 exp(-pi eta f / d) at most (Poisson's sum), at
-d = 0.55 eta f by 0.7 % or 0.03 dB, and by more where resonances of several bodies coincide. Where a resonance is cut by
-the edge of its band, the midpoint rule would be off by d^2 / 24 times the slope there; the three frequencies next to
-each edge are weighted so as to take that away (the slope from two differences, derived here).
+The gain of a band is the rms of |H| over its width. Near a resonance of loss factor eta, |H|^2 is a Lorentzian of
+half-power width eta f. Its mean over equally spaced frequencies d apart has an error of at most 2 exp(-pi eta f / d)
+(Poisson's sum): 0.7 % or 0.03 dB at d = 0.55 eta f, and more where resonances of several bodies coincide. If the edge
+of a band cuts a resonance, the midpoint rule has an error of d^2 / 24 times the slope there. The weights of the three
+frequencies next to each edge cancel this error (the slope from two differences, derived here).
 
-Bands around the dominant frequencies of sources overlap. They share frequencies of one geometric row, and the outermost
-of a band weigh as much as it covers of their steps, so that a source's gain does not depend on which others there are.
+Bands around the dominant frequencies of sources overlap. They share the frequencies of one geometric series. The
+weight of a band's outermost frequencies is the part of their step that the band covers. A source's gain therefore does
+not depend on the other sources.
 """
 
 from __future__ import annotations
@@ -28,15 +29,15 @@ from scene2hap.propagation.protocol import Excitation
 SPACING = 0.55
 """Distance of frequencies, in half-power widths at the band's lower edge."""
 LEAST = 8
-"""Frequencies in a band, however lossy everything is: masses and springs bend |H| too."""
+"""Least number of frequencies in a band, for any loss: masses and springs change |H| within a band too."""
 MOST = 200_000
-"""Frequencies that are solved at most: some minutes for a scene of 50 objects."""
+"""Largest number of frequencies that are solved: some minutes for a scene of 50 objects."""
 END_WEIGHTS = np.array([13 / 12, 7 / 8, 25 / 24])
-"""Of the frequencies next to the edge of a band, outermost first; all others weigh 1."""
+"""Weights of the frequencies next to the edge of a band, outermost first; all others have weight 1."""
 
 AROUND = Bands.dominant(octaves=0.5)
-"""Bands of a model that resonates, unless others are given: a single frequency meets a resonance or misses it. It
-reaches one just noticeable difference to each side, 0.18 to 0.25 of the frequency.
+"""Default bands of a model with resonances, since a single frequency may hit or miss a resonance. A band reaches one
+just noticeable difference to each side, 0.18 to 0.25 of the frequency.
 
 Source: Israr, Tan, Reed, Frequency and amplitude discrimination along the kinesthetic-cutaneous continuum, JASA 120
 (2006) 2789. Chosen among widths by `benchmarks/bands.py`.
@@ -56,7 +57,7 @@ class Band(NamedTuple):
 class Sampling:
     """Frequencies of a scene (n_frequencies,) [Hz].
 
-    bands : those of everyone, or one for each source; is_shared : whether they are everyone's.
+    bands : bands that all sources share, or one band for each source; is_shared : whether all sources share them.
     """
 
     frequencies_hz: Floats
@@ -65,9 +66,9 @@ class Sampling:
 
     @classmethod
     def of(cls, bands: Bands, excitations: Sequence[Excitation], loss_factor: float, density: float = 1.0) -> Sampling:
-        """Frequencies for bodies and contacts with at least that loss; `density` 2 doubles them, for checks.
+        """Choose frequencies for bodies and contacts with at least this loss; `density` 2 doubles them, for checks.
 
-        Raises: ModelDomainError: so little loss that they are too many.
+        Raises: ModelDomainError: so little loss that more than `MOST` frequencies are needed.
         """
         if bands.kind == "edges":
             return _of_edges(bands, loss_factor, density)
@@ -76,21 +77,21 @@ class Sampling:
 
     @property
     def is_single(self) -> bool:
-        """Whether each source has one frequency, its own; they are in the order of the sources then."""
+        """Whether each source has a single frequency of its own; frequencies are then in the order of the sources."""
         return not self.is_shared and all(band.at.stop - band.at.start == 1 for band in self.bands)
 
     def of_source(self, source: int, band: int) -> Band:
-        """The band of a source of that number."""
+        """Return a band of a source, both by their indices."""
         return self.bands[band if self.is_shared else source]
 
     @cached_property
     def _side_by_side(self) -> tuple[list[int], Floats]:
-        """Where each of everyone's bands begins, and the weights of all (n_frequencies, 1, 1)."""
+        """Index at which each shared band begins, and the weights of all frequencies (n_frequencies, 1, 1)."""
         return [at.start for at, _ in self.bands], np.concatenate([one for _, one in self.bands])[:, None, None]
 
     def gains(self, response: NDArray[np.complex128], sources: NDArray[np.intp]) -> Floats:
-        """Rms over each band (n_points, n_sources, n_bands) of a response (n_frequencies, n_points, n_sources) to the
-        sources of these numbers (n_sources,)."""
+        """Rms over each band (n_points, n_sources, n_bands) of a response (n_frequencies, n_points, n_sources) to
+        sources given by their indices (n_sources,)."""
         squares = np.square(response.real)
         squares += np.square(response.imag)
         if self.is_shared:
@@ -109,7 +110,7 @@ def _at(own_hz: Sequence[float]) -> Sampling:
 
 
 def _around(bands: Bands, own_hz: Sequence[float], loss_factor: float, density: float) -> Sampling:
-    """Bands around frequencies: those of a row f_k = exp(k step), whose steps they cover wholly or in part."""
+    """Bands around frequencies: each has those of a series f_k = exp(k step) whose steps it covers, even in part."""
     step = min(SPACING * loss_factor, bands.octaves * math.log(2) / LEAST) / density
     _require_few(len(own_hz) * bands.octaves * math.log(2) / max(step, 1e-300), loss_factor)
     ends = [tuple(math.log(edge) / step for edge in bands.around_hz(f)) for f in own_hz]

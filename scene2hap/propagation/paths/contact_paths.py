@@ -7,12 +7,12 @@ something to cross. A path costs the same in both directions, so one search from
 none of them changes a result:
 
 - A point that another entry into the same object reaches at no higher cost leads nowhere new, since a straight line
-  through an object is never longer than a line by way of another point.
+  through an object is never longer than a line through another point.
 - An object that is no source, and touches only the object that the search comes from, leads nowhere.
 - With one contact left only sources are entered, and with two only their neighbours.
 - A path ends where even a straight line at the lowest price of all objects reaches no source at a useful cost (A*).
 
-Source of the last: P. E. Hart, N. J. Nilsson, B. Raphael, IEEE Trans. Systems Science and Cybernetics 4 (1968) 100.
+Source of A*: P. E. Hart, N. J. Nilsson, B. Raphael, IEEE Trans. Systems Science and Cybernetics 4 (1968) 100.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ class ContactPaths:
                         self._sort_in(other, x)
 
     def _sort_in(self, here: str, other: str) -> None:
-        """Put a neighbour among those through which a path may lead on, or take it out."""
+        """Add a neighbour to those through which a path may lead on, or remove it from them."""
         if here not in self._edges:
             self._onward.pop(here, None)
             return
@@ -181,7 +181,7 @@ class ContactPaths:
         return found
 
     def _neighbours_onward(self, here: str, hops: int) -> Iterable[tuple[str, list[ContactEdge]]]:
-        """The neighbours of an object through which a path may lead to a source, after so many contacts."""
+        """The neighbours of an object through which a path may lead to a source, after `hops` contacts."""
         onward = self._onward.get(here, {}).items()
         if self._max_hops is None or hops + 1 < self._max_hops:
             return onward

@@ -2,8 +2,8 @@
 
     Gamma = exp(-L sqrt(omega)),  L the cost of the cheapest path (`LivePaths`)
 
-falls with L, so the nearest of a hand's touches is the loudest. Costs are compared first, and the law is evaluated
-once for each hand and source.
+Gamma falls with L, so the nearest of a hand's touches is the loudest. Costs are compared first, and the law is
+evaluated once for each hand and source.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Floats = NDArray[np.float64]
 _MOST_WEIGHTS = 1024
 
 _POINT = "\0point"
-"""Stands for a source that is a point of some object, and that the network has only during a query."""
+"""Id of a source that is a point of an object; it is in the network only during a query."""
 
 
 class _CrossingCosts(dict[float, float]):
@@ -48,7 +48,7 @@ class LivePaths:
     """Cost of the cheapest path from each source to a touch, over a contact graph as it is now.
 
     Parameters: graph : read before each query, never copied; price_per_m : cost of a metre through each object, >= 0;
-    objects without a price pass nothing on; crossing_cost : cost of crossing a contact of some weight; max_hops :
+    objects without a price pass nothing on; crossing_cost : cost of crossing a contact, by its weight; max_hops :
     contacts that a path may cross, None for any number.
     """
 
@@ -67,8 +67,8 @@ class LivePaths:
         self._version = -1
 
     def __del__(self) -> None:
-        # Objects and their neighbours refer to each other: left to the garbage collector, those of sources that come
-        # and go stop the game for some 60 ms every few seconds.
+        # Objects and their neighbours refer to each other. When sources come and go, the garbage collector would have
+        # to free them, which stops the game for some 60 ms every few seconds.
         if hasattr(self, "_paths"):
             self._paths.update(None, {})
 
@@ -76,13 +76,13 @@ class LivePaths:
         """Update the pairs whose contacts changed since the last call."""
         version = self._graph.version
         if version != self._version:
-            # The graph's log is short: after a longer pause, as without a touch, all contacts are compared.
+            # The graph's log is short: after a longer pause, as without a touch, all contacts are read again.
             changed = None if self._version < 0 else self._graph.changed_since(self._version)
             self._paths.update(changed, self._beside)
             self._version = version
 
     def costs(self, object_id: str, point_m: Triple, limits: Sequence[float] | None = None) -> list[float]:
-        """Cost of the cheapest path from each source to one point; otherwise as `least_costs`."""
+        """Cost of the cheapest path from each source to one point; otherwise see `least_costs`."""
         return self.least_costs([(object_id, point_m)], limits)
 
     def least_costs(
@@ -94,12 +94,12 @@ class LivePaths:
         """Cost of the cheapest path from each source to the nearest of several points, each with its object.
 
         Parameters: limits : for each source, the highest cost of interest; among : rows of the sources that are
-        connected to any of the points, None if that is unknown; no other is looked for.
+        connected to any of the points, None if that is unknown; no other source is searched.
         Returns: one cost per source: 0 on a touched source, infinity without a path up to the limit.
         """
         self._follow_graph()
         found = self._paths.cheapest(touched, limits, among)
-        found.pop()  # of the point
+        found.pop()  # the row of `_POINT`
         return found
 
     def costs_from(self, object_id: str, point_m: Triple, hands: Iterable[Iterable[tuple[str, Triple]]]) -> list[float]:
@@ -112,15 +112,15 @@ class LivePaths:
             found = [self._paths.cheapest(touched, None, [row])[row] for touched in hands]
         finally:
             self._paths.update(contact, {})
-        # Its own contact is no crossing.
+        # The contact of `_POINT` itself costs nothing.
         return [cost - self._crossing_costs[1.0] for cost in found]
 
 
 class Gamma(Protocol):
-    """Attenuation by the cost of the path."""
+    """Attenuation as a function of path cost."""
 
     def __call__(self, prices: Prices, columns: Sequence[int] | None) -> Floats:
-        """Attenuation (n, n_columns, n_bands) [-] for n prices of each of some sources, None for all in order."""
+        """Attenuation (n, n_columns, n_bands) [-] at n costs of each source in `columns`, None for all sources."""
         ...
 
 

@@ -4,10 +4,10 @@ A path runs from contact to contact. Crossing a contact leads from one object to
 straight through the object that has both, at that object's price per metre. Inside the source's own body distance is
 free, since the source vibrates as a whole.
 
-The paper collects all paths by depth-first search and knows one object between source and hand. The cheapest path is
-the loudest one, so it is enough to lower, round by round, the cost of arriving over each contact (Bellman-Ford,
-vectorised over sources and contacts): after n rounds all paths over at most n contacts are known, and when a round
-improves nothing, all paths are.
+The paper collects all paths by depth-first search, with one object between source and hand. Here the cheapest path is
+enough, since it is the loudest one. Rounds lower the cost of arriving over each contact (Bellman-Ford, vectorised over
+sources and contacts): after n rounds all paths over at most n contacts are known, and when a round improves nothing,
+all paths are.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def cheapest_arrivals(
     source_ids: Sequence[str],
     max_hops: int | None,
 ) -> dict[str, Arrivals]:
-    """Arrivals at every object that has a price.
+    """Compute the arrivals at every object that has a price.
 
     Parameters: price_per_m : cost of a metre through an object, >= 0; an object without a price passes nothing on (it
     may be a source); crossing_cost : cost of each contact, >= 0; max_hops : contacts that a path may cross, None for
@@ -60,7 +60,7 @@ def cheapest_over(
     source_ids: Sequence[str],
     max_hops: int | None,
 ) -> dict[str, Arrivals]:
-    """The same for contacts given as pairs of objects and points [m]."""
+    """Compute `cheapest_arrivals` for contacts given as pairs of objects and points [m]."""
     # A contact has two sides, numbered 2 i on its object a and 2 i + 1 on b: side ^ 1 is the one across.
     owner = [object_id for pair in pairs for object_id in pair]
     sides_of: dict[str, list[int]] = defaultdict(list)
@@ -93,10 +93,10 @@ def cheapest_over(
 
 
 def _useful(costs: NDArray[np.float64], crossing: NDArray[np.float64], entered: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Which of the sides are entered more cheaply than they were reached from within their own object.
+    """Mask of the entered sides that are cheaper to enter than to reach from within their object.
 
-    The others lead nowhere new: a straight line is never longer than one by another point. This keeps a floor with a
-    thousand objects on it from being searched from each of them.
+    The other sides lead nowhere new: a straight line is never longer than a line through another point. Otherwise a
+    floor with a thousand objects on it would be searched from each of them.
     """
     with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
         within = costs[:, entered ^ 1] - crossing[entered // 2]
