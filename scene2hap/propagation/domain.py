@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
+from scene2hap.propagation.plate import Plate, require_frequencies, require_plate
 
 THIN_WAVELENGTHS = 6.0
 """Shortest wavelength for which thin-plate theory is used, in thicknesses. There its frequencies are already 15 % above
@@ -49,15 +49,12 @@ def as_frequencies(frequencies_hz: ArrayLike, *, positive_because: str = "") -> 
     """Convert frequencies to (n_frequencies,) float64 [Hz], >= 0; a single one may be a bare number.
 
     Parameters: positive_because : why 0 Hz is an error; empty if 0 Hz is valid.
-    Raises: ModelDomainError: another shape; a frequency that is negative, not finite, or 0 where 0 Hz is an error.
+    Raises: ModelDomainError: another shape; a frequency below 0 or above 1e9 Hz, or 0 where 0 Hz is an error.
     """
     f = np.atleast_1d(checks.floats("frequencies_hz", frequencies_hz, "Hz", error=ModelDomainError))
     if f.ndim != 1:
         raise ModelDomainError(f"frequencies_hz has shape {f.shape}; it must be (n_frequencies,) [Hz].")
-    if not ((f >= 0) & (f <= MAX_FREQUENCY_HZ)).all():
-        raise ModelDomainError(
-            f"frequencies_hz holds a negative or infinite value; it must be 0 to {MAX_FREQUENCY_HZ:g} [Hz]."
-        )
+    require_frequencies("frequencies_hz", f)
     if positive_because and (f == 0).any():
         raise ModelDomainError(f"frequencies_hz holds 0 Hz; it must be above 0 [Hz], since {positive_because}.")
     return f

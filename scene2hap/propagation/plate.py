@@ -147,17 +147,23 @@ class Plate:
     def wavenumber_rad_m(self, frequency_hz: ArrayLike) -> NDArray[np.float64]:
         """Return the wavenumber of free bending waves, k^4 = rho h omega^2 / D [rad/m].
 
-        Parameters: frequency_hz : of any shape, >= 0 [Hz]; the wavenumbers have the same shape.
+        Parameters: frequency_hz : of any shape, 0..1e9 [Hz]; the wavenumbers have the same shape.
+        Raises: ModelDomainError: a frequency out of bounds.
 
         Source: Scene2Hap, CHI 2026, second equation of the propagation model.
         """
         f = checks.floats("frequency_hz", frequency_hz, "Hz", error=ModelDomainError)
-        if not ((f >= 0) & (f <= MAX_FREQUENCY_HZ)).all():
-            raise ModelDomainError(
-                f"frequency_hz holds a negative or infinite value; it must be 0 to {MAX_FREQUENCY_HZ:g} [Hz]."
-            )
+        require_frequencies("frequency_hz", f)
         k: NDArray[np.float64] = self.wavenumber_per_root_omega * np.sqrt(2 * math.pi * f)
         return k
+
+
+def require_frequencies(name: str, frequencies_hz: NDArray[np.float64]) -> None:
+    """Raise a ModelDomainError unless all frequencies are 0 to `MAX_FREQUENCY_HZ` [Hz]."""
+    is_good = (frequencies_hz >= 0) & (frequencies_hz <= MAX_FREQUENCY_HZ)
+    if not is_good.all():
+        first = frequencies_hz[~is_good][0]
+        raise ModelDomainError(f"{name} holds {first:g} Hz; it must be 0 to {MAX_FREQUENCY_HZ:g} [Hz].")
 
 
 def require_plate(plate: object) -> None:
