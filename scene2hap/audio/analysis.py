@@ -93,9 +93,9 @@ def spectral_flatness(
     """Return the spectral flatness, from 0 (a pure tone) to 0.56 = exp(-Euler's gamma) (white noise) [-].
 
     It is the geometric over the arithmetic mean of the power spectrum within `band_hz`, averaged over Hann-windowed
-    frames. Frames last 125 ms at any rate and the band is the same for all, so that each sound has the same bins, as if
-    all were resampled to one rate first. Level has no effect; frames 60 dB below the loudest are left out, since
-    digital silence would count as perfectly flat.
+    frames. Frames last 125 ms at any rate, and the band is the same for all. So each sound has the same bins, as if all
+    were resampled to one rate first. Level has no effect; frames 60 dB below the loudest are left out, since digital
+    silence would count as perfectly flat.
     Raises: AudioError: the samples are empty or all equal, or the band does not fit below half the rate.
     """
     x, rate = _sounding(samples, sample_rate_hz)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 Signal = NDArray[np.float64]
 
 LINE_DB = 13.5
-"""Least height of a line above the median of its surroundings [dB]. The highest of 5000 bins of noise, as five seconds
-have up to 1 kHz, exceeds the median by 11.3 dB on average, by 12 dB in one sound of eight, by 13.5 dB in one of 500."""
+"""Least height of a line above the median of its surroundings [dB]. Five seconds of noise have 5000 bins up to 1 kHz.
+The highest exceeds the median by 11.3 dB on average, by 12 dB in one sound of eight, by 13.5 dB in one of 500."""
 _AROUND = 2.0 ** (1.0 / 3.0)
 _LOBES = 8.0
 """Least extent of a line's surroundings, in widths of the window's main lobe."""

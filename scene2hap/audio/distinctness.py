@@ -29,7 +29,7 @@ WIDEST_WEBER = 0.25
 """The largest published Weber fraction: everybody can distinguish two sources with this difference."""
 LEVEL_JND_DB = 2.5
 FAR_DB = 12.0
-"""Attenuation at which sources shall still be distinct [dB]."""
+"""Attenuation at which sources must still be distinct [dB]."""
 
 _RATE_HZ = (0.5, 60.0)
 _LEAST_DEPTH = 0.2

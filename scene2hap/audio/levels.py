@@ -38,7 +38,7 @@ TACTILE_HEADROOM_DB = 6.0
 (within 0.02 dB)."""
 TACTILE_RANGE_HZ = (10.0, 1000.0)
 FAINTEST_PEAK_DB = -60.0
-"""Peak below which a sound counts as the noise of a recording, which shall not be felt [dB re full scale]."""
+"""Peak below which a sound counts as the noise of a recording, which must not be felt [dB re full scale]."""
 
 LEFT_PEAK_DB = -40.0
 """Peak of a vibration relative to its sound [dB]. If it is below this, and below `FAINTEST_PEAK_DB`, the converter has
@@ -55,7 +55,7 @@ def is_noise(sound_peak: float, touch_peak: float) -> bool:
 
 
 def sensation_level_db(intensity: float) -> float:
-    """Return the sensation level at which a source of this intensity shall be felt by a hand on it [dB].
+    """Return the planned sensation level of a source of this intensity, for a hand on it [dB].
 
     Raises: AudioError: the intensity is not within 0..1, or is 0, which has no level.
     """

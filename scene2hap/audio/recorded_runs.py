@@ -30,8 +30,8 @@ class RecordedRuns(NamedTuple):
 def recorded_runs(samples: ArrayLike, sample_rate_hz: float) -> RecordedRuns:
     """Look for a start and a stop in a recording (n,).
 
-    A start rises from the room's level by at least 12 dB, within 0.2 to 10 s and without falling, to a level that is
-    steady for at least one second. Raises: AudioError: the samples are not one channel, (n,), n >= 1.
+    A start rises from the room's level by at least 12 dB, within 0.2 to 10 s and without falling. The level that it
+    reaches is steady for at least one second. Raises: AudioError: the samples are not one channel, (n,), n >= 1.
     """
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     x = np.asarray(samples, dtype=np.float64)

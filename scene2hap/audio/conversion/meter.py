@@ -61,7 +61,7 @@ class Meter:
         self.n_frames += len(block)
 
     def dominant_frequency_hz(self) -> float | None:
-        """The highest peak of the mean power spectrum of all channels [Hz]; None for silence.
+        """Return the highest peak of the mean power spectrum of all channels [Hz]; None for silence.
 
         A sound shorter than one segment is analysed whole.
         """

@@ -7,8 +7,8 @@ keep their level under a linear fade, w_in + w_out = 1. Uncorrelated ones (r = 0
 w_in^2 + w_out^2 = 1. The root is 1 in both cases. Between these cases, it removes the remaining dip or bump of up to
 1.2 dB.
 
-If the level changes by T dB from one stretch to the other, a gain of T (i / L - 1/2) dB at sample i of L tilts the loop
-back, so that both stretches are equally loud. Levels are medians over pieces of 20 ms, so that a single tick does not
+If the level changes by T dB from one stretch to the other, the loop is tilted back, so that both are equally loud:
+sample i of L gets a gain of T (i / L - 1/2) dB. Levels are medians over pieces of 20 ms, so that a single tick does not
 change them. Differences up to 1 dB stay, so that a tone keeps its amplitude exactly. A hundredth of the sound's mean
 power is added to both levels. Otherwise two pauses of unequal noise would tilt the sound between them.
 Source: M. Fink, M. Holters, U. Zölzer, "Signal-matched power-complementary cross-fading and dry-wet mixing", DAFx 2016.

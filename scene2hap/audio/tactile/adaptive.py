@@ -4,8 +4,9 @@ A fixed band-pass keeps the same few hundred hertz of every source, so that diff
 
 1. finds the source's own frequency: the strongest component that this actuator can render at the source's level
    (`anchor`). The context gives it if the whole sound was analysed; else it is tracked while the sound plays;
-2. keeps a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave), narrow enough for
-   the own frequency to dominate, wide enough (f / Q at -6 dB) for the beats and irregularities typical of a machine;
+2. keeps a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave). The band is narrow
+   enough for the own frequency to dominate, and wide enough (f / Q at -6 dB) for the beats and irregularities of a
+   machine;
 3. moves that band as a whole to the target given by `spreading`, or to the nearest frequency within a third of an
    octave that is two JNDs from the neighbours.
 

@@ -5,8 +5,8 @@ roughness, a tick by its time. The output has two parts, a bed for the continuou
 
 - The bed goes through `adaptive`. If the whole sound is known beforehand, the bed also follows its level (`following`),
   which needs too much latency for a live stream.
-- If the sound's strongest component is too low to be felt as a tone (the 49 Hz of a compressor on a phone's motor), the
-  bed is modulated by that component's waveform r, whose envelope is e: y = bed (1 + r / 2e).
+- If the sound's strongest component is too low to be felt as a tone (the 49 Hz of a compressor on a phone's motor),
+  that component modulates the bed: y = bed (1 + r / 2e), with its waveform r and its envelope e.
 - If it is too high, as in a beep of 2 kHz, only its envelope is felt, on a carrier (`envelope`). A shifted band would
   lose the other notes of a melody.
 - Each short onset becomes a burst (`onsets`).

@@ -6,7 +6,7 @@ means S:
 
     onset where E > 10 S in either      burst sqrt(2 (E_max - S)) hann(t / T) sin(2 pi f t),   T 8 ms (sharp) to 20 ms
 
-The irregularity of a machine stays within that factor, and a steady sound is unchanged, bit for bit. The stage has a
+The irregularity of a machine stays below that factor, and a steady sound is unchanged, bit for bit. The stage has a
 latency of 10 ms, in which it measures the height of an onset.
 
 If the whole sound is known, the level of the bed relative to it is known as well. Then the energy of a burst is that of

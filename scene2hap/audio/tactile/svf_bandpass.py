@@ -7,9 +7,9 @@ Pacinian corpuscles detect best near 250 Hz; frequencies far from it are dropped
 
 This is the trapezoidal (TPT) state-variable filter. Its band-pass output is multiplied by k, for 0 dB at f_c. It is
 written as one biquad, since a biquad runs in compiled code. While centre and Q are constant, both are the same filter.
-When they change, the biquad's state (z1, z2) is converted by way of the state (s1, s2) of the integrators, which keeps
-the filter stable under modulation of any speed. Each state follows from the other through the next two samples of the
-filter's ringing:
+When they change, the biquad's state (z1, z2) is converted by way of the state (s1, s2) of the integrators. So the
+filter remains stable under modulation of any speed. Each state follows from the other through the next two samples of
+the filter's ringing:
 
     y0 = z1 = k (a1 s1 - a2 s2)        y1 = z2 - A1 y0        a1 = 1 / (1 + g (g + k)),  a2 = g a1,  a3 = g a2
 

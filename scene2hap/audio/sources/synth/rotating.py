@@ -61,7 +61,7 @@ def fan(
 def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> Signal:
     """A washing machine at spin: an unbalanced drum, and its motor, which the belt turns `belt_ratio` times as fast.
 
-    The laundry loads the motor once per turn of the drum; the belt goes round about every second turn.
+    The laundry loads the motor once per turn of the drum; the belt revolves about every second turn.
     """
     drum_speed = take.shaft_hz(drum_hz) * (1.0 + 0.003 * wander(take.rng, 0.5))
     drum = phase(drum_speed)

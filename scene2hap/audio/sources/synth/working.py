@@ -93,8 +93,8 @@ def rolling(take: Take, *, passing_hz: float = 50.0) -> Signal:
 def jet(take: Take, *, low_hz: float = 50.0, tilt_db: float = -5.0, pump: float = 0.0) -> Signal:
     """Steam, paint or water through a nozzle: turbulent noise that changes by `tilt_db` from octave to octave.
 
-    `pump` is the level of a magnet pump on the mains, which strikes once per cycle, since a diode lets only one half
-    wave through.
+    `pump` is the level of a magnet pump on the mains, which strikes once per cycle, since a diode passes only one half
+    wave.
     """
     y = (0.6 + 0.8 * take.drive) * noise(take.rng, low_hz, 4000.0, tilt_db) * (1.0 + 0.05 * wander(take.rng, 2.0))
     return y + pump * unit_rms(partials(phase(take.mains_hz), take.roll_off(5), take.rng)) if pump else y

@@ -1,7 +1,7 @@
 """Run an external program with limits of time and disk space.
 
-The program gets its own folder, no standard input, and no keys; its output goes to a file in that folder. Processes
-that the program started end with it.
+The program gets its own folder, no standard input, and no keys; its output is written to a file in that folder.
+Processes that the program started end with it.
 """
 
 from __future__ import annotations
