@@ -44,7 +44,7 @@ class Allowance:
 
 
 def environment(kept: Iterable[str], variables: Mapping[str, str]) -> dict[str, str]:
-    """Return the variables except those (unless `kept`) named like a key, token, secret, password or credential."""
+    """Return the variables whose names are `kept`, or do not end in key, token, secret, password or credential."""
     named = set(kept)
     return {name: value for name, value in variables.items() if name in named or not _SECRET_NAME.search(name)}
 
