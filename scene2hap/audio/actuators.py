@@ -1,6 +1,6 @@
 """The response of an actuator, and its bounded inverse.
 
-A resonant actuator answers as a resonator of one degree of freedom, 0 dB at its resonance:
+A resonant actuator responds as a resonator of one degree of freedom, with 0 dB at its resonance:
 
     |R(f)| = 1 / sqrt(1 + Q^2 (f / f_0 - f_0 / f)^2)
 
@@ -86,7 +86,7 @@ def read_response_csv(path: str | Path) -> ActuatorProfile:
 
 
 def response_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
-    """Return the response of the actuator, in the shape of `frequencies_hz` [dB], 0 at its best."""
+    """Return the response of the actuator, in the shape of `frequencies_hz` [dB]; its maximum is 0."""
     f = np.maximum(np.asarray(frequencies_hz, dtype=np.float64), np.finfo(float).tiny)
     if profile.response_db:
         points = np.array(profile.response_db)

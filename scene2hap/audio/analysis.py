@@ -1,7 +1,7 @@
 """Measures of a sound: silent ends, dynamic range, spectral flatness, dominant frequency.
 
 Pure functions of samples (n,) in any scale and their rate. The offset, which is neither heard nor felt, is removed
-first, or it would count as a loud, steady tone. Spectra are without the mean; levels without the median, since a few
+first; otherwise it would count as a loud, steady tone. For spectra the mean is removed, for levels the median: a few
 strokes in digital silence have a mean, whose removal would turn the silence into a steady level.
 """
 
@@ -21,10 +21,10 @@ from scene2hap.errors import AudioError
 Signal = NDArray[np.float64]
 
 TRIM_DB = 40.0
-"""Frames this far below the loudest one are silence at the ends [dB]; assumed, as most trimmers have it."""
+"""Frames this far below the loudest one are silence at the ends [dB]; assumed, as in most trimming programs."""
 TRIM_FRAME_S = 0.010
 SILENCE_DBFS = -90.0
-"""A sound whose loudest frame lies below this is silent altogether [dB re 1]: that is the noise of 16-bit rounding."""
+"""A sound whose loudest frame is below this is silent [dB re 1]: this is the noise of 16-bit rounding."""
 
 LEVEL_FRAME_S = 0.050
 SLOW_LEVEL_FRAME_S = 0.100
@@ -52,7 +52,7 @@ def trim_silence(samples: ArrayLike, sample_rate_hz: float) -> Samples:
 def sounding_span(samples: ArrayLike, sample_rate_hz: float) -> tuple[int, int]:
     """Return the span [first, end) of samples that are not silence, on a grid of 10 ms; (0, 0) if all is silent.
 
-    Silent are frames whose RMS lies `TRIM_DB` below that of the loudest frame.
+    Frames are silent if their RMS is `TRIM_DB` below that of the loudest frame.
     """
     x, rate = _checked(samples, sample_rate_hz)
     x = x - np.median(x)
@@ -69,12 +69,12 @@ def sounding_span(samples: ArrayLike, sample_rate_hz: float) -> tuple[int, int]:
 def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float, *, dominant_hz: float | None = None) -> float:
     """Return the dynamic range of a sound: 95th minus 10th percentile of its short-time RMS level [dB].
 
-    Frames of 50 ms (100 ms below `SLOW_HZ`), overlapping by half. Frames more than 60 dB below the loudest are gated:
-    they count as 60 dB below it in the low percentile, since dropping them would call clicks with silence between them
-    steady, and not at all in the high one, since where nearly all is silence it would lie in the silence too.
+    Frames of 50 ms (100 ms below `SLOW_HZ`), overlapping by half. Frames more than 60 dB below the loudest are gated.
+    The low percentile counts them as 60 dB below it; otherwise clicks with silence between them would be steady. The
+    high percentile leaves them out; otherwise it would be the level of silence in a sound that is nearly all silence.
     Measured on 5 s: sine 0, white noise 0.3, a 20 dB decay 17, clicks above 25. (Loudness range after EBU R 128 takes
-    3 s blocks and cannot see clicks; the crest factor gives 13 dB to steady noise.)
-    Parameters: dominant_hz : the sound's dominant frequency where it is known already [Hz].
+    blocks of 3 s and does not show clicks; the crest factor of steady noise is 13 dB.)
+    Parameters: dominant_hz : the sound's dominant frequency if it is known already [Hz].
     Raises: AudioError: the samples are empty or all equal.
     """
     x, rate = _sounding(samples, sample_rate_hz)
@@ -92,10 +92,10 @@ def spectral_flatness(
 ) -> float:
     """Return the spectral flatness, from 0 (a pure tone) to 0.56 = exp(-Euler's gamma) (white noise) [-].
 
-    The geometric over the arithmetic mean of the power spectrum within `band_hz`, averaged over Hann-windowed frames.
-    Frames last 125 ms at any rate and the band is the same for all, which gives each sound the same bins: as if all
-    had been brought to one rate first. Level does not matter; frames 60 dB below the loudest are left out, since
-    digital silence would count as perfectly flat.
+    It is the geometric over the arithmetic mean of the power spectrum within `band_hz`, averaged over Hann-windowed
+    frames. Frames last 125 ms at any rate, and the band is the same for all. So each sound has the same bins, as if all
+    were resampled to one rate first. Level has no effect; frames 60 dB below the loudest are left out, since digital
+    silence would count as perfectly flat.
     Raises: AudioError: the samples are empty or all equal, or the band does not fit below half the rate.
     """
     x, rate = _sounding(samples, sample_rate_hz)
@@ -125,9 +125,9 @@ def dominant_frequency_hz(
 ) -> float:
     """Return the frequency of the strongest peak of a sound's spectrum within `range_hz` [Hz].
 
-    Hann-windowed Fourier transform of the whole sound, zero-padded to twice its length, and a parabola through the
-    logarithms of the three bins around the peak; for a tone in noise the error is below 0.1 Hz from 0.25 s on. Only
-    true peaks count: the flank of something louder outside the range does not, unless the range holds nothing else.
+    The method is a Hann-windowed Fourier transform of the whole sound, zero-padded to twice its length, and a parabola
+    through the logarithms of the three bins around the peak. For a tone in noise the error is below 0.1 Hz from 0.25 s
+    on. Only true peaks count, not the flank of a louder component outside the range, unless the range has no peak.
     Raises: AudioError: the samples are empty or all equal, or the range does not begin below half the rate.
     """
     return dominant_frequencies_hz(samples, sample_rate_hz, range_hz)[0]
@@ -136,7 +136,7 @@ def dominant_frequency_hz(
 def dominant_frequencies_hz(
     samples: ArrayLike, sample_rate_hz: float, *ranges_hz: tuple[float, float]
 ) -> tuple[float, ...]:
-    """Return `dominant_frequency_hz` for several ranges, from one spectrum [Hz]. Raises: AudioError: as there."""
+    """Return `dominant_frequency_hz` for several ranges, from one spectrum [Hz]. Raises: AudioError: see there."""
     x, rate = _sounding(samples, sample_rate_hz)
     for low, high in ranges_hz:
         checks.number("range_hz[0]", low, "Hz", above=0.0, below=min(high, rate / 2), error=AudioError)
@@ -157,7 +157,7 @@ def dominant_frequencies_hz(
 def peak_frequency_hz(magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float, float]) -> float | None:
     """Return the frequency of the highest peak of a magnitude spectrum (n_bins,), with bins every `bin_hz` from 0 Hz.
 
-    A parabola through the logarithms of the three bins around the peak; None where the range holds no bin.
+    It is the maximum of a parabola through the logarithms of three bins; None if the range has no bin.
     """
     m = np.asarray(magnitude, dtype=np.float64)
     low, high = range_hz

@@ -1,21 +1,22 @@
 """The anchor of a source: the strong component of its spectrum by which it is felt.
 
 A sound's strongest component may be so low, or so irregular, that no drive below full scale brings it to the planned
-sensation level. The anchor is the strongest component that comes within 2 dB of it. Components are lines, which exceed
-the noise around them; a sound without lines has its strongest bands of noise instead. If no component within 14 dB of
-the strongest can reach the level:
+sensation level. The anchor is the strongest component that comes within 2 dB of this level. Components are lines, which
+exceed the noise around them, or, in a sound without lines, the strongest bands of noise. If no component within 14 dB
+of the strongest can reach the level:
 
-- the actuator does not render the strongest: its band is shifted to the frequency at which the actuator is felt best;
-- the strongest is below 60 Hz: its band is shifted there as well, and its rate is kept as roughness;
-- the strongest is higher, and would be felt more than 6 dB better there, as a beep of 900 Hz: it is shifted;
-- else the component that comes nearest to the level keeps its frequency and is weaker than planned.
+- If the actuator does not render the strongest, its band is shifted to the frequency at which the actuator is felt
+  best.
+- If the strongest is below 60 Hz, its band is shifted there as well, and its rate is kept as roughness.
+- If the strongest is higher, and would be felt more than 6 dB better there, as a beep of 900 Hz, it is shifted.
+- Otherwise the component that comes nearest to the level keeps its frequency and is weaker than planned.
 
-A pitch that moves out of the band around it, as that of an engine that revs, gets a band that holds it
-(`moving_pitch`), and the same rules apply to the middle of that.
+If the pitch moves out of the band around the anchor, as that of an engine that revs, a band that holds the moving pitch
+is used (`moving_pitch`). The same rules apply to the middle of that band.
 
-The drive of a component is computed before any conversion. A band around it, of the shape that the adaptive converter
-keeps, B(f) = 1 / (1 + Q^2 (f / f_0 - f_0 / f)^2), has a sensation level and a peak. The drive of a sine that is felt as
-strongly, plus the band's peak relative to that sine ("crest"), must fit into the head-room of a loop.
+The drive of a component is computed before any conversion, from the band around it that the adaptive converter keeps,
+B(f) = 1 / (1 + Q^2 (f / f_0 - f_0 / f)^2). This band has a sensation level and a peak. The drive of an equally felt
+sine, plus the band's peak relative to that sine ("crest"), must fit into the head-room of a loop.
 """
 
 from __future__ import annotations
@@ -42,15 +43,15 @@ FAINTEST_DB = -14.0
 """Level relative to the strongest component below which a component does not identify the source. With -24 dB, most
 steady test recordings were felt at a component 14-21 dB below their strongest one."""
 FAINTEST_BELOW_WHINE_DB = -40.0
-"""The bound `FAINTEST_DB` if the strongest component is too high to be felt: it admits a hum under a whine, but not a
+"""The bound `FAINTEST_DB` if the strongest component is too high to be felt: it admits a hum below a whine, but not a
 recording's noise."""
 MISSED_DB = 3.0
 """Largest error of a component's level [dB]: about the least difference that is felt."""
 ACCEPTED_DB = 2.0
-"""Error of its level up to which a component is preferred to weaker ones that reach it [dB]. Loops have up to 1 dB less
-than is computed here."""
+"""Level error up to which a component is preferred to weaker ones that reach the level [dB]. Loops have up to 1 dB less
+than computed here."""
 CARRIED_DB = 6.0
-"""A component that is too high is shifted down if it is felt better by more than this there [dB]. Touch is 4 dB less
+"""A component that is too high is shifted down if it is felt better there by more than this [dB]. Touch is 4 dB less
 sensitive at 350 Hz than at 250, 19 dB at 500, and feels nothing at 900. A component that is too low keeps its
 frequency, by which an engine is recognized."""
 ROUGH_HZ = (20.0, 60.0)
@@ -58,12 +59,12 @@ ROUGH_HZ = (20.0, 60.0)
 RANGE_HZ = (20.0, 1000.0)
 _HIGHEST_HZ = 10_000.0
 _CARRIERS_HZ = np.geomspace(100.0, 300.0, 65)
-"""Possible carriers [Hz]: a burst of 8 ms still has a frequency, and touch is sensitive."""
+"""Possible carriers [Hz], at which a burst of 8 ms still has a frequency, and touch is sensitive."""
 _OTHER_RATIO = 1.25
 _BEEP_RATIO = 1.5
-"""Moving sources apart changes a frequency by at most a third of an octave (1.26)."""
+"""Least ratio of own to felt frequency of a beep; moving sources apart gives at most 1.26, a third of an octave."""
 _OVERSAMPLED = 16.0
-"""Half the rate at which a band's peak is looked for, over its frequency: it is found to 0.04 dB."""
+"""Half the sample rate at which a band's peak is searched, over the band's frequency: the peak is found to 0.04 dB."""
 _GRID = 81
 
 
@@ -74,7 +75,7 @@ class Anchor:
     rough_hz : the strongest component of the sound, if it is too low for a tone and is kept as roughness, else None
     [Hz]; carrier_hz : the frequency to which the band is shifted, if it cannot be felt at its own, else None [Hz];
     band_q : Q of a band that holds a moving pitch, `frequency_hz` in its middle; None for `BAND_Q` [-]; band_db : level
-    of the band relative to the whole sound, None if unknown [dB]. Of a beep, the band is all above half its frequency.
+    of the band relative to the whole sound, None if unknown [dB]. The band of a beep begins at half its frequency.
     """
 
     frequency_hz: float
@@ -86,12 +87,12 @@ class Anchor:
 
     @property
     def felt_hz(self) -> float:
-        """The frequency at which it is felt, before sources are moved apart [Hz]."""
+        """The frequency at which the source is felt, before sources are moved apart [Hz]."""
         return self.carrier_hz or self.frequency_hz
 
 
 def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> Anchor | None:
-    """Return the anchor of a whole sound (n_samples,) for a planned sensation level; None without one."""
+    """Return the anchor of a whole sound (n_samples,) for a planned sensation level; None if it has none."""
     x = np.asarray(samples, dtype=np.float64)
     magnitude = magnitudes(x)
     heard = components(magnitude, sample_rate_hz, (RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)), -300.0)
@@ -154,10 +155,10 @@ def best_carrier_hz(actuator: ActuatorProfile) -> float:
 def reachable_hz(
     anchor: Anchor, level_db: float, actuator: ActuatorProfile, octaves: float
 ) -> tuple[float, float, float]:
-    """Return how far a source may be moved: lowest and highest frequency [Hz], and the gain that fits all of them [dB].
+    """Return how far a source may be moved: lowest and highest frequency, and the gain possible at all of them [dB].
 
-    Both lie within `octaves` of where it is felt. Frequencies at which its level cannot be reached are left out, unless
-    the shortfall is no larger than at its own.
+    Both frequencies [Hz] are within `octaves` of that at which the source is felt. Frequencies at which it cannot reach
+    its level are left out, unless the shortfall is no larger than at the present frequency.
     """
     own_hz = anchor.felt_hz
     f: NDArray[np.float64] = own_hz * 2.0 ** np.linspace(-octaves, octaves, _GRID)
@@ -181,11 +182,11 @@ class _Needs:
         self._spectrum = np.asarray(scipy.fft.rfft(x - x.mean()), dtype=np.complex128) / len(x)
         self._f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
         self._power = self._spectrum.real**2 + self._spectrum.imag**2
-        # Far above its middle f_0 the energy of a band is that of the sound times (f_0 / f)^4 / Q^4.
+        # Far above the middle f_0 of a band, its energy is that of the sound times (f_0 / f)^4 / Q^4.
         self._above = np.cumsum(self._power[:0:-1] / self._f[:0:-1] ** 4)[::-1]
 
     def first_met(self, candidates_hz: list[float], q: float | None = None) -> tuple[Anchor | None, float]:
-        """Return the first candidate that is accepted, or the one that comes nearest; and its error [dB]."""
+        """Return the first accepted candidate, or the one that is nearest to the level; and its level error [dB]."""
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
             band, n = self._band(own_hz, q)
@@ -202,7 +203,7 @@ class _Needs:
         return best
 
     def felt(self, found: Anchor | None, missed_db: float, strongest: Component) -> Anchor:
-        """Return the anchor, or the strongest component where the actuator is felt best, by the rules above."""
+        """Return the found anchor, or the strongest component at the best frequency, by the rules of this module."""
         if found is not None and missed_db <= MISSED_DB:
             return found
         carried = self.carried(strongest.hz, None if found is None else found.band_q)
@@ -212,9 +213,9 @@ class _Needs:
         return carried if found is None or is_slow or not is_rendered or is_too_high else found
 
     def moving_pitch(self, anchor: Anchor) -> MovingPitch | None:
-        """Return the band that holds the sound's pitch, if that leaves the band around the anchor; else None.
+        """Return the band that holds the sound's pitch, if the pitch leaves the band around the anchor; else None.
 
-        Of a component that is shifted down, only rise and fall are felt, at any pitch.
+        A component that is shifted down has no such band: only its rise and fall are felt, at any pitch.
         """
         if anchor.carrier_hz is not None and anchor.carrier_hz < anchor.frequency_hz:
             return None
@@ -239,7 +240,7 @@ class _Needs:
         return Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator), band_q=q)
 
     def missed_db(self, anchor: Anchor) -> float:
-        """Return how far an anchor's band stays below the level where it is felt [dB]."""
+        """Return by how much an anchor's band misses the level at the frequency at which it is felt [dB]."""
         drive = float(drive_db(anchor.felt_hz, self._level_db, self._actuator))
         return max(0.0, drive + anchor.crest_db - HIGHEST_PEAK_DB)
 
@@ -249,9 +250,9 @@ class _Needs:
         return 10.0 * float(np.log10(max(one, 1e-300) / max(other, 1e-300)))
 
     def band_db(self, anchor: Anchor) -> float:
-        """Return the level of what is kept of the sound, relative to it [dB].
+        """Return the level of the kept part of the sound, relative to the whole sound [dB].
 
-        Rounded, since the last digits of a sum depend on the machine, and so would each sample of a loop.
+        It is rounded: the last digits of a sum depend on the machine, and would change each sample of a loop.
         """
         own_hz, q = anchor.frequency_hz, anchor.band_q or BAND_Q
         beep = is_beep(own_hz, anchor.felt_hz)
@@ -259,7 +260,7 @@ class _Needs:
         return round(10.0 * float(np.log10(max(self._power @ kept, 1e-300) / max(self._power.sum(), 1e-300))), 2)
 
     def _band(self, own_hz: float, q: float | None = None) -> tuple[NDArray[np.complex128], int]:
-        """Return the spectrum of a band divided by its number of samples, and that number, which its peak needs."""
+        """Return the spectrum of a band divided by its number of samples, and this number, which `_peak` needs."""
         q = q or BAND_Q
         n = min(scipy.fft.next_fast_len(2 * self._n_bins(own_hz, q), real=True), self._n)
         return self._spectrum[: n // 2 + 1] * _band(self._f[: n // 2 + 1], own_hz, q), n
@@ -277,7 +278,7 @@ class _Needs:
 
 
 def _rough_hz(strongest: Component, found: Anchor, magnitude: Signal, sample_rate_hz: float) -> float | None:
-    """Return the strongest component if it is not the anchor, and is slow enough to be felt as its roughness."""
+    """Return the strongest component if it is not the anchor, and slow enough to be felt as the anchor's roughness."""
     low, high = ROUGH_HZ
     if not strongest.is_line or not low <= strongest.hz <= high or found.felt_hz < strongest.hz * _OTHER_RATIO:
         return None

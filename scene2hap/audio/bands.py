@@ -3,7 +3,7 @@
 A loop is periodic, so its Fourier coefficients describe it completely, and weighting them is a filter without delay and
 without transients. Each inner edge has one rising step S_j(f), a raised cosine in log f; band j is S_j - S_(j+1) with
 S_0 = 1 and S_N = 0, so the sum over all bands telescopes to one at every frequency. A step spans half of the narrower
-band on each side: a band's centre belongs to that band alone, and nothing leaks further than the neighbour.
+band on each side. So a band's centre belongs to that band alone, and no band reaches beyond its neighbours.
 """
 
 from __future__ import annotations

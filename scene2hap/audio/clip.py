@@ -1,4 +1,4 @@
-"""Sounds in memory, with their credits."""
+"""Audio clips: sounds in memory, with their credits."""
 
 from __future__ import annotations
 

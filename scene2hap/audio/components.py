@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 Signal = NDArray[np.float64]
 
 LINE_DB = 13.5
-"""Least height of a line above the median of its surroundings [dB]. The highest of 5000 bins of noise, as five seconds
-have up to 1 kHz, exceeds the median by 11.3 dB on average, by 12 dB in one sound of eight, by 13.5 dB in one of 500."""
+"""Least height of a line above the median of its surroundings [dB]. Five seconds of noise have 5000 bins up to 1 kHz.
+The highest exceeds the median by 11.3 dB on average, by 12 dB in one sound of eight, by 13.5 dB in one of 500."""
 _AROUND = 2.0 ** (1.0 / 3.0)
 _LOBES = 8.0
-"""Least extent of these surroundings, in widths of the window's main lobe."""
+"""Least extent of a line's surroundings, in widths of the window's main lobe."""
 _APART = 2.0 ** (1.0 / 6.0)
 _MOST = 8
 
@@ -46,7 +46,7 @@ def components(
     """Return the peaks of a spectrum from `magnitudes` within a range, strongest first, at most eight.
 
     Peaks within a sixth of an octave of a stronger one are left out, and those more than -`faintest_db` below the
-    strongest. Frequencies are those of parabolas through the logarithms of three bins.
+    strongest. Frequencies are the maxima of parabolas through the logarithms of three bins.
     """
     n = 2 * (len(magnitude) - 1)
     low, high = range_hz
@@ -75,7 +75,7 @@ def components(
 def strongest_bands_hz(
     magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
 ) -> list[float]:
-    """Return the centres of the third octaves within a range [Hz], strongest first, down to `faintest_db` below it."""
+    """Return the centres of the third octaves within a range [Hz], strongest first, down to -`faintest_db` below it."""
     n = 2 * (len(magnitude) - 1)
     low, high = range_hz
     middles = 10 ** (np.arange(np.ceil(10 * np.log10(low)), np.floor(10 * np.log10(high)) + 1) / 10)

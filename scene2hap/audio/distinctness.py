@@ -4,9 +4,9 @@
     by envelope    the same formula for the rates of both envelopes, if both vary
     by level       |L_1 - L_2| / 2.5 dB             L [dB] sensation levels
 
-Published Weber fractions of frequency are 0.18 to 0.25, of which the middle is used; level JNDs are 2.2 to 2.5 dB, of
-which the larger is used (Israr, Tan and Reed 2006). For the rate of an envelope the Weber fraction of frequency is
-assumed. Levels fall with distance, frequency and rate do not; hence the two criteria.
+Published Weber fractions of frequency are 0.18 to 0.25; the middle is used. Level JNDs are 2.2 to 2.5 dB; the larger is
+used (Israr, Tan and Reed 2006). For the rate of an envelope the Weber fraction of frequency is assumed. Levels fall
+with distance; frequency and rate do not. Hence there are two criteria.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ WIDEST_WEBER = 0.25
 """The largest published Weber fraction: everybody can distinguish two sources with this difference."""
 LEVEL_JND_DB = 2.5
 FAR_DB = 12.0
-"""Attenuation at which sources shall still be distinct [dB]."""
+"""Attenuation at which sources must still be distinct [dB]."""
 
 _RATE_HZ = (0.5, 60.0)
 _LEAST_DEPTH = 0.2
@@ -74,7 +74,7 @@ class Difference:
 
 
 def feel_of(loop_samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None) -> Feel:
-    """Sensation of a tactile loop (n_samples,) on an actuator.
+    """Return the sensation of a tactile loop (n_samples,) on an actuator.
 
     The dominant frequency is that of the component furthest above its own threshold.
     Raises: AudioError: nothing lies between 10 and 1000 Hz.
@@ -111,7 +111,7 @@ def frequency_jnds(one_hz: float, other_hz: float) -> float:
 
 
 def rhythm_hz(samples: ArrayLike, sample_rate_hz: float) -> float | None:
-    """Return the envelope rate of a sound (n_samples,) [Hz], None unless any loop cut from it has that rate."""
+    """Return the envelope rate of a sound (n_samples,) [Hz]; None unless every loop cut from it has that rate."""
     return _envelope_rate_hz(np.asarray(samples, dtype=np.float64), sample_rate_hz, _SURE_DEPTH)
 
 

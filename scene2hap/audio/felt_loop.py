@@ -24,7 +24,8 @@ class SourceClip:
     """The chosen sound of one state of one source, with its intensity 0..1.
 
     group : sources of one group may feel alike: the states of an object, objects of one kind; keep : do not move its
-    frequency; pitch_hz : the frequency to which it is moved, None for none. Other sources keep clear of both.
+    frequency; pitch_hz : the frequency to which it is moved, None for none. Other sources are moved away from a source
+    with either.
     """
 
     clip: AudioClip
@@ -51,7 +52,7 @@ def plan_scene(
 ) -> tuple[Plan, ...]:
     """Return a plan for each source. Sources are moved apart within the limits if the converter follows targets.
 
-    Parameters: standing : loops that do not change, with their groups; the sources keep clear of them, too.
+    Parameters: standing : loops that do not change, with their groups; the sources are moved away from them, too.
     Raises: AudioError: an intensity outside 0..1.
     """
     levels = [sensation_level_db(source.intensity) for source in sources]
@@ -115,10 +116,10 @@ def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> 
 def felt_loop(
     clip: AudioClip, converter: TactileConverter, plan: Plan, max_boost_db: float = MAX_BOOST_DB
 ) -> HapticLoop:
-    """Make the loops of a source, the tactile one equalized for the actuator and at its planned level.
+    """Make the loops of a source; the tactile one is equalized for the actuator and has the planned level.
 
     The level is lower if a peak would exceed full scale less `TACTILE_HEADROOM_DB`.
-    Raises: AudioError: the clip is too short or silent, or its conversion is.
+    Raises: AudioError: the clip is too short, or the clip or its conversion is silent.
     """
     actuator, rate = plan.context.actuator, clip.sample_rate_hz
 

@@ -1,4 +1,4 @@
-"""Read sound files, and write those of a bundle."""
+"""Reading of sound files, and writing of the sound files of a bundle."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
 
 
 def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
-    """A WAV, FLAC, Ogg or MP3 file as a mono clip at its own rate; several channels are mixed by their mean.
+    """Read a WAV, FLAC, Ogg or MP3 file as a mono clip at its own rate; several channels are mixed by their mean.
 
     Without a `credit` the file's stem becomes the title, author and licence are "unknown".
     Raises: AudioError: the file is absent, is not audio, has no samples, a sample that is not finite, or more than
@@ -64,8 +64,7 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
 
 
 def _require_bounded(path: Path, file: soundfile.SoundFile) -> None:
-    """Raises: AudioError: the header promises more channels than `MAX_CHANNELS`, or more samples, of all channels
-    together, than `MAX_FILE_SAMPLES`."""
+    """Check the size in a file's header. Raises: AudioError: more than `MAX_CHANNELS` or `MAX_FILE_SAMPLES`."""
     if file.channels > MAX_CHANNELS:
         raise AudioError(f"{path} has {file.channels} channels; it must have at most {MAX_CHANNELS}. Mix some.")
     n_samples = file.frames * file.channels
@@ -92,12 +91,12 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
             yield file
     except OSError as cause:
         raise AudioError(f"{path} cannot be read ({cause.strerror}). Choose a file that is yours.") from cause
-    except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, whose rate it asks for
+    except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, for which a rate is needed
         raise AudioError(f"{path}: not a readable sound ({cause}). Use a WAV, FLAC, Ogg or MP3 file.") from cause
 
 
 def require_finite(path: Path, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]], start: int = 0) -> None:
-    """Raises: AudioError: one of the samples (n, channels), which begin at `start` in the file, is not finite."""
+    """Check samples (n, channels) that begin at `start` in the file. Raises: AudioError: one of them is not finite."""
     finite = np.isfinite(channels).all(axis=1)
     if not finite.all():
         at = int(np.argmin(finite))
@@ -138,7 +137,7 @@ def _is_cut_short(path: Path) -> bool:
 def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype = "PCM_24") -> None:
     """Write samples (n,) or (n, channels) in [-1, 1] as a WAV file, whole or not at all.
 
-    Equal samples give equal bytes (the header of a float WAV would carry the time). Samples become integers of
+    Equal samples give equal bytes (the header of a float WAV would contain the time). Samples become integers of
     2^(bits-1) steps per unit, the scale at which they are read back, so that a file read and written again does not
     change; only +1 itself loses one step.
     Raises: AudioError: a sample beyond full scale or not finite, a wrong shape, or a path that cannot be written.
@@ -147,9 +146,9 @@ def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype
 
 
 def write_flac(path: str | Path, samples: ArrayLike, sample_rate_hz: int) -> None:
-    """Write samples as a lossless FLAC file of 24 bits, which is smaller; otherwise as `write_wav`.
+    """Write samples as a lossless FLAC file of 24 bits, which is smaller than a WAV file. See `write_wav`.
 
-    Raises: AudioError: as there, or a sample rate that FLAC cannot hold (`fits_flac`).
+    Raises: AudioError: see `write_wav`; also a sample rate that FLAC cannot store (`fits_flac`).
     """
     if not fits_flac(sample_rate_hz):
         raise AudioError(f"{path}: FLAC has no sample rate of {sample_rate_hz} Hz. Use WAV.")

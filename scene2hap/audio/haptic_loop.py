@@ -22,8 +22,8 @@ class Sensation:
 
     Parameters: level_db : sensation level over the threshold of touch [dB]; asked_level_db : the planned level, which
     the actuator or the head-room may not allow [dB]; own_hz : the component that identifies the source, None without
-    one [Hz]; target_hz : the frequency at which that is felt [Hz]; rough_hz : the component that is felt as roughness,
-    None without one [Hz].
+    one [Hz]; target_hz : the frequency at which that component is felt [Hz]; rough_hz : the component that is felt as
+    roughness, None without one [Hz].
     """
 
     level_db: float
@@ -53,7 +53,7 @@ class Sensation:
 
 
 NOTICED_DB = 3.0
-"""Level error above which the text mentions it: about the least difference that is felt."""
+"""Level error from which on the text of a `Sensation` mentions it [dB]: about the least difference that is felt."""
 
 
 @clear_construction

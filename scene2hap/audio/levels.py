@@ -2,8 +2,8 @@
 
 T(f) = A / lg(b)^2 * lg(f / 550 + b)^2 - e      [dB re full scale], b = 6/11, A = 50, e = 45, at most 0
 
-is the least drive that is felt. A vibration of several components is felt by their summed energy, each relative to its
-own threshold (Pacinian corpuscles integrate, practically without critical bands):
+is the least drive that is felt. The level of several components follows from the sum of their energies, each relative
+to its own threshold (Pacinian corpuscles integrate, practically without critical bands):
 
 L = 10 lg sum_k (a_k / 10^(T(f_k) / 20))^2      a_k [-] amplitude of the component at f_k, re full scale
 
@@ -26,25 +26,26 @@ from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile
 
 FULL_LEVEL_DB = 31.0
-"""Sensation level of a source of intensity 1. Assumed: what fits below full scale, with head-room, from 140 Hz on."""
+"""Sensation level of a source of intensity 1; assumed: it fits below full scale, with head-room, from 140 Hz on."""
 LEVEL_PER_DECADE_DB = 17.0
 """Level difference for a factor of ten in intensity [dB]. Felt strength grows with amplitude to the power 0.89
-(Verrillo 1970), which would give 22. Touch has a range of 45 dB, hearing 100, so that compression is usual (2:1 after
-Merchel and Altinsoy). 17 puts the faintest example of the scale, a refrigerator's hum of 0.1, at 14 dB, which is still
-felt after 12 dB of attenuation. It leaves two level JNDs between a ringing phone (0.5) and a washing machine (1)."""
+(Verrillo 1970), which would give 22 dB. Touch has a range of 45 dB, hearing of 100 dB, so that compression is usual
+(2:1 after Merchel and Altinsoy). With 17 dB, the faintest example of the scale, a refrigerator's hum of 0.1, has 14 dB,
+which is still felt after 12 dB of attenuation. There are two level JNDs between a ringing phone (0.5) and a washing
+machine (1)."""
 TACTILE_HEADROOM_DB = 6.0
 """Peak of the tactile loop of a source of full intensity, below full scale [dB]: two such sources add up to full scale
 (within 0.02 dB)."""
 TACTILE_RANGE_HZ = (10.0, 1000.0)
 FAINTEST_PEAK_DB = -60.0
-"""Peak of a sound below which it counts as the noise of a recording, which shall not be felt [dB re full scale]."""
+"""Peak below which a sound counts as the noise of a recording, which must not be felt [dB re full scale]."""
 
 LEFT_PEAK_DB = -40.0
 """Peak of a vibration relative to its sound [dB]. If it is below this, and below `FAINTEST_PEAK_DB`, the converter has
 left only the noise of the recording (assumed)."""
 
 _NOTHING_DB = -120.0
-"""Below this there are only errors of rounding."""
+"""Level below which there are only rounding errors [dB]."""
 
 
 def is_noise(sound_peak: float, touch_peak: float) -> bool:
@@ -54,7 +55,7 @@ def is_noise(sound_peak: float, touch_peak: float) -> bool:
 
 
 def sensation_level_db(intensity: float) -> float:
-    """Return the sensation level at which a source of this intensity shall be felt by a hand on it [dB].
+    """Return the planned sensation level of a source of this intensity, for a hand on it [dB].
 
     Raises: AudioError: the intensity is not within 0..1, or is 0, which has no level.
     """
@@ -70,9 +71,9 @@ def drive_db(frequencies_hz: ArrayLike, level_db: float, actuator: ActuatorProfi
 def felt_spectrum(
     samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorProfile | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Frequencies (n_bins,) [Hz] and, at each, (a_k / threshold)^2 (n_bins,) [-] of a loop (n_samples,).
+    """Return frequencies (n_bins,) [Hz] and, at each, (a_k / threshold)^2 (n_bins,) [-] of a loop (n_samples,).
 
-    Without a window, since a loop is periodic; 10 to 1000 Hz.
+    No window is applied, since a loop is periodic. The range is 10 to 1000 Hz.
     """
     x = np.asarray(samples, dtype=np.float64)
     return _felt(np.fft.rfft(x), len(x), sample_rate_hz, actuator)
@@ -86,7 +87,7 @@ def felt_level_db(samples: ArrayLike, sample_rate_hz: float, actuator: ActuatorP
 def felt_level_of_spectrum_db(
     spectrum: NDArray[np.complex128], n_samples: int, sample_rate_hz: float, actuator: ActuatorProfile | None = None
 ) -> float:
-    """`felt_level_db` of a loop of which the real Fourier transform (n_samples // 2 + 1,) is known [dB]."""
+    """Return `felt_level_db` of a loop [dB], from its real Fourier transform (n_samples // 2 + 1,)."""
     return _level_db(_felt(spectrum, n_samples, sample_rate_hz, actuator)[1])
 
 
@@ -111,7 +112,7 @@ def at_level(
 ) -> Samples:
     """Scale a loop (n_samples,) to a sensation level, or to a peak of `peak` if that is less.
 
-    Raises: AudioError: nothing in it is felt.
+    Raises: AudioError: no component of the loop can be felt.
     """
     now_db = felt_level_db(samples, sample_rate_hz, actuator)
     if now_db < _NOTHING_DB:

@@ -1,13 +1,13 @@
-"""Sounds whose pitch moves, and the band that holds it.
+"""Detection of a moving pitch, and the frequency band that holds it.
 
-An engine that revs from 40 to 160 Hz leaves any band that is narrow enough for a hum. Levels L of the sound and of a
-band of it are those of half a second, and a range is that from the 5th to the 95th percentile. Where the range of the
-band exceeds that of the sound by more than `GROWN_DB`, and the sound has lines, the band must hold the strongest line
-wherever it goes. With a and b the 5th and the 95th percentile of its frequency, in stretches of half a second:
+An engine that revs from 40 to 160 Hz leaves any band that is narrow enough for a hum. The levels of the sound and of a
+band of it are taken over half a second. The range of a level is that from its 5th to its 95th percentile. If the range
+of the band exceeds that of the sound by more than `GROWN_DB`, and the sound has lines, the band must hold the strongest
+line at all times. With a and b the 5th and the 95th percentile of the line's frequency, in stretches of half a second:
 
     centre f_0 = sqrt(a b)        r = b / f_0        Q such that B(b) = 1 / (1 + Q^2 (r - 1 / r)^2) is -3 dB
 
-Then the band takes as much from the range as touch hardly notices.
+Touch hardly notices the change of level within such a band.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ import numpy as np
 from scene2hap.audio.components import Signal, components, magnitudes
 
 GROWN_DB = 3.0
-"""Growth of the range by which a band loses the sound [dB]: about the least difference that is felt."""
+"""Growth of the range above which a band does not hold the sound [dB]: about the least difference that is felt."""
 STRETCH_S = 0.5
 _LEAST_STRETCHES = 4
 _LEAST_SHARE = 0.5
-"""Least share of stretches with a line in a sound that has a pitch."""
+"""Least share of stretches with a line; a sound with fewer has no pitch [-]."""
 _LEAST_Q = 0.2
 _LOST_DB = 3.0
 _FAINTEST_DB = -14.0
@@ -38,7 +38,7 @@ class MovingPitch(NamedTuple):
 
 
 def growth_db(sound: Signal, band: Signal, duration_s: float) -> float:
-    """Return by how much the range of a band's level exceeds that of its sound [dB], 0 for a short sound.
+    """Return the range of a band's level minus that of its sound [dB]; 0 for a short sound.
 
     Parameters: sound (n,), band (m,) : of equal duration, at any rates.
     """
@@ -51,7 +51,7 @@ def growth_db(sound: Signal, band: Signal, duration_s: float) -> float:
 def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float], most_q: float) -> MovingPitch | None:
     """Return the band that holds the strongest line of a sound (n,) in each stretch.
 
-    None if it has no lines, or if a band of quality `most_q` holds them.
+    None if the sound has no lines, or if a band of quality `most_q` holds them.
     """
     size = round(STRETCH_S * sample_rate_hz)
     stretches = x[: len(x) // size * size].reshape(-1, size)
@@ -63,7 +63,7 @@ def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float]
     r = math.sqrt(high / low)
     q = math.sqrt(10 ** (_LOST_DB / 20) - 1.0) / max(r - 1.0 / r, 1e-9)
     if q >= most_q:
-        return None  # it stays in the band: the band's level varies by itself, as that of two lines that beat
+        return None  # the pitch stays in the band, whose level varies for another reason, such as a beat
     return MovingPitch(math.sqrt(low * high), max(q, _LEAST_Q))
 
 

@@ -32,7 +32,7 @@ _WINDOW_S = 0.1
 def plot_clip(
     samples: Samples, sample_rate_hz: int, title: str, *, is_felt: bool, figure: Figure | SubFigure | None
 ) -> Figure | SubFigure:
-    """Waveform over spectrogram, and the spectrum with the threshold of touch. See `AudioClip.plot`."""
+    """Draw waveform, spectrogram, and spectrum with the threshold of touch. See `AudioClip.plot`."""
     figure = new_figure(9.0, 4.4) if figure is None else figure
     waveform, spectrum, spectrogram = (figure.add_subplot(2, 2, n) for n in (1, (2, 4), 3))
     draw_waveform(waveform, samples, sample_rate_hz, TOUCH if is_felt else SOUND)
@@ -57,7 +57,7 @@ def plot_loop(
     *,
     figure: Figure | SubFigure | None,
 ) -> Figure | SubFigure:
-    """Waveforms of both loops, and their spectra with the threshold of touch. See `HapticLoop.plot`."""
+    """Draw the waveforms of both loops, and their spectra with the threshold of touch. See `HapticLoop.plot`."""
     figure = new_figure(11.0, 4.4) if figure is None else figure
     axes = [figure.add_subplot(2, 2, n) for n in (1, 3, (2, 4))]
     draw_loop(axes[0], axes[1], axes[2], sound, touch, sample_rate_hz, frequencies_hz)
@@ -114,7 +114,7 @@ def draw_waveform(axes: Axes, samples: Samples, sample_rate_hz: int, colour: str
 def draw_spectrum(
     axes: Axes, samples: Samples, sample_rate_hz: int, colour: str, range_hz: tuple[float, float] | None = None
 ) -> tuple[Any, Any]:
-    """Draw the amplitude of each component, as of a loop, and the threshold of touch. Returns both lines."""
+    """Draw the amplitudes of `component_levels_db`, and the threshold of touch. Returns both lines."""
     frequency_hz, level_db = component_levels_db(samples, sample_rate_hz)
     low, high = range_hz or (FELT_HZ[0], max(FELT_HZ[1], 0.5 * sample_rate_hz))
     (line,) = axes.plot(*_strongest(frequency_hz, level_db, low, high), color=colour, linewidth=0.9, zorder=2)
@@ -127,9 +127,9 @@ def draw_spectrum(
 
 
 def component_levels_db(samples: Samples, sample_rate_hz: int) -> tuple[Floats, Floats]:
-    """Frequencies (n_bins,) [Hz] and the amplitude of a component at each (n_bins,) [dB re full scale].
+    """Return frequencies (n_bins,) [Hz] and the amplitude of a component at each (n_bins,) [dB re full scale].
 
-    Without a window, since a loop is periodic; at least -200 dB.
+    No window is applied, since a loop is periodic. Amplitudes are at least -200 dB.
     """
     x = np.asarray(samples, dtype=np.float64)
     amplitude = 2.0 * np.abs(np.fft.rfft(x)) / len(x)
@@ -170,5 +170,5 @@ def _draw_spectrogram(axes: Axes, samples: Samples, sample_rate_hz: int) -> None
         edges_s, edges_hz, level_db, cmap="cividis", vmin=loudest - RANGE_DB, vmax=loudest, rasterized=True
     )
     axes.set(yscale="log", xlabel="time [s]", ylabel="frequency [Hz]")
-    # Beside the axes it would make them narrower than the waveform above.
+    # A colour bar beside the axes would make them narrower than the waveform above.
     axes.figure.colorbar(image, ax=axes, location="bottom", label="level [dB re full scale]", aspect=40, shrink=0.9)

@@ -1,7 +1,7 @@
 """The start and the stop of a machine in a recording, and the steady running between them.
 
-If a recording begins with the start of a machine, it shows its duration, and the course of amplitude and pitch. The
-loop is cut from the steady part alone. A stop is analysed as a reversed start.
+A recording that begins with the start of a machine shows how long the start takes, and its amplitude and pitch over
+time. The loop is cut from the steady part alone. A stop is analysed as a reversed start.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from scene2hap.errors import AudioError
 
 
 class RecordedRuns(NamedTuple):
-    """The curves of start and stop, None if there is none, and the samples [first, end) of steady running."""
+    """The curves of start and stop, None if the recording has none, and the samples [first, end) of steady running."""
 
     start_up: RunCurve | None
     wind_down: RunCurve | None
@@ -30,8 +30,8 @@ class RecordedRuns(NamedTuple):
 def recorded_runs(samples: ArrayLike, sample_rate_hz: float) -> RecordedRuns:
     """Look for a start and a stop in a recording (n,).
 
-    A start rises from the room's level by at least 12 dB, within 0.2 to 10 s and without falling, to a level that is
-    steady for at least one second. Raises: AudioError: the samples are not one channel, (n,), n >= 1.
+    A start rises from the room's level by at least 12 dB, within 0.2 to 10 s and without falling. The level that it
+    reaches is steady for at least one second. Raises: AudioError: the samples are not one channel, (n,), n >= 1.
     """
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     x = np.asarray(samples, dtype=np.float64)

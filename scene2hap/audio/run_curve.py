@@ -27,7 +27,7 @@ class RunCurve:
     lasts_s : duration, above 0, at most 30 [s].
     amplitude : of the vibration, relative to steady running, at two or more equally spaced times, 0..1 [-].
     speed : pitch relative to steady running at the same times, 0..4 [-]; empty if the recording does not show it.
-    inferred_s : the inferred duration that this one replaces, and that applies again with another recording, 0..30 [s].
+    inferred_s : the inferred duration that `lasts_s` replaces, 0..30 [s]; it applies again with another recording.
     Raises: AudioError: a number out of bounds, or a different number of points.
     """
 
@@ -58,7 +58,7 @@ class RunCurve:
         return bool(self.speed) and all(one == 1.0 for one in self.speed)
 
     def instead_of(self, time_s: float, before: RunCurve | None) -> RunCurve:
-        """Return this curve with the duration it replaces: `time_s`, or the one that the former curve `before`
+        """Return this curve with the duration that it replaces: `time_s`, or the one that the former curve `before`
         replaced."""
         if before is not None and replace(before, inferred_s=self.inferred_s) == self:
             return before

@@ -29,7 +29,7 @@ BIN_S = 0.010
 LEAST_RISE_DB = 12.0
 """Least rise from the room's level to steady running [dB]: a sound that was turned up a little is no start."""
 SHORTEST_S, LONGEST_S = 0.2, 10.0
-"""Duration of a start [s]. Cut files are faded over some 50 ms; a slower rise is a change of load."""
+"""Shortest and longest start [s]. Cut files are faded over some 50 ms; a slower rise is a change of load."""
 MIN_STEADY_S = 1.0
 """Least steady running from which a loop can be cut [s]."""
 MOST_SPREAD_DB = 6.0
@@ -40,20 +40,21 @@ MOST_RESIDUAL_DB = 2.5
 
 _WINDOW = np.hanning(11)[1:-1] / np.hanning(11)[1:-1].sum()
 _SHORT, _LONG = 10, 50
-"""Bins over which a level is averaged: few resolve single notes and strokes, many smooth them."""
+"""Numbers of bins over which a level is averaged: the short mean resolves single notes and strokes, the long one
+smooths them."""
 _USUAL_PERCENTILE = 75.0
-"""Percentile of the level that estimates steady running, even if start and stop take three quarters of a recording."""
+"""Percentile that estimates the level of steady running, even if start and stop take three quarters of a recording."""
 _NEAR_DB = 3.0
 _QUIET_DB = 6.0
-"""How far the room's level may vary above its minimum before the rise [dB]; levels 12 dB below the machine always
-may."""
+"""How far the room's level may vary above its minimum before the rise [dB]; levels 12 dB below the machine are always
+allowed."""
 _FLOOR = 1e-6
 """Floor of the power, as a share of that of steady running, since digital silence has no level."""
 _SHAPES = ((1.0, 1.0), (2.0, 2.0), (1.0, 3.0), (1.5, 1.0))
 """Exponents p, q at which the search for the fit begins."""
 _LEAST_EXPONENTS, _MOST_EXPONENTS, _MOST_OF_SPEED = (0.8, 0.8), (2.2, 5.0), (2.2, 2.2)
 _BEFORE = 0.2
-"""Share of the recording by which a rise may have begun before it."""
+"""Longest time by which a rise may begin before the recording, as a share of the recording [-]."""
 _SPEED_ERROR = 0.008
 """Error of a tracked speed [-] that weighs as much in the fit as 1 dB of a level. The track has steps of 0.01."""
 _POINTS_PER_S, _FEWEST_POINTS = 20, 17
@@ -90,7 +91,7 @@ def felt_power(samples: Signal, sample_rate_hz: float) -> Signal:
 
 
 def steady_part(power: Signal) -> Steady | None:
-    """Return the bins from the first near the usual level to the last; None if they are few or not steady."""
+    """Return steady running, from the first to the last bin near the usual level; None if it is short or not steady."""
     if not power.size or power.max() <= 0.0:
         return None
     slow, level = _db(_smoothed(power, _LONG)), _db(_smoothed(power, _SHORT))
@@ -149,7 +150,7 @@ class _Fit:
         self._speed = np.zeros(0) if track is None else track.speed
 
     def best(self, quiet: int, steady: int, noise: float) -> Signal:
-        """Return the best fit of searches that begin at several shapes."""
+        """Return the best of several fits, whose searches begin at different shapes."""
         length, noise_db, n_pairs = max(2.0, 1.2 * (steady - quiet)), float(_db(noise)), 1 + bool(self._speed.size)
         low = [-_BEFORE * self._n, 2.0, -3.0, noise_db - 10.0, *_LEAST_EXPONENTS * n_pairs]
         high = [self._n, 2.0 * self._n, 3.0, noise_db + 10.0, *_MOST_EXPONENTS, *_MOST_OF_SPEED][: 4 + 2 * n_pairs]

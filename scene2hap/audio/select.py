@@ -1,11 +1,12 @@
 """Choose a sound among candidates.
 
-The rule of the paper (Implementation, "Audio Retrieval/Generation"): cut silent ends; keep what is longer than 2.5 s;
-drop what has a dynamic range above 5 dB, since it would not loop, raising that limit by 5 dB until something is left;
-of the rest take the lowest spectral flatness, since harmonic sounds please more than noisy ones; normalise its peak.
+The rule of the paper (Implementation, "Audio Retrieval/Generation"): cut silent ends; keep sounds longer than 2.5 s;
+drop sounds with a dynamic range above 5 dB, which would not loop (raise that limit in steps of 5 dB until a sound is
+left); choose the one with the lowest spectral flatness, since harmonic sounds please more than noisy ones; normalise
+its peak.
 
-A machine's start and stop at the ends are no part of the loop: range and flatness are measured on the steady part, and
-only that is returned.
+A machine's start and stop at the ends are not part of the loop. Range and flatness are measured on the steady part, and
+only this part is returned.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from scene2hap.errors import AudioError
 MIN_DURATION_S = 2.5
 DYNAMIC_RANGE_STEP_DB = 5.0
 FADE_S = 0.005
-"""Length of the fade at a cut [s], which may be in the middle of noise 40 dB below the peak."""
+"""Length of the fade at a cut [s]. A cut may be in the middle of noise that is 40 dB below the peak."""
 HEARD_RANGE_HZ = (10.0, 20_000.0)
 
 _NYQUIST_MARGIN = 0.45
@@ -52,7 +53,7 @@ class Candidate:
     verdict: str
 
     def cells(self) -> tuple[str, ...]:
-        """The row as text, in the order of `COLUMNS`."""
+        """Return the row as text, in the order of `COLUMNS`."""
         return (
             "->" if self.is_chosen else "",
             self.title,

@@ -2,9 +2,9 @@
 
 A machine's lines are at fixed multiples of its speed: a line at f_i in steady running is at r f_i at the relative speed
 r. The score of r in a frame is the mean height of the spectrum at r f_i above the noise floor, less that of the whole
-spectrum [dB]. The track is the path with the highest sum of scores (Viterbi) that ends at r = 1. It rises by at most
-three times the mean rate and hardly falls, since it must not jump to half the speed, where harmonics coincide as well.
-Constant mains hum is one line of many.
+spectrum [dB]. The track is the path with the highest sum of scores (Viterbi) that ends at r = 1. The track rises by at
+most three times the mean rate and hardly falls, since it must not jump to half the speed, where harmonics coincide as
+well. Mains hum, which is constant, is one line of many.
 """
 
 from __future__ import annotations
@@ -36,18 +36,19 @@ SHORTEST_S = 0.5
 
 _HOP_S = 0.02
 _FRAME_S, _FRAMES_PER_RISE = (0.128, 0.256), 12
-"""Bounds of the frame length [s], and frames per rise. Lines move within longer frames; shorter ones merge them."""
+"""Bounds of the frame length [s], and frames per rise. In longer frames lines move; in shorter ones they merge."""
 _STEP = 0.01
 _SPEEDS = np.arange(0.15, 1.1 + _STEP / 2, _STEP)
 _FULL, _NEAR_FULL = int(np.argmin(np.abs(_SPEEDS - 1.0))), 3
 _STEEPEST = 3.0
-"""Steepest rise of a track, in mean rates. A motor with the speed x (2 - x) begins with twice the mean rate."""
+"""Steepest rise of a track, as a multiple of the mean rate [-]. A motor with the speed x (2 - x) begins with twice the
+mean rate."""
 _FALLS = 1
 """Steps of the grid that a track may fall in a frame, to allow for rounding to the grid."""
 _HIGHEST_DB = 40.0
 _PADDING = 4
 _BLOCK, _GROUND_PERCENTILE = 16, 25.0
-"""The noise floor is this percentile over this many bins of an unpadded spectrum, to stay below dense lines."""
+"""Unpadded bins over which the noise floor is taken, and its percentile, which stays below dense lines."""
 _LOBE = 2.0
 """Half the main lobe of a Hann window [bins]; a lower line would merge with the end of the spectrum."""
 
@@ -139,7 +140,7 @@ def _best_path(score: Signal, steps: int) -> tuple[Signal, Signal]:
     best = np.where(np.abs(speeds - _FULL) <= _NEAR_FULL, score[-1], -np.inf)
     next_speed = np.zeros((n_frames, n), dtype=np.intp)
     moves = np.arange(-_FALLS, steps + 1)
-    for t in range(n_frames - 2, -1, -1):  # backwards: best[k] is that of all frames after t, from speed k on
+    for t in range(n_frames - 2, -1, -1):  # backwards: best[k] is the highest sum of scores after t, from speed k on
         padded = np.concatenate([np.full(_FALLS, -np.inf), best, np.full(steps, -np.inf)])
         options = sliding_window_view(padded, len(moves))
         chosen = options.argmax(axis=1)

@@ -1,4 +1,4 @@
-"""The anchor of a live stream, tracked while it plays."""
+"""Tracking of the anchor of a live stream (the component by which it is felt, see `anchor`) while it plays."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NEW_SHARE = 0.3
 
 
 class TrackedAnchor:
-    """The anchor of a live sound, from stretches of equal length. The sound is assumed steady, which is faster.
+    """The anchor of a live sound, from stretches of equal length. To save time, the sound is assumed to be steady.
 
     Spectra are averaged over stretches. An anchor stays while its component is within `STAYS_DB` of the best, so that
     it does not jump between two harmonics of similar strength.
@@ -56,7 +56,7 @@ class TrackedAnchor:
         return self.own_hz
 
     def _averaged(self, magnitude: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the power by bins, averaged over stretches; that of this stretch alone if it has lost the anchor."""
+        """Return the power of each bin, averaged over stretches; of this stretch alone if it has lost the anchor."""
         power = magnitude**2
         before, own_hz = self._power, self.own_hz
         if before is None or own_hz is None or len(before) != len(power):

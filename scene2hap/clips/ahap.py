@@ -53,7 +53,7 @@ Points = list[tuple[float, float]]
 
 
 class ClipWarning(UserWarning):
-    """A part of a file that is not played."""
+    """A part of a haptic clip's file is not played."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class _Event:
 
 @dataclass
 class _Control:
-    """The points of all curves of one kind, with times from the file's beginning."""
+    """The points of all curves of one kind. Times are from the file's beginning."""
 
     neutral: float
     times_s: list[float] = field(default_factory=list)

@@ -16,7 +16,7 @@ MAX_BYTES = 1 << 27
 
 
 class Fields:
-    """An object of a JSON document, with its place and file for error messages."""
+    """An object of a JSON document, with its file and its place there for error messages."""
 
     def __init__(self, document: object, file: str, place: str = "") -> None:
         self.file, self.place = file, place

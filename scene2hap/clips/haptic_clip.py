@@ -19,7 +19,7 @@ RANGE_HZ = (55.0, 200.0)
 MAX_POINTS = 100_000
 """Most points of one curve (assumed: 60 times the longest published clip, and more than any device accepts at once)."""
 MAX_CLIP_S = 600.0
-"""Longest clip [s]; the bound of sounds."""
+"""Longest clip [s]; the same bound as for sounds."""
 
 
 @clear_construction
@@ -53,7 +53,7 @@ class Curve:
         return len(self.times_s)
 
     def at(self, times_s: ArrayLike) -> Values:
-        """Return values at times (n,) [s], (n,); at a jump the later one."""
+        """Return the values (n,) at times (n,) [s]; at a jump the later one."""
         t = np.asarray(times_s, dtype=np.float64)
         roots = self.values ** (1.0 / self.power)
         after = np.searchsorted(self.times_s, t, side="right")
@@ -126,7 +126,7 @@ class HapticClip:
         return float(self.amplitude.times_s[-1])
 
     def frequency_hz(self, times_s: ArrayLike) -> Values:
-        """Return the frequency at times (n,) [s], (n,) [Hz]."""
+        """Return the frequency (n,) [Hz] at times (n,) [s]."""
         low, high = self.range_hz
         t = np.asarray(times_s, dtype=np.float64)
         return low + (high - low) * (self.frequency.at(t) if self.frequency is not None else np.full(t.shape, 0.5))

@@ -49,12 +49,12 @@ def convert_files(
     """Convert files, and all files in folders, in the order given.
 
     Parameters:
-    output : a file, if there is one source, which is no folder, and this ends in a suffix of `FORMATS`; otherwise a
-        folder. In it, files keep their name and their path below the given folder, with `suffix`.
-    pictures : draw a PNG beside each; workers : number of processes, None for one per processor; a script that uses
-        several needs ``if __name__ == "__main__":``; the rest : as for `convert`.
+    output : a file, if there is one source, which is no folder, and this path ends in a suffix of `FORMATS`; otherwise
+        a folder. There, files keep their name and their path below the source folder, with the new `suffix`.
+    pictures : draw a PNG beside each output file; workers : number of processes, None for one per processor; a script
+        that uses several needs ``if __name__ == "__main__":``; the rest : as for `convert`.
     Raises: ConfigError: settings that cannot work. AudioError: there is nothing to convert, or the output is one file
-    for many. Problems of a single file are returned as a `Failure`.
+    for several sources. Problems of a single file are returned as a `Failure`.
     """
     settled(converter, actuator, intensity)
     settings |= {"converter": converter, "actuator": actuator, "intensity": intensity}

@@ -1,4 +1,4 @@
-"""The bounded inverse of an actuator as a filter, block by block."""
+"""Equalizer: a filter with the bounded inverse of an actuator's response, applied block by block."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 class Equalizer:
-    """A `TactileStream` that compensates an actuator's response, without delay and not scaled.
+    """A `TactileStream` that compensates an actuator's response, without delay and without scaling.
 
     The filter has minimum phase, so that it has no pre-ringing. Blocks are convolved by overlap-save at places that
     depend on the sample number alone, so that the block size has no effect on the result.
@@ -33,7 +33,7 @@ class Equalizer:
         self._n_waiting = 0
 
     def process(self, block: Samples) -> Samples:
-        """Return the samples that complete the filter's next internal blocks."""
+        """Return the filtered samples of the internal blocks that are complete now."""
         self._waiting.append(np.asarray(block, dtype=np.float64))
         self._n_waiting += len(block)
         found = []

@@ -14,7 +14,7 @@ from scene2hap.haptics import ActuatorProfile
 
 _SEGMENT_S, _OVERLAP = 1.0, 0.1
 _AT_ONCE = 4
-"""Channels that are transformed together, a third as long each: as many as a processor's registers hold."""
+"""Channels that are transformed together: as many as a processor's registers hold. Each takes a third of the time."""
 
 Block = NDArray[np.float32]
 """Samples (n, channels)."""
@@ -23,9 +23,9 @@ Block = NDArray[np.float32]
 class FeltLevel:
     """Measures the sensation level of a vibration on an actuator, over its whole length.
 
-    The mean power of pieces of one second replaces the components of `levels`. The sound is preceded and followed by
-    silence. Pieces overlap with sine windows, whose squares add up to 1, so that every sample has the same weight, also
-    the first of a knock. Source: J. P. Princen, A. B. Bradley, IEEE Trans. ASSP 34 (1986) 1153.
+    The mean power of pieces of one second replaces the components of `levels`. Silence is added before and after the
+    sound. Pieces overlap with sine windows, whose squares add up to 1, so that every sample has the same weight,
+    including the first one of a knock. Source: J. P. Princen, A. B. Bradley, IEEE Trans. ASSP 34 (1986) 1153.
     """
 
     def __init__(self, sample_rate_hz: int, channels: int, actuator: ActuatorProfile) -> None:
@@ -44,7 +44,7 @@ class FeltLevel:
         self._energy = np.zeros(channels)
 
     def hear(self, block: Block) -> None:
-        """Take in the next frames."""
+        """Add the next frames to the measurement."""
         if not len(block):
             return
         self.peak = max(self.peak, float(np.abs(block).max()))
@@ -83,5 +83,5 @@ class FeltLevel:
             return 0.0
         spectrum = scipy.fft.rfft(np.stack(pieces) * self._window, axis=2)[:, :, self._inside]
         power = spectrum.real.astype(np.float64) ** 2 + spectrum.imag.astype(np.float64) ** 2
-        # Both sides of the spectrum, and the square of an amplitude is twice its mean power (Parseval).
+        # Factor 4: both sides of the spectrum, and the square of an amplitude is twice its mean power (Parseval).
         return np.asarray(4.0 / len(self._window) * (power @ self._weight).sum(axis=0))

@@ -61,9 +61,9 @@ class Meter:
         self.n_frames += len(block)
 
     def dominant_frequency_hz(self) -> float | None:
-        """The highest peak of the mean power spectrum of all channels [Hz]; None for silence.
+        """Return the highest peak of the mean power spectrum of all channels [Hz]; None for silence.
 
-        A sound shorter than one segment counts as it is.
+        A sound shorter than one segment is analysed whole.
         """
         if not self._is_measured and self._filled > 1:
             rest = self._segment[:, : self._filled]
@@ -77,7 +77,7 @@ class Meter:
         return analysis.peak_frequency_hz(np.sqrt(self._power), bin_hz, (HEARD_RANGE_HZ[0], high))
 
     def _skip(self, at: int, end: int) -> int:
-        """Return where in the block the next segment begins or continues; `end` if it does not."""
+        """Return the index in the block at which the next segment begins or continues; `end` if none does."""
         if not self._starts:
             return end
         return at if self._filled else min(end, max(at, self._starts[0] - self.n_frames))

@@ -22,12 +22,12 @@ Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
 WIDTH, LANE, ENVELOPE, MARGIN, TOP = 900, 240, 110, 80, 44
 LOWEST_HZ, HIGHEST_HZ = 10.0, 20_000.0
 DEPTH_DB = 80.0
-"""Dynamic range of the picture [dB], below the loudest place of both sounds and below full scale."""
+"""Dynamic range of the picture [dB], below the loudest point of both sounds and below full scale."""
 WINDOW_S = 0.1
 BLOCK_FRAMES = 65_536
 _INK, _GRID, _FELT = "#22313f", "#d5dbe1", "#00a0a0"
 _STOPS = np.array([[10, 12, 40], [70, 20, 110], [180, 45, 95], [245, 130, 50], [252, 250, 190]], dtype=np.float64)
-"""Colours from quiet to loud, even steps of lightness apart."""
+"""Colours from quiet to loud, in even steps of lightness."""
 
 
 def draw_conversion(
@@ -39,7 +39,7 @@ def draw_conversion(
     path: Path,
     sensation: Sensation | None = None,
 ) -> None:
-    """Draw sound and touch of a file one above the other, and save it as PNG.
+    """Draw the sound of a file above its vibration, and save the picture as PNG.
 
     Both spectrograms share one scale. A line marks the dominant frequency of the vibration, and a line in its envelope
     the threshold of touch at that frequency on the actuator. `sensation` is written above the vibration.
@@ -75,7 +75,7 @@ def draw_conversion(
 
 
 def _spectrogram(path: Path, n_frames: int) -> tuple[NDArray[np.float64], int]:
-    """Power of the channels' mean (LANE, WIDTH) on a logarithmic axis, lowest row last, and the rate."""
+    """Return the power of the channels' mean (LANE, WIDTH) and the rate; rows are logarithmic, from high to low."""
     with opened_sound(path) as file:
         rate = int(file.samplerate)
         size = max(2, round(WINDOW_S * rate))
@@ -89,7 +89,7 @@ def _spectrogram(path: Path, n_frames: int) -> tuple[NDArray[np.float64], int]:
 
 
 def _windows(file: soundfile.SoundFile, n_frames: int, size: int) -> Iterator[NDArray[np.float32]]:
-    """`WIDTH` windows (size,) spread evenly, silent beyond both ends; in order, since compressed files seek badly."""
+    """Yield `WIDTH` windows (size,), evenly spaced, silent beyond both ends; in order: compressed files seek badly."""
     starts = (np.linspace(0, n_frames - 1, WIDTH).astype(int) - size // 2).tolist()
     kept, origin = np.zeros(size, dtype=np.float32), -size
     blocks = (block.mean(axis=1) for block in file.blocks(BLOCK_FRAMES, dtype="float32", always_2d=True))

@@ -56,10 +56,10 @@ _FULL_SCALE = 2.0**23
 _NEARLY_FULL = 1.0 - 1.0 / _FULL_SCALE
 _PICTURE_COLUMNS = 900
 _NOTHING_DB = -120.0
-"""Below this level there are only errors of rounding."""
+"""Level below which there are only rounding errors [dB]."""
 _OFFSET_FRAMES = 65_536
 _LOOK_S = 10.0
-"""Length of the part of a file that is analysed for its own frequency, before the conversion [s]."""
+"""Length of the part of a file in which the source's own frequency is searched, before the conversion [s]."""
 _SLOWEST_HZ = 1.0
 """Cut-off below which a component counts as offset; its removal costs 0.04 dB at 10 Hz, where touch begins."""
 _LARGEST_WAV_BYTES = 0xFFFF_0000
@@ -164,12 +164,12 @@ def convert(
 
 def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> ConversionContext:
     """Return the context with the source's own frequency, found in the middle of the file; unchanged if none is found,
-    so that the converter tracks it."""
+    so that the converter tracks the frequency."""
     n = round(_LOOK_S * file.samplerate)
     file.seek(max(0, int(file.frames) - n) // 2)
     heard = file.read(n, dtype="float32", always_2d=True).mean(axis=1, dtype=np.float64)
     file.seek(0)
-    if len(heard) < 2 or not np.isfinite(heard).all():  # converting it will say so
+    if len(heard) < 2 or not np.isfinite(heard).all():  # the conversion raises an error for this
         return context
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
     if anchor is None:
@@ -248,7 +248,7 @@ class _Felt:
         """Return the offset of each channel at the beginning of the file."""
         head = file.read(_OFFSET_FRAMES, dtype="float32", always_2d=True)
         file.seek(0)
-        if not len(head) or not np.isfinite(head).all():  # converting it will say so
+        if not len(head) or not np.isfinite(head).all():  # the conversion raises an error for this
             return [0.0] * self.channels
         mean = head.mean(axis=0, dtype=np.float64)
         return [float(mean.mean())] if self._mono else mean.tolist()

@@ -31,7 +31,7 @@ AUDIBLE_RANGE_HZ = (20.0, 20_000.0)
 def middle_of(clip: AudioClip) -> AudioClip:
     """Return the middle of a clip, long enough for the longest loop and a run-up for converters on either side.
 
-    The seam search uses the middle alone, so the rest of the clip would never be heard.
+    The seam search uses only the middle, so the rest of the clip would never be heard.
     """
     n = round((MAX_LOOP_S + CROSSFADE_S + 2.0 * _RUN_UP_S) * clip.sample_rate_hz)
     if len(clip.samples) <= n:
@@ -56,11 +56,11 @@ def loop_pair(
     The whole clip is converted before it is cut, so that a converter's transient lies outside the loop. The seam is
     chosen for both signals; each has its own fade law. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
     at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. If the converter leaves only the recording's
-    noise (`levels.is_noise`), it is not amplified. A clip that is a vibration already is looped whole, and converted
-    only if its frequency moves.
+    noise (`levels.is_noise`), this noise is not amplified. A clip that is a vibration already is looped whole. It is
+    converted only if its frequency is to be moved.
 
     Parameters: finish : last step for the tactile loop, such as equalizing it for an actuator.
-    Raises: AudioError: the clip is shorter than `MIN_CLIP_S` or silent, or its conversion is.
+    Raises: AudioError: the clip is shorter than `MIN_CLIP_S`, or the clip or its conversion is silent.
     """
     intensity = checks.number("intensity", context.intensity, "-", above=0.0, at_most=1.0, error=AudioError)
     rate = clip.sample_rate_hz

@@ -1,15 +1,16 @@
-"""The seam of a loop, and the fade that closes it at constant power.
+"""The seam of a loop, and its cross-fade at constant power.
 
     y = (w_in a + w_out b) / sqrt(w_in^2 + w_out^2 + 2 r w_in w_out),     r = <a, b> / (|a| |b|)
 
-Equal stretches (r = 1) keep their level under a linear fade, w_in + w_out = 1, uncorrelated ones (r = 0) under an
-equal-power fade, w_in^2 + w_out^2 = 1. The root is 1 in both cases. Between them it removes the remaining dip or bump
-of up to 1.2 dB.
+a and b are the stretches that begin the loop and follow its end, w_in and w_out their weights. Equal stretches (r = 1)
+keep their level under a linear fade, w_in + w_out = 1. Uncorrelated ones (r = 0) keep it under an equal-power fade,
+w_in^2 + w_out^2 = 1. The root is 1 in both cases. Between these cases, it removes the remaining dip or bump of up to
+1.2 dB.
 
-If the level changes by T dB from one stretch to the other, a gain of T (i / L - 1/2) dB at sample i of L tilts the loop
-back, so that both stretches are equally loud. Levels are medians over 20 ms, which a single tick does not change.
-Differences up to 1 dB stay, so that a tone keeps its amplitude exactly. A hundredth of the sound's mean power is added
-to both levels. Otherwise two pauses of unequal noise would tilt the sound between them.
+If the level changes by T dB from one stretch to the other, the loop is tilted back, so that both are equally loud:
+sample i of L gets a gain of T (i / L - 1/2) dB. Levels are medians over pieces of 20 ms, so that a single tick does not
+change them. Differences up to 1 dB stay, so that a tone keeps its amplitude exactly. A hundredth of the sound's mean
+power is added to both levels. Otherwise two pauses of unequal noise would tilt the sound between them.
 Source: M. Fink, M. Holters, U. Zölzer, "Signal-matched power-complementary cross-fading and dry-wet mixing", DAFx 2016.
 """
 
@@ -34,7 +35,7 @@ _LEVEL_PARTS = 10
 QUIET = 0.01
 """Share of a sound's mean power below which a stretch of it is hardly noticed [-] (assumed: 20 dB below its level)."""
 _LEVEL_FREE_DB, _MOST_TILTED_DB = 1.0, 12.0
-"""Level differences that are imperceptible and stay, and the largest one that is tilted."""
+"""Largest level difference that is imperceptible and stays, and largest tilt [dB]."""
 _MOST_OPPOSED = -0.5
 """Least correlation for the constant-power gain; below it the gain would lift the remainder by more than 3 dB."""
 
@@ -63,7 +64,7 @@ class Seam:
 
     @property
     def n_samples_needed(self) -> int:
-        """The least number of samples of a signal for this seam."""
+        """The least number of samples that a signal must have for this seam."""
         return self.start + self.length + self.crossfade
 
     def fitted(self, samples: ArrayLike) -> Seam:

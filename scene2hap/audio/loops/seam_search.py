@@ -1,19 +1,18 @@
-"""Search for the seam of a loop: the place where a sound continues as it began.
+"""Search for the seam of a loop: a place where a sound continues as it began.
 
 The similarity of two stretches with spectra A and B is averaged over all signals that share the seam:
 
     (2 Re sum(W A* B) + e) / (sum(W |A|^2) + sum(W |B|^2) + e)
 
 It is 1 if they are equal, less if shape *or level* differ. W is the sound's mean power spectrum. Without this weight,
-chance similarity of hiss would decide, and a hum under it would wrap out of phase. e is 2 % of the mean energy of a
-stretch. Without it, a seam in a pause would be judged by the shape of what is not heard there. The search takes two
-steps:
+chance similarity of hiss would decide, and a hum below the hiss would wrap out of phase. e is 2 % of the mean energy of
+a stretch. Without e, inaudible sound would decide about a seam in a pause. The search takes two steps:
 
-1. coarse, at 8 kHz: twelve starts, and every length from half to all of the sound behind them;
+1. coarse, at 8 kHz: twelve starts, and for each start every length from half to all of the sound behind it;
 2. at the full rate: those lengths for which a cosine through a peak of the coarse curve is highest at a whole number
    of samples.
 
-Where the level repeats, as that of a ringing phone, lengths of whole periods are preferred. A seam within a ring would
+If the level is periodic, as that of a ringing phone, lengths of whole periods are preferred. A seam within a ring would
 make that ring longer or shorter than the others.
 """
 
@@ -32,7 +31,7 @@ from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
 Candidate = tuple[float, int, int]
-"""Likeness [-], length and start [samples] of a seam."""
+"""Similarity [-], length and start [samples] of a seam."""
 
 MIN_CLIP_S = 0.1
 MAX_LOOP_S = 10.0
@@ -50,35 +49,37 @@ _FEWEST_SAMPLES = 16
 _COARSE_HZ = 8000.0
 _N_REFINED = 96
 """Candidates of the second step. For a tone of 1 kHz at 16 kHz one length in twenty wraps within half a degree; the
-candidates must include some of these."""
+candidates must include some of these lengths."""
 _AS_GOOD = 3e-5
-"""Differences of similarity that count as equal; then the longest loop wins. A phase error of 0.44 degrees in a tone
-gives this difference."""
+"""Largest difference between similarities that count as equal; of equal ones, the longest loop is chosen. A phase error
+of 0.44 degrees in a tone gives this difference."""
 _LONG_SHARES, _WORTH = (0.8, 0.65), 0.5
-"""A loop longer than this share of the clip, or one that keeps the beat, is preferred if its dissimilarity exceeds the
-best one's by at most half. In noise all seams are alike, and a longer loop is noticed later. A rhythm has few seams."""
+"""A loop that is longer than this share of the clip, or that keeps the beat, is preferred if its dissimilarity exceeds
+the least one by at most half. In noise all seams are equally good, and the repetition of a longer loop is noticed
+later. A rhythm has few good seams."""
 _UNNOTICED = 0.01
-"""Dissimilarity up to which a seam that keeps the beat is preferred in any case: a tone 8 degrees out of phase, of
-which the fade removes 0.02 dB. A ring that is a tenth of a second too long is noticed sooner."""
+"""Dissimilarity up to which a seam that keeps the beat is preferred in any case. It is that of a tone 8 degrees out of
+phase, which loses 0.02 dB in the fade. A ring that is a tenth of a second too long is noticed sooner."""
 _LEVEL_STEP_S, _SHORTEST_PERIOD_S = 0.01, 0.2
-"""Resolution of the level; shorter periods lie within the stretches that are compared."""
+"""Time resolution of the level, and shortest period of it [s]. Shorter periods fit into the compared stretches."""
 _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
-"""Bounds of a level that repeats: standard deviation over mean; autocorrelation at one period, and by how much less the
-first period may have than the best [-]; assumed."""
+"""Bounds of a periodic level [-], assumed: least standard deviation over mean; least autocorrelation at one period;
+largest difference from the best autocorrelation, up to which a shorter period is chosen."""
 _PERIOD_TOLERANCE = 0.02
-"""Largest difference from a whole number of periods [periods]; touch notices 0.18 of a rate."""
+"""Largest difference from a whole number of periods [periods]. Touch notices a change of rate by 0.18."""
 _LEAST_POWER = 0.25
-"""Least power of a loop, as a share of the sound's (assumed). Pauses fit each other; a loop of them would be silent."""
+"""Least power of a loop, as a share of the sound's (assumed). Pauses are similar to each other, but a loop of pauses
+would be silent."""
 _SILENT = 1e-9
-"""Share of the whole energy below which the similarity would be a ratio of rounding errors."""
+"""Share of the whole energy below which a similarity would be a ratio of rounding errors."""
 
 
 def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> Seam:
     """Return the best seam of a sound (n,); `others` are signals of the same length that share it.
 
-    The law of the fade follows from the first signal; `Seam.fitted` gives that of the others. Work is bounded by
-    `MAX_LOOP_S`, however long the sound.
-    Raises: AudioError: the sound is shorter than `MIN_CLIP_S`, or the others are not as long as it is.
+    The fade law follows from the first signal; `Seam.fitted` gives the law for the others. `MAX_LOOP_S` bounds the
+    computing time, for a sound of any length.
+    Raises: AudioError: the sound is shorter than `MIN_CLIP_S`, or the others have another length.
     """
     rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=AudioError)
     signals = [_centred(signal) for signal in (samples, *others)]
@@ -118,7 +119,7 @@ def _mean_power(x: Signal, width: int) -> Signal:
 
 
 def _preferred(some: list[Candidate], found: list[Candidate], unnoticed: float = _AS_GOOD) -> list[Candidate]:
-    """Return `some` of the candidates if one of them is about as good as the best, else all that were `found`."""
+    """Return the candidates `some` if one of them is about as good as the best, else all candidates, `found`."""
     best, likest = (max((likeness for likeness, _, _ in seams), default=-1.0) for seams in (found, some))
     return some if likest >= best - max(unnoticed, _WORTH * (1.0 - best)) else found
 
@@ -130,7 +131,7 @@ def _in_beat(lengths: ArrayLike, period: float) -> NDArray[np.bool_]:
 
 
 def _level_period(x: Signal, rate: float) -> float | None:
-    """Return the period of the level of a sound (n,) [samples], None where it does not repeat."""
+    """Return the period of the level of a sound (n,) [samples]; None if the level is not periodic."""
     step = max(1, round(_LEVEL_STEP_S * rate))
     level = np.sqrt((x[: len(x) // step * step].reshape(-1, step) ** 2).mean(axis=1))
     n, shortest = len(level), round(_SHORTEST_PERIOD_S * rate / step)
@@ -163,7 +164,7 @@ def _promising(
     likeness = np.zeros((_N_STARTS, n - width + 1))
     for x, weight in zip(signals, weights, strict=True):
         spectrum = scipy.fft.rfft(x, size)
-        # A zero-phase filter with the root of the weights replaces them here. It blurs the ends; `_refined` is exact.
+        # Here a zero-phase filter with the root of the weights replaces them. It blurs the ends; `_refined` is exact.
         root = np.interp(np.linspace(0, 1, len(spectrum)), np.linspace(0, 1, len(weight)), np.sqrt(weight))
         plain, strong = (scipy.fft.irfft(part, coarse_size)[:n] for part in (spectrum, spectrum * root))
         likeness = likeness + _likeness(strong, plain, width, starts) / len(signals)
@@ -177,7 +178,7 @@ def _promising(
     rows = np.concatenate(found)
     full = _has_sound(signals, fade, rows[:, 1], rows[:, 2])
     rows = rows[full] if full.any() else rows
-    # Of equal similarity the longer first: a longer loop is noticed later.
+    # Of equal similarities, the longer loop comes first: its repetition is noticed later.
     order = np.lexsort((-rows[:, 2], -np.round(rows[:, 0] / _AS_GOOD)))
     length, longest = rows[order, 2], len(signals[0]) - fade
     wanted = [length >= share * longest for share in (*_LONG_SHARES, 0.0)]
@@ -191,8 +192,8 @@ def _has_sound(signals: Sequence[Signal], settling: int, starts: Signal, lengths
     """Return a mask (n,) of the loops with at least `_LEAST_POWER` of the mean power of every signal.
 
     The first signal is the sound. The others were converted from it, and their first `settling` samples do not count:
-    a converter answers the onset of a steady tone with a burst that can exceed all that follows. Every loop would begin
-    in that burst.
+    a converter responds to the onset of a steady tone with a burst that can exceed the rest of the signal. If it
+    counted, every loop would begin in that burst.
     """
     enough = np.ones(len(starts), dtype=bool)
     for place, x in enumerate(signals):
@@ -274,7 +275,7 @@ def _power(spectra: NDArray[np.complex128], weights: Signal) -> Signal:
 
 
 def _centred(samples: ArrayLike) -> Signal:
-    """Return the samples without their mean: an offset correlates with itself everywhere and would mask all else."""
+    """Return the samples without their mean: an offset correlates with itself everywhere and would mask the sound."""
     x = np.asarray(samples, dtype=np.float64)
     if x.ndim != 1 or x.size == 0:
         raise AudioError(f"samples has shape {x.shape}; a loop is cut from one channel, (n,).")

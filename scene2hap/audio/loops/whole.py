@@ -10,11 +10,11 @@ _LAST_CYCLE_S = 0.025
 """Stretch at the end in which the last cycle may end [s] (assumed: the loss of one cycle at 40 Hz is not felt)."""
 _FADE_S = 0.005
 _AT_REST = 1e-3
-"""Share of the peak below which the clip is at rest at its end."""
+"""Share of the peak below which the end of a clip counts as at rest [-]."""
 
 
 def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:
-    """Cut a clip (n,) at the end of its last whole cycle, so that its beginning continues it; (m,), m <= n.
+    """Cut a clip (n,) at the end of its last whole cycle, so that its beginning follows it. Returns: (m,), m <= n.
 
     The clip must begin at a rising zero crossing, as one synthesized from curves does. A clip that ends at rest is
     unchanged. A clip without a rising zero crossing near its end is faded out.

@@ -1,4 +1,4 @@
-"""Sound sources. Only baking imports this room: some sources use the network."""
+"""Sound sources. Only baking imports this package: some sources use the network."""
 
 from __future__ import annotations
 

@@ -6,11 +6,11 @@ from scene2hap import checks
 from scene2hap.errors import ConfigError
 
 MAX_CANDIDATES = 5
-"""Most candidates: the number that the paper retrieves, and that it generates."""
+"""Most candidates of a source: as many as the paper retrieves, or generates."""
 
 
 def how_many(name: str, value: object) -> int:
-    """A whole number within 1..5. Raises: ConfigError: it is none."""
+    """Return the setting as a whole number within 1..5. Raises: ConfigError: it is not."""
     number = checks.number(name, value, "-", at_least=1, at_most=MAX_CANDIDATES, error=ConfigError)
     if number != int(number):
         raise ConfigError(f"{name} is {number:g}; it must be a whole number.")

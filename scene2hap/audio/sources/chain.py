@@ -1,8 +1,8 @@
 """Sources tried in order, until enough candidates remain.
 
 The paper's rule (Implementation, "Audio Retrieval/Generation"): up to five retrieved sounds; five generated ones if
-nothing was found. With one as enough, and retrieval before generation in the list, that is what happens here. What
-"remains" is what the selection will not drop for being too short.
+nothing was found. With `enough` = 1, and retrieval before generation in the list, this module does the same. A
+candidate "remains" if the selection will not drop it for being too short.
 """
 
 from __future__ import annotations
@@ -38,11 +38,10 @@ def _clips(found: object) -> list[AudioClip]:
 def gather(
     subject: str, description: VibrationDescription, sources: Sequence[AudioSource], *, enough: int = ENOUGH
 ) -> list[AudioClip]:
-    """The candidates of the first sources that together have `enough` of sufficient length, best first.
+    """Return the candidates of the first sources that together have `enough` of sufficient length, best first.
 
-    `subject` is what errors call the object. A source that fails is passed over with a `SourceWarning`, and a
-    log entry.
-    Raises: AudioError: no source has a single candidate; states the outcome of each.
+    `subject` is the object's name in errors. A source that fails is skipped with a `SourceWarning` and a log entry.
+    Raises: AudioError: no source has a candidate; the message states the outcome of each.
     """
     found: list[AudioClip] = []
     fates: list[str] = []

@@ -25,7 +25,7 @@ from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.errors import AudioError, ConfigError
 
 MAX_CLIP_S = 60.0
-"""Longest sound from a service [s] (assumed: a loop takes ten)."""
+"""Longest sound from a service [s] (assumed: a loop needs 10 s)."""
 MAX_CHANNELS = 8
 SAMPLE_RATES_HZ = (4_000, 192_000)
 
@@ -75,7 +75,7 @@ class Store:
         self.folder = Path(folder)
 
     def document(self, name: str) -> Any | None:
-        """The JSON document of that name, None where there is none that can be read."""
+        """Return the JSON document of that name; None if it is missing or cannot be read."""
         path = self.folder / name
         try:
             return json.loads(path.read_bytes()) if path.stat().st_size <= _MAX_JSON_BYTES else None
@@ -88,7 +88,7 @@ class Store:
             draft.write_text(json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False), encoding="utf-8")
 
     def clip(self, name: str, credit: Credit) -> AudioClip | None:
-        """The sound of that name, None where there is none that can be used."""
+        """Return the sound of that name; None if it is missing or cannot be used."""
         path = self.folder / name
         try:
             return read_checked(path, credit) if path.is_file() else None
@@ -96,9 +96,9 @@ class Store:
             return None
 
     def keep_clip(self, name: str, content: bytes, credit: Credit) -> AudioClip:
-        """Write a sound file, once it has proven to be one.
+        """Write a sound file, and return its sound.
 
-        Raises: AudioError: it has not, and is not kept; ConfigError: the folder cannot be written.
+        Raises: AudioError: it is no usable sound file, and is not kept; ConfigError: the folder cannot be written.
         """
         with self._draft(name) as draft:
             draft.write_bytes(content)
@@ -106,7 +106,7 @@ class Store:
 
     @contextmanager
     def _draft(self, name: str) -> Iterator[Path]:
-        """A file beside the target that takes its place, unless the block raises."""
+        """Yield a draft beside the target. It replaces the target when the block ends, unless the block raises."""
         target = self.folder / name
         draft: Path | None = None
         try:

@@ -1,4 +1,4 @@
-"""Sounds from a folder of one's own."""
+"""Sound source: a folder of the user's own sound files."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class FolderLibrary:
     """Find sounds in a folder, and in its subfolders, by the words of their names.
 
     If the folder holds a `sounds.csv`, its rows are the library instead. Columns: file (relative to the folder),
-    keywords (the file's name where empty), title, author, licence, address; all but the first may be missing.
+    keywords (the file's name if empty), title, author, licence, address; all but the first may be missing.
     Raises: ConfigError: the folder is missing, or its `sounds.csv` is not such a table.
     """
 
@@ -41,10 +41,10 @@ class FolderLibrary:
         self._require_folder()
 
     def find(self, description: VibrationDescription) -> list[AudioClip]:
-        """Up to five sounds that name the object, those that share most words with the description first.
+        """Return up to five sounds whose words name the object, those with most words of the description first.
 
-        A sound of the right verb but another object is none: a boiling kettle is no boiling pan. Files that cannot be
-        read are skipped with an `UnreadableSound` warning. Raises: ConfigError: as above.
+        A sound with the right verb but another object does not match: a boiling kettle is no boiling pan. Files that
+        cannot be read are skipped with an `UnreadableSound` warning. Raises: ConfigError: see `FolderLibrary`.
         """
         self._require_folder()
         nouns = noun_phrase(description.object_category)
@@ -66,7 +66,7 @@ class FolderLibrary:
             raise ConfigError(f"the sound library {self.folder} is not a folder. Create it, or choose another source.")
 
     def _entries(self) -> Iterator[tuple[Path, set[str], Credit]]:
-        """Every sound: path, words and credit."""
+        """Yield path, words and credit of every sound."""
         index = self.folder / INDEX_NAME
         if index.is_file():
             yield from self._listed(index)
@@ -92,7 +92,7 @@ class FolderLibrary:
                 "separated by commas."
             )
         for row in rows:
-            # A short row leaves None behind.
+            # In a short row, the missing cells are None.
             name, keywords, title, author, licence, address = (
                 (row.get(column) or "").strip()
                 for column in ("file", "keywords", "title", "author", "licence", "address")

@@ -1,4 +1,4 @@
-"""Stems of words, which sound sources compare: "Washing machines" equals "washer", "humming" equals "hum".
+"""Stems of words, for comparison in sound sources: "Washing machines" equals "washer", "humming" equals "hum".
 
 Stems are keys, not English: both sides of a comparison go through `stems`, so it does not matter that "machine"
 becomes "machin".
@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from functools import cache
 
-# Spelling (plain English) -> the usual short name of the same thing; only where the last word alone would not tell.
+# Spelling (plain English) -> the usual short name of the same thing; only where the last word alone is not enough.
 _SAME_THING = {
     "air conditioner": "aircon",
     "air conditioning": "aircon",
@@ -49,7 +49,7 @@ _LONGEST_NAME = max(len(name.split()) for name in _SAME_THING)
 
 
 def stems(text: str) -> tuple[str, ...]:
-    """The words of a text or file name in order, lower case, without numbers, plural, -ing and double endings."""
+    """Return the words of a text or file name in order: lower case, no numbers, plural, -ing or double endings."""
     spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text)
     words = [_stem(word) for word in re.findall(r"[^\W\d_]+", spaced.lower())]
     found: list[str] = []
@@ -64,13 +64,13 @@ def stems(text: str) -> tuple[str, ...]:
 
 
 def noun_phrase(category: str) -> tuple[str, ...]:
-    """The stems of what a category names: ("pan",) for "pan on a heater"; the last is the head noun. Empty if none."""
+    """Return the stems of a category's noun phrase, head noun last: ("pan",) for "pan on a heater". Empty if none."""
     phrases = (stems(part) for part in _AFTER_THE_HEAD.split(category.lower()))
     return next((phrase for phrase in phrases if phrase), ())
 
 
 def spelled_phrase(category: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The words of what a category names, as spelt, and those of its head: ("washing", "machine"), not "machine"."""
+    """Return the words of a category's noun phrase, as spelt, and its head: ("washing", "machine"), not "machine"."""
     phrases = (tuple(re.findall(r"[^\W\d_]+", part)) for part in _AFTER_THE_HEAD.split(category.lower()))
     words = next((phrase for phrase in phrases if phrase), ())
     for n in range(min(_LONGEST_NAME, len(words)), 1, -1):
@@ -91,7 +91,7 @@ def _stem(word: str) -> str:
         word = word[:-2]
     elif len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")):
         word = word[:-1]
-    # "ring" and "string" have no vowel before -ing: there it belongs to the word.
+    # "ring" and "string" have no vowel before -ing, so -ing belongs to the word.
     if word.endswith("ing") and len(word) > 4 and re.search("[aeiouy]", word[:-3]):
         word = word[:-3]
     if len(word) > 2 and word[-1] == word[-2]:

@@ -3,8 +3,8 @@
 Two sources are distinct if they differ by two JNDs of frequency, or by one of frequency and two of level
 (`distinctness`). The order of levels is kept, and no source moves to a frequency at which the actuator cannot reach its
 level. The distances use the widest published JND of frequency if they fit, else the middle one, by which distinctness
-is measured. If these do not fit either, sources that differ in rhythm may share a frequency. In a scene with too many
-sources, the result is as distinct as the limits allow.
+is measured. If distances by the middle JND do not fit either, sources that differ in rhythm may share a frequency. In a
+scene with too many sources, the result is as distinct as the limits allow.
 """
 
 from __future__ import annotations
@@ -55,5 +55,5 @@ def spread(
 
 
 def _placement(voice: Voice, target_hz: float, level_db: float) -> Placement:
-    """Return where a voice is placed: exactly at its own frequency if it is not moved, so that no shift is made."""
+    """Return the placement of a voice: exactly its own frequency if it is hardly moved, so that no shift is made."""
     return Placement(voice.own_hz if abs(target_hz / voice.own_hz - 1.0) < _UNMOVED else target_hz, level_db)

@@ -1,7 +1,7 @@
-"""Move many sources apart: each in turn takes the place with the least conflict, until none moves.
+"""Move many sources apart by iterated best response: each in turn takes the place of least cost, until none moves.
 
-A step adds the missing distances to other voices, in octaves, to the cost of the move. Places are a grid of 49
-frequencies and 13 levels. The result is not exact, unlike the programme's, but a hundred voices take only seconds.
+The cost is that of the move plus the weighted missing distances to other voices [oct]. Places are a grid of 49
+frequencies and 13 levels. Unlike `linear_programme`, this is not exact, but a hundred voices take only seconds.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _SHORTAGE_WEIGHT = 1000.0
 
 
 def give_way(room: Room) -> Outcome:
-    """Return the better of two results: starting from the present places, and from neighbours that are spread out."""
+    """Return the better of two results: from the present frequencies, and from the ends of the ranges."""
     n = len(room.x0)
     ranks = np.argsort(np.argsort(room.x0, kind="stable"), kind="stable")
     apart = np.where(ranks < n / 2, room.x_low, room.x_high)
@@ -38,7 +38,7 @@ def _settled(room: Room, start: Array) -> Outcome:
 
 
 class _Neighbours:
-    """The voices from which a voice must differ, or stay stronger or weaker than, and by how much [dB]."""
+    """The voices from which a voice must differ, and those whose level must stay below or above, with the gaps [dB]."""
 
     def __init__(self, room: Room, i: int) -> None:
         self.partners = np.array([b if a == i else a for a, b in room.pairs if i in (a, b)], dtype=np.int64)

@@ -1,7 +1,8 @@
 """Move few sources apart, each as little as possible, by a mixed-integer linear programme.
 
-For voice i, x_i [oct] is the logarithm of its frequency and l_i [dB] its level. Every pair has two binaries, which
-voice is higher (o) and whether their levels differ (m), and a slack s [oct], the missing distance:
+For voice i, x_i [oct] is the logarithm of its frequency and l_i [dB] its level. X and Y are the limits of their moves.
+Every pair has two binaries, which voice is higher (o) and whether their levels differ (m), and a slack s [oct], the
+missing distance. M and M' switch a row off:
 
     minimise  sum_i |x_i - x_i0| / X + |l_i - l_i0| / Y + W sum_ij s_ij
     x_j - x_i >= d (2 - m) - s - M (1 - o)       d [oct] one JND of frequency: two of them, or one and two of level
@@ -9,7 +10,7 @@ voice is higher (o) and whether their levels differ (m), and a slack s [oct], th
     l_i - l_j >= 2 J - M' (1 - m)                i the stronger of the two; J [dB] one JND of level
     l_i >= l_j + least gap                       the order of intensities
 
-W is so large that slack remains only where the limits force it. The solution is exact, and slow beyond some thirty
+W is so large that slack remains only where the limits force it. The solution is exact, but slow beyond some thirty
 pairs, since each pair doubles the work.
 """
 
@@ -28,7 +29,7 @@ _NODES = 1000
 
 
 class Programme:
-    """The variables in a row: x, its move, l, its move (n each), then s, o, m (one of each per pair)."""
+    """The programme. Its variables in order: x, moves of x, l, moves of l (n each), then s, o, m (one per pair)."""
 
     def __init__(self, room: Room) -> None:
         self._room = room
@@ -38,7 +39,7 @@ class Programme:
         self._least: list[float] = []
 
     def solve(self) -> Outcome:
-        """The best placement found."""
+        """Return the best placement found."""
         room, n, p = self._room, self._n, len(self._pairs)
         for i in range(n):
             for value, move, at in ((i, n + i, room.x0[i]), (2 * n + i, 3 * n + i, room.l0[i])):
@@ -68,7 +69,7 @@ class Programme:
         room, n, p = self._room, self._n, len(self._pairs)
         jnd = room.jnd_oct
         slack, order, mode = (4 * n + k * p + number for k in range(3))
-        # No pair can be further out of order than its ranges allow.
+        # M: the ranges of the pair allow no larger violation.
         most = 2.0 * jnd + max(room.x_high[i] - room.x_low[j], room.x_high[j] - room.x_low[i])
         self._row({j: 1.0, i: -1.0, mode: jnd, slack: 1.0, order: -most}, 2.0 * jnd - most)
         self._row({i: 1.0, j: -1.0, mode: jnd, slack: 1.0, order: most}, 2.0 * jnd)

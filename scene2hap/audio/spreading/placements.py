@@ -58,10 +58,10 @@ class Voice:
 
 @dataclass(frozen=True)
 class Room:
-    """Bounds of frequency x (n,) [oct, re 1 Hz] and level l (n,) [dB] around where the voices are, x0 and l0.
+    """Bounds of frequency x (n,) [oct, re 1 Hz] and level l (n,) [dB] around their present values, x0 and l0.
 
     `jnd_oct` is one JND of frequency [oct]; `octaves` and `level_db` are the limits, which also weigh the two kinds of
-    moves against each other; `counts_rhythm` lets voices of two rhythms share a frequency.
+    moves against each other; `counts_rhythm` allows voices of two rhythms to share a frequency.
     """
 
     voices: tuple[Voice, ...]
@@ -158,7 +158,7 @@ class Outcome:
 
 
 def shortage_oct(octaves: Array, level_db: Array, jnd_oct: float) -> Array:
-    """Return the distance that pairs miss to two JNDs in frequency, or to one in frequency and two in level [oct]."""
+    """Return the distance that pairs lack for two JNDs in frequency, or for one in frequency and two in level [oct]."""
     by_frequency = np.maximum(0.0, 2.0 * jnd_oct - octaves)
     missing_level = np.maximum(0.0, 2.0 - level_db / LEVEL_STEP_DB) * jnd_oct
     return np.minimum(by_frequency, np.maximum(np.maximum(0.0, jnd_oct - octaves), missing_level))

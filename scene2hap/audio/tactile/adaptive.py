@@ -1,16 +1,17 @@
-"""Adaptive converter: a band around the source's own frequency, moved clear of the scene's other sources.
+"""Adaptive converter: a band around the source's own frequency, moved away from the scene's other sources.
 
-A fixed band-pass leaves the same few hundred hertz of every source, so that different sounds feel alike. This one:
+A fixed band-pass keeps the same few hundred hertz of every source, so that different sounds feel alike. This converter:
 
 1. finds the source's own frequency: the strongest component that this actuator can render at the source's level
    (`anchor`). The context gives it if the whole sound was analysed; else it is tracked while the sound plays;
-2. keeps a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave), narrow enough for
-   the own frequency to dominate, wide enough (f / Q at -6 dB) for the beats and irregularities typical of a machine;
+2. keeps a band around it: two trapezoidal state-variable band-passes in series (12 dB per octave). The band is narrow
+   enough for the own frequency to dominate, and wide enough (f / Q at -6 dB) for the beats and irregularities of a
+   machine;
 3. moves that band as a whole to the target given by `spreading`, or to the nearest frequency within a third of an
-   octave that is clear of the neighbours.
+   octave that is two JNDs from the neighbours.
 
 A band that moves is cross-faded, so that a source whose pitch changes does not click.
-Source: the band-pass is the paper's; that it should follow the sound is its own outlook (signals "felt too similar").
+Source: the paper's band-pass, and its outlook that the band should follow the sound (signals "felt too similar").
 """
 
 from __future__ import annotations
@@ -31,8 +32,8 @@ from scene2hap.errors import ConfigError
 
 _LOOK_S = 0.5
 _RESTS_S = (0.5, 1.0, 2.0, 4.0)
-"""A sound without a given frequency is analysed for half a second, which resolves 2 Hz, then left for half a
-second, and for longer the longer it has not changed."""
+"""A sound without a given frequency is analysed for half a second, which resolves 2 Hz. The pause before the next
+analysis grows from 0.5 to 4 s while the frequency does not change."""
 _LOOK_RATE_HZ = 8000
 _FADE_S = 0.05
 _MOVED = 0.25 * FREQUENCY_WEBER
@@ -52,8 +53,8 @@ _SHIFTED = 0.75
 class Adaptive:
     """Keep a band around the source's own frequency, and shift it to the source's target frequency.
 
-    Parameters: q 0.5..20 [-] of each of the two filters; shift_octaves 0..1, how far the band may be moved where no
-    target is given.
+    Parameters: q 0.5..20 [-] of each of the two filters; shift_octaves 0..1, how far the band may be moved if no target
+    is given.
     Raises: ConfigError: outside these bounds, or a sample rate below 1 kHz.
     """
 
@@ -74,13 +75,13 @@ class Adaptive:
         return StageStream(_Tracking(self, sample_rate_hz, context))
 
     def band(self, sample_rate_hz: float, context: ConversionContext, own_hz: float) -> list[Stage]:
-        """Return the filters for a source with this own frequency, and its shift, if any."""
+        """Return the band-passes for a source with this own frequency, and the frequency shift if one is needed."""
         own_hz = min(own_hz, _HIGHEST * sample_rate_hz)
         target_hz = min(self._target_hz(context, own_hz), _HIGHEST * sample_rate_hz)
         q = min(self.q, context.band_q or self.q)
         stages: list[Stage] = [band_around(own_hz, q, sample_rate_hz)]
         if target_hz != own_hz:
-            # A band from far above would be too wide for the range below its target.
+            # A band that is moved far down would be too wide for the range below its target.
             half_hz = _SHIFTED * (target_hz if target_hz < own_hz / 2.0 else own_hz)
             # The mirror image of a wide band is further away, in proportion to its middle.
             high_hz = max(own_hz + half_hz, 0.5 * own_hz * (1.0 / q + (q**-2 + 4.0) ** 0.5) if context.band_q else 0.0)
@@ -117,7 +118,7 @@ def clear_of(own_hz: float, neighbours_hz: tuple[float, ...], low_hz: float, hig
 
 
 class _Tracking:
-    """Analyses the sound in stretches of fixed length, for any block size, and moves the band along.
+    """Analyses the sound in stretches of fixed length, for any block size, and moves the band with the own frequency.
 
     Until the end of the first stretch, the band is the paper's, around 250 Hz. A narrower band passes less of the sound
     and is amplified in proportion, so that the level does not jump.

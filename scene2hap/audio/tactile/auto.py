@@ -1,12 +1,12 @@
 """The default converter: the adaptive band, plus roughness and onsets.
 
 People's preference depends on the sound (Sound2Hap, CHI 2026). A hum is recognized by its frequency, an engine by its
-roughness, a tick by its moment. The output has two parts, a bed for the continuous sound and bursts for onsets:
+roughness, a tick by its time. The output has two parts, a bed for the continuous sound and bursts for onsets:
 
 - The bed goes through `adaptive`. If the whole sound is known beforehand, the bed also follows its level (`following`),
   which needs too much latency for a live stream.
-- If the sound's strongest component is too low to be felt as a tone (the 49 Hz of a compressor on a phone's motor), the
-  bed is modulated by that component's waveform r, whose envelope is e: y = bed (1 + r / 2e).
+- If the sound's strongest component is too low to be felt as a tone (the 49 Hz of a compressor on a phone's motor),
+  that component modulates the bed: y = bed (1 + r / 2e), with its waveform r and its envelope e.
 - If it is too high, as in a beep of 2 kHz, only its envelope is felt, on a carrier (`envelope`). A shifted band would
   lose the other notes of a melody.
 - Each short onset becomes a burst (`onsets`).
@@ -28,11 +28,11 @@ from scene2hap.audio.tactile.roughness import Roughened
 from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream
 
 _CARRIERS_HZ = (100.0, 300.0)
-"""Range of carriers [Hz]: a burst of 8 ms still has a frequency, and touch is sensitive."""
+"""Range of carriers [Hz], in which a burst of 8 ms still has a frequency, and touch is sensitive."""
 
 _ROOM = 0.5
-"""Gain where the level of the whole sound is known. It is set afterwards; bursts, and the first harmonic of a clipped
-sound, may exceed the peak of the sound."""
+"""Gain if the level of the whole sound is known. It leaves room for bursts, and for the first harmonic of a clipped
+sound, which may exceed the peak of the sound. The level is set afterwards."""
 
 
 @dataclass(frozen=True)
@@ -43,14 +43,14 @@ class Auto(Adaptive):
         """Start a conversion at a sample rate."""
         beep_hz = _beep_hz(context)
         if beep_hz is not None:
-            # Without the octaves below, hum and noise of the room do not fill the pauses of the beep.
+            # This high-pass removes hum and noise of the room, which would fill the pauses of the beep.
             above = butter(2, min(0.5 * beep_hz, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos")
             stages: list[Stage] = [SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages]
         else:
             stages = [*super().stream(sample_rate_hz, context).stages]
         bed: Stage = Chain(stages)
         if context.rough_hz is not None:
-            # A component that is felt elsewhere, as roughness, is the bed's own band.
+            # If the rough component is also the own frequency, the bed's own band passes it.
             is_own = context.rough_hz == context.own_hz
             band = stages[0] if is_own else band_around(context.rough_hz, BAND_Q, sample_rate_hz)
             bed = Roughened(stages, band, context.rough_hz, sample_rate_hz)

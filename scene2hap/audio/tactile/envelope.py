@@ -2,10 +2,10 @@
 
     e = h * |x| pi / 2        y = e sin(2 pi f_c t)
 
-h is a Butterworth low-pass of order 2; pi / 2 makes e the amplitude of a sine. Rhythm survives, pitch does not: for
-narrow-band actuators (LRA), clicks and speech-like sounds. With different carriers sources stay apart.
-Source: common practice in vibrotactile displays of sound; the carrier of 250 Hz is where the skin is
-most sensitive (Verrillo 1963).
+h is a Butterworth low-pass of order 2; pi / 2 makes e the amplitude of a sine. The rhythm is kept, the pitch is lost.
+The converter suits narrow-band actuators (LRA), clicks and speech-like sounds. Different carriers keep sources apart.
+Source: common practice in vibrotactile displays of sound; at the carrier of 250 Hz, the skin is most sensitive
+(Verrillo 1963).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class EnvelopeCarrier:
     """Modulate a carrier by the sound's envelope up to `envelope_hz`.
 
     `carrier_hz` None takes the target frequency of the context, else the actuator's resonance, else 250 Hz.
-    Raises: ConfigError: not above 0; or, once the rate is known, above 0.49 sample rates.
+    Raises: ConfigError: a frequency is not above 0; or, once the sample rate is known, above 0.49 times this rate.
     """
 
     carrier_hz: float | None = None
@@ -56,7 +56,7 @@ class _EnvelopeStage:
         self._position = 0
 
     def run(self, x: Signal) -> Signal:
-        # Butterworth overshoots, and a negative envelope would turn the carrier's phase.
+        # A Butterworth filter overshoots, and a negative envelope would invert the carrier's phase.
         envelope = np.maximum(self._smooth.run(np.abs(x)) * (0.5 * math.pi), 0.0)
         y: Signal = self._carrier.times(envelope, self._position)[1]
         self._position += len(x)

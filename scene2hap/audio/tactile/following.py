@@ -1,8 +1,8 @@
-"""Level follower: make the bed rise and fall with the whole sound, and not by itself.
+"""Level follower: keep the level of the bed (the continuous part of a vibration) in step with that of the whole sound.
 
-A narrow band of steady noise, or a few beating partials, has an envelope of its own: a fan whose level stays within
-1 dB would vary by 6 dB. With the levels L of sound and bed in 60 ms, and M the level of the whole bed relative to the
-whole sound (if that is unknown, the mean of their difference over two seconds, weighted by energy):
+The envelope of a narrow band of steady noise, or of a few beating partials, varies: the band of a fan whose level stays
+within 1 dB would vary by 6 dB. L are the levels of sound and bed in 60 ms. M is the level of the whole bed relative to
+the whole sound; if it is unknown, M is the mean of their difference over two seconds, weighted by energy:
 
     difference d = L_bed - L_sound        gain -(d - M) + sign(d - M) `FREE_DB`   where |d - M| > `FREE_DB`, else 0 dB
 
@@ -30,7 +30,7 @@ _NOTHING = 1e-12
 
 
 class Following:
-    """A `Stage` that keeps a bed at the level of its sound, up to a constant."""
+    """A `Stage` that keeps the level of a bed at a constant difference from that of its sound."""
 
     def __init__(self, bed: Stage, sample_rate_hz: float, bed_db: float | None = None) -> None:
         self._bed, self._bed_db = bed, bed_db
@@ -42,7 +42,7 @@ class Following:
         self._window = window / window.sum()
         self._forget = float(np.exp(-STEP_S / _MEAN_S))
         self._means = np.zeros((2, 1))
-        self._gain: float | None = None  # where the next step begins
+        self._gain: float | None = None  # at the beginning of the next step
 
     def run(self, x: Signal) -> Signal:
         """Return the samples whose level is known."""
@@ -101,7 +101,7 @@ def _ratio_db(energies: Signal) -> Signal:
 
 @compiled
 def faded(y: Signal, gains: Signal, step: int) -> Signal:
-    """Apply a gain that moves in a straight line from one of gains (n + 1,) to the next in each of n steps of y."""
+    """Apply a gain that changes linearly from one of gains (n + 1,) to the next in each of n steps of y."""
     rising = np.arange(step) / step
     ramp = (gains[1:] - gains[:-1])[:, None] * rising
     ramp += gains[:-1, None]

@@ -2,9 +2,9 @@
 
 For sounds above the range of touch: beeps, whines, glass. The band is shifted by a fixed number of hertz
 (`ShiftStage`), so that its envelope and its beats do not change.
-Source: Okazaki, Kajimoto and Hayward 2012/2015 move audio into the tactile range so; Merchel and Altinsoy recommend it
-with compression. Differs: they divide frequencies by powers of two, which keeps harmonic ratios and needs a pitch; a
-shift by hertz needs none and works on noise as well.
+Source: Okazaki, Kajimoto and Hayward 2012/2015 move audio into the tactile range in this way; Merchel and Altinsoy
+recommend it with compression. Differs: they divide frequencies by powers of two, which keeps harmonic ratios but needs
+a pitch. A shift by hertz needs no pitch and works on noise as well.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ class FrequencyShift:
     """Shift the band `low_hz`..`high_hz` by `shift_hz` (negative is down) and drop the rest.
 
     The default moves 300..1250 Hz to 50..1000 Hz, in every context. Components that would end below 10 Hz are dropped.
-    Raises: ConfigError: bounds that are not rising, or a band that would leave 10 Hz below itself; once the rate is
-    known, a band that does not begin below 0.45 sample rates.
+    Raises: ConfigError: bounds that are not rising, or a band that would begin below 10 Hz; once the sample rate is
+    known, a band that does not begin below 0.45 times this rate.
     """
 
     shift_hz: float = -250.0

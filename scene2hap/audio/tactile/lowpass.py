@@ -23,7 +23,7 @@ _ORDER = 4
 class Lowpass:
     """Keep everything below `cutoff_hz` [Hz], by a low-pass of order 4.
 
-    Raises: ConfigError: not above 0, or, once the rate is known, above 0.49 sample rates.
+    Raises: ConfigError: `cutoff_hz` is not above 0; or, once the sample rate is known, above 0.49 times this rate.
     """
 
     cutoff_hz: float = 250.0

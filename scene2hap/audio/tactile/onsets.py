@@ -6,11 +6,11 @@ means S:
 
     onset where E > 10 S in either      burst sqrt(2 (E_max - S)) hann(t / T) sin(2 pi f t),   T 8 ms (sharp) to 20 ms
 
-The irregularity of a machine stays within that factor, and a steady sound is unchanged, bit for bit. The stage has a
+The irregularity of a machine stays below that factor, and a steady sound is unchanged, bit for bit. The stage has a
 latency of 10 ms, in which it measures the height of an onset.
 
-If the whole sound is known, so is the level of the bed relative to it. Then a burst has the energy of its onset, of
-60 ms at most, at that level, so that events and bed keep their relation. The latency is 60 ms.
+If the whole sound is known, the level of the bed relative to it is known as well. Then the energy of a burst is that of
+its onset (at most 60 ms) times this ratio, so that events and bed keep their relation. The latency is 60 ms.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ RISE = 10.0
 """Ratio of energy to its slow mean that makes an onset (tuned: ticks of a clock do, pulses of a chainsaw do not)."""
 MEAN_S = 0.06
 APART_S, LOUDER = 0.025, 4.0
-"""Onsets closer than this [s] are one, unless the later has this much more energy: a stroke may begin with a scrape."""
+"""Closer onsets [s] are one, unless the later has this many times the energy: a stroke may begin with a scrape."""
 FAINTEST = 1e-4
 """Energy relative to the recent maximum below which nothing is an onset (-40 dB)."""
 QUIETEST = 1e-7
@@ -43,11 +43,11 @@ SHARP_S, DULL_S = 0.008, 0.020
 SPARED_S = 0.06
 """How long after an onset the bed's input is limited to the energy before it [s]; otherwise its filters would ring."""
 SUSTAINED, AFTER = 0.5, (2, 4)
-"""An onset is sustained, like a syllable or a knock, if this share of its energy remains these steps after its peak."""
+"""A sustained onset, like a syllable or a knock, keeps this share of its energy within these steps after its peak."""
 TICKS_HZ = 1000.0
 ABOVE_BED, AROUND_S = 8.0, 0.25
-"""Largest ratio of a burst to the bed around it (18 dB), and the extent of that [s]; a stronger burst would use up the
-head-room in which the bed must reach its level."""
+"""Largest ratio of a burst to the bed before it (18 dB), and the time over which that bed is measured [s]. A stronger
+burst would use up the head-room that the bed needs to reach its level."""
 TICK_ABOVE_BED = 3.0
 """Least ratio of a burst to the bed around it, if a hum hides a tick from the energy of the whole sound (10 dB)."""
 NO_BED = 0.01
@@ -61,10 +61,10 @@ APART, SPARED = round(APART_S / STEP_S), round(SPARED_S / STEP_S)
 
 
 class WithOnsets:
-    """A `Stage`: the bed through its own stages, without onsets, plus a burst of `carrier_hz` for each onset.
+    """A `Stage`: the bed of the sound without its onsets, plus a burst of `carrier_hz` for each onset.
 
     A bed that follows the level of the sound renders sustained onsets by itself. If the level of the bed relative to
-    the sound is known (`bed_db`), a burst has the energy of its onset, at that level.
+    the sound is known (`bed_db`), a burst has the energy of its onset times that ratio.
     """
 
     def __init__(
@@ -82,7 +82,7 @@ class WithOnsets:
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
         self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
         self._energies = StepEnergies(self._step), StepEnergies(self._step)  # of the sound and of its ticks
-        self._waiting = np.empty(0)  # of the sound, not decided
+        self._waiting = np.empty(0)  # samples whose onsets are not decided
         self._watch, self._n_made = _Watch(spares_sustained=bed_follows), 0
         self._past = np.zeros(max(1, round(AROUND_S * sample_rate_hz)))  # of the bed
         longest = max(1, round(DULL_S * sample_rate_hz))
@@ -144,8 +144,8 @@ class WithOnsets:
 
 
 class _Due(NamedTuple):
-    """An onset whose burst is not made yet: begin [samples or steps], energy of its highest step, share of that after
-    `LOOK` steps, sum of the energies of its steps, and True if the energy of the whole sound hardly rises."""
+    """An onset whose burst is not made yet: begin [samples or steps], energy of its highest step, share of this energy
+    after `LOOK` steps, sum of the energies of its steps, and True if the energy of the whole sound hardly rises."""
 
     begin: int
     height: float
@@ -156,9 +156,9 @@ class _Due(NamedTuple):
 
 @compiled
 def followed(energies: Signal, mean: float, loudest: float, n_known: int) -> tuple[Signal, Signal, float, float]:
-    """Return the slow mean and the recent maximum of energies (n,) before each of them (n,), and both at the end.
+    """Return slow mean and recent maximum before each of the energies (n,), both (n,), and their values at the end.
 
-    Parameters: mean, loudest : both after the n_known earlier steps.
+    Parameters: mean, loudest : slow mean and recent maximum after the n_known earlier steps.
     """
     means, loudests = [], []
     for n, energy in enumerate(energies.tolist(), n_known):
@@ -167,7 +167,7 @@ def followed(energies: Signal, mean: float, loudest: float, n_known: int) -> tup
         if n < WARM:
             mean += (energy - mean) / (n + 1)
         else:
-            # An onset raises the mean little by little, or the next one would be missed.
+            # The mean rises slowly in an onset; otherwise the next onset would be missed.
             mean += (min(energy, 8.0 * mean + QUIETEST) - mean) / WARM
         loudest = max(energy, FORGET * loudest)
     return np.array(means), np.array(loudests), mean, loudest
@@ -177,11 +177,12 @@ def followed(energies: Signal, mean: float, loudest: float, n_known: int) -> tup
 def onsets_among(
     sound: Signal, ticks: Signal, n: int, n_known: int, memory: Signal, spares_sustained: bool
 ) -> tuple[list[tuple[int, float, float]], Signal]:
-    """Find the onsets that begin in the first n steps, and how far the bed's input is lowered after each.
+    """Find the onsets that begin in the first n steps, and the attenuation of the bed's input after each.
 
-    Parameters: sound, ticks : energy, slow mean and recent maximum of both bands by step (3, m), as far beyond n as an
-    onset is measured; n_known : number of earlier steps; memory : of the last onset its step, the energy of the sound
-    before it, and its own (3,); it is carried on. spares_sustained : no burst for sustained onsets.
+    Parameters: sound, ticks : energy, slow mean and recent maximum of each step of both bands (3, m), where m exceeds n
+    by the steps that measure an onset; n_known : number of earlier steps; memory : step of the last onset, energy of
+    the sound before it, and energy of the onset (3,), updated by this function; spares_sustained : no burst for
+    sustained onsets.
     Returns: onsets (step, energy, share of the energy after `LOOK` steps); amplitude of the bed's input (n,) [-].
     """
     onsets, shares = [], np.ones(n)
@@ -195,7 +196,7 @@ def onsets_among(
             since = number - last
             least = 0.0 if since >= APART else LOUDER * height_before
             if height > least and not (is_sustained and spares_sustained):
-                # Between strokes in quick succession the mean has not recovered: the energy before the first is kept.
+                # Between quick strokes the mean does not recover, so the energy before the first stroke is kept.
                 before = float(sound[1, k]) if since >= SPARED else before
                 last, height_before = number, height
                 onsets.append((k, height, left))
@@ -207,8 +208,8 @@ def onsets_among(
 
 
 def _highest(bands: Sequence[Signal], k: int) -> tuple[float, float, bool]:
-    """Return of the higher onset of both bands at a step its energy, the share of that after `LOOK` steps, and True if
-    it is sustained; an energy of 0 without an onset."""
+    """Return the higher onset of both bands at a step: its energy (0 without an onset), the share of this energy after
+    `LOOK` steps, and True if it is sustained."""
     found = 0.0, 0.0, False
     for band in bands:
         energy, mean, loudest = band[:, k].tolist()
@@ -233,7 +234,7 @@ class _Watch:
         self._memory = np.array([-float(SPARED), 0.0, 0.0])
 
     def decided(self, *energies: Signal) -> tuple[list[_Due], Signal]:
-        """Return what `onsets_among` finds in the steps that these energies (n,) of the sound and its ticks decide."""
+        """Return the result of `onsets_among` for the steps that these energies (n,) of sound and ticks decide."""
         n_known = self.n_decided + self._steps[0].shape[1]
         for band, of_band in enumerate(energies):
             means, loudests, mean, loudest = followed(of_band, *self._means[band], n_known)

@@ -1,6 +1,6 @@
-"""Cosine and sine of a frequency by sample number, and products of signals with them.
+"""Oscillator: cosine and sine of a frequency by sample number, and products of signals with them.
 
-Values are looked up in a table of fixed size that is turned to its place, so that blocks of any size give the same
+Values come from a table of fixed size, whose phase is rotated to the sample number. So blocks of any size give the same
 bits, and the phase does not drift over 10^9 samples.
 """
 
@@ -35,13 +35,13 @@ class Oscillator:
         return multiplied(x, self._table, self._cycles, start)
 
     def joined(self, z: Floats, start: int) -> Floats:
-        """Return the first row of a signal (2, n) times cosine plus its second times sine (n,)."""
+        """Return the first row of a signal (2, n) times cosine plus its second row times sine (n,)."""
         return summed(z, self._table, self._cycles, start)
 
 
 @compiled
 def multiplied(x: Floats, table: Floats, cycles: float, start: int) -> Floats:
-    """Multiply a signal (n,) with an oscillator. Returns: (2, n).
+    """Multiply a signal (n,) by an oscillator. Returns: (2, n).
 
     Parameters: table : cosine and sine of the first `SIZE` samples (2, SIZE); cycles : per sample; start : the first
     sample's number.
@@ -51,7 +51,7 @@ def multiplied(x: Floats, table: Floats, cycles: float, start: int) -> Floats:
 
 @compiled
 def summed(z: Floats, table: Floats, cycles: float, start: int) -> Floats:
-    """Multiply a signal (2, n) with an oscillator and add both rows (n,). Parameters: as for `multiplied`."""
+    """Multiply a signal (2, n) by an oscillator and add both rows (n,). Parameters: see `multiplied`."""
     y = z * _values(table, cycles, start, z.shape[1])
     return np.asarray(y[0] + y[1])
 

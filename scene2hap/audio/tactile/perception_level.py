@@ -1,7 +1,7 @@
 """Perception-level translation: loudness and roughness of the sound become intensity and roughness of the vibration.
 
-Every 93 ms the sound is reduced to two numbers and rendered as two sines, 175 and 210 Hz. Their sum A is felt as
-intensity, the share S of the upper one as roughness, since they beat at 35 Hz:
+Every 93 ms, the sound is reduced to two numbers, which are rendered as two sines of 175 and 210 Hz. The sum A of their
+amplitudes is felt as intensity. The share S of the upper sine is felt as roughness, since the sines beat at 35 Hz:
 
     L_a = C sum_k 20 lg(c |X_k|) / L60(f_k)              loudness heard, 25..6400 Hz
     R_a = sum over pairs of spectral peaks of ((x_m x_M)^0.1 / 2) (2 x_m / (x_m + x_M))^3.11
@@ -11,8 +11,8 @@ intensity, the share S of the upper one as roughness, since they beat at 35 Hz:
 
 x_m <= x_M amplitudes of a pair of peaks, f_m [Hz] its lower frequency, L60 [dB] the 60-phon contour of ISO 226:2003.
 Source: J. Lee and S. Choi, "Real-time perception-level translation from audio signals to vibrotactile effects", CHI
-2013; equations and constants by way of the public re-implementation in Sound2Hap (Iris1215/Sound2Hap). Differs: frames
-last equally long at any rate, and amplitude and share glide from frame to frame, where the sources step.
+2013; equations and constants from the public re-implementation in Sound2Hap (Iris1215/Sound2Hap). Differs: frames have
+the same duration at any sample rate, and amplitudes change linearly from frame to frame; in the sources they jump.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _LOW_HZ, _HIGH_HZ = 175.0, 210.0
 _BAND_HZ = (25.0, 6400.0)
 _PEAKS_DB = -40.0
 _MAX_PEAKS = 64
-"""Most peaks of a frame, since pairs grow with their square; the strongest 64 include all audible ones (assumed)."""
+"""Most peaks of a frame: pairs grow with their square; the strongest 64 include all audible ones (assumed)."""
 _LOUDNESS, _AMPLITUDE = 0.065, 1.37
 _INTENSITY_GAIN, _INTENSITY_OFFSET = 0.035, 0.4
 
@@ -53,10 +53,10 @@ _CONTOUR_DB = (
 class PerceptionLevel:
     """Turn loudness into intensity and roughness into roughness, as sines of 175 and 210 Hz (Lee and Choi 2013).
 
-    Live, it delays the signal by one frame; in a loop it does not.
+    A live signal is delayed by one frame; a loop is not.
     `full_scale` is the amplitude A, in the unit of the source's model, that is rendered as 1; assumed, since that unit
-    is tied to the actuator it was fitted on.
-    Raises: ConfigError: `full_scale` is not above 0, or, once the rate is known, it is below 1 kHz.
+    depends on the actuator for which the model was fitted.
+    Raises: ConfigError: `full_scale` is not above 0; or, once the sample rate is known, this rate is below 1 kHz.
     """
 
     full_scale: float = 4.0

@@ -1,4 +1,4 @@
-"""Roughness: modulate a bed by a low component of its sound."""
+"""Roughness: amplitude modulation of a bed (the continuous part of a vibration) by a low component of its sound."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from scene2hap.audio.tactile.stages import Chain, Signal, SosStage, Stage
 from scene2hap.compiled import compiled
 
 DEPTH = 0.5
-"""Depth of the modulation. It is felt as rough (the least depth of a rhythm is 0.2, see `distinctness`), and its side
-bands stay 12 dB below the bed, so that they do not dominate where touch is more sensitive."""
+"""Depth of the modulation. It is felt as roughness (the least depth of a rhythm is 0.2, see `distinctness`). Its side
+bands are 12 dB below the bed, so that they do not dominate at frequencies to which touch is more sensitive."""
 NOTHING = 1e-6
 """Amplitude below which there is no component (-120 dB re full scale)."""
 _SLOWER = 4.0
-"""How much slower than a rough component its envelope follows [-]."""
+"""Frequency of a rough component over the cut-off of its envelope [-]."""
 
 
 class Roughened:
-    """A `Stage`: a bed without latency, of stages in series, modulated by what a band around `rough_hz` passes.
+    """A `Stage`: a bed of stages in series without latency, modulated by the output of a band-pass at `rough_hz`.
 
-    A band that is the bed's first stage is filtered once for both.
+    If the bed's first stage is this band-pass, it runs once for both.
     """
 
     def __init__(self, bed: Sequence[Stage], band: Stage, rough_hz: float, sample_rate_hz: float) -> None:
@@ -37,12 +37,15 @@ class Roughened:
         return modulated(self._bed.run(low if self._is_shared else x), low, self._envelope.run(np.abs(low)))
 
     def rest(self) -> Signal:
-        """Return nothing, like the stages of the bed."""
+        """Return no samples: the stages of the bed hold none back."""
         return np.empty(0)
 
 
 @compiled
 def modulated(bed: NDArray[np.float64], low: NDArray[np.float64], mean: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Modulate a bed (n,) by a low component (n,) over its envelope, from its rectified mean (n,). Returns: (n,)."""
+    """Modulate a bed (n,) by a low component (n,), divided by its envelope. Returns: (n,).
+
+    Parameters: mean : the low-passed absolute value of the component (n,), from which the envelope follows.
+    """
     envelope = np.maximum(mean * (0.5 * np.pi), NOTHING)
     return np.asarray(bed * (1.0 + DEPTH * np.clip(low / envelope, -1.0, 1.0)))

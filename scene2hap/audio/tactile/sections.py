@@ -1,4 +1,4 @@
-"""Second-order sections in series, with a memory from one stretch of a sound to the next.
+"""Second-order filter sections in series, whose state is carried from one block to the next.
 
     y = b0 x + z0        z0 = b1 x + z1 - a1 y        z1 = b2 x - a2 y
 
@@ -16,14 +16,14 @@ from scene2hap.compiled import compiled
 Floats = NDArray[np.float64]
 
 VANISHED = 1e-200
-"""A filter's memory below this cannot reach a float32 any more, but would slow the processor down as it decays."""
+"""A filter state below this cannot affect a float32 any more, but would slow the processor down as it decays."""
 
 
 @compiled
 def through_sections(sections: Floats, x: Floats, state: Floats) -> Floats:
     """Filter rows (n_rows, n) by sections (n_sections, 6) of b0 b1 b2 1 a1 a2. Returns: (n_rows, n).
 
-    Parameters: state : (n_sections, n_rows, 2), the memory of the sections; it is carried on.
+    Parameters: state : (n_sections, n_rows, 2), the state of the sections, which is updated.
     """
     y, state[:] = sosfilt(sections, x, zi=state)
     state[np.abs(state) < VANISHED] = 0.0

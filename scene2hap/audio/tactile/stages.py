@@ -31,7 +31,7 @@ class Stage(Protocol):
     """One step of a conversion."""
 
     def run(self, x: Signal) -> Signal:
-        """The next samples (n,); may hold some back."""
+        """Return the next samples (n,); a stage with latency holds some back."""
         ...
 
     def rest(self) -> Signal:
@@ -54,7 +54,7 @@ class StageStream:
         x = np.asarray(block)
         if x.ndim != 1:
             raise AudioError(f"block has shape {x.shape}; a stream converts one channel, (n,). Use a stream for each.")
-        # A sum of squares is finite only where all are: one pass without a temporary.
+        # If the sum of squares is finite, so are all samples: one pass without a temporary array.
         if not math.isfinite(float(x @ x)) and not np.isfinite(x).all():
             first = int(np.argmin(np.isfinite(x)))
             raise AudioError(f"sample {first} of the block is {x[first]}; every sample must be finite. Mend the sound.")
@@ -80,7 +80,7 @@ def _joined(parts: list[Samples]) -> Samples:
 
 
 class Chain:
-    """Stages in series as one."""
+    """Stages in series, as one stage."""
 
     def __init__(self, stages: Sequence[Stage]) -> None:
         self.stages = stages
@@ -107,14 +107,14 @@ class SosStage:
         self.state = np.zeros((len(sections), 2))
 
     def run(self, x: Signal) -> Signal:
-        """Equally many samples."""
+        """Return as many samples as given."""
         if x.size == 0:
             return x
         y: Signal = through_sections(self.sections, x[None], self.state[:, None])[0]
         return y
 
     def rest(self) -> Signal:
-        """Nothing."""
+        """Return no samples: none are held back."""
         return np.empty(0)
 
 
@@ -125,30 +125,30 @@ class Scaled:
         self._gain = gain
 
     def run(self, x: Signal) -> Signal:
-        """Equally many samples."""
+        """Return as many samples as given."""
         return self._gain * x
 
     def rest(self) -> Signal:
-        """Nothing."""
+        """Return no samples: none are held back."""
         return np.empty(0)
 
 
 class ShiftStage:
     """Single-sideband modulation: moves a band by a number of hertz and keeps its envelope.
 
-    With c the middle of the band, w half its width and h a low-pass of w:
+    With c the middle of the band, w half its width and h a low-pass with cut-off w:
 
         z = h * (x exp(-i 2 pi c t))        y = 2 Re(z exp(i 2 pi (c + shift) t))
 
     The mirrored band lies 2 c away and is removed by h. The lower edge of the band is raised if components would end
     below 10 Hz, or fold at 0 Hz into false tones. Differences between frequencies are kept, so that beats and envelopes
-    do not change; ratios of harmonics do.
+    do not change. Ratios of harmonics change.
     Source: D. K. Weaver, "A third method of generation and detection of single-sideband signals", Proc. IRE 44, 1956.
     """
 
     _RIPPLE_DB, _STOP_DB = 0.05, 70.0
     _WIDEST, _NARROWEST = 0.3, 0.08
-    """Transition of h, as shares of w. Elliptic filters of order 8 to 10 do this."""
+    """Bounds of the transition band of h, as shares of w. Elliptic filters of order 8 to 10 reach them."""
 
     def __init__(self, low_hz: float, high_hz: float, shift_hz: float, sample_rate_hz: float) -> None:
         lowest_hz = max(0.0, LOWEST_FELT_HZ - shift_hz)
@@ -163,15 +163,15 @@ class ShiftStage:
         self._position = 0
 
     def run(self, x: Signal) -> Signal:
-        """Equally many samples."""
+        """Return as many samples as given."""
         if x.size == 0:
             return x
         z = through_sections(self._sections, self._down.times(x, self._position), self._state)
-        # The lower oscillator turns backwards, exp(-i...), hence the plus in the product's real part.
+        # `_down` stands for exp(-i...), hence the plus sign in the real part of the product.
         y = self._up.joined(z, self._position)
         self._position += len(x)
         return np.asarray(2.0 * y)
 
     def rest(self) -> Signal:
-        """Nothing."""
+        """Return no samples: none are held back."""
         return np.empty(0)

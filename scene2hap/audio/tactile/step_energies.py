@@ -11,13 +11,13 @@ Floats = NDArray[np.float64]
 
 
 class StepEnergies:
-    """Mean squares of a signal in steps of so many samples, however it is cut."""
+    """Mean squares of a signal in steps of `step` samples, for any block size."""
 
     def __init__(self, step: int) -> None:
         self._step, self._left = step, np.empty(0)
 
     def next(self, x: Floats) -> Floats:
-        """Return those of the steps (n,) that are whole with the next samples."""
+        """Return the mean squares (n,) of the steps that the next samples complete."""
         n_first = -len(self._left) % self._step
         if len(x) < n_first:
             self._left = np.concatenate([self._left, x])

@@ -1,21 +1,21 @@
-"""The paper's converter: a state-variable filter, as band-pass around the frequency at which the skin feels best.
+"""The paper's converter: a state-variable band-pass around the frequency to which the skin is most sensitive.
 
 Pacinian corpuscles detect best near 250 Hz; frequencies far from it are dropped.
 
     g = tan(pi f_c / f_s)   warped centre frequency [-]         k = 1 / Q   damping [-]
     H(z) = g k (1 - z^-2) / (1 + g k + g^2 + 2 (g^2 - 1) z^-1 + (1 - g k + g^2) z^-2)
 
-That is the trapezoidal (TPT) state-variable filter with its band-pass output times k, which puts 0 dB at f_c, written
-as one biquad, since a biquad runs in compiled code. While centre and Q stand still both are the same filter. When they
-change, the biquad's memory (z1, z2) is carried over by way of the state (s1, s2) of the integrators, which is what
-makes the trapezoidal form stable however fast it is modulated. Both memories follow from each other through the next
-two samples of the filter's ringing:
+This is the trapezoidal (TPT) state-variable filter. Its band-pass output is multiplied by k, for 0 dB at f_c. It is
+written as one biquad, since a biquad runs in compiled code. While centre and Q are constant, both are the same filter.
+When they change, the biquad's state (z1, z2) is converted by way of the state (s1, s2) of the integrators. So the
+filter remains stable under modulation of any speed. Each state follows from the other through the next two samples of
+the filter's ringing:
 
     y0 = z1 = k (a1 s1 - a2 s2)        y1 = z2 - A1 y0        a1 = 1 / (1 + g (g + k)),  a2 = g a1,  a3 = g a2
 
 Source: A. Simper, "Linear trapezoidal state variable filter" (Cytomic, 2013); R. Bristow-Johnson, "Audio EQ cookbook",
-band-pass with constant 0 dB peak gain. Differs: the paper used Max/MSP's svf~ (Chamberlin's form, which turns unstable
-near a sixth of the sample rate) at a resonance that it does not state.
+band-pass with constant 0 dB peak gain. Differs: the paper used Max/MSP's svf~ (Chamberlin's form, which becomes
+unstable near a sixth of the sample rate) at a resonance that the paper does not state.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ class SvfBandpass:
     0 dB at `center_hz`, 6 dB per octave on both sides, zero at 0 Hz and at half the sample rate.
 
     Parameters: center_hz > 0; q 0.1..100 [-], the bandwidth at -3 dB is center_hz / q. The default of 0.707 passes 129
-    to 483 Hz; assumed, since the paper does not tell its resonance.
-    Raises: ConfigError: outside these bounds, or, once the rate is known, a centre above 0.49 sample rates.
+    to 483 Hz; assumed, since the paper does not state its resonance.
+    Raises: ConfigError: outside these bounds, or, once the sample rate is known, a centre above 0.49 times this rate.
     """
 
     center_hz: float = 250.0
@@ -60,7 +60,7 @@ class SvfBandpass:
         return SvfStream(self, sample_rate_hz)
 
     def section(self, sample_rate_hz: float) -> NDArray[np.float64]:
-        """The filter as one second-order section (1, 6): b0 b1 b2 a0 a1 a2."""
+        """Return the filter as one second-order section (1, 6): b0 b1 b2 a0 a1 a2."""
         rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", above=0.0, error=ConfigError)
         checks.number(
             "center_hz",
@@ -92,7 +92,7 @@ class SvfStage(SosStage):
         self.sections, self._design = sections, design
 
     def _memory(self, design: SvfBandpass, sections: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(2, 2): the biquad's memory from that of the integrators."""
+        """Return the matrix (2, 2) that gives the biquad's state from that of the integrators."""
         g = math.tan(math.pi * design.center_hz / self._rate_hz)
         k = 1.0 / design.q
         a1 = 1.0 / (1.0 + g * (g + k))

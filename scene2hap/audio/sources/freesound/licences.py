@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from scene2hap.errors import ConfigError
 
-# Option -> names that the search filter knows; two where the spelling has changed over the years.
+# Option -> names that the search filter knows; two if the spelling has changed over the years.
 _FILTER_NAMES = {
     "cc0": ("Creative Commons 0",),
     "by": ("Attribution",),
@@ -20,7 +20,7 @@ _DEED = re.compile(
 
 
 def checked(licences: Iterable[str]) -> tuple[str, ...]:
-    """The options in order, each once. Raises: ConfigError: none, or one that does not exist."""
+    """Return the options in order, without duplicates. Raises: ConfigError: none, or one that does not exist."""
     wanted = (licences,) if isinstance(licences, str) else tuple(dict.fromkeys(licences))
     unknown = [licence for licence in wanted if licence not in _FILTER_NAMES]
     if unknown or not wanted:
@@ -29,13 +29,13 @@ def checked(licences: Iterable[str]) -> tuple[str, ...]:
 
 
 def as_filter(licences: Iterable[str]) -> str:
-    """The part of a search filter that lets these licences through."""
+    """Return the part of a search filter that allows these licences."""
     names = [f'"{name}"' for licence in licences for name in _FILTER_NAMES[licence]]
     return f"license:({' OR '.join(names)})"
 
 
 def read_deed(address: str) -> tuple[str, str] | None:
-    """Option and credit of the licence whose deed lies at an address ("by", "CC-BY-4.0"); None if unknown."""
+    """Return option and credit of the licence whose deed has this address ("by", "CC-BY-4.0"); None if unknown."""
     match = _DEED.fullmatch(address.strip())
     if match is None:
         return None

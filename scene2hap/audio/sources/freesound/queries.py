@@ -20,7 +20,7 @@ _SAYS_NOTHING = frozenset(
 
 
 def ladder(description: VibrationDescription) -> tuple[str, ...]:
-    """Queries in the order to try: all key words; the category; head noun with verb; head noun. Empty if wordless."""
+    """Return queries in the order to try: all key words; category; head noun with verb; head noun. It may be empty."""
     keywords = _words(description.keywords)
     name, head = spelled_phrase(description.object_category)
     spoken = tuple(word for word in keywords if word not in name)
@@ -30,5 +30,5 @@ def ladder(description: VibrationDescription) -> tuple[str, ...]:
 
 
 def _words(text: str) -> tuple[str, ...]:
-    """Words alone: a minus would exclude the next word, a quotation mark would bind several."""
+    """Return words without signs: a minus would exclude the next word, quotation marks would join words to a phrase."""
     return tuple(re.findall(r"[^\W_]+", text.lower()))

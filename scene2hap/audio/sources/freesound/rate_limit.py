@@ -9,7 +9,7 @@ from collections.abc import Callable
 from scene2hap.errors import BackendUnavailable
 
 PER_MINUTE, PER_DAY = 60, 2000
-"""Requests that Freesound allows a token; its documentation, "Throttling"."""
+"""Requests that Freesound allows per token. Source: its documentation, "Throttling"."""
 MINUTE_S, DAY_S = 60.0, 86_400.0
 
 
@@ -36,7 +36,7 @@ class RateLimit:
         self._lock = threading.Lock()
 
     def take(self) -> None:
-        """Wait until a request may go out, and count it. Raises: BackendUnavailable: today's are used up."""
+        """Wait until a request may go out, and count it. Raises: BackendUnavailable: the day's requests are used up."""
         with self._lock:
             while (wait_s := self._wait_s(self._clock())) > 0.0:
                 self._sleep(wait_s)

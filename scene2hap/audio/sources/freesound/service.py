@@ -39,15 +39,15 @@ _HINTS = {
 
 
 class _NotUnderstood(BackendUnavailable):
-    """One query was refused; the next one may be served."""
+    """One query was refused; the next one may succeed."""
 
 
 @dataclass
 class Service:
     """Sends requests within the rate limit, retries if that can help, and pauses after failures.
 
-    The token goes into the header of requests below `base_url` and nowhere else: a redirect of the API is an error, and
-    previews, which may lie on another host, are fetched without it.
+    The token is sent only in the header of requests below `base_url`. Therefore a redirect of the API is an error, and
+    previews, which may be on another host, are fetched without the token.
     """
 
     base_url: str
@@ -62,10 +62,10 @@ class Service:
         self._rate = RateLimit(self.clock, self.sleep)
 
     def search(self, query: str, filter_: str, sort: str) -> list[Sound]:
-        """Results in the service's order; empty where nothing matches.
+        """Return the results in the service's order; empty if nothing matches.
 
-        Raises: BackendUnavailable: no answer, states whether a retry can help; BadAnswer: it is not what the
-        documentation promises.
+        Raises: BackendUnavailable: no answer, states whether a retry can help; BadAnswer: the answer lacks the list of
+        sounds that the documentation promises.
         """
         if not self.token.reveal():
             raise BackendUnavailable(
@@ -97,7 +97,7 @@ class Service:
         return reply.content
 
     def _ask(self, params: dict[str, str]) -> web.WebReply:
-        """One search, and up to two more where the service stumbles."""
+        """Send a search, and repeat it up to twice if that can help."""
         for attempt in range(_RETRIES + 1):
             try:
                 return self._ask_once(params)
@@ -120,7 +120,7 @@ class Service:
             scrub=self.token.scrub,
             transport=self.transport,
         )
-        # Text that the service echoes would reach titles and credits.
+        # If the service echoes the token, it must not reach titles and credits.
         reply = replace(reply, content=self.token.scrub(reply.text).encode("utf-8"))
         if reply.status != 200:
             raise self._error(reply)
@@ -154,7 +154,7 @@ class Service:
         return BackendUnavailable(f"{text} {hint}".strip(), retryable=reply.status >= 500)
 
     def _remember(self, failure: BackendError) -> None:
-        """Leave the service alone for a while, or for good where only a person can help."""
+        """Send no requests for a while, or none at all if only a person can help."""
         if isinstance(failure, _NotUnderstood):
             return
         rest_s = _REST_S

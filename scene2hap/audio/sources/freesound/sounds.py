@@ -33,17 +33,17 @@ class Sound(BaseModel):
 
     @property
     def licence(self) -> str:
-        """The option that lets it through ("by"), "" where its licence is not known."""
+        """The licence option that allows the sound ("by"); "" if its licence is not known."""
         deed = read_deed(self.license)
         return deed[0] if deed else ""
 
     @property
     def preview(self) -> str:
-        """The address of its best preview, "" where none is safe to follow."""
+        """The address of the sound's best preview; "" if none is safe to follow."""
         return next((self.previews[name] for name in _PREVIEWS if is_safe(self.previews.get(name, ""))), "")
 
     def credit(self, query: str) -> Credit:
-        """The credit of the sound."""
+        """Return the credit of the sound."""
         deed = read_deed(self.license)
         return Credit(
             plain_line(self.name) or f"sound {self.id}",
@@ -56,7 +56,7 @@ class Sound(BaseModel):
 
 
 def read_sounds(results: object) -> list[Sound] | None:
-    """The results that make sense; None where it is not a list at all."""
+    """Return the valid results; None if `results` is not a list."""
     if not isinstance(results, list):
         return None
     return [sound for sound in map(_read, results) if sound is not None]

@@ -50,9 +50,9 @@ class Freesound:
     """Find up to five sounds on freesound.org by key words; without a hit, by fewer of these words.
 
     token : None takes the environment variable `token_env`, read at each search; licences : those that may be used, of
-    "cc0", "by", "by-nc" and "sampling+"; candidates : 1..5; max_duration_s : longest sound in a search [s]; sort : the
-    service's order, "score" being relevance; cache : folder of searches, also those without hits, and of previews;
-    timeout_s : for one answer; base_url, transport, clock, sleep : for tests.
+    "cc0", "by", "by-nc" and "sampling+"; candidates : their number, 1..5; max_duration_s : longest sound in a search
+    [s]; sort : the service's order, "score" being relevance; cache : folder for searches, including those without hits,
+    and for previews; timeout_s : for one answer; base_url, transport, clock, sleep : for tests.
     Freesound's API is free for non-commercial use; see its terms.
     Raises: ConfigError: a setting that cannot work.
     """
@@ -94,9 +94,9 @@ class Freesound:
         return f"Freesound(licences={self._licences!r}, base_url={self._service.base_url!r})"
 
     def find(self, description: VibrationDescription) -> list[AudioClip]:
-        """Candidates in the service's order; empty where even the head noun finds nothing.
+        """Return candidates in the service's order; empty if even the head noun finds nothing.
 
-        A sound that cannot be used is passed over with an `UnusableSound` warning.
+        A sound that cannot be used is skipped with an `UnusableSound` warning.
         Raises: BackendUnavailable: no answer, or no token; BadAnswer: an answer without sounds; ConfigError: the cache
         cannot be written.
         """
@@ -140,7 +140,7 @@ class Freesound:
         return [sound for sound in sounds if self._may_use(sound)]
 
     def _may_use(self, sound: Sound) -> bool:
-        """Return True if a result has an allowed licence and duration. Checked again instead of trusting the service's
+        """Return True if a result has an allowed licence and duration. We check again instead of trusting the service's
         filter."""
         return (
             bool(sound.preview)

@@ -16,7 +16,7 @@ ADDRESS = "https://huggingface.co/facebook/audiogen-medium"
 
 
 def generate(request: Any, arguments: Any) -> tuple[int, Any]:
-    """Takes at 16 kHz, mono. The model has no seed of its own: torch's decides."""
+    """Return takes at 16 kHz, mono. The model has no seed of its own, so torch's seed is set."""
     import torch  # type: ignore[import-not-found,unused-ignore]  # only where the model is
     from audiocraft.models import AudioGen  # type: ignore[import-not-found,import-untyped,unused-ignore]  # the same
 

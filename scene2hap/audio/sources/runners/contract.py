@@ -1,7 +1,7 @@
 """Shared part of all runners: read the request, write sounds and the reply, rehearse without a model.
 
-Only the standard library of Python 3.9 on, since runners live in the environments of their models, where scene2hap is
-not installed. The contract is described in docs/sound-sources.md.
+It uses only the standard library of Python 3.9 on, since runners run in the environments of their models, where
+scene2hap is not installed. The contract is described in docs/sound-sources.md.
 """
 
 from __future__ import annotations
@@ -57,10 +57,10 @@ Generate = Callable[[Request, argparse.Namespace], "tuple[int, Takes]"]
 def main(
     description: str, licence: str, address: str, packages: Sequence[str], generate: Generate, default_model: str
 ) -> int:
-    """Read the command line, make the sounds, write the reply; the exit status.
+    """Read the command line, make the sounds, write the reply. Returns: the exit status.
 
-    `generate` returns the sample rate [Hz] and the takes. It imports the model's `packages` itself, so that everything
-    else works without them.
+    `generate` returns the sample rate [Hz] and the takes. It imports the model's `packages` itself, so that all other
+    functions work without them.
     """
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("request", nargs="?", help="the request, a JSON file")
@@ -81,7 +81,7 @@ def main(
 
 
 def serve(arguments: argparse.Namespace, origin: dict[str, str], make: Generate) -> int:
-    """Answer one request: status 0 with sounds, 1 with an error, both with a reply."""
+    """Answer one request. Returns: status 0 with sounds, 1 with an error; a reply is written in both cases."""
     reply: dict[str, Any] = {"contract": CONTRACT, "version": VERSION}
     status = 0
     try:
@@ -102,7 +102,7 @@ def serve(arguments: argparse.Namespace, origin: dict[str, str], make: Generate)
 
 
 def write_reply(folder: str, reply: dict[str, Any]) -> None:
-    """Last of all, whole or not at all."""
+    """Write the reply, whole or not at all. It is written last."""
     draft = os.path.join(folder, "reply.json.part")
     with open(draft, "w", encoding="utf-8") as file:
         json.dump(reply, file, indent=1)
@@ -110,7 +110,7 @@ def write_reply(folder: str, reply: dict[str, Any]) -> None:
 
 
 def write_wav(path: str, channels: Sequence[Sequence[float]], rate: int) -> None:
-    """16-bit samples; a take beyond full scale is scaled down, one that is not finite is an error."""
+    """Write a take in 16 bits. A take beyond full scale is scaled down; one that is not finite is an error."""
     if not channels or not channels[0] or not all(math.isfinite(sum(channel)) for channel in channels):
         raise ValueError("the model made a take that is empty or not finite")
     peak = max(max(map(abs, channel)) for channel in channels)
@@ -128,7 +128,7 @@ def write_wav(path: str, channels: Sequence[Sequence[float]], rate: int) -> None
 
 
 def tones(request: Request, arguments: argparse.Namespace) -> tuple[int, Takes]:
-    """A hum of four partials for each take, its pitch drawn from prompt, seed and take: what --rehearse makes."""
+    """Return takes for --rehearse: hums of four partials, whose pitch follows from prompt, seed and take."""
     rate = 16000
     takes = []
     for index in range(request.count):

@@ -18,7 +18,7 @@ STEPS = 8
 
 
 def generate(request: Any, arguments: Any) -> tuple[int, Any]:
-    """Takes at 44.1 kHz, stereo."""
+    """Return takes at 44.1 kHz, stereo."""
     import stable_audio_3  # type: ignore[import-not-found,unused-ignore]  # only where the model is
 
     # The class was called StableAudioPipeline at first.

@@ -1,6 +1,6 @@
-"""Sounds made of single events: bubbles, ticks, blows, beeps, notes.
+"""Voices made of single events: bubbles, ticks, blows, beeps, notes.
 
-Levels, decays and patterns are tuned; where a frequency follows from physics, that is said.
+Levels, decays and patterns are tuned. If a frequency follows from physics, the docstring says so.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ from scene2hap.audio.sources.synth.signals import (
 _BUBBLE_CLASSES = 10
 _BUBBLE_CYCLES = 3.0
 _BUBBLE_SPREAD = 0.3
-"""Standard deviation of the bubbles' pitches, of their whole range on a logarithmic scale [-]. With all sizes alike a
-kettle was felt anywhere within two octaves, by chance."""
+"""Standard deviation of the bubbles' pitches, as a share of their range on a logarithmic scale [-]. With all sizes
+equally frequent, the frequency at which a kettle was felt was random within two octaves."""
 
 
 def bubbles(take: Take, *, largest_hz: float, smallest_hz: float, per_second: float = 600.0) -> Signal:
-    """Boiling or sizzling: bubbles of many sizes at random, each ringing at its own pitch, more of them when driven.
+    """Boiling or sizzling: random bubbles of many sizes, each ringing at its own pitch, more of them at a high drive.
 
     A bubble of radius R rings at 3.26 / R [Hz] (Minnaert, Phil. Mag. 16, 1933): 100 Hz for 33 mm, 400 Hz for 8 mm.
-    Sizes in the middle are the most frequent, as in a log-normal distribution: the ends are 12 dB weaker (assumed).
+    Middle sizes are the most frequent, as in a log-normal distribution: the ends are 12 dB weaker (assumed).
     """
     pitches = np.geomspace(largest_hz, smallest_hz, _BUBBLE_CLASSES)
     levels = np.exp(-0.5 * (np.linspace(-0.5, 0.5, _BUBBLE_CLASSES) / _BUBBLE_SPREAD) ** 2)

@@ -1,8 +1,8 @@
-"""Patch: a voice with the numbers of a real machine, and how they follow from its size.
+"""Patch: a voice with the parameters of a real machine, and the law by which they depend on its size.
 
-Size law: the speed of a machine is that of a reference machine times (reference / size)^(1/2), size being the longest
-side, within 3/4 and 4/3. Machines of equal tip speed would give the power 1, but larger ones of a kind are not scaled
-copies. Power and bounds are assumed. Whatever runs on the mains' own frequency does not change with size.
+Size law: the speed of a machine is that of a reference machine times (reference / size)^(1/2), where size is the
+longest side. The factor is limited to 3/4..4/3. Equal tip speeds would give the power 1, but larger machines of a kind
+are not scaled copies of smaller ones. Power and bounds are assumed. Frequencies of the mains do not depend on size.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ SIZE_FACTOR_BOUNDS = (0.75, 4.0 / 3.0)
 
 @dataclass(frozen=True)
 class Rhythm:
-    """A periodic load: its rate [Hz], its depth as a share of the amplitude, and the irregularity of the rate.
+    """A periodic load, as amplitude modulation: rate [Hz], depth as a share of the amplitude, irregularity of the rate.
 
-    Rates are those of what turns or is worked on; depths are assumed, below 5 dB of range for what is steady.
+    Rates are those of the turning part or the worked material. Depths are assumed: a range below 5 dB for steady
+    sounds.
     """
 
     rate_hz: float
@@ -30,18 +31,18 @@ class Rhythm:
     wavers: float = 0.03
 
     def applied(self, y: Signal, take: Take) -> Signal:
-        """A voice under that load."""
+        """Return a voice with this load."""
         rate = take.about(self.rate_hz) * (1.0 + self.wavers * wander(take.rng))
         return np.asarray(y * (1.0 + self.depth * np.cos(phase(rate) + take.rng.uniform(0.0, 2.0 * np.pi))))
 
 
 @dataclass(frozen=True)
 class Patch:
-    """A voice with its numbers.
+    """A voice with its parameters.
 
-    `dominant_hz` bounds the strongest frequency at reference size; `reference_m` is the longest side of the machine
-    meant by the numbers, None where size does not matter; `is_steady` says that it loops without ado; `rhythm` is what
-    its load does to all of it, None for nothing.
+    `dominant_hz` bounds the strongest frequency at reference size; `reference_m` is the longest side of the machine to
+    which the parameters belong, None if size has no effect; `is_steady` is True if the sound can be looped as it is;
+    `rhythm` is the periodic load of the whole voice, None for none.
     """
 
     voice: Callable[[Take], Signal]

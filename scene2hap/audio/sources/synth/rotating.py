@@ -1,7 +1,7 @@
-"""Machines that turn: once-per-turn imbalance, blades and vanes passing, flow, load.
+"""Voices of rotating machines: imbalance once per turn, passing blades and vanes, flow, load.
 
-Levels are RMS, relative to the strongest part of the voice. All levels, slopes and wanders here are tuned by ear and by
-spectrum to plausible machines; frequencies follow from speeds of real ones.
+Levels are RMS, relative to the strongest part of the voice. All levels, slopes and random variations are tuned by ear
+and by spectrum to plausible machines; frequencies follow from the speeds of real machines.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from scene2hap.audio.sources.synth.signals import (
 
 
 def motor(take: Take, *, shaft_hz: float = 48.0) -> Signal:
-    """Some electric motor: shaft, harmonics and a little of the mains' magnetic pull at twice its frequency."""
+    """An electric motor: shaft, harmonics, and a weak magnetic pull at twice the mains frequency."""
     phi = phase(take.mains_speed_hz(shaft_hz) * (1.0 + 0.003 * wander(take.rng)))
     shaft = partials(phi, take.roll_off(8), take.rng)
     pull = np.cos(2.0 * np.pi * 2.0 * take.mains_hz * times())
@@ -35,7 +35,7 @@ def motor(take: Take, *, shaft_hz: float = 48.0) -> Signal:
 
 
 def compressor(take: Take, *, slip: float = 0.018) -> Signal:
-    """A refrigerator's piston compressor: a two-pole induction motor that turns a little slower than the mains.
+    """A refrigerator's piston compressor: a two-pole induction motor, slightly slower than the mains frequency.
 
     Its second order beats slowly against the magnetic pull at twice the mains frequency. Gas and oil load it unevenly.
     """
@@ -61,7 +61,7 @@ def fan(
 def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> Signal:
     """A washing machine at spin: an unbalanced drum, and its motor, which the belt turns `belt_ratio` times as fast.
 
-    The laundry loads the motor once per turn of the drum; the belt goes round about every second turn.
+    The laundry loads the motor once per turn of the drum; the belt revolves about every second turn.
     """
     drum_speed = take.shaft_hz(drum_hz) * (1.0 + 0.003 * wander(take.rng, 0.5))
     drum = phase(drum_speed)
@@ -75,9 +75,9 @@ def spinner(take: Take, *, drum_hz: float = 18.5, belt_ratio: float = 11.5) -> S
 
 
 def washing(take: Take, *, drum_hz: float = 0.85, slosh: float = 0.5, thump_hz: float = 60.0) -> Signal:
-    """A washing machine before it spins: a motor that hums at twice the mains, under a drum that lifts the laundry.
+    """A washing machine before it spins: a motor hums at twice the mains frequency, and a drum lifts the laundry.
 
-    It falls once per turn of the drum, on a tub that rings at `thump_hz`; `slosh` is the level of the water.
+    The laundry falls once per turn of the drum, on a tub that rings at `thump_hz`; `slosh` is the level of the water.
     """
     hum = partials(phase(2.0 * take.mains_hz), take.roll_off(5, 1.5), take.rng)
     n = max(1, round(take.about(drum_hz) * DURATION_S))

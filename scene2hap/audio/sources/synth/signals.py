@@ -1,4 +1,4 @@
-"""Building blocks of voices: phases, partials, wander, noise.
+"""Building blocks of voices: phases, partials, slow random variation, noise.
 
 t [s] time, f [Hz] frequency, phi [rad] phase, k [-] order of a partial, n number of samples
 """
@@ -21,11 +21,11 @@ REFERENCE_MAINS_HZ = 50.0
 
 @dataclass(frozen=True)
 class Take:
-    """Parameters of a voice besides its own constants.
+    """Parameters of one take of a voice.
 
-    `rng` is the only source of randomness. `drive` 0..1 is the load of the machine: more is brighter and, if the speed
-    is not regulated, faster. `size_factor` multiplies the frequencies that depend on the machine's size. `mains_hz` is
-    what it is plugged into.
+    `rng` is the only source of randomness. `drive` 0..1 is the load of the machine: a higher load is brighter and, if
+    the speed is not regulated, faster. `size_factor` multiplies the frequencies that depend on the machine's size.
+    `mains_hz` is the mains frequency [Hz].
     """
 
     rng: np.random.Generator
@@ -34,41 +34,41 @@ class Take:
     mains_hz: float = REFERENCE_MAINS_HZ
 
     def about(self, value: float, spread: float = 0.03) -> float:
-        """`value`, a few per cent beside it: no two machines are alike. Spread assumed."""
+        """Return `value` with a random deviation, by default up to 3 % (assumed): no two machines are alike."""
         return value * (1.0 + spread * self.rng.uniform(-1.0, 1.0))
 
     def shaft_hz(self, nominal_hz: float) -> float:
-        """A speed for this machine: slower if it is large."""
+        """Return the speed of this machine [Hz]: a larger one is slower."""
         return self.about(nominal_hz * self.size_factor)
 
     def speed_hz(self, nominal_hz: float) -> float:
-        """A speed that nothing holds: 15 % below nominal when idling, 15 % above at full drive; assumed."""
+        """Return an unregulated speed [Hz]: 15 % below nominal when idling, 15 % above at full drive; assumed."""
         return self.shaft_hz(nominal_hz * (0.85 + 0.3 * self.drive))
 
     def mains_speed_hz(self, nominal_hz: float) -> float:
-        """The speed of an induction motor that has this one on a mains of 50 Hz."""
+        """Return the speed of an induction motor [Hz], from its nominal speed at a mains frequency of 50 Hz."""
         return self.shaft_hz(nominal_hz * self.mains_hz / REFERENCE_MAINS_HZ)
 
     def roll_off(self, n_partials: int, steeper_by: float = 0.0) -> Signal:
-        """Amplitudes k^-slope (n_partials,), the slope being 2.2 when idling and 1.2 at full drive; assumed."""
+        """Return amplitudes k^-slope (n_partials,). The slope is 2.2 when idling and 1.2 at full drive; assumed."""
         return np.asarray(np.arange(1.0, n_partials + 1) ** -(2.2 - self.drive + steeper_by))
 
 
 def times() -> Signal:
-    """Time of each sample (n,) [s]."""
+    """Return the time of each sample (n,) [s]."""
     return np.arange(N_SAMPLES) / SAMPLE_RATE_HZ
 
 
 def phase(frequency_hz: ArrayLike) -> Signal:
-    """Phase (n,) [rad] of an oscillator at a constant or varying frequency, phi = 2 pi int f dt."""
+    """Return the phase (n,) [rad] of an oscillator at a constant or varying frequency, phi = 2 pi int f dt."""
     f = np.broadcast_to(np.asarray(frequency_hz, dtype=np.float64), N_SAMPLES)
     return np.asarray(2.0 * np.pi * (np.cumsum(f) - f[0]) / SAMPLE_RATE_HZ)
 
 
 def partials(phi: Signal, amplitudes: Sequence[float] | Signal, rng: np.random.Generator | None = None) -> Signal:
-    """sum_k a_k cos(k phi + phi_k), k = 1, 2, ...; random phases with an `rng`, a pulse train without."""
+    """Return sum_k a_k cos(k phi + phi_k), k = 1, 2, ...; random phases with an `rng`, a pulse train without."""
     offsets = np.zeros(len(amplitudes)) if rng is None else rng.uniform(0.0, 2.0 * np.pi, len(amplitudes))
-    # Powers of one phasor cost a multiplication each where a cosine costs ten.
+    # Each power of a phasor costs one multiplication, each cosine ten.
     turn = np.exp(1j * phi)
     turns = np.ones_like(turn)
     y = np.zeros_like(phi)
@@ -80,7 +80,7 @@ def partials(phi: Signal, amplitudes: Sequence[float] | Signal, rng: np.random.G
 
 
 def wander(rng: np.random.Generator, fastest_hz: float = 1.0) -> Signal:
-    """A slow random motion (n,) within -1..1: eight sinusoids up to `fastest_hz`, at most 5 Hz."""
+    """Return a slow random variation (n,) within -1..1: eight sinusoids up to `fastest_hz`, at most 5 Hz."""
     knots = np.linspace(0.0, DURATION_S, 1001)
     f = rng.uniform(0.1 * fastest_hz, fastest_hz, (8, 1))
     offsets = rng.uniform(0.0, 2.0 * np.pi, (8, 1))
@@ -88,7 +88,7 @@ def wander(rng: np.random.Generator, fastest_hz: float = 1.0) -> Signal:
 
 
 def noise(rng: np.random.Generator, low_hz: float, high_hz: float, tilt_db_per_octave: float = 0.0) -> Signal:
-    """Noise (n,) of unit RMS between two frequencies, falling or rising from one octave to the next."""
+    """Return noise (n,) of unit RMS between two frequencies, whose level falls or rises from octave to octave."""
     f = np.fft.rfftfreq(N_SAMPLES, 1.0 / SAMPLE_RATE_HZ)
     in_band = (f >= low_hz) & (f <= high_hz)
     weight = np.zeros_like(f)
@@ -97,7 +97,7 @@ def noise(rng: np.random.Generator, low_hz: float, high_hz: float, tilt_db_per_o
 
 
 def ringing(times_s: ArrayLike, strengths: ArrayLike, frequency_hz: float, decay_s: float) -> Signal:
-    """Strokes at given times, each of them A exp(-t / decay) sin(2 pi f t); the end runs on into the beginning."""
+    """Return strokes at given times, each A exp(-t / decay) sin(2 pi f t); their end continues at the beginning."""
     at = np.asarray(times_s, dtype=np.float64) * SAMPLE_RATE_HZ
     strokes = np.bincount(
         np.rint(at).astype(np.int64) % N_SAMPLES, np.broadcast_to(strengths, at.shape), minlength=N_SAMPLES
@@ -108,10 +108,10 @@ def ringing(times_s: ArrayLike, strengths: ArrayLike, frequency_hz: float, decay
 
 
 def unit_rms(y: Signal) -> Signal:
-    """The signal at an RMS of 1, so that voices can mix parts by their share."""
+    """Return the signal with an RMS of 1, so that voices can mix parts by their share."""
     return np.asarray(y / np.sqrt(np.mean(y**2)))
 
 
 def unit_peak(y: Signal) -> Signal:
-    """The signal at a peak of 1."""
+    """Return the signal with a peak of 1."""
     return np.asarray(y / np.abs(y).max())

@@ -1,4 +1,4 @@
-"""The source that always has an answer: procedural sounds, without network, weights or recordings."""
+"""Synthesizer: a source of procedural sounds for any object, without network, weights or recordings."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Synthesizer:
         object.__setattr__(self, "mains_hz", mains)
 
     def find(self, description: VibrationDescription) -> list[AudioClip]:
-        """`takes` variants, equally good. Raises: AudioError: intensity outside 0..1, or a negative size."""
+        """Return `takes` variants, equally good. Raises: AudioError: intensity outside 0..1, or a negative size."""
         drive = checks.number("intensity", description.intensity, "-", at_least=0.0, at_most=1.0, error=AudioError)
         size = checks.vector("size_m", description.size_m, "m", size=3, at_least=0.0, error=AudioError)
         patch = patch_for(description.object_category, description.keywords, description.state)
@@ -54,7 +54,7 @@ def _performed(patch: Patch, take: Take, description: VibrationDescription, inde
     y = patch.voice(take)
     if patch.rhythm is not None:
         y = patch.rhythm.applied(y, take)
-    # Strokes push more one way than the other; an offset is neither heard nor felt, and takes room from what is.
+    # Strokes are asymmetric. Their offset is neither heard nor felt, and would use up head-room.
     y = y - y.mean()
     voice = patch.voice.func if isinstance(patch.voice, partial) else patch.voice
     title = f"{description.object_category} ({voice.__name__.replace('_', ' ')}), take {index + 1}"
@@ -63,7 +63,7 @@ def _performed(patch: Patch, take: Take, description: VibrationDescription, inde
 
 
 def _chance(description: VibrationDescription, index: int) -> np.random.Generator:
-    """Chance that depends on the words, the seed and the take alone; Python's own hash changes with every process."""
+    """Return a generator that depends only on words, seed and take; Python's own hash changes with every process."""
     words = (description.object_category, description.state, description.sentence, description.keywords)
     text = "\x1f".join((*words, str(description.seed), str(index)))
     return np.random.default_rng(

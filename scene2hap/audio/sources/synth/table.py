@@ -1,6 +1,6 @@
-"""Names, verbs and patches: the numbers of real machines.
+"""Table of names, verbs and patches, with the parameters of real machines.
 
-Speeds of induction motors are those on a mains of 50 Hz.
+Speeds of induction motors are those at a mains frequency of 50 Hz.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from scene2hap.audio.sources.synth.working import geared, jet, rolling, rotor_sl
 def _fan(
     shaft_hz: float, blades: int, size_m: float, *, rotor: float = 1.0, blade: float = 0.5, flow: float = 0.5
 ) -> Patch:
-    """A fan whose rotor dominates, or its blades where their level is higher."""
+    """Return a fan whose rotor dominates, or its blades if their level is higher."""
     order = blades if blade > rotor else 1
     voice = partial(fan, shaft_hz=shaft_hz, blades=blades, rotor=rotor, blade=blade, flow=flow)
     return Patch(voice, (0.96 * order * shaft_hz, 1.04 * order * shaft_hz), size_m)
@@ -57,7 +57,7 @@ def _geared(
     rumble: float = 0.2,
     thump_hz: float = 0.0,
 ) -> Patch:
-    """Without a size for an induction motor, whose speed the mains holds however large the machine is."""
+    """Return a geared motor; without a size an induction motor, whose speed depends on the mains and not on size."""
     voice = partial(
         geared,
         motor_hz=motor_hz,
@@ -71,9 +71,9 @@ def _geared(
 
 
 def _strokes(per_second: float, body_hz: float, decay_s: float, *, click: float = 0.2) -> Patch:
-    """Blows on a ringing body. It is steady if they are too fast to be felt apart; slower ones do not loop."""
+    """Return blows on a ringing body. They are steady if too fast to be felt one by one; slower ones do not loop."""
     voice = partial(blows, per_second=per_second, body_hz=body_hz, decay_s=decay_s, click=click)
-    # The strongest line of a quick train is the multiple of its rate nearest to the body's pitch.
+    # The strongest line of a fast pulse train is the multiple of its rate nearest to the body's pitch.
     spread = max(0.06 * body_hz, 0.6 * per_second)
     return Patch(voice, (body_hz - spread, body_hz + spread), is_steady=per_second > 10.0)
 
@@ -98,7 +98,7 @@ _CRACKLING = Patch(
 )
 _RINGING_PHONE = Patch(ringing_motor, (175.0, 190.0), is_steady=False)
 _VIBRATION = Patch(vibration_motor, (175.0, 190.0))
-# A clockwork lets its escapement go four or five times a second.
+# The escapement of a clockwork ticks four or five times a second.
 _TIMER = _strokes(4.5, 330.0, 0.015, click=0.6)
 _TICK = Patch(partial(blows, per_second=1.0, body_hz=210.0, decay_s=0.03), (180.0, 240.0), 0.3, is_steady=False)
 _ALARM = Patch(partial(buzzer, pitch_hz=240.0, on_s=0.25, off_s=0.25), (235.0, 245.0), is_steady=False)
@@ -124,12 +124,12 @@ _GRINDER = _tool(420.0, 183.0, 0.3, spindle=1.5, loud_hz=183.0)
 _CUTTER = _tool(300.0, 300.0, 0.3, spindle=0.0)
 _PUMP = Patch(pump, (276.0, 300.0), 0.3)
 _MUSIC = Patch(music, (60.0, 135.0), is_steady=False)
-# Blades that are not quite alike, and air that leans on them; 1400 turns a minute. With more flow some takes would be
-# felt at their blades and others at twice that, since noise takes the head-room that 100 Hz needs.
+# Blades that differ slightly, loaded by air; 1400 turns a minute. With more flow, some takes would be felt at the blade
+# rate and others at twice this rate, since noise uses up the head-room that 100 Hz needs.
 _BREEZE = replace(_fan(23.3, 5, 0.4, rotor=0.5, blade=1.0, flow=0.7), rhythm=Rhythm(1.9, 0.28, 0.02))
 # The air flutters in the nozzle.
 _BLOWER = replace(_fan(220.0, 9, 0.22, blade=0.2, flow=0.7), rhythm=Rhythm(10.7, 0.35, 0.03))
-# Two fans that turn almost alike.
+# Two fans with almost equal speeds.
 _COMPUTER = replace(_fan(26.0, 7, 0.12, rotor=0.4, blade=1.0, flow=1.8), rhythm=Rhythm(1.45, 0.32, 0.02))
 _CASE_FAN = replace(_fan(26.0, 7, 0.12, rotor=0.6, blade=1.0, flow=2.3), rhythm=Rhythm(0.7, 0.12, 0.02))
 _CENTRIFUGE = _fan(66.0, 4, 0.4, blade=0.1, flow=0.2)
@@ -162,7 +162,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("pan, pot, kettle, wok, cauldron, fryer, soup, rice cooker, slow cooker", "", _BOILING),
     ("pan, wok, fryer, iron", "sizzle, fry, sear", _SIZZLING),
     ("grill, barbecue", "", _SIZZLING),
-    # Two arms of 40 turns a minute spray what they pass.
+    # Two spray arms pass at 40 turns a minute.
     ("dishwasher", "", Patch(pump, (276.0, 300.0), 0.6, rhythm=Rhythm(1.3, 0.28, 0.0))),
     ("coffeemaker", "", _to_and_fro(50.0, rattle=0.2)),
     ("blender, food processor, juicer", "", _BLENDER),
@@ -232,7 +232,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("treadmill", "", _geared(60.0, 2.6, 1.8, rumble=0.3, thump_hz=75.0)),
     ("hoist, winch, lift, crane", "hum, whir", _WINCH),
     # garden and building site
-    # The chain bites, and the engine feels it.
+    # The cutting chain loads the engine.
     ("chainsaw", "", replace(_engine(150.0, 1, 0.8, revs=0.04, roar=2.0), rhythm=Rhythm(7.0, 0.4, 0.3))),
     ("chainsaw", "rev, start, throttle", _engine(130.0, 1, 0.8, revs=0.35, rev_s=1.7, roar=2.0)),
     ("leafblower, string trimmer, brush cutter", "", _TWO_STROKE),
@@ -250,10 +250,10 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("scooter, forklift, car, bike, skateboard, hoverboard, segway, wheelchair", "hum", _ELECTRIC_DRIVE),
     ("electric car, bumper car, golf cart", "", _ELECTRIC_DRIVE),
     ("train, tram, subway, metro", "", _ROLLING),
-    # The first shaft of a turbofan at cruise; its blades pass far above touch.
+    # The first shaft of a turbofan at cruise; its blade rate is far above the range of touch.
     ("airplane, aeroplane, plane, jet", "", _fan(75.0, 24, 30.0, blade=0.05, flow=0.8)),
     ("helicopter", "", Patch(rotor_slap, (45.0, 85.0))),
-    # by what they do, where the thing itself is unknown
+    # by verb, if the object is unknown
     ("", "boil, bubble, simmer", _BOILING),
     ("", "sizzle, fry", _SIZZLING),
     ("", "tick", _TICK),

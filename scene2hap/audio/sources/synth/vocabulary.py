@@ -11,13 +11,13 @@ from scene2hap.audio.sources.word_stems import noun_phrase, stems
 
 
 def patch_for(category: str, *phrases: str) -> Patch:
-    """The patch whose name fits a category best, given phrases that may hold the verb; `MOTOR` if none fits.
+    """Return the patch whose name fits a category best, given phrases that may have the verb; `MOTOR` if none fits.
 
-    A name that holds the category's head noun goes before one that shares another word, a patch made for the verb
-    before one for any, more shared words before fewer.
+    The order of preference: names that have the category's head noun, names that share another word, patches made for
+    the verb, names that share more words.
     """
     nouns = noun_phrase(category)
-    # A boiling frying pan does not fry: what belongs to the name is no verb.
+    # A boiling frying pan does not fry: words of the name are no verbs.
     spoken = {stem for phrase in phrases for stem in stems(phrase)}.difference(nouns)
     best, best_fit = MOTOR, (False, False, False, 0)
     for name, verbs, patch in _rows():
@@ -32,7 +32,7 @@ def patch_for(category: str, *phrases: str) -> Patch:
 
 
 def patches() -> tuple[Patch, ...]:
-    """Every patch of the table, and `MOTOR`."""
+    """Return every patch of the table, and `MOTOR`."""
     return (*dict.fromkeys(patch for _, _, patch in TABLE), MOTOR)
 
 
@@ -42,7 +42,7 @@ def _rows() -> tuple[tuple[frozenset[str], frozenset[str], Patch], ...]:
 
 
 def _expanded() -> Iterator[tuple[frozenset[str], frozenset[str], Patch]]:
-    """One row for each name, in stems."""
+    """Yield one row for each name, in stems."""
     for names, verbs, patch in TABLE:
         for name in names.split(","):
             yield frozenset(stems(name)), frozenset(stems(verbs)), patch

@@ -1,4 +1,4 @@
-"""Machines that work on something: gears under load, steps, blades that slap, wheels that roll, jets that hiss.
+"""Voices of working machines: gears under load, stepper motors, rotor blades, rolling wheels, jets.
 
 Levels are RMS, relative to the strongest part of the voice; levels, slopes and patterns are tuned, frequencies are
 those of real devices.
@@ -34,11 +34,11 @@ def geared(
     thump_hz: float = 0.0,
     on_mains: bool = False,
 ) -> Signal:
-    """An electric motor that drives something slow through a gear: paddles, rollers, chains, drums.
+    """An electric motor that drives slow parts through a gear: paddles, rollers, chains, drums.
 
-    An induction motor `on_mains` turns at `motor_hz` on a mains of 50 Hz.
-    The output loads the motor once per turn, by the share `load`; `rumble` is the level of what rolls or slides. With a
-    `thump_hz` something falls or passes once per turn of the output, on a body that rings at that pitch.
+    An induction motor `on_mains` turns at `motor_hz` at a mains frequency of 50 Hz.
+    The output loads the motor once per turn, by the share `load`; `rumble` is the level of rolling or sliding parts.
+    With a `thump_hz`, a body that rings at that pitch is struck once per turn of the output.
     """
     speed_hz = take.mains_speed_hz(motor_hz) if on_mains else take.shaft_hz(motor_hz)
     turn = phase(speed_hz * (1.0 + 0.003 * wander(take.rng)))
@@ -58,7 +58,7 @@ def stepper(take: Take, *, slowest_hz: float = 90.0, fastest_hz: float = 260.0, 
     Speeds change within some 20 ms, as controllers ramp them.
     """
     n_moves = int(np.ceil(DURATION_S / move_s)) + 1
-    # Drawn around a middle speed: most moves of a machine are alike.
+    # Speeds are drawn around a middle one, since most moves of a machine are alike.
     low, high = np.log(slowest_hz), np.log(fastest_hz * (0.85 + 0.15 * take.drive))
     speeds = np.exp(take.rng.triangular(low, 0.5 * (low + high), high, n_moves))
     ends = np.cumsum(move_s * take.rng.uniform(0.6, 1.4, n_moves))
@@ -70,7 +70,7 @@ def stepper(take: Take, *, slowest_hz: float = 90.0, fastest_hz: float = 260.0, 
 
 
 def rotor_slap(take: Take, *, rotor_hz: float = 6.4, blades: int = 4, body_hz: float = 63.0) -> Signal:
-    """A helicopter: a slap as each blade passes, at blades times rotor speed; one blade is a little out of track."""
+    """A helicopter: a slap as each blade passes, at blades times rotor speed; one blade runs slightly out of track."""
     rate_hz = blades * take.speed_hz(rotor_hz)
     n = round(rate_hz * DURATION_S / blades) * blades
     at = np.arange(n) / n * DURATION_S
@@ -81,9 +81,9 @@ def rotor_slap(take: Take, *, rotor_hz: float = 6.4, blades: int = 4, body_hz: f
 
 
 def rolling(take: Take, *, passing_hz: float = 50.0) -> Signal:
-    """Wheels on a track: the rumble of rough surfaces, and supports that pass, a train's sleepers at speed / spacing.
+    """Wheels on a track: the rumble of rough surfaces, and a tone of passing supports, at the rate speed / spacing.
 
-    30 m/s over sleepers 0.6 m apart are 50 Hz.
+    A train at 30 m/s over sleepers 0.6 m apart gives 50 Hz.
     """
     speed_hz = take.speed_hz(passing_hz) * (1.0 + 0.01 * wander(take.rng, 0.5))
     passing = partials(phase(speed_hz), [1.0, 0.4, 0.2], take.rng)
@@ -93,8 +93,8 @@ def rolling(take: Take, *, passing_hz: float = 50.0) -> Signal:
 def jet(take: Take, *, low_hz: float = 50.0, tilt_db: float = -5.0, pump: float = 0.0) -> Signal:
     """Steam, paint or water through a nozzle: turbulent noise that changes by `tilt_db` from octave to octave.
 
-    `pump` is the level of a magnet pump on the mains, which strikes once per cycle, since a diode lets only one half
-    wave through.
+    `pump` is the level of a magnet pump on the mains, which strikes once per cycle, since a diode passes only one half
+    wave.
     """
     y = (0.6 + 0.8 * take.drive) * noise(take.rng, low_hz, 4000.0, tilt_db) * (1.0 + 0.05 * wander(take.rng, 2.0))
     return y + pump * unit_rms(partials(phase(take.mains_hz), take.roll_off(5), take.rng)) if pump else y

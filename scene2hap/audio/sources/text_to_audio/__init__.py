@@ -1,4 +1,4 @@
-"""Sounds generated from a sentence, by a program of one's choice in a process of its own."""
+"""Sounds generated from a sentence, by a program of the user's choice in a separate process."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ _MAX_REPLY_BYTES = 1_000_000
 
 @dataclass(frozen=True)
 class Request:
-    """`count` takes of `duration_s` [s] each, of what `prompt` says; `seed` makes them repeatable."""
+    """A request for `count` takes of `duration_s` [s] each, described by `prompt`; `seed` makes them repeatable."""
 
     prompt: str
     count: int
@@ -59,7 +59,7 @@ class Reply(BaseModel):
 def read_reply(folder: Path, scrub: Callable[[str], str] = str) -> Reply:
     """Read the generator's reply; `scrub` removes secrets from its text.
 
-    Raises: BackendUnavailable: it says that it failed; BadAnswer: it says nothing, or not in the words of the contract.
+    Raises: BackendUnavailable: the reply states a failure; BadAnswer: there is no reply, or it breaks the contract.
     """
     try:
         raw = _content(folder / REPLY_NAME, _MAX_REPLY_BYTES)
@@ -86,7 +86,7 @@ def read_reply(folder: Path, scrub: Callable[[str], str] = str) -> Reply:
 
 
 def read_file(folder: Path, name: str, max_bytes: int) -> bytes:
-    """The content of a file that a reply names.
+    """Return the content of a file that a reply names.
 
     Raises: BadAnswer: the name leads out of the folder, or there is no plain file of at most `max_bytes`.
     """
@@ -99,7 +99,7 @@ def read_file(folder: Path, name: str, max_bytes: int) -> bytes:
 
 
 def _content(path: Path, max_bytes: int) -> bytes:
-    """A plain file: neither a link, which may lead anywhere, nor a pipe, which would block. Raises: OSError."""
+    """Return the content of a plain file. A link may lead anywhere, a pipe would block. Raises: OSError: either."""
     status = path.lstat()
     if not stat.S_ISREG(status.st_mode):
         raise OSError(f"{path.name} is not a plain file")

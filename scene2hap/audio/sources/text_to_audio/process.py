@@ -1,7 +1,7 @@
 """Run an external program with limits of time and disk space.
 
-It gets a folder of its own, no standard input, and no keys; its output goes to a file in that folder. Processes that it
-started end with it.
+The program gets its own folder, no standard input, and no keys; its output is written to a file in that folder.
+Processes that the program started end with it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _SECRET_NAME = re.compile(r"(key|token|secret|password|credentials?)s?$", re.IGN
 
 
 class CannotStart(BackendUnavailable):
-    """The program is not there or may not be run: no other request will fare better."""
+    """The program is missing or may not be run, so that every other request would fail, too."""
 
 
 @dataclass(frozen=True)
@@ -44,13 +44,13 @@ class Allowance:
 
 
 def environment(kept: Iterable[str], variables: Mapping[str, str]) -> dict[str, str]:
-    """The variables without those whose names speak of keys, tokens, secrets or passwords, but for those `kept`."""
+    """Return the variables whose names are `kept`, or do not end in key, token, secret, password or credential."""
     named = set(kept)
     return {name: value for name, value in variables.items() if name in named or not _SECRET_NAME.search(name)}
 
 
 def scrubbed(text: str, variables: Mapping[str, str]) -> str:
-    """The text without the keys that the program was given, should it have printed them."""
+    """Return a text in which the keys among the program's variables are masked."""
     for name, value in variables.items():
         if _SECRET_NAME.search(name) and len(value) >= _SHORTEST_SCRUBBED:
             text = masked(text, value, MASK)
@@ -58,10 +58,10 @@ def scrubbed(text: str, variables: Mapping[str, str]) -> str:
 
 
 def run(command: Sequence[str], folder: Path, allowance: Allowance, variables: Mapping[str, str]) -> None:
-    """Run a command to its end; all that it writes belongs into `folder`.
+    """Run a command to its end; it must write all files into `folder`.
 
-    Raises: CannotStart; BackendUnavailable: it failed, took too long or wrote too much. The message ends with the last
-    of what it printed.
+    Raises: CannotStart; BackendUnavailable: it failed, took too long or wrote too much. The message ends with the
+    program's last output.
     """
     log = folder / LOG_NAME
     with log.open("wb") as output:
@@ -89,7 +89,7 @@ def run(command: Sequence[str], folder: Path, allowance: Allowance, variables: M
 
 
 def _watched(process: subprocess.Popen[bytes], folder: Path, allowance: Allowance) -> str:
-    """Wait for the end; what it did wrong, "" if nothing."""
+    """Wait for the end of a program. Returns: the limit that it broke; "" if none."""
     deadline = time.monotonic() + allowance.timeout_s
     while True:
         try:
@@ -110,7 +110,7 @@ def _watched(process: subprocess.Popen[bytes], folder: Path, allowance: Allowanc
 
 
 def _written(folder: Path) -> tuple[int, int]:
-    """Files and bytes below a folder, counted no further than needed; links are not followed."""
+    """Return the numbers of files and bytes below a folder, counted up to `MAX_FILES`; links are not followed."""
     n_files = n_bytes = 0
     unread = [str(folder)]
     while unread and n_files <= MAX_FILES:
@@ -130,9 +130,9 @@ def _written(folder: Path) -> tuple[int, int]:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """End the program and everything in its group, also what it left behind."""
+    """End the program and all processes of its group, also those that it left behind."""
     if os.name == "posix":
-        with contextlib.suppress(ProcessLookupError, PermissionError):  # nothing is left of it
+        with contextlib.suppress(ProcessLookupError, PermissionError):  # it has ended already
             os.killpg(process.pid, signal.SIGKILL)
     elif process.poll() is None:
         process.kill()

@@ -1,4 +1,4 @@
-"""The source itself: one process per description, its takes kept on disk before they are used."""
+"""The text-to-audio source: one process per description, whose takes are stored on disk before they are used."""
 
 from __future__ import annotations
 
@@ -37,17 +37,17 @@ _ORIGIN = "text_to_audio"
 
 
 class UnusableTake(UserWarning):
-    """A generated sound cannot be used; the others of its request are."""
+    """A generated sound cannot be used; the other sounds of its request are used."""
 
 
 class TextToAudio:
     """Generate sounds by a text-to-audio model, which a program of your choice runs in its own process.
 
-    command : words of the program's command line; {request} and {folder} stand for the two paths of the contract (at
-    the end, if they are not mentioned); or runner : "audiogen" or "stable_audio", scripts of this package, started by
-    `python`, the interpreter of the model's environment, with further `options`. count : number of takes, 1..5;
-    duration_s : of each [s]; timeout_s, max_bytes : limits at which the program is ended; keep_env : variables that it
-    may see although their names contain key or token; cache : folder of generated sounds.
+    command : words of the program's command line; {request} and {folder} stand for the two paths of the contract (added
+    at the end if missing); or runner : "audiogen" or "stable_audio", scripts of this package, started by `python`, the
+    interpreter of the model's environment, with further `options`. count : number of takes, 1..5; duration_s : of each
+    take [s]; timeout_s, max_bytes : limits at which the program is ended; keep_env : environment variables that the
+    program gets although their names end in key or token; cache : folder of generated sounds.
     Raises: ConfigError: a setting that cannot work.
     """
 
@@ -69,7 +69,7 @@ class TextToAudio:
         checks.number("timeout_s", timeout_s, "s", above=0.0, error=ConfigError)
         checks.number("max_bytes", max_bytes, "bytes", at_least=1, error=ConfigError)
         self._command = _command(command, runner, python, options)
-        # The interpreter's path says nothing about the sound; a model in `options` does.
+        # The interpreter's path does not affect the sound; a model in `options` does.
         self._identity = list(command) if command else [f"runner:{runner}", *options]
         self._count = how_many("count", count)
         self._duration_s = float(duration_s)
@@ -84,11 +84,11 @@ class TextToAudio:
         return f"TextToAudio({self._identity!r})"
 
     def find(self, description: VibrationDescription) -> list[AudioClip]:
-        """The takes that can be used, in the program's order; empty for a description without words.
+        """Return the takes that can be used, in the program's order; empty for a description without words.
 
-        A take that cannot be used is passed over with an `UnusableTake` warning.
+        A take that cannot be used is skipped with an `UnusableTake` warning.
         Raises: BackendUnavailable: the program cannot be started, failed, took too long or wrote too much; BadAnswer:
-        what it left behind is not what the contract says; ConfigError: the cache cannot be written.
+        its output breaks the contract; ConfigError: the cache cannot be written.
         """
         prompt = plain_line(description.sentence or description.keywords, 500)
         if not prompt:
@@ -129,7 +129,7 @@ class TextToAudio:
             shutil.rmtree(work, ignore_errors=True)
 
     def _adopted(self, folder: Path, reply: Reply, request: Request, key: str) -> list[AudioClip]:
-        """The takes that can be used, kept; the entry that names them is written last."""
+        """Store and return the takes that can be used; the entry that names them is written last."""
         clips: list[AudioClip] = []
         names: list[str] = []
         for index, name in enumerate(reply.files[: request.count]):
@@ -164,7 +164,7 @@ class TextToAudio:
 
 
 def _credit(request: Request, reply: Reply, index: int) -> Credit:
-    """A stranger's words about itself, fit for a credit."""
+    """Return the credit of a take, from the cleaned text of an untrusted reply."""
     return Credit(
         f"{plain_line(request.prompt, 120)}, take {index + 1}",
         plain_line(reply.model) or "an unnamed model",
