@@ -110,7 +110,7 @@ def read_ahap(path: Path, *, range_hz: tuple[float, float] = RANGE_HZ) -> Haptic
     The pair is found by its names, `x.continuous.ahap` and `x.transients.ahap`. As in Apple's player, values out of
     range are clamped and unknown keys ignored.
     Raises: ClipError: the file is no AHAP, or has no event.
-    Warns: ClipWarning: events that are not haptic.
+    Warns: ClipWarning: events, curves or parameters that are not haptic.
     """
     parts = [_pattern(read_fields(part, needed="Pattern", kind="AHAP")) for part in _pair(path)]
     ignored = sorted(set[str]().union(*(part.ignored for part in parts)))

@@ -4,8 +4,8 @@
 
 a and b are the stretches that begin the loop and follow its end, w_in and w_out their weights. Equal stretches (r = 1)
 keep their level under a linear fade, w_in + w_out = 1. Uncorrelated ones (r = 0) keep it under an equal-power fade,
-w_in^2 + w_out^2 = 1. The root is 1 in both cases. Between these cases, it removes the remaining dip or bump of up to
-1.2 dB.
+w_in^2 + w_out^2 = 1. The root is 1 in both cases. At other r it removes what the fade leaves: a bump of up to
+1.8 dB, or a dip of up to 3 dB.
 
 If the level changes by T dB from one stretch to the other, the loop is tilted back, so that both are equally loud:
 sample i of L gets a gain of T (i / L - 1/2) dB. Levels are medians over pieces of 20 ms, so that a single tick does not

@@ -58,8 +58,8 @@ _LONG_SHARES, _WORTH = (0.8, 0.65), 0.5
 the least one by at most half. In noise all seams are equally good, and the repetition of a longer loop is noticed
 later. A rhythm has few good seams."""
 _UNNOTICED = 0.01
-"""Dissimilarity up to which a seam that keeps the beat is preferred in any case. It is that of a tone 8 degrees out of
-phase, which loses 0.02 dB in the fade. A ring that is a tenth of a second too long is noticed sooner."""
+"""Loss of similarity up to which a seam that keeps the beat is preferred in any case. A tone 8 degrees out of phase
+loses as much, and 0.02 dB in the fade. A ring that is a tenth of a second too long is noticed sooner."""
 _LEVEL_STEP_S, _SHORTEST_PERIOD_S = 0.01, 0.2
 """Time resolution of the level, and shortest period of it [s]. Shorter periods fit into the compared stretches."""
 _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05

@@ -49,7 +49,7 @@ _LONGEST_NAME = max(len(name.split()) for name in _SAME_THING)
 
 
 def stems(text: str) -> tuple[str, ...]:
-    """Return the words of a text or file name in order: lower case, no numbers, plural, -ing or double endings."""
+    """Return the stems of a text or file name in order: lower case, without numbers and endings, one for synonyms."""
     spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text)
     words = [_stem(word) for word in re.findall(r"[^\W\d_]+", spaced.lower())]
     found: list[str] = []
