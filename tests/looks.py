@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from gltf_builder import Gltf
-from scene2hap.scene.appearance import Appearance
 from scene2hap.scene.load import TextureWarning, load_scene
+from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 

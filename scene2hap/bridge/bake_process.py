@@ -15,7 +15,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.errors import Scene2HapError
 from scene2hap.llm.wrappers import is_remote
 from scene2hap.scene.capture import capture_images
-from scene2hap.scene.given_pictures import GivenPictures
+from scene2hap.scene.capture.given_pictures import GivenPictures
 from scene2hap.scene.load import load_scene
 
 

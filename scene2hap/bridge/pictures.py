@@ -11,7 +11,7 @@ from typing import Any
 from scene2hap import checks
 from scene2hap.bridge.frames import decode_picture
 from scene2hap.errors import BridgeError
-from scene2hap.scene.given_pictures import INDEX, GivenPictures
+from scene2hap.scene.capture.given_pictures import INDEX, GivenPictures
 
 MAX_BYTES = 1 << 29
 """Most bytes of a client's pictures before a bake."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.errors import BundleError
 from scene2hap.haptics import unmet_needs
-from scene2hap.scene import plate_sizes
+from scene2hap.scene.surface import plate_sizes
 
 
 class BundleWarning(UserWarning):

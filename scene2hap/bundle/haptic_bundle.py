@@ -20,7 +20,7 @@ from scene2hap.calls import clear_calls
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
-from scene2hap.scene.check import too_heavy
+from scene2hap.scene.plausibility.check import too_heavy
 from scene2hap.scene.scene_warning import warn_of
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from scene2hap.clips.reading import as_vibration, read_any_clip
 from scene2hap.errors import BundleError
 from scene2hap.haptics import LONGEST_PASSAGE_S, ObjectHaptics, SourceState, checked_mass_kg
 from scene2hap.materials import Material, lookup
-from scene2hap.scene.plate_sizes import with_thickness
+from scene2hap.scene.surface.plate_sizes import with_thickness
 
 USER = "user"
 """Provenance of an overridden field."""

@@ -24,7 +24,7 @@ from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers import identity, innermost, is_remote
 from scene2hap.llm.wrappers.prices import price_list
 from scene2hap.scene.capture import capture_images
-from scene2hap.scene.given_pictures import GivenPictures
+from scene2hap.scene.capture.given_pictures import GivenPictures
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.settings import read_settings

@@ -13,7 +13,7 @@ from scene2hap.errors import UnknownMaterial
 from scene2hap.llm.mass_check import mass_fault
 from scene2hap.llm.protocol import Component
 from scene2hap.materials import MaterialRow, lookup_row
-from scene2hap.scene import plate_sizes
+from scene2hap.scene.surface import plate_sizes
 
 EDGES = ("length", "width", "thickness")
 _WHOLE = ("length", "width", "height")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from scene2hap.llm.answers import ObjectAnswer
 from scene2hap.llm.plausibility import EDGES
-from scene2hap.scene import plate_sizes
+from scene2hap.scene.surface import plate_sizes
 
 
 def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[plate_sizes.Size, tuple[str, ...]]:

@@ -19,11 +19,12 @@ from pydantic import TypeAdapter, ValidationError
 from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.printable import read_json
-from scene2hap.scene import limits, plate_sizes
+from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX
 from scene2hap.scene.objects import SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface, Geometry
+from scene2hap.scene.surface import plate_sizes
 
 FORMAT = "scene2hap/scene"
 VERSION = 1

@@ -16,13 +16,13 @@ from scene2hap.printable import writable
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
 from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
+from scene2hap.scene.looks.texture_files import TextureFiles
+from scene2hap.scene.looks.textures import TextureWarning
 from scene2hap.scene.objects import SceneObject, UpAxis, with_relative_heights
+from scene2hap.scene.plausibility.units import UnitWarning, warn_if_implausible
 from scene2hap.scene.rigid_meshes import MeshPool
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.scene.texture_files import TextureFiles
-from scene2hap.scene.textures import TextureWarning
 from scene2hap.scene.tree import AuthoredScene
-from scene2hap.scene.units import UnitWarning, warn_if_implausible
 
 __all__ = ["TextureWarning", "UnitWarning", "load_scene"]
 

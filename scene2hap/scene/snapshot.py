@@ -17,7 +17,6 @@ from scene2hap import checks
 from scene2hap.calls import clear_calls
 from scene2hap.errors import CallError, SceneError, UnknownObject
 from scene2hap.html_tables import html_table, number
-from scene2hap.scene.check import Finding
 from scene2hap.scene.images import ImageSet
 from scene2hap.scene.objects import (
     Contact,
@@ -28,6 +27,7 @@ from scene2hap.scene.objects import (
     unknown_object,
     with_relative_heights,
 )
+from scene2hap.scene.plausibility.check import Finding
 from scene2hap.scene.pose import Pose
 
 
@@ -110,7 +110,7 @@ class SceneSnapshot(SceneData):
         Raises: SceneError: as the constructor.
         Warns: UnitWarning: the sizes cannot be metres.
         """
-        from scene2hap.scene.units import warn_if_implausible
+        from scene2hap.scene.plausibility.units import warn_if_implausible
 
         if isinstance(objects, SceneObject | str | Mapping) or not isinstance(objects, Iterable):
             given = checks.described(objects)
@@ -148,7 +148,7 @@ class SceneSnapshot(SceneData):
 
     def check(self) -> tuple[Finding, ...]:
         """Find likely mistakes: units, quaternions, masses, the up axis, floating or sunken objects."""
-        from scene2hap.scene.check import findings
+        from scene2hap.scene.plausibility.check import findings
 
         return tuple(findings(self))
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.errors import SceneError, SceneFormatError
-from scene2hap.scene.appearance import Appearance
+from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.objects import UpAxis
 
 Matrix = NDArray[np.float64]

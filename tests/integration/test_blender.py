@@ -18,7 +18,7 @@ import pytest
 from PIL import Image
 
 from scene2hap import SceneObject, SceneSnapshot, load_scene
-from scene2hap.scene.given_pictures import GivenPictures
+from scene2hap.scene.capture.given_pictures import GivenPictures
 
 SCRIPT = Path(__file__).parents[2] / "clients" / "blender" / "export_scene2hap.py"
 PYTHON = os.environ.get("SCENE2HAP_BPY_PYTHON") or (sys.executable if importlib.util.find_spec("bpy") else "")

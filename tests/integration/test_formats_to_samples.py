@@ -14,7 +14,7 @@ DATA = Path(__file__).parents[1] / "data"
 FILES = [DATA / "meshopt" / "quantised.glb", DATA / "urdf" / "laundry" / "laundry.urdf"]
 
 # The offline backends say that all else is silent.
-pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.scene.check.SceneWarning")
+pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.scene.plausibility.check.SceneWarning")
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)

@@ -14,7 +14,7 @@ from scene2hap import HapticSession, Pose, SceneSnapshot, Touch, bake, load_scen
 from scene2hap.contact.graph import ContactGraph
 
 # They have rooms without sources.
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.check.SceneWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.plausibility.check.SceneWarning")
 
 
 @cache

@@ -12,7 +12,7 @@ from scene2hap import HapticBundle, HapticSession, Touch, bake, load_scene
 from scene2hap.scene.load import UnitWarning
 
 # Rooms without sources are silent, and baking says so.
-pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.scene.check.SceneWarning")
+pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.scene.plausibility.check.SceneWarning")
 
 FILES = {
     "aws_house_bedroom": "aws_house_bedroom.glb",

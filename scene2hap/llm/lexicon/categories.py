@@ -11,7 +11,7 @@ from scene2hap.llm.lexicon.materials import make, painted_with
 from scene2hap.llm.lexicon.name_checks import fit, owner_of_part
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
-from scene2hap.scene import plate_sizes
+from scene2hap.scene.surface import plate_sizes
 
 UNKNOWN = "unknown"
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from scene2hap.scene.appearance import FaceMaterial
+from scene2hap.scene.looks.appearance import FaceMaterial
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.tree import Piece
 
 _INDEX = {1: np.uint8, 2: np.uint16, 4: np.uint32}

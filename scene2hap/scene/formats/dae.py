@@ -20,7 +20,7 @@ import numpy as np
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.dae_materials import DaeMaterials
-from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _ENCODING = re.compile(rb"(?:\xef\xbb\xbf)?\s*<\?xml[^>]*?encoding\s*=\s*[\"']([^\"']*)")

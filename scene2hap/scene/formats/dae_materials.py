@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.appearance import Appearance, FaceMaterial
-from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
+from scene2hap.scene.looks.texture_files import TextureFiles
 
 
 @dataclass(eq=False)

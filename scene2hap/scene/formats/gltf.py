@@ -18,14 +18,14 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.appearance import Appearance, FaceMaterial
-from scene2hap.scene.colors import painted, srgb
 from scene2hap.scene.formats.gltf_accessors import indices, positions, vectors
 from scene2hap.scene.formats.gltf_container import GltfFile, Json, natural
 from scene2hap.scene.formats.gltf_draco import DRACO, draco
 from scene2hap.scene.formats.gltf_materials import GltfMaterials, Paint
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
+from scene2hap.scene.looks.texture_files import TextureFiles
+from scene2hap.scene.looks.vertex_colors import painted, srgb
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
-from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.files import inside, read_bytes
-from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
+from scene2hap.scene.looks.texture_files import TextureFiles
 
 # Most words that follow each option of a texture; numbers may be left out.
 _OPTIONS = {

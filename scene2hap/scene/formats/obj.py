@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.mtl import MtlLibraries
-from scene2hap.scene.texture_files import TextureFiles
+from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Piece
 
 _Faces = list[tuple[int, int, int]]

@@ -26,12 +26,12 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.engines import solids
 from scene2hap.scene.files import read_bytes
 from scene2hap.scene.formats.urdf_files import UrdfFiles
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
+from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
 
 MAX_XML_BYTES = 1 << 24

@@ -20,7 +20,7 @@ from scene2hap.errors import BundleError, ConfigError
 from scenes import box, scene, tone_loop
 
 # They have a table far from the rest, and a room without sources.
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.check.SceneWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.plausibility.check.SceneWarning")
 
 NAMES = ("desk_fan", "microwave_oven", "refrigerator")  # the latter two hum at 100 Hz, and are moved apart
 RATE = 8000

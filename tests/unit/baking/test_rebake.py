@@ -12,7 +12,7 @@ from scene2hap.errors import UnknownObject
 from scripted_backend import SCENE, Scripted
 
 # They have things in the air.
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.check.SceneWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.plausibility.check.SceneWarning")
 
 
 def answering() -> FunctionBackend:

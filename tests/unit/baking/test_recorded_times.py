@@ -23,7 +23,7 @@ START, STOP = RunCurve(2.0, (0.0, 0.4, 1.0)), RunCurve(3.0, (1.0, 0.4, 0.0))
 STATE = SourceState("on", 0.5, "fan whirring", "fan whirring", start_up_s=1.0, wind_down_s=4.0, spins=True)
 
 # They have things in the air.
-scenes_in_the_air = pytest.mark.filterwarnings("ignore::scene2hap.scene.check.SceneWarning")
+scenes_in_the_air = pytest.mark.filterwarnings("ignore::scene2hap.scene.plausibility.check.SceneWarning")
 
 
 def fan(**state: Any) -> ObjectHaptics:

@@ -9,8 +9,8 @@ import pytest
 
 from looks import PIXELS, image_file
 from scene2hap.errors import SceneError
-from scene2hap.scene.appearance import Appearance, FaceMaterial, joined
-from scene2hap.scene.textures import EncodedTexture
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial, joined
+from scene2hap.scene.looks.textures import EncodedTexture
 
 RED = (1.0, 0.0, 0.0, 1.0)
 

@@ -13,8 +13,8 @@ from edge_scenes import EDGE_SCENES
 from others import SCENES, needed
 from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot, TriMesh, bake, load_scene
 from scene2hap.errors import SceneError
-from scene2hap.scene.check import SceneWarning
-from scene2hap.scene.units import UnitWarning
+from scene2hap.scene.plausibility.check import SceneWarning
+from scene2hap.scene.plausibility.units import UnitWarning
 
 ROOM = [
     SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0))),
@@ -222,5 +222,5 @@ def test_check_does_not_depend_on_batch_size(monkeypatch: pytest.MonkeyPatch) ->
     whole = scene.check()
     assert whole
     for n in (1, 7, 64):
-        monkeypatch.setattr("scene2hap.scene.check._BATCH", n)
+        monkeypatch.setattr("scene2hap.scene.plausibility.check._BATCH", n)
         assert scene.check() == whole

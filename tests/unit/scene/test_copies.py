@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.copies import copy_key, name_words
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.pose import Pose
 from scenes import box
 

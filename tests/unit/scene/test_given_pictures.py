@@ -16,9 +16,8 @@ from scene2hap.errors import SceneError, SceneFormatError, UnknownObject
 from scene2hap.llm.chain import infer_haptics
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMReply, LLMRequest
-from scene2hap.scene import given_pictures
-from scene2hap.scene.capture import contact_sheet
-from scene2hap.scene.given_pictures import GivenPictures, check_picture
+from scene2hap.scene.capture import contact_sheet, given_pictures
+from scene2hap.scene.capture.given_pictures import GivenPictures, check_picture
 
 SCENE = SceneSnapshot.build(
     [

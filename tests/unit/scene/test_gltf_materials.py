@@ -30,8 +30,8 @@ from looks import (
     refused,
     shown,
 )
-from scene2hap.scene.colors import srgb
 from scene2hap.scene.load import load_scene
+from scene2hap.scene.looks.vertex_colors import srgb
 
 # -- where images come from ------------------------------------------------------------------------------------------
 

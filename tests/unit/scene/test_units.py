@@ -10,8 +10,8 @@ import pytest
 
 from gltf_builder import Gltf
 from scene2hap.scene.load import UnitWarning, load_scene
+from scene2hap.scene.plausibility.units import warn_if_implausible
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.scene.units import warn_if_implausible
 from scenes import box, scene
 
 # (name, width, height) in metres of things that stand on the floor.

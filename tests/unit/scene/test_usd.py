@@ -14,9 +14,9 @@ import pytest
 from looks import BLUE, GREEN, QUAD, UPRIGHT, image_file, looks, refused, shown
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.colors import srgb
 from scene2hap.scene.formats.usd import process
 from scene2hap.scene.load import load_scene
+from scene2hap.scene.looks.vertex_colors import srgb
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 from usd_writing import CUBE_POINTS, CUBE_QUADS, bind, mesh, new_stage, preview, textured, usd

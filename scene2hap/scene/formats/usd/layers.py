@@ -25,8 +25,8 @@ from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.files import check_file, inside
 from scene2hap.scene.formats.usd.archive import Archive
 from scene2hap.scene.formats.usd.composition import Composition
-from scene2hap.scene.texture_files import TextureFiles
-from scene2hap.scene.textures import EncodedTexture
+from scene2hap.scene.looks.texture_files import TextureFiles
+from scene2hap.scene.looks.textures import EncodedTexture
 
 MAX_LAYER_BYTES = 1 << 32
 """Largest size of all layers of one scene [bytes] (assumed)."""

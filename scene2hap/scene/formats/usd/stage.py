@@ -29,8 +29,8 @@ from scene2hap.scene.formats.usd.masses import Masses
 from scene2hap.scene.formats.usd.materials import UsdMaterials
 from scene2hap.scene.formats.usd.meshes import Triangles, mesh_triangles, shape_triangles, subsets
 from scene2hap.scene.formats.usd.values import integers, rest_time, value
+from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.objects import UpAxis
-from scene2hap.scene.texture_files import TextureFiles
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
 
 _FREE_NUMBERS, _NUMBERS_PER_BYTE = 20_000_000, 4.0

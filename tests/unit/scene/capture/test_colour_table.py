@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from scene2hap.scene.appearance import FaceMaterial
 from scene2hap.scene.capture.colour_table import AMBIENT, HEADLIGHT, SKYLIGHT, Palette, PaletteBuilder, light, neutral
+from scene2hap.scene.looks.appearance import FaceMaterial
 
 
 def palette_of(*materials: FaceMaterial) -> Palette:

@@ -13,13 +13,13 @@ import pytest
 from PIL import Image
 
 from scene2hap import SceneSnapshot
-from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.capture.cache import MEMORY
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scenes import box, scene
 
 embree = pytest.importorskip(

@@ -11,12 +11,12 @@ from scipy.ndimage import maximum_filter, minimum_filter
 
 from host import rasteriser_problem
 from scene2hap import SceneSnapshot
-from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scenes import box, scene
 
 embree = pytest.importorskip(

@@ -13,13 +13,13 @@ import pytest
 
 from scene2hap import SceneSnapshot
 from scene2hap.errors import ConfigError, MissingExtra, SceneError, UnknownObject, UnknownPlugin
-from scene2hap.scene.appearance import Appearance, FaceMaterial
 from scene2hap.scene.capture import RENDERERS, CaptureConfig, capture_images, capture_stats, contact_sheet, render_all
 from scene2hap.scene.capture.cache import MEMORY, FolderCache, MemoryCache
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.images import ImageSet
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scenes import box, scene
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.scene.appearance import Appearance, FaceMaterial
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 
 Floats = NDArray[np.float64]
 

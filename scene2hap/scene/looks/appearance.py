@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
-from scene2hap.scene.textures import EncodedTexture
+from scene2hap.scene.looks.textures import EncodedTexture
 
 Rgba = tuple[float, float, float, float]
 

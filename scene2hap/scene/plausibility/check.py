@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.objects import SceneData, SceneObject
+from scene2hap.scene.plausibility.units import implausible
 from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
-from scene2hap.scene.units import implausible
 
 Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass"]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from scene2hap.errors import SceneError
 from scene2hap.scene.files import inside, read_bytes
-from scene2hap.scene.textures import EncodedTexture
+from scene2hap.scene.looks.textures import EncodedTexture
 
 
 @dataclass(eq=False)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.objects import SceneData, SceneObject
-from scene2hap.scene.usual_sizes import DOOR, Usual, usual
+from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, usual
 
 
 class UnitWarning(UserWarning):

@@ -1,0 +1,1 @@
+"""Looks of objects: colours and textures of their faces, which only pictures use."""

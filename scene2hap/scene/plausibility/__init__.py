@@ -1,0 +1,1 @@
+"""Likely mistakes in a scene, such as sizes that cannot be metres."""
