@@ -18,6 +18,7 @@ __version__ = "0.1.0"
 _HOME = {
     "scene2hap.scene.load": ("load_scene",),
     "scene2hap.scene.capture": ("capture_images",),
+    "scene2hap.scene.capture.given_pictures": ("GivenPictures",),
     "scene2hap.scene.pose": ("Pose",),
     "scene2hap.scene.pose_table": ("PoseTable",),
     "scene2hap.scene.objects": ("Contact", "SceneObject"),
@@ -241,6 +242,7 @@ if TYPE_CHECKING:
         PropagationModel as PropagationModel,
     )
     from scene2hap.scene.capture import capture_images as capture_images
+    from scene2hap.scene.capture.given_pictures import GivenPictures as GivenPictures
     from scene2hap.scene.load import load_scene as load_scene
     from scene2hap.scene.objects import Contact as Contact
     from scene2hap.scene.objects import SceneObject as SceneObject
