@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from scene2hap import checks
+from scene2hap.calls import clear_calls
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.cache import MEMORY
@@ -71,6 +72,7 @@ class GivenShot(Shot):
         return self.view
 
 
+@clear_calls
 class GivenPictures:
     """The `ImageSource` of existing pictures, as PNG or JPEG files.
 
