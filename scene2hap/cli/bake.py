@@ -34,7 +34,7 @@ HELP = "scene file -> haptic bundle"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap bake``."""
-    kinds = "glTF, GLB, OBJ, STL, PLY, COLLADA, URDF, MJCF, Habitat, scene JSON"
+    kinds = "glTF, GLB, OBJ, STL, PLY, COLLADA, USD, URDF, MJCF, Habitat, scene JSON"
     parser.add_argument("scene", metavar="SCENE", help=kinds)
     parser.add_argument("-o", "--output", metavar="BUNDLE", help="folder to write (not needed with --dry-run)")
     parser.add_argument("--dry-run", action="store_true", help="show calls, tokens and cost only; no model is called")

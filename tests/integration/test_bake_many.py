@@ -283,6 +283,14 @@ def test_files_beside_a_scene_count(tmp_path: Path) -> None:
     assert scene_digest(scene) != before
 
 
+@pytest.mark.parametrize("output", ["out", "."])
+def test_bundles_in_the_folder_of_a_scene_do_not_count(tmp_path: Path, output: str) -> None:
+    scene = tmp_path / "radio.obj"
+    trimesh.creation.box((0.3, 0.2, 0.15)).export(scene)
+    assert bake_many([scene], tmp_path / output).count("baked") == 1
+    assert bake_many([scene], tmp_path / output).count("kept") == 1
+
+
 def test_equal_file_names_get_separate_bundles(scenes: list[Path], tmp_path: Path) -> None:
     others = write_scenes(tmp_path / "b", 1)
     report = bake_many([scenes[0], others[0]], tmp_path / "out")

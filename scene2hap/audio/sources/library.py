@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -31,7 +32,7 @@ class FolderLibrary:
 
     If the folder holds a `sounds.csv`, its rows are the library instead. Columns: file (relative to the folder),
     keywords (the file's name if empty), title, author, licence, address; all but the first may be missing.
-    Raises: ConfigError: the folder is missing, or its `sounds.csv` is not such a table.
+    Raises: ConfigError: the folder is missing, or its `sounds.csv` is not such a table or names a file outside of it.
     """
 
     folder: Path
@@ -98,6 +99,11 @@ class FolderLibrary:
                 for column in ("file", "keywords", "title", "author", "licence", "address")
             )
             if name:
-                path = self.folder / name
+                path = Path(os.path.normpath(self.folder / name))
+                if not path.is_relative_to(os.path.normpath(self.folder)):
+                    raise ConfigError(
+                        f"{index}: file is {name!r}, which lies outside {self.folder}; only files inside it are read. "
+                        "Copy it there."
+                    )
                 credit = Credit(title or path.stem, author or "unknown", licence or "unknown", address)
                 yield path, set(stems(keywords or path.stem)), credit

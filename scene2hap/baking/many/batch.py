@@ -22,7 +22,8 @@ from filelock import FileLock, Timeout
 from scene2hap import checks
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
-from scene2hap.baking.many.run import WORK, Progress, Run, scene_paths
+from scene2hap.baking.many.record import WORK
+from scene2hap.baking.many.run import Progress, Run, scene_paths
 from scene2hap.calls import clear_attributes, clear_call
 from scene2hap.errors import BudgetExceeded, ConfigError, Scene2HapError
 from scene2hap.llm.backends.openai import OpenAIBackend

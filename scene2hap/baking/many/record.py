@@ -21,6 +21,8 @@ from scene2hap.scene.files import is_habitat, read_bytes
 from scene2hap.scene.formats.habitat import referenced_files
 from scene2hap.text_files import write_whole
 
+WORK, REPORT = ".bake-many", "report.json"
+"""The folder beside the bundles for records and drafts, and the file with the report of the last run."""
 _SELF_CONTAINED = frozenset({".glb", ".stl", ".ply", ".json"})
 _MOST_BESIDE = 10_000
 """Most files beside a scene that are checked; assumed: more than any scene's textures and buffers."""
@@ -33,15 +35,16 @@ def scene_digest(path: Path, options: Mapping[str, Any] | None = None) -> str:
     """Return a digest of a scene file and of the files that it may refer to.
 
     A Habitat scene lists its files, which depend on the options of `load_scene`. For other formats with external files,
-    all files in the folder count. A file of more than a megabyte, besides the scene itself, is represented by its size
-    and modification time.
+    all files in the folder count, except bundles. A file of more than a megabyte, besides the scene itself, is
+    represented by its size and modification time.
     Raises: SceneError: the scene file is missing, a folder, or cannot be read.
     """
     found = hashlib.sha256(read_bytes(path))
     if is_habitat(path):
         others = _of_habitat(path, options or {})
     elif path.suffix.lower() not in _SELF_CONTAINED:
-        others = sorted(one for one in path.parent.rglob("*") if one != path and one.is_file())[:_MOST_BESIDE]
+        beside = (one for one in path.parent.rglob("*") if one != path and one.is_file())
+        others = sorted(one for one in beside if not _is_result(one.relative_to(path.parent)))[:_MOST_BESIDE]
     else:
         others = []
     for other in others:
@@ -52,6 +55,11 @@ def scene_digest(path: Path, options: Mapping[str, Any] | None = None) -> str:
         else:
             found.update(str(state.st_mtime_ns).encode())
     return found.hexdigest()[:32]
+
+
+def _is_result(path: Path) -> bool:
+    """Return True for files of a bundle or of `bake_many`, which may be written into a scene's folder."""
+    return path.name == REPORT or any(part == WORK or part.endswith(".bundle") for part in path.parts)
 
 
 def _of_habitat(path: Path, options: Mapping[str, Any]) -> list[Path]:

@@ -27,7 +27,7 @@ from typing import Any, TypeVar
 from scene2hap import checks
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
-from scene2hap.baking.many.record import Record, read_record, scene_digest, settings_digest, write_record
+from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
 from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures, wishes_at
 from scene2hap.baking.scene import VIBRATES
@@ -53,8 +53,6 @@ Progress = Callable[[str, str, int, int], None]
 """Called with (stage, scene, number of scenes done, total number)."""
 
 _COUNTS = ("n_objects", "n_sources", "n_unknown")
-WORK = ".bake-many"
-"""The folder beside the bundles for records and drafts."""
 _AHEAD = 4
 """Scenes in progress beyond the number of workers; assumed: as many as wait for a model at the same time."""
 
@@ -195,7 +193,7 @@ class Run:
         report = ManyReport(found, time.perf_counter() - begun, stack)
         if not report.failed:
             shutil.rmtree(self._work("all", ".pictures"), ignore_errors=True)
-        write_record(self.folder / "report.json", report.to_data())
+        write_record(self.folder / REPORT, report.to_data())
         return report
 
     async def each(self, paths: list[Path], work: Callable[[Path], Awaitable[Report]]) -> list[Report]:

@@ -92,7 +92,10 @@ def _failure(done: subprocess.CompletedProcess[bytes]) -> str:
     """Return a sentence about a child that gave no answer."""
     said = done.stderr.decode("utf-8", "replace")
     if TIMED_OUT in said:
-        return f"it takes longer than {TIME_S:g} s, and {TIME_S_PER_PRIM * 1e3:g} s for each 1,000 prims."
+        return (
+            f"it takes longer than {TIME_S:g} s, and {TIME_S_PER_BYTE * 1e6:g} s for each megabyte and "
+            f"{TIME_S_PER_PRIM * 1e3:g} s for each 1,000 prims."
+        )
     if "bad_alloc" in said or "MemoryError" in said:
         return f"it takes more than {MEMORY_BYTES >> 20} MB, and {MEMORY_PER_BYTE} bytes for each that it has."
     return f"usd-core ended with status {done.returncode}."

@@ -73,6 +73,16 @@ def test_malformed_index_is_refused(tmp_path: Path) -> None:
         FolderLibrary(tmp_path).find(describe("pump", "pump"))
 
 
+@pytest.mark.parametrize("name", ["../fan.wav", "sub/../../fan.wav", "{outside}/fan.wav"])
+def test_index_reads_no_file_outside_the_folder(tmp_path: Path, name: str) -> None:
+    folder = tmp_path / "library"
+    folder.mkdir()
+    fill(tmp_path, "fan.wav")
+    (folder / "sounds.csv").write_text(f"file\n{name.format(outside=tmp_path)}\n", encoding="utf-8")
+    with pytest.raises(ConfigError, match=r"sounds\.csv: file is .*fan\.wav', which lies outside .*library"):
+        FolderLibrary(folder).find(describe("fan", "fan humming"))
+
+
 def test_library_skips_unreadable_files_with_a_warning(tmp_path: Path) -> None:
     fill(tmp_path, "pump_b.wav")
     (tmp_path / "pump_a.wav").write_text("no sound")
