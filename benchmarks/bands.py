@@ -1,4 +1,4 @@
-"""How far levels depend on uncertain moduli, by the width of the band, as a table in Markdown.
+"""Dependence of levels on uncertain moduli, by the width of the band, as a table in Markdown.
 
 python benchmarks/bands.py [--draws 30] [--seed 5]
 
@@ -27,7 +27,7 @@ N_SCENES, N_POINTS = 30, 12
 
 
 def scene(rng: np.random.Generator) -> tuple[ContactNetwork, Excitation, NDArray[np.float64]]:
-    """A plate on legs, a tray on it, a source on one of them; and points on the plate."""
+    """A plate on legs with a tray and a source, and points on the plate."""
     name = str(rng.choice(MATERIALS))
     thickness_m = rng.uniform(0.002, 0.008) if name in ("steel", "glass") else rng.uniform(0.012, 0.03)
     top = Plate(1.2, 0.7, float(thickness_m), materials.lookup(name), object_mass_kg=None)
