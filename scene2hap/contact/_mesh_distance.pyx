@@ -158,7 +158,7 @@ def contact_points(host, guest, turn, shift, way, double within):
     try:
         open_tree(&search.guest, guest, SURFACE, &moved)
         open_tree(&search.host, host, SURFACE, NULL)
-        # First place: the lowest corner of the guest's box, since all points of a ball are about as far from its middle.
+        # First place: the lowest corner of the guest's box. All points of a ball are about as far from its middle.
         place_point(search.places[0], search.guest.nodes, &at)
         n = choose(chosen, &search)
         if n < 0:

@@ -152,7 +152,7 @@ def _restart() -> None:
 
 
 def named(device: str | int, known: list[Card]) -> Card | None:
-    """Return the device with an index, or the first whose name is, or else contains, `device`."""
+    """Return the device with an index, or the first whose name equals `device`, otherwise contains it."""
     if isinstance(device, int):
         return next((card for card in known if card.index == device), None)
     wanted = device.casefold()
