@@ -2,10 +2,10 @@
 
 python benchmarks/auto_scenes.py SCENE [SCENE ...] [--tolerance 1.0] [--seed 4]
 
-Each scene is baked offline and prepared by both models with empty caches, in third octaves from 10 to 1000 Hz and in
-the default bands around dominant frequencies. Each plate that a source reaches is touched at five points: two anywhere,
-two on an edge, one at a corner. The error of a touch is that of its worst band and source; both gains are at least
--40 dB re the source. For errors both models solve rectangles. Times are processor times.
+Each scene is baked offline and prepared by both models with empty caches. Bands are third octaves from 10 to 1000 Hz,
+and the default bands around dominant frequencies. Each plate that a source reaches is touched at five points: two
+anywhere, two on an edge, one at a corner. The error of a touch is that of its worst band and source; both gains are at
+least -40 dB re the source. For errors both models solve rectangles. Times are processor times.
 
 In a session `AutoFidelity` follows outlines, and `ModalPlate` solves the rectangle of length and width. The second
 table has the preparation time of each in this case, also for eight round tables, the worst case.

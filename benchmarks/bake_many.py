@@ -2,10 +2,10 @@
 
 python benchmarks/bake_many.py [--scenes 24] [--seed 0]
 
-Scenes are variations of the demo kitchen and, if they are beside the project, of other authors' kitchens and rooms: a
-random half of the objects of each, somewhat displaced. Every run starts without files, and the runs of each round are
-in a new random order. Bundles of all runs must be equal. Two independent programs at once, each with half of the
-scenes, show the upper bound of the machine. Processor time is the sum over all processes of a run, their start
+Scenes are variations of the demo kitchen and, if they are beside the project, of other authors' kitchens and rooms. A
+variation has a random half of the objects, somewhat displaced. Every run starts without files, and the runs of each
+round are in a new random order. Bundles of all runs must be equal. Two independent programs at once, each with half of
+the scenes, show the upper bound of the machine. Processor time is the sum over all processes of a run, their start
 included; other programs on the machine change it less than they change the wall time.
 """
 

@@ -2,10 +2,10 @@
 
 python benchmarks/bands.py [--draws 30] [--seed 5]
 
-Each scene is a plate of 1.2 x 0.7 m on four legs with a tray on it and a source on one of them, with random material,
-thickness, place and frequency. Young's modulus of each part is drawn within 30 % of the material table. The table gives
-the spread of the level at points on the plate, rms about each point's mean and 99th percentile, in a band around the
-source's dominant frequency. Resonant models use half an octave by default.
+Each scene is a plate of 1.2 x 0.7 m on four legs, with a tray on the plate and a source on one of the two. Material,
+thickness, place and frequency are random. Young's modulus of each part is drawn within 30 % of the material table. The
+table gives the spread of the level at points on the plate: rms about each point's mean, and 99th percentile. The band
+lies around the source's dominant frequency. Resonant models use half an octave by default.
 """
 
 from __future__ import annotations

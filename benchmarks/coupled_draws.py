@@ -2,10 +2,13 @@
 
 python benchmarks/figures.py coupled-draws      (needs scikit-fem)
 
-The cases of `coupled`, with sizes, thicknesses, materials, contacts and sources drawn at random: two plates coupled at
-1 to 5 points, many of them on edges and corners; a tray on rubber, felt or hard feet; a small plate near the corner of
-a large one; a plate on legs of any mass and material; an upright board; a stack of three plates. Contact tips have
-radii of 2 to 20 mm and preloads of 0.2 to 20 N, so that contact stiffness varies fifteenfold.
+The cases of `coupled`, with sizes, thicknesses, materials, contacts and sources drawn at random:
+
+- two plates coupled at 1 to 5 points, many of them on edges and corners; a stack of three plates;
+- a tray on rubber, felt or hard feet; a small plate near the corner of a large one;
+- a plate on legs of any mass and material; an upright board.
+
+Contact tips have radii of 2 to 20 mm and preloads of 0.2 to 20 N, so that contact stiffness varies fifteenfold.
 """
 
 from __future__ import annotations

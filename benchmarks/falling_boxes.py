@@ -6,9 +6,9 @@ The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases o
 use the same tolerance. MuJoCo (4.0) lists pairs that are nearer than the sum of both geoms' gaps, so each gap is half
 the tolerance; scene2hap has a setting. A pair whose distance is within 0.1 mm of the tolerance counts as equal.
 
-MuJoCo lists contacts twice: by its routine for two boxes, which drives the simulation and is the reference for time,
-and by its general routine, in a second model of the same boxes as convex meshes. The two differ in some steps. If only
-scene2hap or only the routine for boxes reports a pair, `mj_geomDistance` decides. Times are medians of processor time.
+MuJoCo lists contacts twice. Its routine for two boxes drives the simulation and is the reference for time. Its general
+routine runs in a second model, of the same boxes as convex meshes. The two differ in some steps. If only scene2hap or
+only the routine for boxes reports a pair, `mj_geomDistance` decides. Times are medians of processor time.
 """
 
 from __future__ import annotations

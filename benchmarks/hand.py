@@ -2,10 +2,10 @@
 
 python benchmarks/figures.py hand
 
-First table: a phone of 0.2 kg on a plate with free edges, which stands on four rubber feet on a concrete floor; 40
-points, third octaves from 40 to 640 Hz, `modal_plate`. The change is that of the level [dB] where the hand touches. The
-impedance is that of an infinite plate. Second table: processor times for the built-in kitchen in the default bands of a
-session.
+First table: a phone of 0.2 kg stands on a plate with free edges, and the plate on four rubber feet on a concrete floor.
+The hand touches 40 points; third octaves from 40 to 640 Hz, `modal_plate`. The change is that of the level [dB] where
+the hand touches. The impedance is that of an infinite plate. Second table: processor times for the built-in kitchen in
+the default bands of a session.
 """
 
 from __future__ import annotations

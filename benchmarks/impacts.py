@@ -10,8 +10,8 @@ table or on the floor of a scene.
 
 The other tables are for models that need preparation, in the demo's kitchen or the scene. Strikes hit objects that a
 hand touches at another point, and objects that are connected with the touched one. The tables show the number of felt
-strikes, the number felt in the next block, the time of `strike`, and the level difference between gains prepared ahead
-and gains prepared for the impact itself. Components below 24 Hz count as components at 24 Hz.
+strikes, the number felt in the next block, and the time of `strike`. They also show the level difference between gains
+prepared ahead and gains prepared for the impact itself. Components below 24 Hz count as components at 24 Hz.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ OMP_NUM_THREADS=1 python benchmarks/mixer.py [--seconds 20] [--switch-interval-m
 is due, as for a sound card. Another thread sets new gains for every source, band and hand at 1 kHz. Each update holds
 Python's interpreter lock for the given time (a busy loop, the worst case of a game in Python).
 
-"render" is the time inside `render_into`; "processor" is the thread's processor time inside it; "from due" also
+"render" is the time inside `render_into`. "processor" is the thread's processor time inside it. "from due" also
 includes the operating system's wake-up and the wait for the interpreter lock, which no mixer can shorten.
 """
 

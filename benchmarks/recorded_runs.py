@@ -3,8 +3,8 @@
 python benchmarks/recorded_runs.py [--draws 300] [--seed 0]
 
 Machines are drawn by `tests/starting_machines.py`: start or stop of 0.5 to 8 s, four shapes, 60 to 300 Hz, one to six
-harmonics, machine hiss 30 to 6 dB below, room noise 40 to 20 dB below; in half of them the pitch moves. Level and speed
-are compared while the machine is within 20 dB of steady running.
+harmonics, machine hiss 30 to 6 dB below, room noise 40 to 20 dB below. In half of the machines the pitch moves. Level
+and speed are compared while the machine is within 20 dB of steady running.
 """
 
 from __future__ import annotations

@@ -6,9 +6,9 @@ A package here is a module or package directly below `scene2hap`. Imports are re
 `TYPE_CHECKING` and inside functions count too. A cycle is a set of modules that import each other, directly or through
 others. Fan-in is the number of modules outside the package that import it.
 
-The way from a `SceneSnapshot` to a gain is traced with `sys.setprofile` in a new process: a session over the demo
-bundle is made, and updated with a touch and a moved object. The files whose functions are called are counted. Kernels
-run as their Python twins, so that a compiled module counts as the file that a reader opens.
+The way from a `SceneSnapshot` to a gain is traced with `sys.setprofile` in a new process, which counts the files whose
+functions run. A session over the demo bundle is made, and updated with a touch and a moved object. Kernels run as their
+Python twins, so that a compiled module counts as the file that a reader opens.
 """
 
 from __future__ import annotations

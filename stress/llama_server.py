@@ -2,10 +2,10 @@
 
     python stress/llama_server.py [--server llama-server] [--weights FOLDER] [--no-images]
 
-Builds the server from the source in the package llama-cpp-python (once, 5 minutes on two cores; needs a C++ compiler
-and a package index), writes the weights, and runs the chain on 44 objects with their pictures through the standard
-stack. The text is noise, but each answer must have the right form: valid, repaired, or recorded as the error of its
-object. `--weights` is a folder with tiny.gguf and mmproj.gguf, or with the script tiny_llm_gguf.py that writes them.
+Builds the server once from the source in the package llama-cpp-python, which takes 5 minutes on two cores and needs a
+C++ compiler and a package index. Writes the weights, and runs the chain on 44 objects with their pictures through the
+standard stack. The text is noise, but each answer must be valid, repaired, or recorded as the error of its object.
+`--weights` is a folder with tiny.gguf and mmproj.gguf, or with the script tiny_llm_gguf.py that writes them.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ python stress/plates.py [--plates 100000] [--first 0] [--minutes M] [--processes
 
 Draws plates of 1 cm to 10 m and aspect ratios up to 1:100, held at any of their edges, of materials from felt to steel
 and of any loss. Queries every model for the receptance among four points, corners and edges included, at six
-frequencies up to 10 kHz, one of them exactly on a resonance of a held or free plate. Counted as bad:
+frequencies up to 10 kHz. One frequency is exactly on a resonance of a held or free plate. Counted as bad:
 
     not finite     NaN or infinite
     gains energy   a receptance of a driven point with a positive imaginary part, or a receptance matrix whose imaginary

@@ -16,7 +16,7 @@ _STUFF_ENDS = re.compile(r"\b(?:with|and|or|on|over|in|for)\b|[,/;(]")
 
 
 def is_unknown(category: str) -> bool:
-    """Whether the backend says that it does not know."""
+    """Whether a category means that the backend does not know the object."""
     return _plain(category) in UNKNOWN
 
 

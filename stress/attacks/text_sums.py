@@ -96,7 +96,7 @@ def stl_solids(rng: random.Random) -> Files:
 
 
 def stl_named_solids(rng: random.Random) -> Files:
-    """Solids of one triangle, each of its own name."""
+    """Solids of one triangle, all with different names."""
     return {"case.stl": "".join(f"solid s{i}\n{_facet(i)}endsolid s{i}\n" for i in range(9000)).encode()}
 
 
