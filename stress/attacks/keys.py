@@ -66,7 +66,7 @@ AROUND: dict[str, tuple[str, str]] = {
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Attacks by every covered spelling, each in random surroundings. Without end."""
+    """Attacks by every covered spelling, combined ones included, each in random surroundings. Without end."""
     names = [name for name in SPELLINGS if name not in NOT_COVERED]
     for number in itertools.count():
         rng = random.Random(f"keys/{seed}/{number}")

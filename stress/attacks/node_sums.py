@@ -77,7 +77,7 @@ def touching_items_of_one_group(rng: random.Random) -> Files:
 
 
 def chains_of_groups(rng: random.Random) -> Files:
-    """Chains almost as deep as the reader accepts, each with a box at its end."""
+    """Deep chains of groups, each with a box at its end."""
     nodes: list[dict[str, Any]] = []
     roots = []
     for chain in range(200):

@@ -393,7 +393,7 @@ def usd_doubling(rng: random.Random) -> Files:
 
 
 def usd_files(rng: random.Random) -> Files:
-    """Layers that each name the next layer twice; the last one names itself, a file outside or an address."""
+    """Layers that each name the next layer twice; the last one names the first, another file or an address."""
     depth = rng.choice([3, 15, 300])
     files = {}
     for i in range(depth):
