@@ -8,9 +8,8 @@ OPENBLAS_NUM_THREADS=1 python benchmarks/auto_fidelity.py --calibrate --draws 60
 A draw is a plate of usual furniture with a source of 0.05-5 kg, a touch, and bands. The source stands on one, three or
 four feet; source and touch are anywhere on the plate. The bands are third octaves from 10 to 1000 Hz in one draw of
 three, otherwise some consecutive ones. The error of a draw is that of its worst band; both gains are at least -40 dB re
-the source.
-Times are processor times of one preparation and one touch, with empty caches. `--calibrate` prints the errors of every
-rung, on other seeds; the bounds of `auto_rungs` were taken from them.
+the source. Times are processor times of one preparation and one touch, with empty caches. `--calibrate` prints the
+errors of every rung, on other seeds; the bounds of `auto_rungs` were taken from these errors.
 """
 
 from __future__ import annotations

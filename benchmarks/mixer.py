@@ -37,7 +37,7 @@ UPDATE_S = 0.001
 def some_clips() -> list[AudioClip]:
     rng = np.random.default_rng(SEED)
     n = round(LOOP_S * 44100)
-    # All loops differ in length, as in real bundles.
+    # No two loops have the same length, as in practice.
     return [AudioClip(rng.uniform(-0.05, 0.05, n - 37 * i).astype(np.float32), 44100) for i in range(N_SOURCES)]
 
 
