@@ -1,9 +1,9 @@
-"""Plate models beside finite elements, as a table in Markdown and a figure; docs/figures/accuracy.md holds the latest.
+"""Plate models compared with finite elements, as tables in Markdown and a figure; see docs/figures/accuracy.md.
 
 python benchmarks/figures.py accuracy      (needs scikit-fem and matplotlib)
 
-Truth is a Kirchhoff plate of Argyris triangles (tests/plate_fe.py), solved directly at every frequency; its own error
-is shown as the difference from a coarser mesh. Times are of the processor.
+The reference is a Kirchhoff plate of Argyris triangles (tests/plate_fe.py), solved directly at every frequency. Its
+error is shown as the difference from a coarser mesh. Times are processor times.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ PLATES: dict[str, tuple[float, float, float, str, str, tuple[int, int]]] = {
     "concrete slab": (5.0, 4.0, 0.18, "concrete", "clamped", (18, 15)),
 }
 
-# Any, since their methods differ: all have plate_transfer, and those of a body more.
+# Any, since the methods differ: all models have plate_transfer; models with an elastic body have more.
 MODELS: dict[str, Any] = {
     "Exponential": ExponentialPlate(),
     "Infinite": InfinitePlate(outside_domain="ignore"),
@@ -117,7 +117,7 @@ def clear_caches() -> None:
 
 def row(name: str) -> Row:
     length, width, thickness, material, boundary, cells = PLATES[name]
-    # One loss for all models, so that they differ by their propagation alone.
+    # The same loss factor for all models, so that they differ only in propagation.
     plate = Plate(length, width, thickness, replace(materials.lookup(material), loss_factor=LOSS), boundary)
     size = np.array([length, width])
     drive = size / 3  # a node of both meshes
@@ -150,7 +150,7 @@ def result(
         return answer
     every = np.vstack([drive, points])
     answer.receptance = apart(model.plate_receptance(plate, drive, every, FREQUENCIES_HZ), truth)
-    # As in a scene: the body once, then its response to a force at a contact, one touch at a time.
+    # As in a scene: the body is made once, then each touch queries its response to a force at a contact.
     prepares, touches = [], []
     for _ in range(3):
         clear_caches()
@@ -171,7 +171,7 @@ def pair(values: tuple[float, float] | None) -> str:
 
 
 def draw(rows: list[Row]) -> None:
-    """Run time against error, a point per plate and model, and the median of each model."""
+    """Draw error over run time: a small point for each plate and model, a large one for the median of each model."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -199,7 +199,7 @@ def draw(rows: list[Row]) -> None:
 def main() -> None:
     argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     warnings.simplefilter("ignore", ThinPlateWarning)
-    for kind in MODELS.values():  # so that imports are done before the clock starts
+    for kind in MODELS.values():  # imports are done before times are measured
         kind.plate_transfer(Plate(0.6, 0.5, 0.02, materials.lookup("oak")), [0.1, 0.1], [0.2, 0.2], [100.0])
     rows = []
     for name in PLATES:

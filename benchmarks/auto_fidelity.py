@@ -1,14 +1,15 @@
-"""AutoFidelity against ModalPlate on random furniture, a table in Markdown.
+"""AutoFidelity compared with ModalPlate on random furniture, as a table in Markdown.
 
 The latest figures: docs/figures/propagation.md.
 
 OPENBLAS_NUM_THREADS=1 python benchmarks/auto_fidelity.py [--draws 2000] [--tolerance 1.0] [--at-edges]
 OPENBLAS_NUM_THREADS=1 python benchmarks/auto_fidelity.py --calibrate --draws 600
 
-A draw is a plate such as rooms have, a source of 0.05-5 kg on one, three or four feet anywhere on it, a touch anywhere
-on it, and bands: third octaves from 10 to 1000 Hz for one draw in three, else a run of them. Its error is that of the
-worst band, both gains floored at -40 dB re the source. Times are of the processor, prepare plus one touch, with every
-plate new. `--calibrate` prints the errors of every rung that `auto_rungs` has its bounds from, on other seeds.
+A draw is a plate of usual furniture with a source of 0.05-5 kg, a touch, and bands. The source stands on one, three or
+four feet; source and touch are anywhere on the plate. The bands are third octaves from 10 to 1000 Hz in one draw of
+three, otherwise some consecutive ones. The error of a draw is that of its worst band; both gains are at least -40 dB re
+the source. Times are processor times of one preparation and one touch, with empty caches. `--calibrate` prints the
+errors of every rung, on other seeds; the bounds of `auto_rungs` were taken from these errors.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ from scene2hap.propagation.coupled.substructuring import CoupledField, assemble
 from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes, unit_plate
 
 REPORTED, CALIBRATING = 0, 100_000
-"""First seeds of the draws that are reported and of those that bounds come from."""
+"""First seed of the reported draws, and first seed of the draws for the bounds."""
 LOSS_FLOOR = 0.01
 
 Range = tuple[float, float]
@@ -111,7 +112,7 @@ class Draw:
 
 
 def draw(seed: int, *, at_edges: bool = False) -> Draw:
-    """A draw; with `at_edges` source and touch stand at edges and corners."""
+    """Draw a plate, a source and a touch; with `at_edges` source and touch are at edges and corners."""
     rng = np.random.default_rng(seed)
     kind = list(KINDS)[rng.integers(len(KINDS))]
     names, lengths, widths, thicknesses, boundaries = KINDS[kind]
@@ -142,7 +143,7 @@ def draw(seed: int, *, at_edges: bool = False) -> Draw:
 def _at_edge(
     rng: np.random.Generator, place: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """A place moved to an edge or a corner."""
+    """Move a place to an edge or a corner."""
     which = rng.integers(1, 4)
     moved = [which & 1, which & 2]
     ends = np.where(rng.random(2) < 0.5, low, high)
@@ -150,7 +151,7 @@ def _at_edge(
 
 
 def by_rung(one: Draw, rung: str, density: float = 1.0) -> CoupledField:
-    """The field with all plates on one rung."""
+    """Field with all plates on one rung."""
     scene = assemble(one.network, one.excitations, one.bands, ContactLaw(), "ignore")
     bodies = {
         key: body_of(rung, plate, scene.top_hz, max(plate.material.loss_factor, LOSS_FLOOR))
@@ -160,7 +161,7 @@ def by_rung(one: Draw, rung: str, density: float = 1.0) -> CoupledField:
 
 
 def forget() -> None:
-    """Make every plate one that was never seen."""
+    """Clear the caches of plates."""
     for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
     for kept in (lattice_modes._modes_up_to, unit_plate.of_size_one, unit_plate.outline_of, lattice_body.lattice_body):
@@ -171,7 +172,7 @@ def forget() -> None:
 
 
 def asked(one: Draw, field: PropagationField) -> NDArray[np.float64]:
-    """Gains at the touch [dB], floored."""
+    """Gains at the touch [dB], at least `FLOOR_DB`."""
     gains = field.attenuation("plate", [one.touch_m])[0, 0]
     return np.maximum(20 * np.log10(np.maximum(gains, 1e-30)), FLOOR_DB)
 
@@ -182,7 +183,7 @@ def wrong_by(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a draw: rung and bound, error [dB], and times [s] with it and with `ModalPlate`."""
+    """Result of a draw: rung, bound and error [dB] of `AutoFidelity`, and times [s] of it and of `ModalPlate`."""
 
     kind: str
     rung: str
@@ -208,7 +209,7 @@ def compare(seed: int, model: AutoFidelity, at_edges: bool) -> Outcome:
 
 
 def calibrate(n_draws: int, first: int) -> None:
-    """Errors of every rung by what holds the plate."""
+    """Print the errors of every rung, by how the plate is held."""
     density = AutoFidelity()._density()
     errors: dict[tuple[str, str], list[float]] = {}
     for seed in range(first, first + n_draws):

@@ -1,14 +1,14 @@
-"""AutoFidelity against ModalPlate in whole scenes: cost and error, at edges and corners too, as a table in Markdown.
+"""AutoFidelity compared with ModalPlate in whole scenes: cost and error, at edges and corners too, in Markdown.
 
 python benchmarks/auto_scenes.py SCENE [SCENE ...] [--tolerance 1.0] [--seed 4]
 
-Each scene is baked offline and prepared by both with every plate new, in third octaves from 10 to 1000 Hz and in the
-default bands around dominant frequencies. On every plate that a source reaches five points are touched: two anywhere,
-two on an edge, one at a corner. The error of a touch is that of its worst band and source, both gains floored at -40 dB
-re the source; both models have rectangles for it. Times are of the processor.
+Each scene is baked offline and prepared by both models with empty caches. Bands are third octaves from 10 to 1000 Hz,
+and the default bands around dominant frequencies. Each plate that a source reaches is touched at five points: two
+anywhere, two on an edge, one at a corner. The error of a touch is that of its worst band and source; both gains are at
+least -40 dB re the source. For errors both models solve rectangles. Times are processor times.
 
-In a session `AutoFidelity` follows outlines and `ModalPlate` takes the rectangle of length and width: the second table
-has what each then takes to prepare, and a room of eight round tables, the most unfavourable there is.
+In a session `AutoFidelity` follows outlines, and `ModalPlate` solves the rectangle of length and width. The second
+table has the preparation time of each in this case, also for eight round tables, the worst case.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def touches(network: ContactNetwork, object_id: str, plate: Plate, rng: np.rando
 
 
 def prepared(model: Any, network: ContactNetwork, excitations: Any, bands: Bands) -> tuple[Any, float]:
-    """A field, every plate new, and the time that it took [s]."""
+    """Prepare a field with empty caches. Returns the field and the processor time [s]."""
     forget()
     in_plane_modes.cache_clear()
     begin = time.process_time()
@@ -63,7 +63,7 @@ def prepared(model: Any, network: ContactNetwork, excitations: Any, bands: Bands
 
 
 def round_tables(*, follows_outlines: bool) -> tuple[ContactNetwork, list[Excitation]]:
-    """Eight tables of 0.9 m on a floor, no two alike, a phone on each."""
+    """Eight round tables of about 0.9 m on a floor, each of a different size, with a phone on each."""
     turn = np.linspace(0.0, 2 * np.pi, 64, endpoint=False)
     disc, oak = 0.5 + 0.5 * np.column_stack([np.cos(turn), np.sin(turn)]), materials.lookup("oak")
     bodies, poses, contacts = {"floor": Plate(8.0, 4.0, 0.15, materials.lookup("concrete"))}, {"floor": Pose()}, []
@@ -81,7 +81,7 @@ def round_tables(*, follows_outlines: bool) -> tuple[ContactNetwork, list[Excita
 
 
 def in_sessions(paths: list[str]) -> None:
-    """The second table."""
+    """Print the second table."""
     print("\n| scene | bands | outlines | `modal_plate`, rectangles [s] | `auto`, outlines [s] | ratio |")
     print("|---|---|---|---|---|---|")
     scenes = {

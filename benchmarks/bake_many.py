@@ -2,11 +2,11 @@
 
 python benchmarks/bake_many.py [--scenes 24] [--seed 0]
 
-Scenes are variations of the demo kitchen and, if they are beside the project, of other authors' kitchens and rooms: a
-random half of the objects of each, somewhat displaced. Every run starts without files, and the runs of each round are
-in a new random order. Bundles of all runs must be equal. Two independent programs at once, each with half of the
-scenes, show the upper bound of the machine. Processor time is that of all processes of a run, with their start; other
-programs on the machine change it less than they change the time.
+Scenes are variations of the demo kitchen and, if they are beside the project, of other authors' kitchens and rooms. A
+variation has a random half of the objects, somewhat displaced. Every run starts without files, and the runs of each
+round are in a new random order. Bundles of all runs must be equal. Two independent programs at once, each with half of
+the scenes, show the upper bound of the machine. Processor time is the sum over all processes of a run, their start
+included; other programs on the machine change it less than they change the wall time.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ RUNS = (
 """The pools and Dask are external executors, whose workers use one thread each."""
 
 KEEP_MEMORY = {"MALLOC_TRIM_THRESHOLD_": str(1 << 27), "MALLOC_MMAP_THRESHOLD_": str(1 << 25)}
-"""Environment of Dask's workers, as docs/many-scenes.md recommends: freed memory is used again.
+"""Environment of Dask's workers, as docs/many-scenes.md recommends, so that the C library reuses freed memory.
 
-Dask sets the first to 64 KiB. Any value of it makes the C library stop to adapt the second, which stays at 128 KiB:
-each larger array is then fetched from the system, page by page, and returned.
+Dask sets the trim threshold to 64 KiB. If it is set to any value, the C library no longer adapts the mmap threshold,
+which stays at 128 KiB. Each larger array is then mapped from the system, page by page, and returned to it.
 """
 
 
 def write_variations(folder: Path, n: int, seed: int) -> list[Path]:
-    """Scene JSON files."""
+    """Write n scene JSON files. Returns their paths."""
     files = [kitchen_path(), *sorted(SCENES.glob("composed_*/*.glb"))]
     originals = [load_scene(path) for path in files]
     for i in range(n):

@@ -1,11 +1,11 @@
-"""How far levels depend on uncertain moduli, by the width of the band, as a table in Markdown.
+"""Dependence of levels on uncertain moduli, by the width of the band, as a table in Markdown.
 
 python benchmarks/bands.py [--draws 30] [--seed 5]
 
-Each scene is a plate of 1.2 x 0.7 m on four legs with a tray on it and a source on one of them, with random material,
-thickness, place and frequency. Young's modulus of each part is drawn within 30 % of the material table. The table gives
-the spread of the level at points on the plate, rms about each point's mean and 99th percentile, in a band around the
-source's dominant frequency. Resonant models use half an octave by default.
+Each scene is a plate of 1.2 x 0.7 m on four legs, with a tray on the plate and a source on one of the two. Material,
+thickness, place and frequency are random. Young's modulus of each part is drawn within 30 % of the material table. The
+table gives the spread of the level at points on the plate: rms about each point's mean, and 99th percentile. The band
+lies around the source's dominant frequency. Resonant models use half an octave by default.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ N_SCENES, N_POINTS = 30, 12
 
 
 def scene(rng: np.random.Generator) -> tuple[ContactNetwork, Excitation, NDArray[np.float64]]:
-    """A plate on legs, a tray on it, a source on one of them; and points on the plate."""
+    """A plate on legs with a tray and a source, and points on the plate."""
     name = str(rng.choice(MATERIALS))
     thickness_m = rng.uniform(0.002, 0.008) if name in ("steel", "glass") else rng.uniform(0.012, 0.03)
     top = Plate(1.2, 0.7, float(thickness_m), materials.lookup(name), object_mass_kg=None)

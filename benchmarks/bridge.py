@@ -3,9 +3,9 @@
     python benchmarks/bridge.py [--seconds 20] [--seed 0]
 
 A bridge in its own process gets frames at a steady rate. The latency is the time from before a client sends a frame
-until it has its gains, less the time of the same frame in a game's own process: the search for changed poses, as in an
-`EngineLink`, `update`, and `render` for the clock. The processor time is that of the whole bridge less that time. Part
-of the latency is the time of the client, which is written in Python.
+until it has the frame's gains, less the time of the same frame in a game's own process. That time covers the search for
+changed poses, as in an `EngineLink`, `update`, and `render` for the clock. The processor time is that of the whole
+bridge less the same time. Part of the latency is the time of the client, which is written in Python.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ async def serve(port_file: Path, costs_file: Path, root: str) -> None:
 
     def noted(method: Any) -> Any:
         def call(self: object, *args: Any, **kwargs: Any) -> Any:
-            # Not the thread's processor time, which takes a tenth of a millisecond to read on some machines.
+            # Not the thread's processor time: reading it takes a tenth of a millisecond on some machines.
             begun = time.perf_counter()
             try:
                 return method(self, *args, **kwargs)
@@ -101,7 +101,7 @@ def bridge(root: str) -> Iterator[tuple[str, subprocess.Popen[bytes], Path]]:
 
 
 def measured(n_objects: int, rate_hz: float, seconds: float, seed: int) -> dict[str, float]:
-    """Measure one case: all objects move in each frame, and both hands touch."""
+    """Measure one case, in which all objects move in each frame and both hands touch."""
     rng = np.random.default_rng(seed)
     scene = scene_of(n_objects)
     rest = np.array([[*item.pose.position_m, 0, 0, 0, 1] for item in scene.objects], np.float32)

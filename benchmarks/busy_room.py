@@ -1,13 +1,13 @@
-"""Rooms for measurements: any number of objects, five movers that slide, seven sources, a hand's touches.
+"""Rooms for measurements: any number of objects, five movers that slide, seven sources, touches of two hands.
 
-- `busy_room`: tables. One object in seven is a table; each bears a tray with an object on it and four more objects, all
-  turned about the vertical.
+- `busy_room`: tables. One object in seven is a table; on each are a tray with an object on it and four more objects,
+  all turned about the vertical.
 - `shelf_room`: stacked shelves. Units of five boards in one mesh, seven objects on each board, 3 to 6 cm apart.
 - `furnished_room`: dense groups of 30 meshes: a dining table with four chairs below it, plates, glasses
   on mats and bowls; a sofa with cushions; a sideboard with vases.
 - `floor_room`: boxes and round objects on one floor, in a jittered grid.
 
-Movers slide to and fro where they stand, every other one turning; every tenth frame the first of them is lifted or put
+Movers slide to and fro at their places, and every other mover turns. Every tenth frame the first mover is lifted or put
 down.
 """
 
@@ -44,7 +44,7 @@ _RATE = 8000
 
 @dataclass(frozen=True)
 class BusyRoom:
-    """A scene with its bundle, its movers and the two objects that hands touch."""
+    """A scene with its bundle, its movers and the two objects that the hands touch."""
 
     scene: SceneSnapshot
     bundle: HapticBundle
@@ -52,7 +52,7 @@ class BusyRoom:
     touched: tuple[str, str]
 
     def frame(self, i: int) -> dict[str, Pose]:
-        """Poses of the movers in frame i; they move some 5 mm a frame."""
+        """Poses of the movers in frame i. They move some 5 mm a frame."""
         moved = {}
         for k, name in enumerate(self.movers):
             home = self.scene.object(name).pose
@@ -76,7 +76,7 @@ class BusyRoom:
 
 
 def busy_room(n_objects: int, kind: str = "box", seed: int = 1) -> BusyRoom:
-    """A room of that many objects. kind : "box", twelve triangles each, or "mesh", some 500 each."""
+    """Room of `n_objects` objects. kind : "box", twelve triangles each, or "mesh", some 500 each."""
     rng = np.random.default_rng(seed)
     made = {"box": _box, "mesh": _round}[kind]
     n_tables = max(1, (n_objects - 1 + 6) // 7)
@@ -95,7 +95,7 @@ def busy_room(n_objects: int, kind: str = "box", seed: int = 1) -> BusyRoom:
             slot = (-0.4 + 0.4 * (k % 3), 0.0, -0.18 + 0.36 * (k // 3))
             size = (0.26, 0.02, 0.26) if k == 4 else tuple(float(edge) for edge in rng.uniform(0.06, 0.14, 3))
             bottom = _TABLE[1]
-            if k == 5:  # stands on the tray, which is the one before
+            if k == 5:  # stands on the tray, which is the object before
                 slot, bottom = (0.0, 0.0, 0.18), _TABLE[1] + 0.02
             at = turn.to_world(np.array(slot)) + np.array([x, bottom + size[1] / 2, z])
             name = f"item{t:05d}_{k}"
@@ -103,7 +103,7 @@ def busy_room(n_objects: int, kind: str = "box", seed: int = 1) -> BusyRoom:
             objects.append(_thing(name, geometry, tuple(at.tolist()), float(rng.uniform(-3, 3))))
             if k < 4:
                 items.append(name)
-    # Both hands are on one floor and one table that bear movers; two movers are sources, five sources stand still.
+    # The hands touch the floor and a table on which movers are; two movers are sources, five sources stand still.
     return _room(objects, items, [name for name in items if name.startswith("item00000")][:3], "table00000")
 
 
@@ -158,7 +158,7 @@ Placed = tuple[str, TriMesh, tuple[float, float, float], float, bool]
 
 
 def _furniture(rng: np.random.Generator) -> list[Placed]:
-    """One group: name, mesh, place of the middle of its bottom [m], turn, and whether it may move."""
+    """One group of furniture: name, mesh, middle of the bottom [m], turn [rad], and whether it may move, of each."""
     found: list[Placed] = [("dining_table", _desk("mesh"), (0.0, 0.0, 0.0), 0.0, False)]
     for k, (x, z, angle) in enumerate(
         ((-0.35, 0.45, 0.0), (0.35, 0.45, 0.0), (-0.35, -0.45, math.pi), (0.35, -0.45, math.pi))
@@ -198,7 +198,7 @@ def floor_room(n_objects: int, seed: int) -> BusyRoom:
 
 
 def _room(objects: list[SceneObject], items: list[str], near: list[str], touched: str) -> BusyRoom:
-    """Five movers of the items, three of them near what hands touch; seven sources, of which two move."""
+    """Choose five movers, three of them near the touched objects, and seven sources, of which two move."""
     scene = SceneSnapshot("busy room", "y", with_relative_heights(objects, "y"))
     others = [items[round(k * (len(items) - 1) / 8)] for k in range(1, 9)]
     movers = tuple(dict.fromkeys([*near, *others[::4], *others]))[:N_MOVERS]
@@ -208,7 +208,7 @@ def _room(objects: list[SceneObject], items: list[str], near: list[str], touched
 
 
 def yaw(angle: float) -> Pose:
-    """A turn about the vertical [rad]."""
+    """Pose that is a turn about the vertical by `angle` [rad]."""
     return Pose((0, 0, 0), (0.0, math.sin(angle / 2), 0.0, math.cos(angle / 2)))
 
 

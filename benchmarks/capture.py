@@ -1,10 +1,10 @@
-"""Pictures per second of a whole scene, with sharing and culling: all images at once, on worker processes.
+"""Pictures per second of a whole scene, with sharing and culling, all rendered at once by worker processes.
 
     python benchmarks/capture.py SCENE [--unit-m 0.01] [--renderer embree] [--workers 2] [--size 512] [--antialias]
 
 Prints machine, versions, pictures, unique objects u and context classes c (pictures = 4 + 8 u + 8 c), pictures per
-second with the start of the workers, and the largest memory of this process and of its largest worker. With --visible
-it also prints the visible share of each target's silhouette in its context images.
+second with the start of the workers, and the peak memory of this process and of its largest worker. With --visible it
+also prints the visible share of each target's silhouette in its context images.
 """
 
 from __future__ import annotations

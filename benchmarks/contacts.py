@@ -19,8 +19,8 @@ from scene2hap.scene.grouping import Grouping
 
 LISTS = Path(__file__).parent / "contacts"
 SCENES = Path(__file__).parents[2] / "shared" / "scenes"
-# File below the folder of scenes, its unit [m] where the file lies, and the use of the scene: "tuned" on, "reported",
-# or "kept" for regressions alone.
+# File below the folder of scenes; its unit [m] if the file declares a wrong one; and the use of the scene: "tuned" on,
+# "reported", or "kept" only for regressions.
 TABLE = {
     "aws_house_living": ("aws_house_living.glb", None, "tuned"),
     "composed_kitchen_kaykit": ("composed_kitchen_kaykit.glb", None, "tuned"),
@@ -31,7 +31,7 @@ TABLE = {
 }
 
 
-# Files of parts (doors, drawers, knobs, covers): the packs' own scales, and every node an object.
+# Files of parts (doors, drawers, knobs, covers), in the scales of their packs; every node is an object.
 PARTS = "fitted_parts.csv"
 PARTS_UNIT_M = {"lib_kenney_furniture": 1.8, "lib_kaykit_restaurant": 0.5, "furniture_sim": 1 / 1.8}
 
@@ -52,7 +52,7 @@ def judged(name: str, scenes: Path) -> tuple[Pairs, Pairs, Pairs]:
 
 
 def parts(scenes: Path) -> None:
-    """Print the same for the parts of single pieces of furniture, all files together."""
+    """Print precision and recall for the parts of single pieces of furniture, all files together."""
     listed: dict[str, dict[str, Pairs]] = defaultdict(lambda: {"true": set(), "either": set()})
     with (LISTS / PARTS).open(encoding="utf-8", newline="") as lines:
         for row in csv.DictReader(lines):

@@ -1,12 +1,12 @@
-"""What converting sound files costs: against the clock, against a compiled filter, and in memory.
+"""Cost of converting sound files: relative to real time, relative to a compiled filter, and in memory.
 
 python benchmarks/convert.py [--runs 7]
 
 - Time of `auto`, the default, for 60 s at 48 kHz of sounds that use its parts, in mono and stereo.
-- Time of the paper's band-pass for 60 s of stereo, and how many times faster than it sounds that is.
-- The same job (read WAV, 12 dB per octave of band-pass at 250 Hz, write 24-bit WAV, in the same blocks) by pedalboard's
-  compiled filters, in turn with ours; `pip install pedalboard` brings it, and without it this part is left out.
-- Peak memory of a process of its own that converts one, three and ten minutes of the same sound by `auto`.
+- Time of the paper's band-pass for 60 s of stereo, and the ratio of real time to it.
+- The same job (read WAV, band-pass at 250 Hz with 12 dB per octave, write 24-bit WAV, in the same blocks) by
+  pedalboard's compiled filters, in turn with ours. It needs `pip install pedalboard`; otherwise this part is left out.
+- Peak memory of a separate process that converts one, three and ten minutes of the same sound by `auto`.
 Times are medians of runs in turn. A first run of each warms caches and is not counted.
 """
 
@@ -34,7 +34,7 @@ from scene2hap.audio import convert
 
 RATE = 48_000
 BLOCK = 65_536
-CONVERTER = "svf_bandpass"  # the one that pedalboard's filters do as well
+CONVERTER = "svf_bandpass"  # pedalboard's filters can do the same
 PEAK = (
     "import resource, sys; from scene2hap.audio import convert;"
     "convert(sys.argv[1], sys.argv[2], overwrite=True);"
@@ -43,7 +43,7 @@ PEAK = (
 
 
 def make_sound(path: Path, minutes: int) -> None:
-    """Two channels of hum and hiss, written a second at a time."""
+    """Write two channels of hum and hiss, one second at a time."""
     rng = np.random.default_rng(1)
     t = np.arange(RATE) / RATE
     hum = 0.2 * np.sin(2 * np.pi * 97.0 * t)
@@ -57,7 +57,7 @@ def by_pedalboard(source: Path, output: Path) -> Callable[[], None]:
     from pedalboard.io import AudioFile
 
     def job() -> None:
-        # Each of them falls by 6 dB per octave: together the band-pass of second order that ours is.
+        # Each filter falls by 6 dB per octave; together they are a band-pass of second order, as ours.
         board = pedalboard.Pedalboard([pedalboard.HighpassFilter(250.0), pedalboard.LowpassFilter(250.0)])
         with (
             AudioFile(str(source)) as before,
@@ -70,7 +70,7 @@ def by_pedalboard(source: Path, output: Path) -> Callable[[], None]:
 
 
 def timed(job: Callable[[], object]) -> tuple[float, float]:
-    """Wall and processor time [s]."""
+    """Run a job. Returns wall and processor time [s]."""
     wall, processor = time.perf_counter(), time.process_time()
     job()
     return time.perf_counter() - wall, time.process_time() - processor
@@ -82,13 +82,13 @@ def main() -> None:
     runs = parser.parse_args().runs
     print(f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, {runs} runs in turn")
     with tempfile.TemporaryDirectory() as folder:
-        memory(Path(folder))  # first: a process begins with the peak of the one that starts it
+        memory(Path(folder))  # first: a new process inherits the peak memory of its parent
         default_speed(Path(folder), runs)
         speed(Path(folder), runs)
 
 
 def kinds_of_sound() -> dict[str, NDArray[np.float64]]:
-    """A minute (n, 2) of each kind of sound that `auto` treats in a way of its own."""
+    """One minute (n, 2) of each kind of sound that `auto` treats differently."""
     rng = np.random.default_rng(2)
     t = np.arange(60 * RATE) / RATE
     hiss = rng.standard_normal((len(t), 2))

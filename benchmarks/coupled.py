@@ -2,11 +2,12 @@
 
 python benchmarks/figures.py coupled      (needs scikit-fem)
 
-Two plates through 3 or 4 points, a tray on its feet, a small stiff plate near a corner, a table on legs that are masses
-between springs, a board that stands upright on its edge, and all of it together; a source of 0.1-2 kg on one of them.
-Truth: bending by Argyris triangles (tests/plate_fe.py), the upright board by plane stress in quadratic triangles, rigid
-bodies by their mass, all joints as springs with loss between them, solved directly at every frequency. The stiffness of
-contacts is input; tests of `contact_stiffness` compare it with Hertz. Errors are those of levels at 12 points, in dB.
+Cases: two plates coupled at 3 or 4 points, a tray on its feet, a small stiff plate near a corner, a table on legs that
+are masses between springs, a board that stands upright on its edge, and all together, with a source of 0.1-2 kg.
+Reference: plates in bending by Argyris triangles (tests/plate_fe.py), the upright board in plane stress by quadratic
+triangles, rigid bodies as masses, and all joints as springs with loss, solved directly at every frequency. The
+stiffness of contacts is input; tests of `contact_stiffness` compare it with Hertz. Errors are those of levels [dB] at
+12 points.
 """
 
 from __future__ import annotations
@@ -51,14 +52,13 @@ LOSS, N_POINTS, SEED = 0.02, 12, 3
 GRID_M = 0.05
 UP = (0.0, 0.0, 1.0)
 UPRIGHT = (0.5**0.5, 0.0, 0.0, 0.5**0.5)
-"""A quarter turn about x: a plate's width goes up, and its normal along -y."""
+"""A quarter turn about x: a plate's width points up, and its normal along -y."""
 Triple = tuple[float, float, float]
 
 
 @dataclass
 class Case:
-    """Objects, their contacts (pairs and world points), a source, the object on which it is felt, and the stiffness of
-    contacts."""
+    """Objects, contacts (pairs and world points), a source, the touched object, and the law of contact stiffness."""
 
     bodies: dict[str, Plate | RigidBody]
     touching: list[tuple[str, str, Triple]]
@@ -111,7 +111,7 @@ def cases() -> dict[str, Case]:
             {"lower": Pose(), "tray": Pose((0.25, 0.15, 0.0))},
         )
     for name, thickness_m in (("glass", 0.012), ("plywood", 0.018)):
-        # Its first mode lies above 2 kHz, but it yields about as much as its contacts.
+        # The first mode of the plate lies above 2 kHz, but the plate yields about as much as its contacts.
         found[f"small {name} plate near a corner"] = Case(
             {"lower": table("oak", 0.034), "upper": plate(0.15, 0.1, thickness_m, name)},
             [
@@ -140,7 +140,7 @@ def cases() -> dict[str, Case]:
             {"top": Pose(), "floor": Pose((-0.3, -0.35, 0.0))},
         )
     for name in ("oak", "glass"):
-        # It stands on its lower edge, along x, at y = 0.3 m.
+        # The board stands on its lower edge, along x, at y = 0.3 m.
         found[f"{name} board upright on its edge"] = Case(
             {"lower": table("oak", 0.02), "board": plate(0.6, 0.4, small[name], name)},
             [
@@ -163,7 +163,7 @@ class Part:
         self._pose, self._is_upright = pose, is_upright
         self._size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else (0.0, 0.0)
         if isinstance(body, Plate) and not is_upright:
-            # Three cells in a wave of the top frequency, so that thin plates have truth to 0.1 dB too.
+            # Three cells per wavelength at the top frequency, so that the reference is exact to 0.1 dB for thin plates.
             finer = math.ceil(3 * GRID_M / (2 * math.pi / float(body.wavenumber_rad_m(FREQUENCIES_HZ[-1]))))
             cells = finer * round(body.length_m / GRID_M), finer * round(body.width_m / GRID_M)
             self._basis, stiffness, mass, _ = finite_elements(body, cells)
@@ -188,7 +188,7 @@ class Part:
         own = self._pose.to_own(points_m)[:, :2].clip(0.0, self._size_m).T
         if not self._is_upright:
             return csr_matrix(self._basis.probes(own))
-        # A vector field: skfem gives the first component of all points, then the second.
+        # skfem returns a vector field as the first component of all points, then the second.
         both = csr_matrix(self._basis.probes(own))
         component = {0: 0, 2: 1}[axis]
         return both[component * len(points_m) : (component + 1) * len(points_m)]

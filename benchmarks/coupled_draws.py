@@ -2,10 +2,13 @@
 
 python benchmarks/figures.py coupled-draws      (needs scikit-fem)
 
-The families of `coupled`, with sizes, thicknesses, materials, contacts and sources drawn at random: two plates
-through 1 to 5 points, of which many lie on edges and corners; a tray on rubber, felt or hard feet; a small plate near
-the corner of a large one; a plate on legs of any mass and material; an upright board; three plates on one another.
-Tips of contacts have radii of 2 to 20 mm and preloads of 0.2 to 20 N, so that their stiffness varies fifteenfold.
+The cases of `coupled`, with sizes, thicknesses, materials, contacts and sources drawn at random:
+
+- two plates coupled at 1 to 5 points, many of them on edges and corners; a stack of three plates;
+- a tray on rubber, felt or hard feet; a small plate near the corner of a large one;
+- a plate on legs of any mass and material; an upright board.
+
+Contact tips have radii of 2 to 20 mm and preloads of 0.2 to 20 N, so that contact stiffness varies fifteenfold.
 """
 
 from __future__ import annotations
@@ -32,21 +35,21 @@ Rng = np.random.Generator
 
 
 def drawn_plate(rng: Rng, longest_m: float, shortest_m: float = 0.25, feet: str | None = None) -> Plate:
-    """A plate whose sides are whole cells of the meshes."""
+    """Draw a plate whose sides are whole numbers of mesh cells."""
     name = str(rng.choice(list(THICKNESSES_MM)))
     sides = [GRID_M * round(side / GRID_M) for side in np.sort(rng.uniform(shortest_m, longest_m, 2))[::-1]]
     return plate(*sides, 1e-3 * round(float(rng.uniform(*THICKNESSES_MM[name])), 1), name, feet)
 
 
 def place_on(rng: Rng, below: Plate, above: Plate, *, near_corner: bool = False) -> tuple[float, float]:
-    """Where the corner of a plate comes to lie on a larger one: within its edges, on a node."""
+    """Draw the place of a plate's corner on a larger plate [m]: a node, with the upper plate within the lower one."""
     rooms = [(b - a) / GRID_M for a, b in ((above.length_m, below.length_m), (above.width_m, below.width_m))]
     cells = [0 if near_corner else int(rng.integers(0, round(room) + 1)) for room in rooms]
     return GRID_M * cells[0], GRID_M * cells[1]
 
 
 def nodes(rng: Rng, body: Plate, n: int) -> list[tuple[float, float]]:
-    """Different nodes of a plate [m]: a third of them on its corners, a third on its edges."""
+    """Draw n different nodes of a plate [m], a third of them corners and a third on edges, on average."""
     cells = round(body.length_m / GRID_M), round(body.width_m / GRID_M)
     found: set[tuple[int, int]] = set()
     while len(found) < n:
@@ -72,7 +75,7 @@ def law_of(rng: Rng) -> ContactLaw:
 
 
 def stacked(rng: Rng, plates: Sequence[Plate], n_points: int, felt: int = 0, *, near_corner: bool = False) -> Case:
-    """Plates on one another from the largest up, the source on the topmost."""
+    """Stack of plates, given from the lowest and largest up, with the source on the topmost."""
     names = ["lower", "middle", "upper"] if len(plates) == 3 else ["lower", "upper"]
     at, poses, touching = (0.0, 0.0), {names[0]: Pose()}, []
     for (one, below), (other, above) in pairwise(zip(names, plates, strict=True)):
@@ -149,7 +152,7 @@ FAMILIES: dict[str, Callable[[Rng], Case]] = {
 
 
 def described(case: Case) -> str:
-    """Its plates, its number of contacts, and where it is felt."""
+    """Describe the plates, the number of contacts and the touched object of a case."""
     plates = [
         f"{body.length_m:.3g} x {body.width_m:.3g} m {body.material.name} {1e3 * body.thickness_m:g} mm"
         for body in case.bodies.values()

@@ -1,10 +1,10 @@
-"""Time of a contact update when all of many objects move, with and without certificates, as a table in Markdown.
+"""Time of a contact update in which many objects move at once, with and without certificates, as a table in Markdown.
 
 OMP_NUM_THREADS=1 python benchmarks/crowds.py [--frames 150] [--passes 5]
 
-Cubes of 0.1 m on a floor, in a grid with a given distance between them; each moves in a circle of 20 mm, 2 mm a frame,
-and every other one turns. Processor time of `ContactGraph.update`; of each frame the least of several passes. Contacts
-must be bit-identical with and without certificates.
+Cubes of 0.1 m stand on a floor, in a grid with a given distance between them. Each moves in a circle of 20 mm, 2 mm a
+frame, and every other cube turns. The table shows processor times of `ContactGraph.update`, for each frame the least of
+several passes. Contacts must be bit-identical with and without certificates.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""How well hands can distinguish the demo kitchen's sources, in Markdown; docs/figures/conversion.md holds the latest.
+"""Distinctness of the demo kitchen's sources to the touch, in Markdown; docs/figures/conversion.md holds the latest.
 
 python benchmarks/distinctness.py [--seed 0] [--actuator flat] [--scene FILE] [--silence ID ...]
 
 Bakes the scene three times: with the paper's fixed filter, with the adaptive band at each source's own frequency, and
-with the default, which moves sources apart. Everything is measured on the tactile loops of the bundle.
+with the default, which moves the frequencies of sources apart. All values are measured on the bundle's tactile loops.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def intensities(bundle: HapticBundle) -> dict[str, float]:
 
 
 def keeps_order(felt: Mapping[str, Feel], intensity: Mapping[str, float]) -> bool:
-    """Whether felt levels have the order of inferred intensities, for every pair."""
+    """Whether, in every pair of sources, the one of higher inferred intensity has the higher felt level."""
     return all(
         felt[one].level_db > felt[other].level_db for one in felt for other in felt if intensity[one] > intensity[other]
     )

@@ -26,7 +26,7 @@ PLACES_M = [(i % 10 * 0.3, i // 10 * 0.3, 0.0499) for i in range(50)]
 
 
 def cpu_ms(act: Callable[[], object], n_calls: int = 200) -> float:
-    """Median over nine rounds, for one call."""
+    """Processor time of one call [ms], median of nine rounds."""
     rounds = []
     for _ in range(9):
         start = time.process_time()
@@ -52,7 +52,7 @@ def model() -> tuple[Any, Any]:
 
 
 def graph() -> Any:
-    """Cards where the boxes are."""
+    """Panda3D scene with a card at the place of each box."""
     from panda3d import core
 
     render = core.NodePath("render")
@@ -66,7 +66,7 @@ def graph() -> Any:
 
 
 def moving_ms(data: Any, session: HapticSession, link: MuJoCoLink, n_moving: int) -> float:
-    """Additional time of a frame by the link, compared with poses that are already available [ms]."""
+    """Time [ms] that the link adds to a frame, compared with an update by poses that are already available."""
     start = np.array(PLACES_M[:n_moving])
     ready = []
     for way_m in (0.0, 0.0002):

@@ -1,10 +1,10 @@
-"""Errors of `.haptic` exports against their loops, and the time of exports, as tables in Markdown.
+"""Errors of `.haptic` exports relative to their loops, and the time of exports, as tables in Markdown.
 
 python benchmarks/export.py [SCENE ...]
 
-Each exported file is played by the format's published rule and compared with its loop, by the level in windows of
-50 ms, 25 ms apart. This measure is independent of the exporter's own. Windows more than 40 dB below the loudest one are
-left out. A source is steady if its own level moves by less than 6 dB (5th to 95th percentile).
+Each exported file is played by the format's published rule. Its level in windows of 50 ms, 25 ms apart, is compared
+with that of the loop. This measure is independent of the exporter's own. Windows more than 40 dB below the loudest one
+are left out. A source is steady if the level of its loop varies by less than 6 dB (5th to 95th percentile).
 Scenes are the demo kitchen and, if it is beside the project, a kitchen by another author.
 """
 
@@ -64,7 +64,7 @@ def row(name: str, bundle: HapticBundle, source: str, state: str, folder: Path) 
 
 
 def tour(bundle: HapticBundle, folder: Path) -> None:
-    """Both hands of the demo's tour, in every format, by the exporter's own report."""
+    """Export the demo's tour for both hands in every format; print the errors that the exporter itself reports."""
     begun = time.perf_counter()
     report = export_bundle(bundle, folder, touches=tour_path())
     print(f"with a tour of both hands, playing it included: {time.perf_counter() - begun:.2f} s\n")

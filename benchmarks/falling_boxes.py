@@ -1,14 +1,14 @@
-"""Contacts of scene2hap and of MuJoCo for 100 boxes that fall into a heap, and the time per step of either.
+"""Contacts of scene2hap and of MuJoCo for 100 boxes that fall into a heap, and the time per step of each.
 
 OMP_NUM_THREADS=1 python benchmarks/falling_boxes.py [n_steps]
 
-The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases of equal length are listed. Both use the
-same tolerance: MuJoCo (4.0) lists pairs that are nearer than the sum of both geoms' gaps, half of it each; scene2hap
-gets it as a setting. A pair whose distance is within 0.1 mm of the tolerance counts as equal.
+The boxes fall into a tray, 1 m wide, and come to rest in a heap; three phases of equal length are listed. Both programs
+use the same tolerance. MuJoCo (4.0) lists pairs that are nearer than the sum of both geoms' gaps, so each gap is half
+the tolerance; scene2hap has a setting. A pair whose distance is within 0.1 mm of the tolerance counts as equal.
 
-MuJoCo lists contacts twice: by its routine for two boxes, which drives the simulation and is the reference for time,
-and by its general routine, in a second model of the same boxes as convex meshes. The two differ in some steps. If only
-scene2hap or only the routine for boxes reports a pair, `mj_geomDistance` decides. Times are medians of processor time.
+MuJoCo lists contacts twice. Its routine for two boxes drives the simulation and is the reference for time. Its general
+routine runs in a second model, of the same boxes as convex meshes. The two differ in some steps. If only scene2hap or
+only the routine for boxes reports a pair, `mj_geomDistance` decides. Times are medians of processor time.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def numbers(values: object) -> str:
 
 
 def model_of(sizes: np.ndarray, places: np.ndarray, turns: np.ndarray, kind: str) -> mujoco.MjModel:
-    """kind : "box", or "mesh" for the same boxes by their corners."""
+    """MuJoCo model of tray and boxes. kind : "box", or "mesh" for the same boxes as convex meshes."""
     meshes = []
 
     def geom(name: str, half: np.ndarray, at: str = "") -> str:
@@ -74,7 +74,7 @@ def scene_of(sizes: np.ndarray) -> SceneSnapshot:
 
 
 def listed_by(data: mujoco.MjData, names: list[str]) -> dict[tuple[str, str], float]:
-    """The least distance of each pair in MuJoCo's list."""
+    """Least distance [m] of each pair in MuJoCo's list."""
     listed: dict[tuple[str, str], float] = {}
     for a, b, distance in zip(*data.contact.geom.T.tolist(), data.contact.dist.tolist(), strict=True):
         pair = (names[a], names[b]) if names[a] < names[b] else (names[b], names[a])
@@ -83,7 +83,7 @@ def listed_by(data: mujoco.MjData, names: list[str]) -> dict[tuple[str, str], fl
 
 
 def found_by(graph: ContactGraph) -> dict[tuple[str, str], float]:
-    """The weight of each pair that touches."""
+    """Weight of each touching pair."""
     arrays = graph.arrays
     ids, rows = arrays.ids, zip(arrays.a.tolist(), arrays.b.tolist(), arrays.weights.tolist(), strict=True)
     return {(ids[a], ids[b]): share for a, b, share in rows}
@@ -91,7 +91,7 @@ def found_by(graph: ContactGraph) -> dict[tuple[str, str], float]:
 
 def different(listed: dict[tuple[str, str], float], found: dict[tuple[str, str], float]) -> set[tuple[str, str]]:
     """Pairs that only one side reports, with a distance more than 0.1 mm from the tolerance."""
-    # MuJoCo never reports pairs of which neither can move.
+    # MuJoCo never reports pairs of two fixed objects.
     found = {pair: share for pair, share in found.items() if not {*pair} <= TRAY.keys()}
     differ = {pair for pair, distance in listed.items() if distance < TOLERANCE_M - EDGE_M} - found.keys()
     return differ | {pair for pair in found.keys() - listed.keys() if found[pair] > 0.01}

@@ -4,10 +4,10 @@ python benchmarks/figures.py --list
 python benchmarks/figures.py [NAME ...] [--busy]
 
 Without names every figure is measured, which takes hours. A page holds blocks between `<!-- figure: NAME -->` and
-`<!-- end -->`; each block states its command, commit, date and machine. A block is replaced only after its command
-has ended with status 0, and its page is written whole. Text outside of blocks is written by hand.
+`<!-- end -->`; each block states its command, commit, date and machine. A block is replaced only after its command has
+ended with status 0. Its page is replaced as a whole. Text outside of blocks is written by hand.
 
-Figures that contain times need a quiet machine: above a load of 1 they are refused, unless --busy is given.
+Figures that contain times need an idle machine: above a load of 1 they are refused, unless --busy is given.
 """
 
 from __future__ import annotations
@@ -191,9 +191,9 @@ def git(*words: str) -> str:
 
 
 def output(figure: Figure) -> str:
-    """Output of the command. One BLAS thread, so that times are of one core.
+    """Run the command with one BLAS thread, so that times are those of one core. Returns its output.
 
-    Raises: subprocess.CalledProcessError: it failed; its messages are on stderr.
+    Raises: subprocess.CalledProcessError: the command failed; its messages are on stderr.
     """
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     command = [sys.executable, str(figure.script), *figure.options]
@@ -202,7 +202,7 @@ def output(figure: Figure) -> str:
 
 
 def refresh(name: str, figure: Figure) -> None:
-    """Measure a figure and write its page, whole or not at all."""
+    """Measure a figure and replace its page, as a whole or not at all."""
     page = figure.path.read_text(encoding="utf-8")
     if not block(name).search(page):
         raise SystemExit(f"{figure.path} has no block <!-- figure: {name} --> ... <!-- end -->; add one")

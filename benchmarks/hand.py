@@ -1,10 +1,11 @@
-"""Change of levels under the load of a hand, and its cost, as tables in Markdown.
+"""Change of levels by the load of a hand, and its cost in time, as tables in Markdown.
 
 python benchmarks/figures.py hand
 
-A phone of 0.2 kg stands on a plate with free edges, which stands on four rubber feet on a concrete floor; 40 points,
-third octaves from 40 to 640 Hz, `modal_plate`. The change is that of levels under a hand, in dB; impedance is that of
-the plate without edges. Second table: the built-in kitchen in a session's default bands, processor time.
+First table: a phone of 0.2 kg stands on a plate with free edges, and the plate on four rubber feet on a concrete floor.
+The hand touches 40 points; third octaves from 40 to 640 Hz, `modal_plate`. The change is that of the level [dB] where
+the hand touches. The impedance is that of an infinite plate. Second table: processor times for the built-in kitchen in
+the default bands of a session.
 """
 
 from __future__ import annotations
@@ -74,7 +75,7 @@ def costs() -> None:
     print("|---|---|---|---|")
     for hand in (None, "palm"):
         model = ModalPlate(outside_domain="ignore", hand=hand)  # type: ignore[arg-type]  # a name is taken too
-        model.prepare(network, excitations, AROUND)  # modes are kept from now on
+        model.prepare(network, excitations, AROUND)  # modes are cached from now on
         begin = time.process_time()
         field = model.prepare(network, excitations, AROUND)
         prepare_s, first, further, seen = time.process_time() - begin, [], [], set[str]()

@@ -1,17 +1,17 @@
-"""What impacts cost the game's thread, how soon they are felt, and whether they click, as a table in Markdown.
+"""Cost of impacts on the game's thread, their latency, and whether they click, as tables in Markdown.
 
 OMP_NUM_THREADS=1 python benchmarks/impacts.py
 OMP_NUM_THREADS=1 python benchmarks/impacts.py --scene kitchen.glb --seed 2
 
-*Struck*: the game strikes what the hands touch, 100 times a second, within 0.6 m of them. *Landing*: as many cups as it
-takes fall on it from 0.2 m again and again, so that 100 land each second, all moved in every update; the time is that
-of the whole update, on the processor. Both in default settings, at 90 updates a second, on a lone table or on the floor
-of a scene.
+*Struck*: the game strikes the touched object 100 times a second, within 0.6 m of the hand. *Landing*: cups fall on the
+touched object again and again from 0.2 m; there are so many that 100 land each second, and all move in every update.
+The time is the processor time of the whole update. Both run with default settings, at 90 updates a second, on a lone
+table or on the floor of a scene.
 
-By a model that is prepared, in the demo's kitchen or the scene: strikes on objects that a hand touches elsewhere, and
-on others that are connected with what it touches; how many were felt, and how many with the next block; the time of
-`strike`; and by how much the level of what was prepared ahead differs from what the model prepares for the impact
-itself. Components below 24 Hz count as such.
+The other tables are for models that need preparation, in the demo's kitchen or the scene. Strikes hit objects that a
+hand touches at another point, and objects that are connected with the touched one. The tables show the number of felt
+strikes, the number felt in the next block, and the time of `strike`. They also show the level difference between gains
+prepared ahead and gains prepared for the impact itself. Components below 24 Hz count as components at 24 Hz.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ FALL_M, CUP_M = 0.2, 0.1
 
 
 def struck(session: HapticSession, touches: list[Touch], seconds: float, seed: int) -> tuple[NDArray, NDArray, int]:
-    """Times [ms] of each update with its strikes, what was rendered, and how many were struck."""
+    """Strike the touched object. Returns times [ms] of each update with its strikes, samples, and number of strikes."""
     rng, due, n_struck = np.random.default_rng(seed), 0.0, 0
     times, heard = [], []
     for _ in range(round(seconds * UPDATES_HZ)):
@@ -59,7 +59,7 @@ def struck(session: HapticSession, touches: list[Touch], seconds: float, seed: i
 def falling(
     session: HapticSession, touches: list[Touch], spots: list[Pose], seconds: float
 ) -> tuple[NDArray, NDArray, int]:
-    """The same with cups that fall; the last number is how often one came to rest."""
+    """Let cups fall on the touched object. Returns times [ms] of each update, samples, and number of landings."""
     fall_s = (2 * FALL_M / G) ** 0.5
     period_s = 2 * fall_s + 0.2
     n_cups = min(len(spots), round(IMPACTS_HZ * period_s))
@@ -73,7 +73,7 @@ def falling(
         for n in range(n_cups):
             t, before = ((step - late) / UPDATES_HZ + n * period_s / n_cups for late in (0, 1))
             n_landed += (before % period_s) < 2 * fall_s <= (t % period_s)
-            # Up as it will come down, and at rest for a while.
+            # A parabola up and down, then a pause at rest.
             flight = min(t % period_s, 2 * fall_s)
             x, y, z = spots[n].position_m
             poses[f"cup {n}"] = Pose((x, y + max(0.0, FALL_M - G * (flight - fall_s) ** 2 / 2), z))
@@ -85,7 +85,7 @@ def falling(
 
 
 def latency_frames(session: HapticSession, touches: list[Touch], block: int) -> int:
-    """From the impact to the first sample that is not 0, at most, over many impacts into silence."""
+    """Largest number of frames from an impact to the first sample that is not 0, over many impacts into silence."""
     worst = 0
     for _ in range(50):
         session.render_s(1.0)
@@ -98,8 +98,10 @@ def latency_frames(session: HapticSession, touches: list[Touch], block: int) -> 
 
 
 def prepared_ahead(kind: str, scene: SceneSnapshot, bundle: HapticBundle, seed: int, *, elsewhere: bool) -> str:
-    """A row of strikes by a model that is prepared: on what a hand touches, or on other objects that are connected with
-    it, half of them beside it."""
+    """Row of the table of strikes on the touched object, or with `elsewhere` on objects that are connected with it.
+
+    Half of the objects of `elsewhere` are direct neighbours of the touched object.
+    """
     rng, model = np.random.default_rng(seed), MODELS.build({"kind": kind})
     session = HapticSession(scene, bundle, {"propagation": model, "gain_limit_db": None})
     state, spent_ms, errors_db, n_next, n_felt = session._state, [], [], 0, 0
@@ -138,7 +140,7 @@ def prepared_ahead(kind: str, scene: SceneSnapshot, bundle: HapticBundle, seed: 
 
 
 def somewhere(state: SceneState, object_id: str, rng: np.random.Generator) -> tuple[float, float, float]:
-    """A point of an object's surface [m]."""
+    """Random point on an object's surface [m]."""
     surface, pose = state.objects[object_id].surface, state.poses[object_id]
     at = rng.uniform(0.05, 0.95, 3) * (surface.length_m, surface.width_m, 0.0)
     x, y, z = pose.to_world(surface.pose.to_world([at]))[0].tolist()
@@ -146,7 +148,7 @@ def somewhere(state: SceneState, object_id: str, rng: np.random.Generator) -> tu
 
 
 def above_1_khz_db(heard: NDArray) -> float:
-    """What lies above 1 kHz of all that was felt [dB]."""
+    """Energy above 1 kHz relative to the total energy of the rendered samples [dB]."""
     power = np.abs(np.fft.rfft(heard.astype(np.float64) * np.hanning(len(heard)))) ** 2
     f = np.fft.rfftfreq(len(heard), 1 / RATE_HZ)
     return float(10 * np.log10(power[f > 1000].sum() / power.sum()))

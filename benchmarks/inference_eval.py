@@ -1,4 +1,4 @@
-"""Score any backend of inference on hand-labelled objects and on the paper's ten materials.
+"""Score an inference backend on hand-labelled objects and on the paper's ten materials.
 
     python benchmarks/inference_eval.py [--llm SPEC] [--scenes DIR] [--half tuning|held-out|both] [--pictures]
                                         [--parts scenes,memory,packs,materials] [--misses] [--json OUT]
@@ -50,7 +50,7 @@ class Counting:
         self.tokens: Counter[str] = Counter()
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """Pass on, and count."""
+        """Forward the request, and count its call and tokens."""
         self.calls[request.component] += 1
         reply = await self._backend.complete(request)
         self.tokens.update(reply.usage)
@@ -59,7 +59,7 @@ class Counting:
 
 @dataclass(frozen=True)
 class SceneResult:
-    """One scene: its judged objects, or the error that ended it."""
+    """Result of one scene: its judged objects, or the error that ended the inference."""
 
     scene: LabelledScene
     judgements: tuple[Judgement, ...]
@@ -71,12 +71,12 @@ class SceneResult:
 
     @property
     def counts(self) -> Counts:
-        """Sum over all objects; every object of a failed scene counts as silent and unknown."""
+        """Sum over all objects; objects of a failed scene count as unknown and as not vibrating."""
         return sum((item.counts for item in self.judgements), Counts())
 
 
 def backend_of(spec: str) -> LLMBackend:
-    """A backend from SPEC. Raises: ConfigError."""
+    """Build a backend from SPEC. Raises: ConfigError."""
     if spec.lstrip().startswith("{"):
         return cast("LLMBackend", BACKENDS.build(json.loads(spec)))
     if spec.endswith((".toml", ".json")):
@@ -103,7 +103,7 @@ async def score(backend: LLMBackend, item: LabelledScene, folder: Path, *, pictu
 
 
 def table(title: str, results: list[SceneResult]) -> str:
-    """One row per scene and one for all, in Markdown."""
+    """Table in Markdown: one row per scene and one for all."""
     heads = (
         "scene", "objects", "vibrates", "precision", "recall", "vibrates, clear", "category", "family", "unknown",
         "place", "s", "calls",
@@ -124,7 +124,7 @@ def table(title: str, results: list[SceneResult]) -> str:
 
 
 def pool(results: list[SceneResult]) -> Counts:
-    """All objects of all scenes, each object counting the same."""
+    """Sum of the counts of all scenes, in which each object counts the same."""
     return sum((item.counts for item in results), Counts())
 
 
@@ -135,7 +135,7 @@ def _line(name: str, counts: Counts, tail: tuple[str, ...]) -> str:
 
 
 def misses(results: list[SceneResult]) -> str:
-    """Every object that disagrees with its label."""
+    """List every object whose answer disagrees with its label."""
     lines = []
     for item in results:
         for judged in item.judgements:
@@ -147,7 +147,7 @@ def misses(results: list[SceneResult]) -> str:
 
 
 def show_materials(rows: list[MaterialRow]) -> str:
-    """The ten materials in Markdown, and how many constants lie in the range."""
+    """Table of the ten materials in Markdown, and the number of constants in their range."""
     lines = [
         "\n## The paper's ten materials\n",
         "| material | density kg/m3 | E GPa | nu | range | in range | GPT-4o |",
@@ -164,7 +164,7 @@ def show_materials(rows: list[MaterialRow]) -> str:
 
 
 async def run(options: argparse.Namespace) -> dict[str, Any]:
-    """All requested parts: printed, and as JSON."""
+    """Run and print all requested parts. Returns them as JSON data."""
     backend, parts = backend_of(options.llm), options.parts.split(",")
     print(
         f"scene2hap {version('scene2hap')}, Python {platform.python_version()}, {platform.machine()}, llm {options.llm}"

@@ -1,10 +1,10 @@
-"""Waiting time of inference: concurrent calls compared with the paper's order of one call after another.
+"""Waiting time of inference: concurrent calls compared with sequential calls in the paper's order.
 
     python benchmarks/inference_speed.py [--latency 0.25]
 
-A loopback server answers every call after the same time with a valid answer, as `OpenAIBackend` would get it. The scene
-has 44 objects, 7 of them vibrating, of 8 materials, with the usual repeats: 4 chairs and 6 handles. In the paper's
-order each object has its own calls: analysis, material, and description if it vibrates.
+A loopback server gives every call of `OpenAIBackend` a valid answer after the same time. The scene has 44 objects, 7 of
+them vibrating, of 8 materials, with the usual copies: 4 chairs and 6 handles. In the paper's order each object has its
+own calls: analysis, material, and description if it vibrates.
 
 lower bound : the larger of the critical path (3 calls) and the time of (1 + ceil((calls - 1) / concurrency)) calls.
 """
@@ -53,7 +53,7 @@ def main() -> None:
 
 
 def in_parallel(scene: SceneSnapshot, url: str, concurrency: int) -> tuple[float, int]:
-    """Wall time [s] and number of calls of the chain."""
+    """Run the chain. Returns wall time [s] and number of calls."""
     started = time.perf_counter()
     found = asyncio.run(
         infer_scene(scene, OpenAIBackend(base_url=url, api_key="none"), config={"concurrency": concurrency})
@@ -64,7 +64,7 @@ def in_parallel(scene: SceneSnapshot, url: str, concurrency: int) -> tuple[float
 
 
 def one_after_another(scene: SceneSnapshot, url: str) -> tuple[float, int]:
-    """Wall time [s] and number of calls in the paper's order, nothing shared."""
+    """Send the calls in the paper's order, without sharing. Returns wall time [s] and number of calls."""
     requests = all_requests(scene)
     of_scene = [request for request in requests if request.component == "scene_analyzer"]
     material = next(request for request in requests if request.component == "material_estimator")

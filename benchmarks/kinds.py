@@ -3,16 +3,16 @@
 python benchmarks/kinds.py [--set home|flat|workshop|compressors] [--seeds 3] [--first 0] [--takes 4] [--tactile auto]
 
 1. The project's own (`scene2hap.audio.distinctness`): just noticeable differences in frequency, rhythm and level.
-2. An independent one, the spectral part of ST-SIM (Hassen and Steinbach 2019) as `vibromaf` computes it, which
-   `pip install vibromaf` installs; without it this part is left out. Two loops are compared in blocks of 64 ms by the
-   components felt in both, at the lag of largest similarity, since machines do not start together.
-   - *takes*: a pair is distinct if its loops are less similar than 95 % of takes of either kind, which differ in their
-     seed and have the same shift of frequency. So two kinds must differ more than two takes of one kind.
-   - *all*: the same, with the takes of all kinds as one threshold.
-   - *halves*: the earlier rule, at 2.8 kHz and without scale or lag: less similar than the first and second halves of
-     95 % of all loops of all seeds.
+2. An independent one: the spectral part of ST-SIM (Hassen and Steinbach 2019) as `vibromaf` computes it. It needs
+   `pip install vibromaf`; otherwise this part is left out. Two loops are compared in blocks of 64 ms by the components
+   felt in both, at the lag of largest similarity, since machines do not start together.
+   - *takes*: a pair is distinct if its loops are less similar than 95 % of the pairs of takes of either kind. Takes
+     differ in their seed and have the same shift of frequency. So two kinds must differ more than two takes of one.
+   - *all*: the same, with one threshold from the takes of all kinds.
+   - *halves*: the earlier rule, at 2.8 kHz and without scale or lag. A pair is distinct if it is less similar than the
+     two halves of 95 % of all loops of all seeds.
 
-Controls: with `--tactile svf_bandpass` there is one fixed filter for all kinds, and nothing is moved apart. The ten
+Controls: with `--tactile svf_bandpass` all kinds have the same fixed filter, and no frequency is shifted. The ten
 compressors have one voice, so that only their speeds and intensities differ.
 """
 
@@ -52,7 +52,7 @@ SETS = {
     "vending machine, heat pump, ice machine",
 }
 RATE_HZ, N_SAMPLES = 8000, 40960
-"""The rate of the table of thresholds in `vibromaf`, and 5.12 s."""
+"""Sample rate of the table of thresholds in `vibromaf`, and number of samples of 5.12 s."""
 OTHER_SEED = 1000
 Signal = NDArray[np.float64]
 
@@ -121,10 +121,11 @@ def take(bundle: HapticBundle, name: str, config: BakeConfig, seed: int) -> Audi
 
 
 class Likeness:
-    """Likeness of loops by the spectral part of ST-SIM, 0 to 1.
+    """Similarity of loops by the spectral part of ST-SIM, 0 to 1.
 
-    Loops are scaled so that a sine at 250 Hz at the project's threshold of touch is at that of `vibromaf`, which takes
-    full scale to lie 77 dB above it, in an orthonormal transform. Otherwise components below threshold count as felt.
+    Loops are scaled so that a sine of 250 Hz at the project's threshold of touch lies at the threshold of `vibromaf`.
+    Its transform is orthonormal, and it takes full scale to lie 77 dB above its threshold. Without the scale,
+    components below the project's threshold would count as felt.
     """
 
     def __init__(self) -> None:
@@ -149,7 +150,7 @@ class Likeness:
 
     @staticmethod
     def of(one: Signal, other: Signal) -> float:
-        """Mean over blocks of the smaller similarity of both directions, at the best lag of the blocks."""
+        """Mean over blocks of the smaller similarity of both directions, at the lag of the largest mean."""
         n = len(one)
         powers = np.maximum((one**2).sum(axis=1)[:, None], (other**2).sum(axis=1))
         blocks = (one @ other.T + 1e-9) / (powers + 1e-9)  # silent blocks are equal
@@ -171,7 +172,7 @@ class Likeness:
 
 
 def repeated(clip: AudioClip, rate_hz: int, n_samples: int) -> Signal:
-    """A loop at another rate, repeated to n samples (n,)."""
+    """Loop at another rate, repeated to n samples (n,)."""
     n = round(len(clip.samples) * rate_hz / clip.sample_rate_hz)
     return np.tile(resample(clip.samples.astype(np.float64), n), n_samples // n + 1)[:n_samples]
 

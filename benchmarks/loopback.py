@@ -95,7 +95,7 @@ def answer(component: str, prompt: str) -> dict[str, Any]:
 
 @contextmanager
 def answering(latency_s: float) -> Iterator[Server]:
-    """A server that answers every call after `latency_s`, validly, as OpenAI's chat completions would."""
+    """Run a server that gives every call a valid answer of OpenAI's chat completions after `latency_s`."""
     state = Server()
 
     class Handler(BaseHTTPRequestHandler):

@@ -1,9 +1,9 @@
-"""Masses of the lexicon in real scenes against published average weights, as a table in Markdown.
+"""Masses of the lexicon in real scenes compared with published average weights, as tables in Markdown.
 
 python benchmarks/masses.py [FOLDER of scenes]
 
-Published weights are used as found, and nothing was tuned to them. Other types of object, walls and floors are left
-out, since no published weight was found.
+Published weights are used as found, and no parameter was tuned to them. Walls, floors and object types without a
+published weight are left out.
 """
 
 from __future__ import annotations
@@ -47,10 +47,10 @@ PUBLISHED_KG: dict[str, tuple[float, str]] = {
     "toilet": (45.0, "middle of two-piece toilets, 80 to 120 lb, toiletseats.top"),
     "bathtub": (29.5, "fibreglass, 60 to 70 lb, ehow"),
 }
-"""Mass of a usual object [kg] and its source."""
+"""Mass of a usual object of each type [kg] and its source."""
 
 LIBRARY_M = 1.8
-"""Factor of the library's sizes to real ones (SOURCE.md of lib_kenney_furniture)."""
+"""Real size divided by size in the library's files (SOURCE.md of lib_kenney_furniture)."""
 LIBRARY_KG: dict[str, tuple[float, str]] = {
     "bedDouble": (78.0, f"{MRWA}: bed, double complete"),
     "bedSingle": (53.0, f"{MRWA}: bed, single complete"),
@@ -84,7 +84,7 @@ LIBRARY_KG: dict[str, tuple[float, str]] = {
     "toilet": (45.0, "middle of two-piece toilets, 80 to 120 lb, toiletseats.top"),
     "washer": (70.5, "median of ten models named by homeownercosts.co.uk"),
 }
-"""Mass of a model's usual original [kg] and its source, by the name of its file: a wrong type counts as well."""
+"""Usual mass of the furniture that a model shows [kg] and its source, by file name. Wrong inferred types count too."""
 
 SCENES = (
     ("aws_house_bedroom/aws_house_bedroom.glb", 1.0),

@@ -2,11 +2,11 @@
 
 OMP_NUM_THREADS=1 python benchmarks/mixer.py [--seconds 20] [--switch-interval-ms 5]
 
-16 sources of 5 s in 20 bands at two hands, blocks of 128 frames at 48 kHz, each rendered when it is due, as by a sound
-card. Another thread sets new gains for every source, band and hand at 1 kHz, and each update keeps Python's interpreter
-lock for the given time (a busy loop, the worst case of a game in Python).
+16 sources of 5 s are mixed in 20 bands for two hands, in blocks of 128 frames at 48 kHz. Each block is rendered when it
+is due, as for a sound card. Another thread sets new gains for every source, band and hand at 1 kHz. Each update holds
+Python's interpreter lock for the given time (a busy loop, the worst case of a game in Python).
 
-"render" is the time inside `render_into`; "processor" is the thread's own processor time in it; "from due" also
+"render" is the time inside `render_into`. "processor" is the thread's processor time inside it. "from due" also
 includes the operating system's wake-up and the wait for the interpreter lock, which no mixer can shorten.
 """
 
@@ -37,7 +37,7 @@ UPDATE_S = 0.001
 def some_clips() -> list[AudioClip]:
     rng = np.random.default_rng(SEED)
     n = round(LOOP_S * 44100)
-    # No two of the same length, as found loops are.
+    # No two loops have the same length, as in practice.
     return [AudioClip(rng.uniform(-0.05, 0.05, n - 37 * i).astype(np.float32), 44100) for i in range(N_SOURCES)]
 
 
@@ -51,7 +51,7 @@ def some_gains(bank: LoopBank) -> list[NDArray[np.float32]]:
 
 
 class Game(threading.Thread):
-    """Sets gains every `period_s` and keeps busy for `update_s` each time."""
+    """Thread that sets gains every `period_s` and keeps busy for `update_s` each time."""
 
     def __init__(self, mixer: Mixer, gains: list[NDArray[np.float32]], period_s: float, update_s: float) -> None:
         super().__init__()
@@ -92,7 +92,7 @@ def times(bank: LoopBank, seconds: float, update_s: float | None) -> tuple[NDArr
         cpu, end = time.thread_time() - begin_cpu, time.perf_counter()
         found[:, i] = end - begin, cpu, end - due
         if end - due > 10 * BLOCK_S:
-            # Stopped by the machine; a sound card would have dropped these blocks too.
+            # The operating system stopped the thread; a sound card would have dropped these blocks too.
             start = end - (i + 1) * BLOCK_S
     game.done = True
     if update_s is not None:

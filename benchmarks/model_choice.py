@@ -2,11 +2,11 @@
 
 python benchmarks/model_choice.py [SCENE]
 
-The built-in kitchen of 45 objects, baked offline with masses and feet. Each model prepares the scene in its own
+The scene is the built-in kitchen of 45 objects, baked offline with masses and feet. Each model prepares it in its own
 process, and again as after a move. "First touch" queries a point of an object that was not queried before, "further"
-other points of it. Levels at 200 points on objects that a source reaches are compared with `ModalPlate` on a grid of
-frequencies twice as dense, which itself agrees with coupled finite elements (tests/physics). Times are of the
-processor.
+other points of the same object. Levels at 200 points on objects that a source reaches are compared with those of
+`ModalPlate` on a frequency grid twice as dense, which agrees with coupled finite elements (tests/physics). Times are
+processor times.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ from scene2hap.session.scene_state import SceneState
 
 BANDS = Bands.third_octaves(10, 1000)
 N_POINTS, SEED = 200, 11
-LEAST_DB = -80.0  # Below it a difference is not felt.
+LEAST_DB = -80.0  # Differences below this level are not felt.
 MODELS: dict[str, tuple[Callable[[], PropagationModel], str]] = {
     "`exponential_plate`": (ExponentialPlate, "easy to read: the paper's law; the default"),
     "`infinite_plate`": (InfinitePlate, "level alone, for very large or lossy plates"),
@@ -60,8 +60,10 @@ MODELS: dict[str, tuple[Callable[[], PropagationModel], str]] = {
 def scene_input(
     path: str, *, follows_outlines: bool = False
 ) -> tuple[ContactNetwork, tuple[Excitation, ...], list[tuple[str, NDArray[np.float64]]]]:
-    """The models' input as a session gives it, to a model that follows outlines or not, and points on objects that a
-    source reaches, sources left out."""
+    """Network and excitations as a session gives them to a model, and points on objects that a source reaches.
+
+    The objects of the points are no sources. follows_outlines : whether the model follows outlines.
+    """
     scene = load_scene(path)
     bundle = bake(scene)
     session = HapticSession(scene, bundle)
@@ -86,7 +88,7 @@ def levels_db(field: Any, points: list[tuple[str, NDArray[np.float64]]]) -> NDAr
 
 @dataclass(frozen=True)
 class Measured:
-    """Times of a model in a process of its own [s], and its levels [dB]."""
+    """Times of a model in a separate process [s], and its levels [dB]."""
 
     prepare_s: float
     again_s: float
@@ -125,7 +127,7 @@ def main() -> None:
     given = parser.parse_args()
     found = {}
     for name in ("truth", *MODELS):
-        # Modes are kept from model to model within a process.
+        # A new process per model, since models share cached modes within a process.
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as alone:
             found[name] = alone.submit(measure, given.scene, name).result()
     truth = found.pop("truth").levels_db

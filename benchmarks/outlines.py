@@ -1,12 +1,12 @@
-"""Plates that are not rectangles: error of the lattice against finite elements, and its time against `ModalPlate`.
+"""Lattices of plates that are not rectangles: error relative to finite elements, and time relative to `ModalPlate`.
 
 python benchmarks/figures.py outlines outlines-order      (needs scikit-fem)
 python benchmarks/outlines.py [--order]
 
-Discs with and without a hole, an ellipse, a hexagon, a T, a U, Ls, a top with a cut-out for a sink, and slots straight
-and slanted, as thin as 5 mm, of oak, glass and steel, at 20-400 Hz. Truth: Argyris triangles
-(tests/plate_fe.py), smaller around corners that point inwards. Errors are those of levels at 12 points, the driven one
-among them, in dB. Times are of the processor, the least of five, all caches cold; `ModalPlate` solves the rectangle of
+Plates: discs with and without a hole, an ellipse, a hexagon, a T, a U, Ls, a top with a cut-out for a sink, and
+straight and slanted slots as thin as 5 mm, of oak, glass and steel, at 20-400 Hz. Reference: Argyris triangles
+(tests/plate_fe.py), smaller around corners that point inwards. Errors are those of levels [dB] at 12 points, the driven
+point included. Times are processor times with empty caches, the least of five; `ModalPlate` solves the rectangle of
 equal area. `--order` prints how natural frequencies converge with the resolution instead.
 """
 
@@ -41,7 +41,7 @@ FREQUENCIES_HZ = np.geomspace(20.0, 400.0, 60)
 LOSS, N_POINTS, SEED = 0.02, 12, 1
 MATERIALS = {"oak": 0.018, "glass": 0.006, "steel": 0.002}
 SIDE_M = 0.07
-"""Of the triangles of curved and slanted shapes [m]."""
+"""Side of the triangles of curved and slanted shapes [m]."""
 Corners = tuple[tuple[float, float], ...]
 
 
@@ -54,7 +54,7 @@ def inside(x0: float, y0: float, x1: float, y1: float) -> Callable[[Any, Any], A
 
 
 def lines(step_m: float, *through_m: float) -> NDArray[np.float64]:
-    """Grid lines through given places, at most `step_m` apart."""
+    """Positions of grid lines [m] through the given ones, at most `step_m` apart."""
     parts = [np.linspace(a, b, int(np.ceil((b - a) / step_m - 1e-9)) + 1) for a, b in pairwise(through_m)]
     return np.concatenate(parts)
 
@@ -72,7 +72,7 @@ def turned(corners: Corners, degrees: float, middle_m: tuple[float, float] = (0.
 
 
 def triangulated(*rings: Corners, tips: Corners = (), least_m: float = SIDE_M) -> tuple[Outline, Any]:
-    """An outline, its box from (0, 0) on, and triangles of `SIDE_M` within it, of `least_m` around given corners."""
+    """Outline with its lower corner at (0, 0), and a mesh of triangles of `SIDE_M`, of `least_m` around the `tips`."""
     import skfem
     from scipy.spatial import Delaunay
 
@@ -116,7 +116,7 @@ def triangulated(*rings: Corners, tips: Corners = (), least_m: float = SIDE_M) -
 
 @cache
 def shapes() -> dict[str, tuple[Outline, Any, Corners]]:
-    """By name: the outline, a mesh of it, and where curvature grows without bound."""
+    """Outline, mesh, and corners where curvature grows without bound, of each shape by name."""
     import skfem
 
     disc = skfem.MeshTri.init_circle(4).scaled(0.4).translated((0.4, 0.4))
@@ -174,7 +174,7 @@ def shapes() -> dict[str, tuple[Outline, Any, Corners]]:
     }
     for name, (rings, tips) in rings_of.items():
         found[name] = (*triangulated(*rings), tips or ((9.0, 9.0),))
-    # Halves of the few triangles across the end of a thin slot would be slivers, so they are small from the start.
+    # The few triangles across the end of a thin slot are small from the start, since their halves would be slivers.
     slot = ((0, 0), (0.8, 0), (0.8, 0.5), (0, 0.5), (0, 0.255), (0.5, 0.255), (0.5, 0.25), (0, 0.25))
     for name, degrees in (("", 0.0), (", at 30 degrees", 30.0)):
         ring, tips = turned(slot, degrees), turned(((0.5, 0.25), (0.5, 0.255)), degrees)
@@ -184,7 +184,7 @@ def shapes() -> dict[str, tuple[Outline, Any, Corners]]:
 
 
 def print_order() -> None:
-    """How the first 13 natural frequencies converge: the largest error at three resolutions, against one of 32."""
+    """Print the largest error of the first 13 natural frequencies at three resolutions, relative to resolution 32."""
     print("| plate | error at 4 | at 8 | at 16 | order, 4 to 8 | 8 to 16 |")
     print("|---|---|---|---|---|---|")
     for name, (outline, _, _) in shapes().items():
@@ -197,7 +197,7 @@ def print_order() -> None:
 
 
 def cold_s(query: Callable[[float], object]) -> float:
-    """Least processor time of five queries, each of a slightly different plate [s]."""
+    """Least processor time [s] of five queries with empty caches, each of a slightly different plate."""
     taken = []
     for k in range(5):
         for kept in (aligned, bending_lattice, lines_of, _modes_up_to, lattice_body, of_size_one, outline_of):

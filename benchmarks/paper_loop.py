@@ -2,17 +2,19 @@
 
 OMP_NUM_THREADS=1 python benchmarks/paper_loop.py [n_frames] [--defaults] [--seed N]
 
-`--defaults` measures default settings alone (any number of contacts), in three rooms drawn from a seed, a new one each
-run. It also prints the mean time that a frame spends in pairs of meshes, in other work on contacts, and in the rest of
+`--defaults` measures only default settings (any number of contacts), in three rooms drawn from a seed, which is new in
+each run. It also prints the mean time of a frame for pairs of meshes, for other work on contacts, and for the rest of
 the session. The other tables limit `ExponentialPlate` to two contacts, as in the paper's loop.
 
-The plain loop, once per frame: compare all bounding boxes with all, draw a networkx graph, follow all paths from every
-touch to every source depth first up to two contacts, one exponential (of 20 bands) per path. It is compared with
-`HapticSession.update` as a game calls it, and with its parts alone (graph, paths, gains). All get the same frames of
-the same room (`busy_room`), in turns; times are medians of processor time, so that other programs disturb them little.
-The 99th percentile over the median is given for sessions alone, in several passes of all frames, each by a new session:
-of the middle pass, of the best and the worst, and of the least time of each frame in any pass, which leaves out
-disturbances by other programs.
+The plain loop does the following once per frame. It compares each bounding box with all others and builds a networkx
+graph. It follows all paths of up to two contacts from every touch to every source, depth first, and computes one
+exponential (of 20 bands) per path. It is compared with `HapticSession.update` as a game calls it, and with scene2hap's
+parts alone (graph, paths, gains). All get the same frames of the same room (`busy_room`), in turns. Times are medians
+of processor time, so that other programs disturb them little.
+
+The 99th percentile over the median is given only for sessions. All frames are run in several passes, each by a new
+session. The values are those of the middle pass, of the best and of the worst pass, and of the least time of each frame
+in any pass. The last one leaves out disturbances by other programs.
 """
 
 from __future__ import annotations
@@ -132,7 +134,7 @@ def session_of(room: BusyRoom, max_hops: int | None = N_HOPS) -> HapticSession:
 
 
 def times_of(steps: Sequence[Callable[[int], object]], n_frames: int, clock: Clock, warm: int = 20) -> np.ndarray:
-    """Times (n_steps, n_frames) [s] of the steps, which take turns after a second's worth of frames each."""
+    """Times (n_steps, n_frames) [s] of the steps, which take turns of `_IN_A_ROW` frames."""
     taken = np.empty((len(steps), warm + n_frames))
     for first in range(0, warm + n_frames, _IN_A_ROW):
         for row, step in enumerate(steps):
@@ -164,7 +166,7 @@ def compared(n_objects: int, kind: str, n_frames: int) -> None:
 
 
 def default_settings(n_frames: int, seed: int) -> None:
-    """Sessions over any number of contacts against the plain loop over two, in rooms drawn from the seed."""
+    """Compare sessions over any number of contacts with the plain loop over two, in rooms drawn from the seed."""
     print(f"\nDefault settings, seed {seed}.\n")
     print(
         "| room | objects | plain loop [ms] | HapticSession [ms] | ratio | p99 / median | triangles [ms] "
@@ -188,7 +190,7 @@ def default_settings(n_frames: int, seed: int) -> None:
 
 
 def parts_of(room: BusyRoom, frames: Sequence[tuple[dict[str, Pose], list[Touch]]]) -> tuple[float, float, float]:
-    """Mean seconds of a frame in pairs of meshes, in contacts besides, and in the session besides."""
+    """Mean time of a frame [s] for pairs of meshes, for other work on contacts, and for the rest of the session."""
     session, watch = session_of(room, None), Stopwatch()
     for moved, touches in frames[:20]:
         session.update(moved, touches)
@@ -206,7 +208,7 @@ def alone_in(
     n_frames: int,
     max_hops: int | None = N_HOPS,
 ) -> np.ndarray:
-    """Seconds (n_frames,) that the updates of a new session take."""
+    """Times (n_frames,) [s] of the updates of a new session."""
     session = session_of(room, max_hops)
     return times_of([lambda i: session.update(*frames[i])], n_frames, time.thread_time)[0]
 
@@ -230,7 +232,7 @@ class Stopwatch:
 
     @contextmanager
     def watch(self, **methods: tuple[type, str]) -> Iterator[None]:
-        """Watch methods, each by a name."""
+        """Measure methods within the context, each under the name of its keyword."""
         kept = [(owner, method, getattr(owner, method)) for owner, method in methods.values()]
         for name, (owner, method, call) in zip(methods, kept, strict=True):
             self.spent[name] = 0.0
@@ -249,7 +251,7 @@ class Stopwatch:
             taken = time.thread_time() - start
             self.spent[name] += taken - self._clock_s - self._inner.pop()
             if self._inner:
-                self._inner[-1] += taken + self._clock_s  # it reads the clock twice, once within what it takes
+                self._inner[-1] += taken + self._clock_s  # of two readings of the clock, one lies within `taken`
             return found
 
         return watched
@@ -280,7 +282,7 @@ def split(n_objects: int, kind: str, n_frames: int) -> None:
 
 
 def at_rest(n_objects: int, n_updates: int) -> None:
-    """Fresh touch points on five objects each time, nothing moves."""
+    """Measure updates with new touch points on five objects, in which nothing moves."""
     room = busy_room(n_objects)
     loop, session = OurLoop(room), session_of(room)
     names = [item.id for item in room.scene.objects[:5]]

@@ -2,8 +2,8 @@
 
 OPENBLAS_NUM_THREADS=1 python benchmarks/propagation.py
 
-Times are of the processor, not of the clock, so that other programs disturb them little. Ratios are of times taken in
-turns in one run. The phone on an oak top that docs/figures/propagation.md shows is printed as well.
+Times are processor times, so that other programs disturb them little. Ratios are those of times measured in turns in
+one run. The phone on an oak top that docs/figures/propagation.md shows is printed as well.
 """
 
 from __future__ import annotations
@@ -45,10 +45,10 @@ MODELS: dict[str, PropagationModel] = {"Infinite": InfinitePlate(), "Modal": Mod
 
 
 def room(n_objects: int = 50, n_contacts: int = 60, seed: int = SEED, prefix: str = "") -> ContactNetwork:
-    """Objects of a flat. A fifth are sheets of 2-6 mm steel or glass; a fifth are compact.
+    """Objects of a flat: a fifth are sheets of 2-6 mm steel or glass, a fifth are compact.
 
-    Half of the sheets and half of the oak plates have asymmetric edges. Each object stands on one of the six before it;
-    further contacts close loops.
+    Half of the sheets and half of the oak plates have asymmetric edges. Each object stands on one of the six previous
+    objects; further contacts close loops.
     """
     rng = np.random.default_rng(seed)
     names = [f"{prefix}{i:04d}" for i in range(n_objects)]
@@ -82,7 +82,7 @@ def _plate(
 
 
 def sources(prefix: str = "") -> list[Excitation]:
-    """Eight of the compact objects."""
+    """Sources on eight of the compact objects."""
     return [Excitation(f"{prefix}{3 + 5 * i:04d}", 100.0, 100.0, 0.3) for i in range(N_SOURCES)]
 
 
@@ -101,9 +101,9 @@ def clear_caches() -> None:
 
 
 def preparing(model: PropagationModel) -> tuple[float, float]:
-    """Time [s] to prepare a new room, and to prepare it again after a move of one object; the median of five."""
+    """Times [s] to prepare a new room, and to prepare it again after a move of one object; medians of five."""
     network, excitations = room(), sources()
-    model.prepare(network, excitations, THIRDS)  # imports are done before the clock starts
+    model.prepare(network, excitations, THIRDS)  # imports are done before times are measured
     cold, warm = [], []
     for k in range(5):
         clear_caches()
@@ -144,7 +144,7 @@ def touch_on_a_plate(plate: Plate, feet: int = 1, *, is_expected: bool = False) 
 
 
 def flats(n_rooms: int) -> ContactNetwork:
-    """Many rooms of fifty objects that do not touch one another."""
+    """Network of many rooms of fifty objects; the rooms do not touch one another."""
     parts = [room(seed=SEED + i, prefix=f"{i:03d}-") for i in range(n_rooms)]
     return ContactNetwork(
         {name: body for part in parts for name, body in part.bodies.items()},

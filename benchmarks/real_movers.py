@@ -6,9 +6,9 @@ Each scene is baked with the default backends and played by a default session in
 two objects that touch most others. Every object up to 1 m long is a mover. A mover is pushed about its place, carried
 through the room at 0.4 m above its place, and lifted and dropped; then five movers at once do so, for several draws.
 
-Times are of the calling thread's processor time, garbage collection included, the least of several passes for each
-frame. `--worst` lists the movers with the slowest frames, `--profile` prints a profile of them. A colon precedes the
-unit [m] of a file in other units, as in room.glb:0.1.
+Times are the calling thread's processor time, garbage collection included, the least of several passes for each frame.
+`--worst` lists the movers with the slowest frames, `--profile` prints a profile of these frames. For a file in other
+units, append a colon and the unit [m], as in room.glb:0.1.
 """
 
 from __future__ import annotations
@@ -42,23 +42,23 @@ from scene2hap.contact.graph import ContactGraph
 
 MOVABLE_M, N_FRAMES, LIFT_M, STEP_M = 1.0, 240, 0.4, 1.5 / 90
 Path3 = Callable[[SceneObject, int], tuple[float, float, float]]
-"""Offset [m] from a mover's place in frame i: two level axes and up."""
+"""Function of a mover and a frame number i. Returns the offset [m] from the mover's place: two level axes, and up."""
 
 
 def pushed(item: SceneObject, i: int) -> tuple[float, float, float]:
-    """An ellipse of 6 x 4 cm, up to 1.3 mm a frame."""
+    """Offset along an ellipse of 6 x 4 cm, up to 1.3 mm a frame."""
     return 0.03 * math.sin(0.02 * math.pi * i), 0.02 * math.cos(0.02 * math.pi * i) - 0.02, 0.0
 
 
 def dropped(item: SceneObject, i: int) -> tuple[float, float, float]:
-    """Lifted by 0.3 m and dropped, twelve times, at a slightly different place each time."""
+    """Offset when lifted by 0.3 m and dropped, twelve times, at a slightly different place each time."""
     k, phase = divmod(i, 20)
     height = 0.03 * phase if phase < 10 else 0.3 * (1 - ((phase - 10) / 6) ** 2) if phase < 16 else 0.0
     return 0.004 * k, 0.003 * k, height
 
 
 def carried_through(scene: SceneSnapshot) -> Path3:
-    """Straight through the middle of the room at 1.5 m/s and 90 frames a second, to and fro between its walls."""
+    """Path through the middle of the room at 1.5 m/s and 90 frames a second, to and fro between the walls."""
     flat = (0, 2) if scene.up_axis == "y" else (0, 1)
     bounds = np.array([item.bounds_m for item in scene.objects])
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)

@@ -1,10 +1,10 @@
-"""Starts and stops found in synthetic recordings of known machines, and in sounds without any.
+"""Starts and stops found in synthetic recordings of known machines, and in sounds without a start or a stop.
 
 python benchmarks/recorded_runs.py [--draws 300] [--seed 0]
 
 Machines are drawn by `tests/starting_machines.py`: start or stop of 0.5 to 8 s, four shapes, 60 to 300 Hz, one to six
-harmonics, their own hiss 30 to 6 dB below, the room 40 to 20 dB below, half of them with a pitch that moves. Level and
-speed are compared while the machine is within 20 dB of steady running.
+harmonics, machine hiss 30 to 6 dB below, room noise 40 to 20 dB below. In half of the machines the pitch moves. Level
+and speed are compared while the machine is within 20 dB of steady running.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def spread(name: str, values: list[float], most: float, form: str) -> str:
 
 
 def false_ends(n_seeds: int) -> Counter[str]:
-    """Number of sounds without a start or a stop in which one is found, by kind."""
+    """Number of sounds in which a start or a stop is found although they have none, by kind."""
     sounds = [(name, x, RATE_HZ) for seed in range(n_seeds) for name, x in without_runs(seed).items()]
     sounds += [(name, x, rate) for name, (x, rate) in recordings().items()]
     found = [(name, recorded_runs(x, rate)) for name, x, rate in sounds]

@@ -2,14 +2,13 @@
 
 python benchmarks/recordings.py [SOUND ...] [--actuator flat]
 
-The kind of sound decides the measure:
-- *varies* (the level in 100 ms moves by more than 6 dB, 5th to 95th percentile): correlation of the envelopes of sound
+The measure depends on the kind of sound:
+- *varies* (the level in 100 ms varies by more than 6 dB, 5th to 95th percentile): correlation of the envelopes of sound
   and vibration; the target is 0.8 or more;
 - *steady*: excess of the level range of the vibration over that of the sound [dB]; the target is 3 or less;
-- *events*, if there are any: number of onsets of the sound that are also onsets of the vibration, within 30 ms. An
-  onset is a place where the energy in 5 ms rises by 12 dB over the median of the 50 ms before, above -30 dB re its
-  peak.
-These statistics are independent of the converters' own. Sounds are those beside the project unless some are named.
+- *events*, if there are any: number of onsets of the sound that are also onsets of the vibration, within 30 ms. At an
+  onset the energy in 5 ms is 12 dB above the median of the 50 ms before, and above -30 dB re its peak.
+These statistics are independent of the converters' own. Without arguments the recordings beside the project are used.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ Signal = NDArray[np.float64]
 
 
 def levels_db(x: Signal, rate: int, step_s: float) -> Signal:
-    """Level of each stretch [dB]."""
+    """Level of each step of `step_s` [dB]."""
     n = round(step_s * rate)
     return 10 * np.log10((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1) + 1e-12)
 
@@ -60,7 +59,7 @@ def onsets_s(x: Signal, rate: int) -> Signal:
 
 
 def judged(clip: AudioClip, kind: str, actuator: str) -> str:
-    """One cell: the measure for a sound of its kind."""
+    """Cell of the table: the measure for this kind of sound."""
     profile, rate = actuator_profile(actuator), clip.sample_rate_hz
     anchor = anchor_of(clip.samples, rate, sensation_level_db(INTENSITY), profile)
     assert anchor is not None
@@ -95,7 +94,7 @@ def main() -> None:
     given = parser.parse_args()
     paths = given.sounds or sorted(path for path in RECORDINGS.glob("*.*") if path.suffix in (".wav", ".ogg"))
     if not paths:
-        parser.error(f"no recordings in {RECORDINGS}; name sounds.")  # an empty table would pass for a measurement
+        parser.error(f"no recordings in {RECORDINGS}; name sounds.")  # an empty table would look like a measurement
     kinds = ["auto", *(kind for kind in CONVERTERS.kinds() if kind != "auto")]
     print(f"| sound | kind | {' | '.join(kinds)} |")
     print("|" + "---|" * (len(kinds) + 2))

@@ -1,12 +1,12 @@
-"""Size, building time and first paint of report pages, and how near the felt map is to a session, as a table.
+"""Size, building time and first paint of report pages, and error of the felt map relative to a session, as a table.
 
 python benchmarks/report_pages.py
 
 Scenes are the demo kitchen and, if they are beside the project, three by other authors. The objects of
-`messy_japanese_room` have no usable names; there one table hums, and everything is of oak. Building is `write_report`
-of a bundle in memory, the least of three. First paint and first picture of the scene are medians of five loads from a
-file, in headless Chromium with software rendering; they need playwright and chromium. The felt map is compared with a
-session's gains at 200 points of all patches, where the level is within the page's range.
+`messy_japanese_room` have no usable names; there one table hums, and all objects are of oak. Building time is that of
+`write_report` for a bundle in memory, the least of three. First paint and first picture of the scene are medians of
+five loads from a file, in headless Chromium with software rendering; they need playwright and chromium. The felt map is
+compared with a session's gains at 200 points of all patches, where the level is within the page's range.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def baked(path: Path, unit_m: float | None) -> HapticBundle:
 
 
 def built(bundle: HapticBundle, path: Path) -> float:
-    """Write the page. Returns the time [s]."""
+    """Write the page `N_BUILDS` times. Returns the least time [s]."""
     times = []
     for _ in range(N_BUILDS):
         begun = time.perf_counter()
@@ -80,7 +80,7 @@ def off_db(bundle: HapticBundle) -> tuple[float, int]:
 
 
 def painted(pages: list[Path]) -> list[tuple[str, str]]:
-    """First paint and first picture of the scene [ms] of each page, "-" without a browser."""
+    """Times of first paint and first picture of the scene [ms] of each page, "-" without a browser."""
     try:
         from playwright.sync_api import sync_playwright
     except ImportError:

@@ -1,11 +1,11 @@
-"""Questions to a model for many scenes with shared furniture, with and without sharing, as a table in Markdown.
+"""Requests to a model for many scenes with shared furniture, with and without sharing, as a table in Markdown.
 
 python benchmarks/scene_calls.py [--scenes 200] [--seed 0] [--model gpt-5]
 
-Scenes are the variations of `benchmarks/bake_many.py`. The lexicon answers instead of a model, and every question is
+Scenes are the variations of `benchmarks/bake_many.py`. The lexicon answers instead of a model, and every request is
 counted, with its estimated tokens (`scene2hap.llm.dry_run`). Pictures are small, since only their equality matters
-here. The plan for more scenes is extrapolated from the same run: questions and tokens per scene, and the growth of the
-number of distinct questions.
+here. The plan for more scenes is extrapolated from the same run, by requests and tokens per scene and by the growth of
+the number of distinct requests.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ WAYS = {
 PICTURE_PX = 32
 PLANNED = 10_000
 QUESTIONS_A_MINUTE = (5_000, 500)
-"""Assumed: limits of a large and of a small account on requests a minute; batches have none."""
+"""Requests a minute that a large and a small account allow (assumed); batches have no limit."""
 
 
 class Counting:
-    """The lexicon as a remote model that counts its questions."""
+    """The lexicon as a remote model that counts its requests."""
 
     def __init__(self, model: str) -> None:
         self.identity = {"model": model, "base_url": "https://nowhere.invalid"}
@@ -58,7 +58,7 @@ class Counting:
 
 
 def counted(scenes: list[Path], model: str, folder: Path, settings: dict[str, Any]) -> tuple[Counting, int, list[int]]:
-    """The model's counts, all questions of the chain, and the number of questions sent after each scene."""
+    """Counts of the model, number of all requests of the chain, and number of requests sent up to each scene."""
     counting = Counting(model)
     backend = counting if settings.get("share_copies") is False else CacheBackend(counting, folder)
     n_questions, sent = 0, []

@@ -1,9 +1,9 @@
-"""Time of a session while it is played, as a table in Markdown; docs/figures/playing.md holds the latest.
+"""Time of a session during play, as tables in Markdown; docs/figures/playing.md holds the latest.
 
 OMP_NUM_THREADS=1 python benchmarks/session.py
 
-Times are of the processor and the best of many short runs, so that other programs disturb them little; the rows that
-say "wall" are by the clock, since they measure waiting.
+Times are processor times, the least of many short runs, so that other programs disturb them little. The rows that say
+"wall" are wall times, since they measure waiting.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def best_of(
     n_times: int = 40,
     tidy_up: Callable[[], object] = lambda: None,
 ) -> float:
-    """Processor time per call [s], the best of many short runs; clean-up after a run is not counted."""
+    """Processor time per call [s], the least of many short runs; `tidy_up` after a run is not counted."""
     best = np.inf
     for turn in range(n_times):
         begin = time.thread_time()
@@ -106,7 +106,7 @@ def points(n: int, rng: np.random.Generator) -> list[tuple[float, float]]:
 
 
 def at_rest(kind: str, bands: str) -> tuple[float, float]:
-    """Seconds per update with two hands and eight sources: for resting hands, and for hands that slide over a table."""
+    """Times of an update [s] with two hands and eight sources: hands at rest, and hands that slide over a table."""
     rng = np.random.default_rng(SEED)
     s = Room(2, 16, 8).session(propagation=kind, bands=bands)
     frames = [
@@ -118,7 +118,7 @@ def at_rest(kind: str, bands: str) -> tuple[float, float]:
 
 
 def fresh_points() -> float:
-    """Updates per second of the processor, with a fresh point on each of five objects in every update."""
+    """Updates per second of processor time, with a new point on each of five objects in every update."""
     rng = np.random.default_rng(SEED)
     s = Room(5, 20, 2).session()
     frames = [
@@ -133,7 +133,7 @@ def fresh_points() -> float:
 
 
 def moving(kind: str, bands: str, seconds: float) -> dict[str, float]:
-    """A game of 50 frames per second, in which five of fifty objects move in every frame."""
+    """Measure a game of 50 frames per second, in which five of fifty objects move in every frame."""
     s = Room(5, 45, 8).session(propagation=kind, bands=bands)
     movers = ["thing 1", "thing 12", "thing 23", "thing 24", "thing 30"]
     homes = {name: s.snapshot.object(name).pose.position_m for name in movers}
@@ -166,7 +166,7 @@ def moving(kind: str, bands: str, seconds: float) -> dict[str, float]:
 
 
 def percentile(values: Sequence[float], which: float) -> float:
-    # The first frames find nothing in memory.
+    # The first ten frames are left out: caches are empty.
     return float(np.percentile(values[10:], which))
 
 

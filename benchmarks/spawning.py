@@ -1,11 +1,11 @@
-"""Time on the game's thread of adding and removing copies of a prefab, as a table in Markdown.
+"""Time on the game's thread for adding and removing copies of a prefab, as a table in Markdown.
 
 OMP_NUM_THREADS=1 python benchmarks/spawning.py
 OMP_NUM_THREADS=1 python benchmarks/spawning.py --alive 50 --scene kitchen.glb --seed 2
 
-With a scene, copies are added at free spots of its floor, 20 cm apart, in a random order of the seed; else on a single
-table. Copies are added at 50 Hz and removed some seconds later; the session is rendered between the calls. A click is
-the level above 1 kHz in 250 ms, relative to the level of the minute or of those 250 ms, whichever is larger.
+With a scene, copies are added at free spots of its floor, 20 cm apart, in a random order given by the seed; otherwise
+on a single table. Copies are added at 50 Hz and removed some seconds later; the session is rendered between the calls.
+A click is the level above 1 kHz in 250 ms, relative to the level of the minute or of these 250 ms, whichever is larger.
 """
 
 from __future__ import annotations
@@ -51,14 +51,14 @@ FLAT = (-(0.5**0.5), 0.0, 0.0, 0.5**0.5)
 
 
 def thing(name: str, size_m: tuple[float, float, float], at_m: tuple[float, float, float]) -> SceneObject:
-    """A cuboid with y up, whose plate is its top."""
+    """Make a cuboid with y up, whose dominant surface is its top."""
     x, y, z = size_m
     surface = DominantSurface(Pose((-x / 2, 0.0, z / 2), FLAT), x, z, y)
     return SceneObject(name, name, Pose(at_m), Box(size_m), surface)
 
 
 def bundle_of(item: SceneObject, material: str, frequency_hz: float | None) -> HapticBundle:
-    """A prefab without inference; it vibrates if a frequency is given."""
+    """Make a prefab without inference. It vibrates if a frequency is given."""
     states = () if frequency_hz is None else (SourceState("on", 0.5, "motor", "motor"),)
     haptics = ObjectHaptics(
         item.name, material, materials.lookup(material), item.size_m, "stands", states != (), states
@@ -72,7 +72,7 @@ def bundle_of(item: SceneObject, material: str, frequency_hz: float | None) -> H
 
 
 def timed(call: Callable[[], object], of: NDArray[np.float64]) -> None:
-    """Write processor and wall time (2,) [ms] of a call on this thread."""
+    """Call a function, and write processor and wall time (2,) [ms] into `of`."""
     wall, own = time.perf_counter(), time.thread_time()
     call()
     of[:] = 1e3 * (time.thread_time() - own), 1e3 * (time.perf_counter() - wall)
@@ -85,7 +85,7 @@ def resident_mib() -> float:
 
 
 def on_table(n_spots: int) -> tuple[HapticSession, list[Touch], list[Pose]]:
-    """A session with a table, a hand on it, and spots where copies do not touch each other."""
+    """Session with a table, a touch on the table, and spots where copies do not touch each other."""
     table = bundle_of(thing("table", (8.0, 0.05, 4.0), (0.0, 0.7, 0.0)), "oak", None)
     session = HapticSession(table.snapshot, table, {"sample_rate_hz": RATE_HZ})
     places = [divmod(n, N_COLUMNS) for n in range(n_spots)]
@@ -94,7 +94,7 @@ def on_table(n_spots: int) -> tuple[HapticSession, list[Touch], list[Pose]]:
 
 
 def on_floor(path: str, seed: int) -> tuple[HapticSession, list[Touch], list[Pose]]:
-    """The same on the floor of a scene with y up."""
+    """Session of a scene with y up, a touch on its floor, and spots where a copy touches only the floor."""
     scene = load_scene(path)
     session = HapticSession(bake(scene), config={"sample_rate_hz": RATE_HZ})
     floor = next(item for item in scene.objects if "floor" in item.name.lower())
@@ -125,11 +125,11 @@ def main() -> None:
     prefab = bundle_of(thing("cup", SIZE_M, (0.0, 0.0, 0.0)), "plastic", 120.0)
     n_steps, n_warm, before_mib = round(given.seconds * SPAWN_HZ), 0, 0.0
     n_block = RATE_HZ // SPAWN_HZ
-    # Allocated and written now, so that the measurements do not count as growth of memory.
+    # Allocated and filled in advance, so that these arrays do not count as growth of memory.
     heard = np.full((n_steps, n_block), np.nan, dtype=np.float32)
     adds, removes, updates = np.full((3, n_steps, 2), np.nan)
     profile = cProfile.Profile()
-    # As docs/spawning.md advises: else a full collection visits all objects that the program has loaded.
+    # As docs/spawning.md advises: otherwise a full collection visits all objects that the program has loaded.
     gc.collect()
     gc.freeze()
     for n in range(n_steps):
@@ -138,7 +138,7 @@ def main() -> None:
             if given.memory:
                 tracemalloc.start()
             n_warm, before_mib = n, resident_mib()
-        # The table is filled row by row, and a copy takes the place of the one that goes.
+        # The table is filled row by row; then a new copy takes the place of the removed one.
         pose = spots[n % (len(spots) if given.scene else given.alive)]
         if given.profile:
             profile.enable()

@@ -1,14 +1,14 @@
-"""The package's structure at two commits: size, import cycles and fan-in of each package; files used for a gain.
+"""Structure of scene2hap at two commits: size, import cycles and fan-in of each package, and files used for a gain.
 
 python benchmarks/structure.py [--before 01b76f5] [--after HEAD] [--part table|way|tree]
 
-A package here is a module or package directly below `scene2hap`. Imports are read from the source, those below
-`TYPE_CHECKING` and inside functions included. A cycle is a set of modules that import each other, directly or through
-others; fan-in is the number of modules outside the package that import it.
+A package here is a module or package directly below `scene2hap`. Imports are read from the source; those below
+`TYPE_CHECKING` and inside functions count too. A cycle is a set of modules that import each other, directly or through
+others. Fan-in is the number of modules outside the package that import it.
 
-The way from a `SceneSnapshot` to a gain is traced with `sys.setprofile` in a fresh process: a session over the demo
-bundle is made, and updated with a touch and a moved object. Counted are the files whose functions are called. Kernels
-run as their plain twins, so that a compiled module counts as the file that a reader opens.
+The way from a `SceneSnapshot` to a gain is traced with `sys.setprofile` in a new process, which counts the files whose
+functions run. A session over the demo bundle is made, and updated with a touch and a moved object. Kernels run as their
+Python twins, so that a compiled module counts as the file that a reader opens.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ for name, files in entered.items():
 
 
 class Source:
-    """The package at one commit: its modules, their lines and imports."""
+    """Source of scene2hap at one commit: its modules, their lines and imports."""
 
     def __init__(self, root: Path) -> None:
         self.files = {self._name(path, root): path for path in sorted(root.rglob("*.py"))}
@@ -116,7 +116,7 @@ class Source:
         return len({a for a, b in self.imports.edges if package_of(b) == package != package_of(a) and a != PACKAGE})
 
     def lines(self, package: str) -> tuple[int, int]:
-        """Lines of Python and of Cython."""
+        """Numbers of lines of Python and of Cython."""
         python = sum(count(path) for name, path in self.files.items() if package_of(name) == package)
         cython = sum(count(path) for path in self.compiled if path.relative_to(self.root).parts[0] == package)
         return python, cython
@@ -130,7 +130,7 @@ class Source:
         return graph
 
     def levels(self, package: str) -> list[list[str]]:
-        """Modules of a package by level, those that import nothing of the package first; braces enclose a cycle."""
+        """Modules of a package by level, first those without imports from the package; braces enclose a cycle."""
         inside = self.imports.subgraph(name for name in self.files if package_of(name) == package)
         merged = nx.condensation(inside)
         level: dict[int, int] = {}
@@ -153,7 +153,7 @@ def count(path: Path) -> int:
 
 
 def extracted(commit: str, into: Path) -> Path:
-    """The package's folder of a commit, unpacked; it stood in src/ once."""
+    """Unpack the package's folder of a commit, which is below src/ in early ones. Returns its path."""
     packed = subprocess.run(["git", "archive", commit], cwd=ROOT, capture_output=True, check=True).stdout
     with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
         archive.extractall(into, filter="data")
@@ -161,7 +161,7 @@ def extracted(commit: str, into: Path) -> Path:
 
 
 def way(package: Path) -> dict[str, set[str]]:
-    """Files entered while a session is made, in its first update, and in updates with a moved object."""
+    """Files whose functions run while a session is made, in its first update, and in updates with a moved object."""
     environment = {**os.environ, "PYTHONPATH": str(package.parent)}
     run = subprocess.run(
         [sys.executable, "-c", TRACE], env=environment, cwd=package.parent, capture_output=True, text=True, check=True
@@ -195,7 +195,7 @@ def table(before: Source, after: Source) -> None:
 
 
 def pairs(before: list[int] | None, after: list[int] | None) -> list[str]:
-    """Cells "before → after", one figure where nothing changed, a dash where the package does not exist."""
+    """Cells "before → after": one figure if nothing changed, a dash if the package does not exist."""
     if before is None or after is None:
         return [f"- → {b:,}" if before is None else f"{b:,} → -" for b in before or after or []]
     return [f"{a:,}" if a == b else f"{a:,} → {b:,}" for a, b in zip(before, after, strict=True)]

@@ -2,8 +2,8 @@
 
 python benchmarks/figures.py surfaces
 
-The truth (tests/data/dominant_surfaces.csv) was read from the files by hand: levels of flat faces and extents in a
-viewer, or the numbers in the script that builds the demo kitchen.
+The true values (tests/data/dominant_surfaces.csv) were read by hand: heights of flat faces and extents in a viewer, or
+the numbers in the script that builds the demo kitchen.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ EDGES = ("length_m", "width_m", "thickness_m")
 # Files in centimetres.
 UNIT_M = {"sketchfab_kitchen/scene.gltf": 0.01}
 
-# Files of a pack are measured in the pack's own unit; a share does not depend on it.
+# Files of a pack are measured in the pack's unit, since relative errors do not depend on the unit.
 SAMPLED = ROOT / "tests" / "data" / "sampled_surfaces.csv"
 WITHIN = 0.2
 
@@ -35,7 +35,7 @@ def scene(name: str) -> SceneSnapshot:
 
 
 def rows() -> Iterator[tuple[dict[str, str], tuple[float, ...], tuple[float, ...]]]:
-    """Each line of the table of truths with its true and its measured edges; scenes that are absent are left out."""
+    """Yield each line of the table of true values with true and measured edges; absent scenes are left out."""
     with (ROOT / "tests" / "data" / "dominant_surfaces.csv").open(encoding="utf-8") as file:
         for line in csv.DictReader(file):
             if line["scene"] == "demo" or (SCENES / line["scene"]).is_file():
@@ -49,7 +49,7 @@ def relative_errors(true: tuple[float, ...], measured: tuple[float, ...]) -> lis
 
 
 def sampled() -> Iterator[tuple[dict[str, str], tuple[float, ...], tuple[float, ...]]]:
-    """The same as `rows` for the sample, whose true sizes were noted before anything was measured."""
+    """Yield the same as `rows` for the sample, whose true sizes were noted before anything was measured."""
     with SAMPLED.open(encoding="utf-8") as file:
         for line in csv.DictReader(file):
             if (SCENES / line["file"]).is_file():

@@ -2,9 +2,9 @@
 
 python benchmarks/voices.py [--takes 5]
 
-Slow modulation is the standard deviation over the mean of the level in 100 ms, in decibels; harmonics are the level in
-octaves from 80 Hz on, against the strongest octave between 20 and 1,000 Hz. Takes of the synthesizer are averaged as
-power. Recordings are those beside the project (../shared/audio).
+Slow modulation is the standard deviation of the level in 100 ms divided by its mean, in decibels. Harmonics are the
+levels in octaves from 40 Hz on, relative to the strongest octave between 20 and 1,280 Hz. Takes of the synthesizer are
+averaged as power. Recordings are those beside the project (../shared/audio).
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ OCTAVES_HZ = (40.0, 80.0, 160.0, 320.0, 640.0)
 
 
 def modulation_db(x: Signal, rate: int) -> float:
-    """Standard deviation over the mean of the level in 100 ms [dB]."""
+    """Standard deviation of the level in 100 ms divided by its mean [dB]."""
     n = round(0.1 * rate)
     level = np.sqrt((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1))
     return float(20 * np.log10(level.std() / level.mean()))
 
 
 def octaves_db(x: Signal, rate: int) -> Signal:
-    """Level in octaves from each of `OCTAVES_HZ` to twice that, against the strongest between 20 and 1280 Hz [dB]."""
+    """Level in the octave above each of `OCTAVES_HZ`, relative to the strongest octave between 20 and 1280 Hz [dB]."""
     power = np.abs(np.fft.rfft(x * np.hanning(len(x)))) ** 2
     f = np.fft.rfftfreq(len(x), 1 / rate)
     found = np.array([power[(f >= low) & (f < 2 * low)].sum() for low in (20.0, *OCTAVES_HZ)])

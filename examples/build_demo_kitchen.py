@@ -1,12 +1,12 @@
-"""Builds the demo's kitchen: seven things that vibrate among what a kitchen holds, in metres, Y up.
-
-After the third study of the Scene2Hap paper, whose handheld fan, electric toothbrush, smartphone, washing machine,
-refrigerator, cooker hood and microwave it keeps. Everything touches what it rests on without a gap, as in life::
+"""Build the demo's kitchen: seven objects that vibrate among usual objects of a kitchen, in metres, Y up::
 
     python examples/build_demo_kitchen.py [-o PATH]
 
-The same script gives the same bytes, so that the committed file can be held against it. The world's origin is the
-corner of the room, on the ground: x runs along the back wall, z into the room.
+It follows the third study of the Scene2Hap paper and has its handheld fan, electric toothbrush, smartphone, washing
+machine, refrigerator, cooker hood and microwave. Every object touches its supports without a gap.
+
+The script always writes the same bytes, so that the committed file can be compared with them. The world's origin is
+the corner of the room, on the ground: x runs along the back wall, z into the room.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
 DEFAULT_PATH = Path(__file__).parents[1] / "scene2hap" / "demo" / "kitchen.glb"
 MAX_BYTES = 500_000
 TOUCH_M = 1e-6
-"""The gap that still counts as none: coordinates are kept to the micrometre."""
+"""Largest gap that counts as touching: coordinates are rounded to the micrometre."""
 
 
 @dataclass(frozen=True)
 class Thing:
-    """One object: its name, what it is made of, what it rests on or hangs from, where its pivot is, its shape."""
+    """One object: name, description, material, supports that it rests on or hangs from, pivot, shape and turn."""
 
     name: str
     what: str
@@ -48,12 +48,12 @@ class Thing:
 
     @property
     def supports(self) -> tuple[str, ...]:
-        """The names of all that holds it."""
+        """Names of all supports."""
         return (self.support,) if isinstance(self.support, str) else self.support
 
     @property
     def node(self) -> glb.Node:
-        """The thing as the file has it."""
+        """The object as a node of the file."""
         return glb.Node(self.name, self.shape, self.at, self.yaw_deg)
 
 
@@ -85,7 +85,7 @@ KITCHEN = (
     Thing("waste_bin", "round pedal bin", "steel", "floor",
           (0.38, GROUND, 1.05), furniture.waste_bin()),
 
-    # Along the back wall: cabinets, the worktop on them, what is set into it, what hangs above.
+    # Along the back wall: cabinets, the worktop on them, objects set into it, objects above.
     Thing("sink_cabinet", "base cabinet", "particle board", ("floor", "back_wall"),
           (1.20, GROUND, 0.00), furniture.base_cabinet(0.80)),
     Thing("drawer_unit", "base cabinet with four drawers", "particle board", ("floor", "sink_cabinet"),
@@ -107,7 +107,7 @@ KITCHEN = (
     Thing("open_shelf", "board on two brackets", "oak", "back_wall",
           (4.20, SHELF, 0.00), furniture.open_shelf(0.90)),
 
-    # What vibrates.
+    # Objects that vibrate.
     Thing("refrigerator", "fridge with a freezer", "steel", "floor",
           (0.38, GROUND, 0.06), appliances.refrigerator()),
     Thing("cooker_hood", "hood with a chimney", "stainless steel", "back_wall",
@@ -123,7 +123,7 @@ KITCHEN = (
     Thing("handheld_fan", "fan standing on its foot", "abs", "dining_table",
           (3.05, TABLE, 2.36), appliances.handheld_fan(), 25),
 
-    # Where people sit.
+    # Tables and chairs.
     Thing("dining_table", "table with a top of 27 mm", "oak", "floor",
           (2.60, GROUND, 2.20), furniture.dining_table(1.60, 0.85)),
     Thing("chair_1", "chair", "beech", "floor",
@@ -135,7 +135,7 @@ KITCHEN = (
     Thing("stool", "round stool", "birch", "floor",
           (0.65, GROUND, 2.60), furniture.stool(), 20),
 
-    # What stands and lies about. The front of the worktop stays free between the cutting board and the microwave.
+    # Small objects. The front of the worktop stays free between the cutting board and the microwave.
     Thing("cutting_board", "chopping board", "maple", "worktop",
           (1.68, WORKTOP, 0.38), tableware.cutting_board(), -90),
     Thing("knife_block", "block with five knives", "walnut", "worktop",
@@ -201,7 +201,7 @@ PALETTE = {
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Builds, checks and writes the kitchen; 1 where the check finds something wrong."""
+    """Build, check and write the kitchen. Returns 1 if the check finds a problem."""
     parser = argparse.ArgumentParser(description="Build the kitchen of scene2hap's demo.")
     parser.add_argument("-o", "--output", type=Path, default=DEFAULT_PATH, help="the .glb file to write")
     path: Path = parser.parse_args(argv).output
@@ -217,7 +217,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def check(things: Sequence[Thing]) -> list[str]:
-    """What is wrong with a kitchen: names used twice, supports that are not there or not touched."""
+    """Problems of a kitchen: names used twice, supports that are missing or not touched."""
     problems = [f"{name}: used {n} times" for name, n in Counter(thing.name for thing in things).items() if n > 1]
     meshes = {thing.name: thing.node.to_world() for thing in things}
     for thing in things:
@@ -230,7 +230,7 @@ def check(things: Sequence[Thing]) -> list[str]:
 
 
 def touch(one: Mesh, other: Mesh) -> bool:
-    """Whether a corner of either mesh lies on a face of the other, as it does where things stand, lie or hang flat."""
+    """Whether a corner of either mesh lies on a face of the other, as with objects that stand, lie or hang flat."""
     return _corner_on_face(one, other) or _corner_on_face(other, one)
 
 

@@ -1,4 +1,4 @@
-"""A game of 30 objects without a file: a kitchen of boxes, a phone that is carried, two hands, a minute of vibration.
+"""A game of 30 objects without a scene file: a kitchen of boxes, a phone that is lifted, two hands, one minute.
 
 python examples/game_in_python.py [minute.wav [seconds]]
 """
@@ -13,7 +13,7 @@ TOP_M = 0.74
 
 
 def thing(name: str, size_m: tuple[float, float, float], x: float, z: float, on_m: float = 0.0) -> SceneObject:
-    """A box that stands on a height."""
+    """A box whose bottom is at the height `on_m`."""
     return SceneObject(name, pose=Pose((x, on_m + size_m[1] / 2, z)), geometry=Box(size_m))
 
 
@@ -37,7 +37,7 @@ def kitchen() -> SceneSnapshot:
 
 
 def main(wav: str = "minute.wav", seconds: str = "60") -> None:
-    """Play the game and write what both hands feel."""
+    """Play the game and write the vibration of both hands."""
     scene, sink = kitchen(), WavSink(wav)
     bundle = bake(scene)
     x, y, z = scene.object("smartphone").pose.position_m

@@ -1,10 +1,10 @@
-"""A kitchen in MuJoCo: a phone slides along a table, and two hands that the simulation moves feel it.
+"""A kitchen in MuJoCo: a phone slides along a table, and two simulated hands feel it.
 
     python examples/mujoco_kitchen.py                               # in a window, felt through the sound card
     python examples/mujoco_kitchen.py --headless -o kitchen.wav     # 8 s without a window, by a script
 
-Space pushes the phone; the arrow keys move the left hand over the table, Page Up and Page Down lift and lower it; the
-right hand follows the phone. Without a display the game runs headless by itself. Needs: pip install
+Space pushes the phone. The arrow keys move the left hand over the table, Page Up and Page Down lift and lower it. The
+right hand follows the phone. Without a display the game runs headless. Needs: pip install
 'scene2hap[mujoco,soundcard]'. On macOS start it by `mjpython`. --picture needs OpenGL; without a display set
 MUJOCO_GL=egl or MUJOCO_GL=osmesa.
 """
@@ -41,9 +41,9 @@ STEPS_M = {
     266: (0, 0, 1),
     267: (0, 0, -1),
 }
-"""Ways of the left hand by key code of GLFW: right, left, up, down; Page Up and Page Down lift and lower it."""
+"""Steps of the left hand by GLFW's key code: arrows right, left, up and down; Page Up lifts, Page Down lowers it."""
 
-# Names of bodies say what things are. Hands are in group 1, which is left out of the scene: they carry no vibration.
+# The names of bodies say what the objects are. Hands are in group 1, which is left out: they carry no vibration.
 MODEL = f"""
 <mujoco model="kitchen">
   <option timestep="0.002"/>
@@ -81,7 +81,7 @@ MODEL = f"""
 
 
 class Kitchen:
-    """The simulation, and where the hands want to be."""
+    """The simulation, and the target of the left hand."""
 
     def __init__(self) -> None:
         self.model = mujoco.MjModel.from_xml_string(MODEL)
@@ -90,7 +90,7 @@ class Kitchen:
         self.left_m = np.array(self.data.body("left hand").xpos)
 
     def push(self) -> None:
-        """Give the phone a speed along the table; friction takes it away again."""
+        """Give the phone a speed along the table; friction stops it."""
         self.data.joint(int(self.model.body("smartphone").jntadr[0])).qvel[0] = PUSH_M_S
 
     def key(self, code: int) -> None:
@@ -103,7 +103,7 @@ class Kitchen:
             self.left_m[2] = {0: self.left_m[2], 1: LIFTED_M, -1: TOUCHING_M}[lift]
 
     def script(self, t: float) -> None:
-        """Put the left hand down, push the phone away from it, and later reach after it."""
+        """Put the left hand down, push the phone away from it, and later move the hand to the phone."""
         self.left_m[2] = TOUCHING_M
         if math.isclose(t, 2.0, abs_tol=FRAME_S / 2):
             self.push()
@@ -111,7 +111,7 @@ class Kitchen:
             self.left_m[:2] = (self.data.body("smartphone").xpos + BESIDE_M)[:2]
 
     def step(self) -> None:
-        """Simulate one frame; the hands go where they want to be, at 5 times the way that is left per second."""
+        """Simulate one frame. The hands approach their targets at 5 times the remaining distance per second."""
         phone_m = self.data.body("smartphone").xpos
         wanted = {"left target": self.left_m, "right target": [*(phone_m - BESIDE_M)[:2], TOUCHING_M]}
         for name, place in wanted.items():
@@ -120,7 +120,7 @@ class Kitchen:
         mujoco.mj_step(self.model, self.data, nstep=round(FRAME_S / self.model.opt.timestep))
 
     def told(self, frame: HapticFrame) -> str:
-        """How far the hands are from the phone, and how much of it each feels."""
+        """Text with the distance of each hand from the phone, and its gain."""
         phone_m = self.data.body("smartphone").xpos
         ways = {hand: math.dist(self.data.body(f"{hand} hand").xpos[:2], phone_m[:2]) for hand in frame.hands}
         return "; ".join(f"{hand} {way:.3f} m: {frame.gain(hand, 'smartphone'):.4f}" for hand, way in ways.items())
@@ -156,7 +156,7 @@ def play(arguments: argparse.Namespace, has_window: bool) -> None:
                 viewer.sync()
                 time.sleep(max(0.0, begin + i * FRAME_S - time.perf_counter()))
     if has_window:
-        time.sleep(0.5)  # its thread closes the window; leaving before it has done so crashes MuJoCo 4.0
+        time.sleep(0.5)  # the viewer's thread closes the window; leaving before crashes MuJoCo 4.0
     if arguments.picture:
         with mujoco.Renderer(model, 600, 960) as renderer:
             renderer.update_scene(data, camera="guest")

@@ -3,8 +3,8 @@
     python examples/panda3d_walk.py                                 # in a window, felt through the sound card
     python examples/panda3d_walk.py --headless -o walk.wav          # a scripted walk of 16 s without a window
 
-W A S D walk, the mouse looks around, its left or right button held reaches out with that hand for whatever is under
-the cross, Escape ends. Without a display the game plays headless by itself. Needs: pip install
+W A S D walk, the mouse looks around, and Escape ends. While the left or right mouse button is held, that hand touches
+the object under the cross. Without a display the game plays headless. Needs: pip install
 'scene2hap[panda3d,soundcard]'; --picture works without a display too, and needs the system library libX11.
 """
 
@@ -30,7 +30,7 @@ STEPS = {"w": (0, 1), "s": (0, -1), "a": (-1, 0), "d": (1, 0)}
 Vector = tuple[float, float, float]
 clock = core.ClockObject.get_global_clock()
 
-# The scripted walk: where to stand, what to reach for, with which hand. Two seconds each, after the way there.
+# The scripted walk: place to stand, point to touch, and hand. Each touch lasts two seconds, after the way there.
 ROUTE = [
     ((0.2, -0.75), (0.45, -0.15, 0.75), "right"),  # the table, 15 cm beside the phone
     ((-0.3, -0.75), (-0.55, -0.15, 0.75), "left"),  # the far end of the table
@@ -40,7 +40,7 @@ ROUTE = [
 
 
 def box(parent: core.NodePath, name: str, size_m: Vector, at_m: Vector, rgb: Vector) -> core.NodePath:
-    """A cuboid that stands on its node's origin; each side has a brightness of its own, as if lit from above."""
+    """A cuboid that stands on its node's origin; each side has a different brightness, as if lit from above."""
     data = core.GeomVertexData(name, core.GeomVertexFormat.get_v3c4(), core.Geom.UH_static)
     vertex, color = core.GeomVertexWriter(data, "vertex"), core.GeomVertexWriter(data, "color")
     triangles = core.GeomTriangles(core.Geom.UH_static)
@@ -65,7 +65,7 @@ def box(parent: core.NodePath, name: str, size_m: Vector, at_m: Vector, rgb: Vec
 
 
 def furnish(render: core.NodePath) -> None:
-    """A room of 5 m by 4 m; z is up, units are metres, and names say what things are."""
+    """A room of 5 m by 4 m; z is up, units are metres, and the names of nodes describe the objects."""
     wood, white, grey = (0.62, 0.42, 0.25), (0.92, 0.92, 0.9), (0.5, 0.52, 0.55)
     box(render, "concrete floor", (5.0, 4.0, 0.1), (0.0, 0.0, -0.1), (0.72, 0.68, 0.62))
     box(render, "plaster wall", (5.0, 0.1, 2.5), (0.0, 2.05, 0.0), (0.8, 0.84, 0.86))
@@ -82,7 +82,7 @@ def furnish(render: core.NodePath) -> None:
 
 
 class Walker:
-    """Eyes that stand in the scene, and arms that reach for what they look at."""
+    """The player: a camera in the scene, and hands that touch the object in its centre."""
 
     def __init__(self, render: core.NodePath, scene: SceneSnapshot) -> None:
         self.render, self.floor_m = render, scene.object("concrete floor").bounds_m
@@ -97,7 +97,7 @@ class Walker:
         self.traverser.add_collider(self.eyes.attach_new_node(gaze), self.hits)
 
     def walk(self, right_m: float, forward_m: float) -> None:
-        """Go by a way on the floor, not beyond its edges."""
+        """Move on the floor, not beyond its edges."""
         heading = math.radians(self.eyes.get_h())
         x, y, z = self.eyes.get_pos()
         x += right_m * math.cos(heading) - forward_m * math.sin(heading)
@@ -106,7 +106,7 @@ class Walker:
         self.eyes.set_pos(min(max(x, low_x), high_x), min(max(y, low_y), high_y), z)
 
     def touches(self, hands: list[str]) -> list[Touch]:
-        """What the hands touch where the eyes look; nothing if it is too far away."""
+        """Touches of the hands at the point in the centre of the view; none if it is too far away."""
         self.traverser.traverse(self.render)
         if not hands or not self.hits.get_num_entries():
             return []
@@ -205,7 +205,7 @@ def play(arguments: argparse.Namespace, has_window: bool) -> None:
 
 
 def photograph(eyes: core.NodePath, png: str) -> None:
-    """Save what the eyes see, by Panda3D's software renderer, which needs no display."""
+    """Save the view of the camera, by Panda3D's software renderer, which needs no display."""
     pipe = core.GraphicsPipeSelection.get_global_ptr().make_pipe("TinyOffscreenGraphicsPipe", "p3tinydisplay")
     wanted, size = core.FrameBufferProperties.get_default(), core.WindowProperties.size(960, 600)
     engine, flags = core.GraphicsEngine.get_global_ptr(), core.GraphicsPipe.BF_refuse_window

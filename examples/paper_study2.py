@@ -1,4 +1,4 @@
-"""Study 2 of the Scene2Hap paper: how strongly a source is felt on the surface that it stands on.
+"""Study 2 of the Scene2Hap paper: level of a source on the surface on which it stands.
 
 python examples/paper_study2.py -o study2
 
@@ -8,11 +8,11 @@ three conditions: none (only the source vibrates), full (the surface vibrates as
 paper's law). The folder gets one WAV for each scene and condition, `levels.csv` with the level at each point by every
 propagation model, and `levels.png`, the level over distance.
 
-Assumed, since the paper does not state them: the sizes; that distances are measured along the surface from a corner on
-which the source stands; how long a point is touched. Sounds are synthesized, and materials are those of the built-in
-table. The models that resonate start at the level of the paper's law 0.1 m from the source (`reference="felt_near"`),
-so that the figure compares how vibration spreads; `--reference source` gives the levels that they compute themselves.
-Levels are those that a session plays: at most 0 dB, also at a resonance.
+The paper does not state the sizes and the duration of a touch, so they are assumed. Distances are assumed to be
+measured along the surface from a corner on which the source stands. Sounds are synthesized, and materials are those of
+the built-in table. The resonant models start at the level of the paper's law 0.1 m from the source
+(`reference="felt_near"`), so that the figure compares how vibration spreads; `--reference source` gives the levels that
+the models compute themselves. Levels are those that a session plays: at most 0 dB, also at a resonance.
 """
 
 from __future__ import annotations
@@ -49,17 +49,19 @@ MODELS = {
     "modal_plate": ("#D55E00", "-", 1.5, "modal plate"),
     "auto": ("#000000", ":", 2.0, "auto"),
 }
-"""Each with its colour, line, width [points] and label: those that resonate lie almost on each other."""
+"""Colour, line, width [points] and label of each model; the lines of the resonant models almost coincide."""
 TOUCHED_S = 1.5
 SAMPLE_RATE_HZ = 8000
-"""Of the WAVs: vibration ends at 1 kHz."""
+"""Sample rate of the WAVs; vibration ends at 1 kHz."""
 HAND = "hand"
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A scene of the study: its objects, and the corner on which the source stands [m], from which distances run along
-    x: there vibration enters the surface."""
+    """A scene of the study: its objects, and the corner on which the source stands [m].
+
+    Vibration enters the surface at the corner, and distances run from it along x.
+    """
 
     name: str
     source: str
@@ -73,7 +75,7 @@ class Trial:
         return SceneSnapshot.build(self.objects, name=self.name)
 
     def touch(self, distance_m: float) -> Touch:
-        """The hand at a distance; on the source itself at 0 m."""
+        """Touch at a distance from the corner; on the source itself at 0 m."""
         x, y, z = self.corner_m
         if distance_m == 0.0:
             top = next(item for item in self.objects if item.id == self.source)
@@ -128,8 +130,8 @@ def trials() -> tuple[Trial, ...]:
 def levels_db(
     trial: Trial, bundle: HapticBundle, model: str, reference: str, distances_m: Sequence[float]
 ) -> list[float]:
-    """Level at the hand at each distance [dB re the source], minus infinity where nothing arrives."""
-    # The control conditions are what they are called: full propagation is 0 dB everywhere.
+    """Level at the hand at each distance [dB re the source], minus infinity if no vibration arrives."""
+    # Control conditions are not scaled to the paper's law: full propagation is 0 dB everywhere.
     reference = reference if model in MODELS else "source"
     config = {"propagation": model, "reference": reference, "prepare": "blocking"}
     session = HapticSession(bundle.snapshot, bundle, config, hands=[HAND])
@@ -138,7 +140,7 @@ def levels_db(
 
 
 def write_wav(trial: Trial, bundle: HapticBundle, model: str, path: Path) -> None:
-    """The vibration of a hand that touches one point after the other, `TOUCHED_S` each."""
+    """Write the vibration of a hand that touches one point after the other, `TOUCHED_S` each."""
     sink = WavSink(path)
     config = {"propagation": model, "prepare": "blocking", "sample_rate_hz": SAMPLE_RATE_HZ}
     with HapticSession(bundle.snapshot, bundle, config, hands=[HAND], sink=sink) as session:

@@ -3,9 +3,10 @@
 python stress/attack.py [--seed 0] [--families scene_files servers ...] [--cases 100]
 
 Each case runs in a child process with limits on processor time and memory, in a fresh folder with canaries around it.
-A case passes if it exits with 0 or with a one-line error of scene2hap, shows no traceback and no raw control character,
-stays within the limits of time and memory, and changes nothing outside its folder. The seed decides the cases. Prints a
-table of the families, lists failed cases on standard error, and exits with 1 if any case failed. Needs fork (POSIX).
+A case passes if it exits with 0 or with a one-line error of scene2hap. It must show no traceback and no raw control
+character, stay within the limits of time and memory, and change nothing outside its folder. The seed decides the cases.
+Prints a table of the families, lists failed cases on standard error, and exits with 1 if any case failed. Needs fork
+(POSIX).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Campaigns on analysis, loops and selection: random sounds of known kind, and how often the promises hold.
+"""Campaigns on analysis, loops and selection: random sounds of known kind, and how often the guarantees hold.
 
 python stress/audio.py [frequency] [loops] [chopped] [choice] [--seed 0] [--draws N]
 

@@ -2,10 +2,10 @@
 
 python stress/bake_many.py [--scenes 200] [--kills 3] [--seed 0]
 
-Scenes are the variations of `benchmarks/bake_many.py`. The lexicon replaces a remote model: each request that it
-answers is written to a file, as a request that was paid for. In the disturbed run a worker is killed every few seconds,
-and the parent with all its workers is killed `--kills` times; the same command is then run again. At the end the
-bundles must be equal byte for byte, and no request may be in the file twice.
+Scenes are the variations of `benchmarks/bake_many.py`. The lexicon replaces a remote model and writes each answered
+request to a file, as a request that was paid for. In the disturbed run a worker is killed every few seconds. The parent
+with all its workers is killed `--kills` times; each time the same command is run again. At the end the bundles must be
+equal byte for byte, and no request may be in the file twice.
 """
 
 from __future__ import annotations

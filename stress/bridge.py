@@ -1,4 +1,4 @@
-"""Send a bridge random and mutated messages, and check that it runs on, answers, and keeps its memory size.
+"""Send random and mutated messages to a bridge, and check that it keeps running, answers, and uses no more memory.
 
     python stress/bridge.py [--messages 100000] [--seed 0]
 

@@ -1,4 +1,4 @@
-"""Campaigns on the bridge with a real Godot 3 without a window; prints Markdown.
+"""Campaigns on the bridge with the real Godot 3, without a window; prints Markdown.
 
 python stress/bridge_godot.py [play] [cost] [--seconds 60] [--rate 60] [--godot godot3-server]
 
@@ -54,7 +54,7 @@ def play(program: str, seconds: float, rate_hz: float) -> None:
         report = Path(folder) / "report.json"
         load_before = os.getloadavg()[0]
         check = check_bridge_client(
-            ["sh", "-c", 'exec "$0" "$@" > /dev/null', program, "--path", str(EXAMPLE)],  # its banner is no Markdown
+            ["sh", "-c", 'exec "$0" "$@" > /dev/null', program, "--path", str(EXAMPLE)],  # its banner is not Markdown
             n_frames=n_frames,
             rate_hz=rate_hz,
             cuts=False,

@@ -1,10 +1,10 @@
-"""Random walks of contact graphs: each state must be bit-identical to a graph that is built for it.
+"""Random walks of contact graphs: each updated graph must be bit-identical to a new graph of the same state.
 
 python stress/contact_walks.py [SCENE ...] [--minutes 60] [--seed N] [--objects 40]
 
-Rooms of `benchmarks/busy_room.py` with new seeds, equal cubes on a grid, and the given scenes, in turns. In each walk
-one or several objects a frame slide, turn, are lifted, dropped, moved elsewhere or tilted; sometimes one is removed or
-added again. Prints the numbers of walks, states and different states; exits with 1 if any state differs.
+The scenes are rooms of `benchmarks/busy_room.py` with new seeds, equal cubes on a grid, and the given scenes, in turns.
+In each walk one or several objects a frame slide, turn, are lifted, dropped, moved elsewhere or tilted; sometimes one
+is removed or added again. Prints the numbers of walks, states and different states; exits with 1 if any state differs.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _LARGE_M = 1.5  # Larger objects are moved seldom.
 
 
 def cubes(seed: int, n_objects: int) -> SceneSnapshot:
-    """Equal cubes on a floor, 1 cm to 6 cm apart, some stacked."""
+    """Equal cubes on a floor, 0 to 6 cm apart, some of them raised by their height."""
     rng = random.Random(seed)
     apart = 0.1 + rng.choice([0.0, 0.01, 0.03, 0.06])
     side = math.ceil(math.sqrt(n_objects))

@@ -1,11 +1,11 @@
-"""Contacts by closed forms against contacts by triangles alone, at random poses of objects in real scenes.
+"""Contacts by closed forms compared with contacts by triangles, at random poses of objects in real scenes.
 
 python stress/contacts.py SCENE.glb [SCENE.glb ...] [--moves 500] [--seed 0] [--unit-m 0.01]
 
 Objects are pushed, lifted, turned about the vertical, sometimes tilted, and put onto or into others, one at a time. For
-each state two new graphs are built: one as usual, one without free space (`contact.free_space`). The incrementally
-updated graph must be bit-identical to the usual one. Prints a line for each pair whose weights differ by more than
-0.02, and totals; exits with 1 if the incrementally updated graph differs.
+each state two new graphs are built: one as usual, one without free space (`contact.free_space`). Prints a line for each
+pair whose weights in the two graphs differ by more than 0.02, and totals. The incrementally updated graph must be
+bit-identical to the usual new graph; exits with 1 if it differs.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def without_free_space() -> Iterator[None]:
 
 
 def moved(item: SceneObject, onto: SceneObject, up: int, rng: random.Random) -> Pose:
-    """A new pose: near the present one, or at a random place over another object."""
+    """New pose of an object: near the present one, or at a random place over another object."""
     place = np.array(item.pose.position_m)
     level = [axis for axis in range(3) if axis != up]
     if rng.random() < 0.4:

@@ -1,10 +1,10 @@
-"""Random exports, read back and checked by a strict checker that is independent of the exporter.
+"""Random exports, read back and checked by a checker that is independent of the exporter.
 
 python stress/exports.py [--draws 2000] [--seed 0]
 
 Each draw is a random track in one format with random settings. The checker (`tests/haptic_file_checker.py`) names every
-rule that a file breaks. `.haptic` and AHAP files are read back: the clip, played by the published rule, may differ from
-the signal by no more than the export reported, and must be written again without a change.
+rule that a file breaks. `.haptic` and AHAP files are also read back. The clip, played by the published rule, may differ
+from the signal by no more than the export reported, and writing the clip again must give the same file.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Broken scene files of many kinds: they may raise only scene2hap's errors, without a hang, in bounded memory.
+"""Broken scene files of many kinds: reading them may raise only scene2hap's errors, without a hang, in bounded memory.
 
 python stress/fuzz_scenes.py [--files 2000] [--seed 0] [--seconds 5] [--megabytes 1024] [--kinds .meshopt.glb .urdf]
 
@@ -43,7 +43,7 @@ Mutation = Callable[[bytes, random.Random], bytes]
 
 
 class Hang(BaseException):
-    """Raised by the alarm; not an Exception, so that no `except Exception` catches it."""
+    """The time limit has passed; not an Exception, so that no `except Exception` catches it."""
 
 
 def seeds() -> dict[str, bytes]:
@@ -171,14 +171,14 @@ def reader(inbox: multiprocessing.connection.Connection, seconds: float, megabyt
     while (path := inbox.recv()) is not None:
         begin = time.perf_counter()
         outcome = read_one(path, seconds)
-        # USD files are read in a further process.
+        # USD files are read in a child process of this one.
         peaks = [resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
         peak_mb = max(peaks) / 1024
         inbox.send((outcome, time.perf_counter() - begin, peak_mb))
 
 
 class Child:
-    """A reader that is started again when it dies."""
+    """Reader process that is started again when it dies."""
 
     def __init__(self, seconds: float, megabytes: int) -> None:
         self._limits = (seconds, megabytes)

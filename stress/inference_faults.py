@@ -7,8 +7,8 @@ once per request, in another row always. Each request must end in a valid answer
 whose valid answer was received must never be sent again, neither within the run nor by a second run with the same
 cache. The key must be in no error, traceback with its local variables, log at DEBUG, warning, cache file or recording.
 Requests to OpenAI, and the replies of the scripted server, are checked against OpenAI's published schema. --time-scale
-shortens the waits between retries, but not waits that the server requests. Prints a table and exits with 1 if any
-promise is broken.
+shortens the waits between retries, but not waits that the server requests. Prints a table and exits with 1 if any of
+these rules is broken.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
-"""A whole scene against a real llama.cpp server, with a model of random weights that writes noise.
+"""Inference of a whole scene by a real llama.cpp server, with a model of random weights that writes noise.
 
     python stress/llama_server.py [--server llama-server] [--weights FOLDER] [--no-images]
 
-Builds the server from the source in the package llama-cpp-python (once, 5 minutes on two cores; needs a C++ compiler
-and a package index), writes the weights, and runs the chain on 44 objects with their pictures through the standard
-stack. The text is noise, but each answer must have the right form: valid, repaired, or recorded as the error of its
-object. `--weights` is a folder with tiny.gguf and mmproj.gguf, or with the script tiny_llm_gguf.py that writes them.
+Builds the server once from the source in the package llama-cpp-python, which takes 5 minutes on two cores and needs a
+C++ compiler and a package index. Writes the weights, and runs the chain on 44 objects with their pictures through the
+standard stack. The text is noise, but each answer must be valid, repaired, or recorded as the error of its object.
+`--weights` is a folder with tiny.gguf and mmproj.gguf, or with the script tiny_llm_gguf.py that writes them.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ OFF_UI = ("LLAMA_BUILD_UI", "LLAMA_USE_PREBUILT_UI")
 CONCURRENCY, CONTEXT = 4, 8192
 # Token numbers: byte + 3 for all bytes, and again byte + 227 for printable bytes. Bytes above 127 are banned, because
 # most random sequences of them are not UTF-8, for which the server returns status 500. Ends of texts and numbers, and
-# zeros, are made likelier. With uniform noise nearly every answer has a text or number beyond its bound, and no object
-# would get past its first request.
+# zeros, are made likelier. With uniform noise nearly every answer would have a text or number beyond its bound, and no
+# object would get past its first request.
 BIAS = (
     *(f"{3 + byte}-1000" for byte in range(128, 256)),
     *(
@@ -144,7 +144,7 @@ def wait_until_ready(address: str, process: subprocess.Popen[bytes]) -> None:
 
 
 def built_server() -> Path:
-    """llama-server, built once."""
+    """Build llama-server if it is not built yet. Returns its path."""
     server = BUILD / "bld" / "bin" / "llama-server"
     if server.is_file():
         return server
@@ -163,7 +163,7 @@ def built_server() -> Path:
 
 
 def weights(folder: Path) -> Path:
-    """A folder with the weights."""
+    """Make the weights if they are missing. Returns the folder with the weights."""
     if (folder / "tiny.gguf").is_file():
         return folder
     script = folder / "tiny_llm_gguf.py"

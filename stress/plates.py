@@ -1,21 +1,22 @@
-"""A hundred thousand plates: every model passive, finite and quick, at any edges, aspect and frequency.
+"""A hundred thousand plates: every model must be passive, finite and fast, at any edges, aspect ratio and frequency.
 
 python stress/plates.py [--plates 100000] [--first 0] [--minutes M] [--processes 1] [--seed 1] [--seconds 1] [--only N]
 
-Draws plates of 1 cm to 10 m and aspects up to 1:100, held at any of their edges, of materials from felt to steel and of
-any loss. Queries every model for the receptance among four points, corners and edges included, at six frequencies up to
-10 kHz, one of them exactly on a resonance of a plate that is held or free. Counted as bad:
+Draws plates of 1 cm to 10 m and aspect ratios up to 1:100, held at any of their edges, of materials from felt to steel
+and of any loss. Queries every model for the receptance among four points, corners and edges included, at six
+frequencies up to 10 kHz. One frequency is exactly on a resonance of a held or free plate. Counted as bad:
 
     not finite     NaN or infinite
-    gains energy   a driven point with a positive imaginary part, or the matrix among all points with an eigenvalue of
-                   it above 1e-4 of its largest entry (docs/physical-models.md: what a near field leaves out)
+    gains energy   a receptance of a driven point with a positive imaginary part, or a receptance matrix whose imaginary
+                   part has an eigenvalue above 1e-4 of its largest entry (the limit for near fields, see
+                   docs/physical-models.md)
     negative       a driven point of a held plate that moves against the force far below its first resonance
     slow           more than a second of processor time without a warning
     other          any error outside scene2hap's own tree, or a floating-point warning
 
-Every fourth plate also carries a source of 1e-6 to 1e4 kg, and a scene of both is solved: gains must be finite and at
+Every fourth plate also carries a source of 1e-6 to 1e4 kg, and the coupled scene is solved: gains must be finite and at
 least 0. If a model raises a `SlowPlateWarning` for a plate, the plate is skipped and counted; every hundredth plate is
-solved all the same. A plate takes some 0.23 s of a processor in all models together.
+solved all the same. A plate takes some 0.23 s of processor time in all models together.
 
 The number of a plate is its seed: `--only N` repeats one, `--first N` continues where `--minutes` or Ctrl-C ended. A
 process takes `PIECE` plates at a time and finishes them, so that there is no gap in the numbers. Each process uses one
@@ -76,7 +77,7 @@ CACHES: tuple[Any, ...] = (
     bending_lattice.bending_lattice,
     bending_lattice.lines_of,
 )
-"""Caches of plates, cleared after each plate: no plate comes twice, and they would fill some gigabytes."""
+"""Caches of plates, cleared after each plate: no plate is used twice, and the caches would fill some gigabytes."""
 EDGES = ("FFFF", "CCCC", "SSSS", "CFFF", "SSFF", "CCFF", "SFSF", "CFSF", "FFCC", "CFFC", "SFFF", "FFSS")
 ROUNDING, BETWEEN_POINTS = 1e-9, 1e-4
 SCENE_EVERY, SLOW_EVERY = 4, 100
@@ -97,7 +98,7 @@ class Outcome:
     refused: collections.Counter[str] = field(default_factory=collections.Counter)
     bad: list[str] = field(default_factory=list)
     slowest_s: float = 0.0
-    """Of the calls without a warning."""
+    """Slowest call without a warning."""
 
     def add(self, other: Outcome) -> None:
         """Add the counts of another process."""
@@ -235,7 +236,7 @@ def faults(found: NDArray[np.complex128], plate: Plate, model: Any) -> list[str]
 
 @dataclass(frozen=True)
 class Campaign:
-    """The checks of every plate, and the time (`time.monotonic`) at which they end."""
+    """The checks of every plate, and the time (`time.monotonic`) at which the campaign ends."""
 
     models: tuple[str, ...]
     seed: int

@@ -1,11 +1,11 @@
-"""Propagation at extreme plates and scenes: no NaN, no overflow, no hang, and a clear error for every refusal.
+"""Propagation on extreme plates and scenes: no NaN, no overflow, no hang, and a clear error for every refusal.
 
 python benchmarks/figures.py stability
 
 Draws plates, scenes and time steppers far beyond furniture, queries every model, and counts the outcomes:
 
     answered    finite numbers of the right shape; attenuation also within its bounds
-    refused     an error of scene2hap's own tree, whose message has a number and the next step
+    refused     an error of scene2hap's own tree, whose message has a number and says what to do next
     bad         anything else: NaN, infinity, a floating-point warning, a foreign exception, too much processor time
 
 The number of a case is its seed, so `--only N` repeats one.
@@ -67,7 +67,7 @@ LATTICE_STEPS_S = (1e-9, 1e-6, 1e-3)
 
 
 class Hang(BaseException):
-    """The limit of processor time has passed; other programs on the machine do not count."""
+    """The limit of processor time has passed; the time of other programs does not count."""
 
 
 @dataclass
@@ -86,7 +86,7 @@ class Tally:
             raise Hang
 
         before = signal.signal(signal.SIGPROF, alarm)
-        # Repeated, since a signal that arrives in a thread of BLAS is not seen by Python's main thread.
+        # The signal is repeated, since Python's main thread does not see one that arrives in a thread of BLAS.
         signal.setitimer(signal.ITIMER_PROF, limit_s, 0.1)
         begin = time.process_time()
         try:
@@ -168,7 +168,7 @@ def kernels(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
 
 
 def some_scene(rng: random.Random) -> tuple[ContactNetwork, list[Excitation]]:
-    """Two to seven bodies, masses up to 1e12 apart, contacts in a tree and some loops, several on one point."""
+    """Two to seven bodies with mass ratios up to 1e12; contacts form a tree and some loops, several at one point."""
     ids = [f"o{i}" for i in range(rng.randint(2, 7))]
     bodies: dict[str, Plate | RigidBody] = {}
     for object_id in ids:
@@ -176,7 +176,7 @@ def some_scene(rng: random.Random) -> tuple[ContactNetwork, list[Excitation]]:
             bodies[object_id] = RigidBody(10 ** rng.uniform(-6, 6), rng.choice([None, (0.1, 0.2, 0.3)]))
         else:
             plate = some_plate(rng)
-            if rng.random() < 0.7:  # mostly furniture, so that few scenes are refused for one foil
+            if rng.random() < 0.7:  # mostly furniture, so that few scenes are refused because of one foil
                 material = replace(plate.material, youngs_modulus_pa=10 ** rng.uniform(9, 11.3), density_kg_m3=1000.0)
                 plate = replace(plate, thickness_m=10 ** rng.uniform(-2.5, -1), length_m=1.0, width_m=0.7)
                 plate = replace(plate, material=material)
@@ -219,7 +219,7 @@ def scenes(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
 def steppers(n_steps: int) -> Iterator[tuple[str, float, float, float]]:
     """Yield (name, dt [s], largest gain of energy of a damped mode in a step, drift of undamped modes).
 
-    Gain and drift are parts of the initial energy.
+    Gain and drift are relative to the initial energy.
     """
     omega = np.tile(2 * np.pi * np.array([0.01, 1.0, 50.0, 250.0, 1000.0, 1e5]), 3)
     zeta = np.repeat([0.0, 0.005, 1.0], 6)
@@ -240,7 +240,7 @@ def walked(
     energy: Callable[[State], NDArray[np.float64]],
     zeta: NDArray[np.float64],
 ) -> tuple[float, float]:
-    """Largest gain of energy in a step where zeta > 0, and largest drift where not."""
+    """Largest gain of energy in a step of modes with zeta > 0, and largest drift of the other modes."""
     first = before = highest = lowest = energy(state)
     gain = np.full_like(first, -np.inf)
     for _ in range(n_steps):
@@ -256,7 +256,7 @@ def walked(
 def lattice_steppers(
     n_steps: int, boundaries: tuple[str, ...] = ("CFFF", "SFFF")
 ) -> Iterator[tuple[str, float, float, float]]:
-    """The same for all nodes of a lattice at once, by sparse factors: clamped, and hinged so that it can rotate."""
+    """Yield the same as `steppers`, for all nodes of a lattice at once, clamped or hinged so that it can rotate."""
     from scipy.sparse import csr_array
 
     for boundary in boundaries:

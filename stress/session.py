@@ -1,4 +1,4 @@
-"""A long session with random moves, touches, adds, removes, states, levels and pauses.
+"""A long session in which moves, touches, added and removed objects, states, levels and pauses are random.
 
 OMP_NUM_THREADS=1 python stress/session.py [--minutes 10] [--kind exponential_plate] [--edges]
 
@@ -8,7 +8,7 @@ The game runs at 1 kHz in simulated time, as fast as possible. At the end the co
     memory did not grow after the first fifth by more than the noise of the allocator;
     each loop is within one sample of the clock, by `position_s` and by the phase of a rendered tone.
 
-With --edges every scene of tests/edge_scenes.py is run instead, without the check of loops.
+With --edges every scene of tests/edge_scenes.py is run instead, and loops are not checked.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ FRAMES_PER_UPDATE = RATE // UPDATES_PER_S
 RENDER_EVERY = 8
 VISITORS = [f"visitor {i}" for i in range(6)]
 MOST_GROWN = 8 * 2**20
-"""Growth of the process that is the allocator's noise [byte]."""
+"""Largest growth of the process that counts as noise of the allocator [byte]."""
 TONE_HZ = {"phone": 100, "alarm": 160}
 
 
@@ -128,7 +128,7 @@ class Outcome:
 
 
 def live(minutes: float, kind: str = "exponential_plate", seed: int = 1, bundled: Bundled | None = None) -> Outcome:
-    """Run a session of that simulated length; `bundled` None: the table with two phones. Raises: any error of it."""
+    """Run a session of that simulated length; `bundled` None: the table with two phones. Errors are not caught."""
     begin = time.perf_counter()
     scene, bundle = bundled or table_with_two_phones()
     session = HapticSession(scene, bundle, {"sample_rate_hz": RATE, "propagation": kind})
@@ -162,7 +162,7 @@ def held_bytes() -> int:
 
 
 def drift_samples(life: Life) -> float:
-    """Distance of the alarm's loop from the clock [samples]: the larger of that by position_s and by rendered phase."""
+    """Distance of the alarm's loop from the clock [samples], by position_s or by rendered phase, the larger one."""
     session = life.session
     session.resume()
     for name in list(life.there):
@@ -176,7 +176,7 @@ def drift_samples(life: Life) -> float:
     begin = session.position
     out = session.render(RATE)[:, 0].astype(np.float64)
     cycles = TONE_HZ["alarm"] * (begin + np.arange(RATE)) / RATE
-    # A sine of the clock has the phase 0; the rates are equal here, so that nothing is delayed.
+    # A sine in step with the clock has the phase 0; there is no delay, since both sample rates are equal here.
     phase = np.angle(1j * (out * np.exp(-2j * np.pi * cycles)).sum())
     rendered = phase / (2 * np.pi) * RATE / TONE_HZ["alarm"]
     return float(max(abs(reported), abs(rendered)))

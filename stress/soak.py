@@ -1,10 +1,10 @@
-"""An hour on a real sound server with a null sink: every recorded frame is compared with the mix.
+"""Play for an hour on a real sound server with a null sink, and compare every recorded frame with the mix.
 
     python stress/soak.py [--minutes 60] [--undisturbed] [--freeze]
 
 A game thread updates at 1 kHz and allocates garbage, at the default latency. Each recorded period must equal the safe
-mix. Where it does not, missing and surplus frames are counted, for both hands together, so that a drift between the
-hands is detected as well.
+mix. If a period differs, missing and surplus frames are counted for both hands together, so that a drift between the
+hands is detected too.
 Needs: apt-get install --no-install-recommends pulseaudio pulseaudio-utils libportaudio2 libasound2-plugins
 """
 
@@ -29,7 +29,7 @@ from sound_server import DEVICE, RATE, SoundServer, missing
 from sound_takes import PERIOD, SETTLING, Game, safe_period, session_on, undisturbed
 
 _LOUDEST_ERROR = 1e-3
-"""Of full scale; above it a recorded period differs from the mix."""
+"""Fraction of full scale by which a recorded period may differ from the mix."""
 
 
 def main() -> None:
@@ -70,7 +70,7 @@ def played(server: SoundServer, seconds: float) -> NDArray[np.float32]:
 
 
 def report(heard: NDArray[np.float32]) -> None:
-    """Compare each period with the mix; where it differs, find the common shift of both hands.
+    """Compare each period with the mix. If a period differs, find the common shift of both hands.
 
     One hand would not be enough: its tone matches again after every cycle. Hands that drift apart match at no shift.
     """

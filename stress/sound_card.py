@@ -3,7 +3,7 @@
 python stress/sound_card.py [takes] [low] [latency] [watchdog] [hitches] [unplug] [--takes 10] [--seconds 30]
     [--cycles 200] [--undisturbed] [--freeze]
 
-takes    : ten times 30 s at the default latency, while another thread updates at 1 kHz and allocates.
+takes    : ten times 30 s at the default latency, while another thread updates at 1 kHz and allocates memory.
 low      : a take, and times as below, at "low" latency with blocks of 64, 128 and 256 frames.
 latency  : time from an update to the first frame at the monitor, for several latencies.
 watchdog : the game's thread ends; time until the monitor records exact zeros, against watchdog + fade + latency.
@@ -132,7 +132,7 @@ def watchdog(arguments: argparse.Namespace) -> None:
 
 
 def time_to_silence_s(server: SoundServer, setting: float | str, watchdog_s: float) -> float:
-    """Time [s] from the last update of a game that ends to the last frame that is not zero."""
+    """Time [s] from the last update of a game whose thread ends to the last frame that is not zero."""
     sink = SoundCardSink(DEVICE, latency=setting)
     recorder = server.record(is_timed=True)
     with session_on(sink, watchdog_s=watchdog_s) as session:

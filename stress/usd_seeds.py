@@ -1,4 +1,4 @@
-"""A small USD scene with most of the features that are read, written by usd-core as text, binary file and archive."""
+"""A small USD scene with most of the supported features, written by usd-core as text, binary file and archive."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from PIL import Image
 
 
 def usd_files() -> dict[str, bytes]:
-    """The scene by suffix; empty where usd-core is not installed."""
+    """Bytes of the scene by suffix; empty if usd-core is not installed."""
     try:
         from pxr import Usd, UsdUtils
     except ImportError:

@@ -1,4 +1,4 @@
-"""The labels as data: category and material family of each object, and whether it vibrates by itself."""
+"""Reading of the labels: category and material family of each object, and whether it vibrates by itself."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NAME_LISTS: dict[Half, str] = {"memory": "names_from_memory.csv", "packs": "name
 
 @dataclass(frozen=True)
 class Label:
-    """One object; `categories` and `families` hold all accepted answers, the best first."""
+    """Label of one object; `categories` and `families` hold all accepted answers, the best first."""
 
     scene: str
     object_id: str
@@ -30,15 +30,15 @@ class Label:
 
     @property
     def hard(self) -> bool:
-        """Whether careful people may differ about the vibration (a pan, a sink with its tap)."""
+        """Whether careful people may disagree on the vibration (a pan, a sink with its tap)."""
         return self.note.startswith("hard")
 
 
 @dataclass(frozen=True)
 class LabelledScene:
-    """Path of a labelled scene, its half, and the accepted kinds of place.
+    """A labelled scene: path, half, accepted kinds of place, and labels.
 
-    A list of names without a file has no `path`; `longest_m` gives the longest edge of each.
+    A list of names without a file has no `path`; `longest_m` gives the longest edge [m] of each named object.
     """
 
     scene: str
@@ -58,7 +58,7 @@ def read_rows(name: str) -> list[dict[str, str]]:
 
 
 def label(row: dict[str, str]) -> Label:
-    """A checked label. Raises: ValueError: the family or the yes/no is none."""
+    """Check a row and return its label. Raises: ValueError: unknown family, or `vibrates` is neither yes nor no."""
     families = tuple(row["material_family"].split("|"))
     if not set(families) <= set(FAMILIES) or row["vibrates"] not in ("yes", "no"):
         raise ValueError(f"label {row}: families are {', '.join(FAMILIES)}; vibrates is yes or no.")
@@ -93,7 +93,7 @@ def labelled_scenes() -> list[LabelledScene]:
 
 
 def listed_names(half: Half) -> list[LabelledScene]:
-    """The names of a list without files, one scene per pack."""
+    """Scenes of a list of names without files, one scene per pack."""
     rows = read_rows(NAME_LISTS[half])
     scenes = []
     for pack in dict.fromkeys(row["scene"] for row in rows):

@@ -1,7 +1,7 @@
 """The paper's ten materials: density, modulus and Poisson's ratio from a backend, and ranges from literature.
 
-Source: Scene2Hap, CHI 2026, table "Comparison of LLM's material property estimation": ranges, the paper's own sources
-for them and the answers of GPT-4o, as printed. A value on a bound is inside.
+Source: Scene2Hap, CHI 2026, table "Comparison of LLM's material property estimation". It gives the ranges, the paper's
+sources of the ranges, and the answers of GPT-4o. A value on a bound counts as inside.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ CONSTANTS = ("density_kg_m3", "youngs_gpa", "poisson")
 
 @dataclass(frozen=True)
 class MaterialRow:
-    """One material: ranges from literature, a backend's three constants (None: no usable answer), GPT-4o's."""
+    """One material: ranges from literature, and the constants of a backend (None: no usable answer) and of GPT-4o."""
 
     material: str
     ranges: tuple[tuple[float, float], ...]
@@ -35,7 +35,7 @@ class MaterialRow:
 
     @property
     def gpt4o_inside(self) -> tuple[bool, ...]:
-        """The same of GPT-4o's, as the paper prints them."""
+        """Which of GPT-4o's constants lie in the range, as the paper prints them."""
         return within(self.gpt4o, self.ranges)
 
 
@@ -49,7 +49,7 @@ def within(values: tuple[float, float, float] | None, ranges: tuple[tuple[float,
 
 
 async def material_table(backend: LLMBackend) -> list[MaterialRow]:
-    """Estimate each of the ten materials by its name alone, as the chain does, one after the other."""
+    """Estimate each of the ten materials from its name alone, as the chain does, one after the other."""
     return [await _row(backend, row) for row in read_rows("paper_materials.csv")]
 
 
@@ -84,7 +84,7 @@ async def _ask(backend: LLMBackend, material: str) -> tuple[float, float, float]
 
 
 def own_table_differs() -> list[str]:
-    """Materials whose ranges in scene2hap's own table are not the ones typed in here."""
+    """Names of materials whose ranges in scene2hap's table differ from `paper_materials.csv`."""
     known = {row.material.name: row for row in materials.table()}
     apart = []
     for row in read_rows("paper_materials.csv"):

@@ -13,9 +13,9 @@ MODELS = (".glb", ".gltf")
 
 
 def read(item: LabelledScene, folder: Path) -> SceneSnapshot:
-    """The snapshot of a labelled scene, as in the file: wrong units are part of the task.
+    """Read a labelled scene as it is in the file: wrong units are part of the task.
 
-    Raises: ValueError: its objects differ from the labelled ones.
+    Raises: ValueError: the objects of the scene differ from the labelled ones.
     """
     if not item.path:
         return _boxes(item)
@@ -39,7 +39,7 @@ def _library(folder: Path) -> SceneSnapshot:
 
 
 def _boxes(item: LabelledScene) -> SceneSnapshot:
-    """A box per name, of the edge that the list gives; nothing touches anything."""
+    """One box per name, with the listed longest edge; nothing touches anything."""
     objects = []
     for position, (name, edge) in enumerate(item.longest_m.items()):
         size = (edge, edge / 2, edge / 4)

@@ -1,4 +1,4 @@
-"""Scores of answers against labels: rules in docs/inference-evaluation.md, counts summed scene by scene."""
+"""Scores of answers by hand labels; docs/inference-evaluation.md has the rules."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _STUFF_ENDS = re.compile(r"\b(?:with|and|or|on|over|in|for)\b|[,/;(]")
 
 
 def is_unknown(category: str) -> bool:
-    """Whether the backend says that it does not know."""
+    """Whether a category means that the backend does not know the object."""
     return _plain(category) in UNKNOWN
 
 
@@ -31,7 +31,7 @@ def same_category(answer: str, accepted: Iterable[str]) -> bool:
 
 
 def family(material: str) -> str | None:
-    """The family of a material word, by the last word that the list knows before "with", "and" and the like."""
+    """Family of a material, by its last known word or words before "with", "and" or another of `_STUFF_ENDS`."""
     for part in _STUFF_ENDS.split(material.lower()):
         words = re.findall(r"[a-z]+", part)
         for end in range(len(words), 0, -1):
@@ -48,7 +48,7 @@ def _families() -> dict[str, str]:
 
 
 def _plain(text: str) -> str:
-    """Lower case, without punctuation, nouns in the singular as far as one letter tells."""
+    """Text in lower case, without punctuation, and without a final "s" of longer words."""
     words = re.findall(r"[a-z0-9]+", text.lower())
     return " ".join(
         word[:-1] if len(word) > 3 and word.endswith("s") and word[-2] not in "su" else word for word in words
@@ -76,7 +76,7 @@ class Counts:
 
     @property
     def figures(self) -> dict[str, float | None]:
-        """The shares; None where there is nothing to divide by."""
+        """The shares; None where the divisor is 0."""
         known = self.objects - self.unknown
         agreed = self.true_positive + self.true_negative
         return {
@@ -92,7 +92,7 @@ class Counts:
 
 @dataclass(frozen=True)
 class Judgement:
-    """One object's answer beside its label."""
+    """An object's answer and its label."""
 
     label: Label
     category: str
@@ -101,7 +101,7 @@ class Judgement:
 
     @property
     def counts(self) -> Counts:
-        """The object as counts of one."""
+        """Counts of this one object."""
         truth, says = self.label.vibrates, self.vibrates
         known, claimed = not is_unknown(self.category), _plain(self.material) not in _NOTHING
         return Counts(
@@ -132,7 +132,7 @@ class Judgement:
 
 
 def judge(label: Label, haptics: ObjectHaptics) -> Judgement:
-    """An object's answer beside its label."""
+    """Return the answer for an object with its label."""
     return Judgement(label, haptics.object_category, haptics.material_category, haptics.vibrates)
 
 

@@ -1,8 +1,9 @@
-// The amplifier on a pseudo-terminal, so that the tests run the sink against the firmware's own code.
+// The amplifier on a pseudo-terminal, so that the tests run the sink against the firmware's code.
 //
 //   c++ -std=c++17 -O2 -o amplifier main.cpp && ./amplifier > heard.raw
 //
-// Prints the terminal's name on standard error and what it plays, raw i16, on standard output; ends when its input does.
+// Prints the terminal's name on standard error, and the played samples as raw i16 on standard output. Ends when its
+// standard input ends.
 
 #include <chrono>
 #include <cstdio>
@@ -24,7 +25,7 @@ static uint64_t micros() {
 int main() {
   const int port = posix_openpt(O_RDWR | O_NOCTTY);
   if (port < 0 || grantpt(port) || unlockpt(port)) return 1;
-  const int host = open(ptsname(port), O_RDWR | O_NOCTTY);  // kept, so that the host may come and go
+  const int host = open(ptsname(port), O_RDWR | O_NOCTTY);  // kept open, so that the host can connect and disconnect
   termios raw;
   if (host < 0 || tcgetattr(host, &raw)) return 1;
   cfmakeraw(&raw);

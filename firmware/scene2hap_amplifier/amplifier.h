@@ -1,10 +1,11 @@
-// A scene2hap serial amplifier without a board: bytes in, bytes out, and a clock that the caller turns.
+// Hardware-independent part of a scene2hap serial amplifier: bytes in, bytes out, and the time from the caller.
 //
-// The protocol is docs/serial-protocol.md; the same device in Python is scene2hap.devices.reference_device. Nothing here
-// needs Arduino, allocates or waits, so that the tests compile it for the host too.
+// The protocol is docs/serial-protocol.md; the same device in Python is scene2hap.devices.reference_device. This code
+// needs no Arduino, never allocates and never waits, so that the tests can compile it for the host.
 //
-// One thread (or loop) calls receive, advance and take_outgoing; an interrupt may call next_frame at any time. The queue
-// has one writer and one reader: the loop moves head_, the interrupt moves tail_, and an emptying is asked for by a flag.
+// One thread (or loop) calls receive, advance and take_outgoing; an interrupt may call next_frame at any time. The
+// queue has one writer and one reader: the loop moves head_, the interrupt moves tail_. A flag requests that the queue
+// be emptied.
 
 #pragma once
 
@@ -23,7 +24,7 @@ inline uint32_t crc32(const uint8_t* data, size_t size) {
   return ~crc;
 }
 
-// Returns the size of what was stuffed, or 0 where the bytes are not COBS. `out` may be `in`.
+// Returns the size of the decoded bytes, or 0 if the input is not COBS. `out` may be `in`.
 inline size_t cobs_decode(const uint8_t* in, size_t size, uint8_t* out) {
   size_t read = 0, written = 0;
   while (read < size) {
@@ -60,7 +61,7 @@ class Amplifier {
   static constexpr uint16_t kBlockFrames = 64;
   static constexpr uint32_t kWatchdogUs = 50000, kCreditEveryUs = 5000;
 
-  // Bytes from the host.
+  // Process bytes from the host.
   void receive(const uint8_t* data, size_t size, uint32_t now_us) {
     for (size_t i = 0; i < size; ++i) {
       if (data[i] != 0) {
@@ -73,13 +74,13 @@ class Amplifier {
     }
   }
 
-  // Watchdog and credits; call it at least every 2 ms.
+  // Run the watchdog and send credits. Call it at least every 2 ms.
   void advance(uint32_t now_us) {
     if (!muted_ && now_us - fed_us_ > kWatchdogUs) mute();
     if (now_us - credit_us_ >= kCreditEveryUs) credit(now_us);
   }
 
-  // Bytes for the host; returns how many of at most `most` were put into `out`.
+  // Write at most `most` bytes for the host into `out`. Returns their number.
   size_t take_outgoing(uint8_t* out, size_t most) {
     const size_t n = outgoing_ < most ? outgoing_ : most;
     memcpy(out, out_, n);
@@ -88,7 +89,7 @@ class Amplifier {
     return n;
   }
 
-  // The next sample of each channel; to be called kSampleRateHz times a second.
+  // Get the next sample of each channel. Call it kSampleRateHz times a second.
   void next_frame(int16_t* out) {
     if (flush_) {
       tail_ = head_;
@@ -124,7 +125,7 @@ class Amplifier {
     return flush_ ? 0 : static_cast<uint16_t>((head + kQueueFrames + 1 - tail) % (kQueueFrames + 1));
   }
 
-  // Returns whether run_ holds a frame.
+  // Process the decoded bytes in run_. Returns whether they are a valid frame.
   bool frame(size_t size, uint32_t now_us) {
     if (size < kHeader + kSum || run_[0] != 1 || crc32(run_, size - kSum) != u32(run_ + size - kSum)) return false;
     const uint8_t type = run_[1], channels = run_[4], format = run_[5];
@@ -160,7 +161,7 @@ class Amplifier {
     heard_ = true;
     sequence_ = sequence;
     echo_us_ = u32(run_ + 8);
-    // An emptying that the interrupt has not done yet leaves no room to judge: the host asks again.
+    // While the interrupt has not emptied the queue yet, its free space is unknown. The host sends again.
     if (count && !flush_ && queued() + count <= kQueueFrames) {
       const uint8_t* p = run_ + kHeader;
       uint16_t head = head_;
@@ -198,7 +199,7 @@ class Amplifier {
     say(said, sizeof(said));
   }
 
-  // A host that does not read loses credits, and later ones tell the same.
+  // If the host does not read, credits are dropped; later credits contain the same values.
   void say(uint8_t* frame, size_t size) {
     put32(frame + size - kSum, crc32(frame, size - kSum));
     if (outgoing_ + size + size / 254 + 3 > sizeof(out_)) return;

@@ -1,8 +1,8 @@
-// Two hands on a Teensy 3.x or 4.x: PCM over USB in, two PWM outputs to a stereo class-D amplifier (such as a PAM8403 or
-// MAX98306) out. See docs/serial-protocol.md for the protocol and README.md for the wiring.
+// Firmware for two hands on a Teensy 3.x or 4.x: input is PCM over USB, output is PWM on two pins for a stereo class-D
+// amplifier (such as a PAM8403 or MAX98306). docs/serial-protocol.md has the protocol, README.md the wiring.
 //
-// Other boards: they need `analogWrite` of 8 bit or more well above 20 kHz, a timer interrupt, and 3 kB of memory. A
-// board with DACs writes there instead; one with a USB sound card needs none of this.
+// Other boards need `analogWrite` of 8 bit or more well above 20 kHz, a timer interrupt, and 3 kB of memory. On a board
+// with DACs, write to the DACs instead. A board with a USB sound card needs no firmware of this kind.
 
 #include "amplifier.h"
 
@@ -11,7 +11,7 @@ constexpr uint8_t kChannels = 2;
 constexpr int kPins[kChannels] = {3, 4};  // left, right
 constexpr int kEnablePin = 5;             // the amplifier's shutdown input, high is on
 constexpr int kPwmBits = 10;
-constexpr float kPwmHz = 58593.75f;  // where a Teensy 4 at 600 MHz and a Teensy 3 at 60 MHz have 10 bit
+constexpr float kPwmHz = 58593.75f;  // at which a Teensy 4 at 600 MHz and a Teensy 3 at 60 MHz have 10 bit
 
 scene2hap::Amplifier<kSampleRateHz, kChannels, 400> amplifier;
 IntervalTimer sample_timer;
@@ -49,6 +49,6 @@ void loop() {
     const size_t n = amplifier.take_outgoing(bytes, room);
     if (n > 0) Serial.write(bytes, n);
   }
-  // A hand at rest shall not hear the amplifier's hiss.
+  // The amplifier is off while muted, so that its hiss is not felt.
   digitalWriteFast(kEnablePin, amplifier.muted() ? LOW : HIGH);
 }

@@ -43,7 +43,7 @@ RATE_HZ = 48000
 SWEEP_HZ = (40.0, 400.0)
 SWEEP_S, PAUSE_S = 2.0, 0.5
 LEVEL_DB = -20.0
-"""Quiet: a tenth of full scale."""
+"""Level of the sweep, a tenth of full scale [dB]."""
 
 MEASURED = (
     "from the call that rendered the sweep's first sample to the hand-over of the block in which the input heard it, "

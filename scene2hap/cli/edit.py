@@ -129,7 +129,7 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     after = arguments.change(before, arguments, note)
     folder = after.save(arguments.bundle)
     before.save(_kept(arguments.bundle))
-    # A table of its own shows loops, and "loops made again" the actuator.
+    # Loops and the actuator are left out, since the table "loops made again" shows them.
     changes = [row for row in differences(before, after) if row.what != "actuator" and not row.what.startswith("loop ")]
     for object_id, what, old, new in changes:
         console.say(f"{object_id}, {what}: {old} -> {new}")
@@ -147,7 +147,7 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 _IN_WORDS = {"plan": "its place among the sources"}
-"""Inputs of a loop whose short names say nothing to a designer."""
+"""Longer names for inputs of a loop whose short names mean nothing to a designer."""
 
 
 def _watch(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:

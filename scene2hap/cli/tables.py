@@ -184,7 +184,7 @@ def show_report(console: Console, report: InferenceReport, prices: Mapping[str, 
 
 
 def _warn_of_some(console: Console, sentences: Sequence[str]) -> None:
-    """Show the first warnings of one kind, and count the rest: one wrong unit makes every mass doubtful."""
+    """Show the first warnings of one kind, and count the rest, since one wrong unit makes every mass doubtful."""
     for sentence in sentences[:MOST_WARNINGS]:
         console.warn(sentence)
     if len(sentences) > MOST_WARNINGS:

@@ -32,11 +32,11 @@ from scene2hap.contact.geometry._triangles cimport ROUNDING_M, Face, Meetings, m
 
 cdef struct Nearest:
     Tree guest, host
-    double best                       # least distance found, at first the largest of interest
-    Py_ssize_t best_guest, best_host  # columns of the two triangles, -1 before the first
+    double best                       # least distance found; at first the largest relevant one
+    Py_ssize_t best_guest, best_host  # columns of the two triangles, -1 before one is found
     double on_guest[3]
     double on_host[3]
-    bint is_zero                      # the surfaces intersect: no search can find less
+    bint is_zero                      # the surfaces intersect, so no distance is smaller
 
 
 def closest_points(host, guest, turn, shift, double within):
@@ -114,13 +114,13 @@ cdef void compare(Nearest* search, const Nodes* leaves) noexcept:
 # --- contact points ---------------------------------------------------------------------------------------------------
 
 cdef enum:
-    HEIGHT = 4  # of the nodes of a patch, 16 triangles each: in real scenes 2 and 3 take longer
+    HEIGHT = 4  # of the nodes of a patch, 16 triangles each; 2 and 3 are slower in real scenes
 
 
 cdef struct Patch:
     Nodes nodes
     Box around              # a box around the middles of their contact points
-    double most_apart2      # upper bound of the squared distance of such a point from the nearest place
+    double most_apart2      # upper bound of the squared distance of these points from the nearest place
 
 
 cdef struct Points:
@@ -138,9 +138,9 @@ cdef struct Spreading:
     int n_places
     double most                   # distance of the farthest point found from the nearest place
     Points points
-    Patch* patches                # those not measured at once
+    Patch* patches                # patches that were not measured at once
     Py_ssize_t n_patches, patch_capacity
-    Patch** heap                  # (n_left,) those not measured yet, the one with the largest bound first
+    Patch** heap                  # (n_left,) patches that are not measured yet, the largest bound first
     Py_ssize_t n_left
     bint is_out_of_memory
 
@@ -158,7 +158,7 @@ def contact_points(host, guest, turn, shift, way, double within):
     try:
         open_tree(&search.guest, guest, SURFACE, &moved)
         open_tree(&search.host, host, SURFACE, NULL)
-        # The lowest corner of the guest's box: from its middle, all points of a ball would be about as far.
+        # First place: the lowest corner of the guest's box. All points of a ball are about as far from its middle.
         place_point(search.places[0], search.guest.nodes, &at)
         n = choose(chosen, &search)
         if n < 0:
@@ -175,11 +175,11 @@ def contact_points(host, guest, turn, shift, way, double within):
 
 
 cdef int choose(double[6]* chosen, Spreading* search) noexcept:
-    """Choose the ends of contact points, each the farthest from the first place or from those chosen before.
+    """Choose the ends of contact points: the farthest from the first place, then the farthest from all chosen ones.
 
-    By branch and bound: only patches that may have such a point are measured. Surfaces of 10,000 triangles that lie on
-    each other have thousands of contact points, which would all be compared for the sake of four. Returns how many are
-    chosen, -1 without memory.
+    The search is branch and bound and measures only patches that may have such a point. Two surfaces of 10,000
+    triangles in contact have thousands of contact points, but only four are chosen. Returns the number of chosen
+    points, -1 if out of memory.
     """
     cdef double least = -1.0
     cdef Nodes roots
@@ -218,7 +218,7 @@ cdef int choose(double[6]* chosen, Spreading* search) noexcept:
 
 
 cdef void find_patches(Spreading* search, const Nodes* nodes) noexcept:
-    """Find the pairs of small nodes below two nodes whose boxes are within reach, those far from the place first."""
+    """Find the pairs of small nodes below two nodes whose boxes are within reach, first those far from the place."""
     cdef Nodes halves[2]
     cdef const double* place = search.places[0]
     cdef int k
@@ -246,7 +246,7 @@ cdef inline double most_apart2(const Box* box, const double* place) noexcept:
 
 
 cdef void add_patch(Spreading* search, const Nodes* nodes) noexcept:
-    """Measure a patch if it may have a farther point than those found; else keep it for later."""
+    """Measure a patch if it may have a farther point than those found; otherwise keep it for later."""
     cdef const Box* a = nodes.of_guest
     cdef const Box* b = nodes.of_host
     cdef Patch patch
@@ -317,7 +317,7 @@ cdef void collect(Spreading* search, const Nodes* leaves) noexcept:
 
 
 cdef bint append(Points* points, const double* ends, const double* middle, double apart) noexcept:
-    """Append a point. Returns False without memory."""
+    """Append a point. Returns False if out of memory."""
     if points.n == points.capacity:
         points.capacity = 2 * points.capacity + 64
         if not (grow(&points.ends, 6 * points.capacity) and grow(&points.middles, 3 * points.capacity)
@@ -359,7 +359,7 @@ cdef void sift_down(Spreading* search, Py_ssize_t row) noexcept:
 
 
 cdef void measure_from_last_place(Spreading* search, double least) noexcept:
-    """Include the last place in the distances of points and patches. The first chosen one replaces the corner."""
+    """Include the last place in the distances of points and patches. The first chosen place replaces the corner."""
     cdef Points* points = &search.points
     cdef Patch* patch
     cdef const double* place = search.places[search.n_places - 1]
@@ -405,7 +405,7 @@ cdef struct Falling:
     bint guest_falls
     double bottom, reach, touch
     double first          # least fall distance found
-    double later          # how far beyond it others are searched
+    double later          # range above it in which others are searched
     double* each          # NULL if only the least is needed
 
 
@@ -433,7 +433,7 @@ def first_drop(host, guest, turn, shift, frame, limits, bint guest_falls):
 cdef double search_drops(
     host, guest, turn, shift, frame, limits, bint guest_falls, double later, double* each
 ) except? -1:
-    """Return the least fall distance, at least -touch, inf for none. Those up to `later` above it go into `each`."""
+    """Return the least fall distance, at least -touch, inf for none. Distances up to `later` above go into `each`."""
     cdef Falling search
     cdef Nodes roots
     cdef Placement at = placement_of(turn, shift), upright = placement_of(frame, (0.0, 0.0, 0.0))

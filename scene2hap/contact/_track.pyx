@@ -39,7 +39,7 @@ cdef class Track:
     cdef double box_u, box_v, half_u, half_v, own_u, own_v
     cdef double own_pu[MOST_POINTS]
     cdef double own_pv[MOST_POINTS]
-    # The outline of the base face, computed on first use; if upright, in the shape's frame, to be rotated by these.
+    # Outline of the base face, computed on first use. If upright, it is in the shape's frame; these numbers rotate it.
     cdef double[:, ::1] outline
     cdef double turned_a, turned_c
 
@@ -181,7 +181,7 @@ cdef class Track:
         return True
 
     cdef bint is_inside(self, double u, double v) except -1:
-        """Return True if the outline of the base face is surely inside all edges; called if its circle is not."""
+        """Return True if the outline of the base face is surely inside all edges. Called only if its circle is not."""
         cdef Py_ssize_t i, k
         cdef double pu, pv, a = self.turned_a, c = self.turned_c
         if self.outline is None:

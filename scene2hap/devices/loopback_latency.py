@@ -84,8 +84,7 @@ class Take:
 
 
 def _near(apart_s: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return a mask of the blocks that give the time of a frame: the nearby ones. Farther blocks may be behind a
-    gap."""
+    """Return a mask of the nearby blocks, which give the time of a frame. Farther blocks may be behind a gap."""
     apart_s = np.abs(apart_s)
     return np.asarray(apart_s <= max(_NEAR_S, float(apart_s.min())))
 
@@ -160,9 +159,9 @@ def find_input(device: str | int | None) -> Card:
 class Recording:
     """A context manager that records an input.
 
-    Parameters: card : from `find_input`; rate_hz : wanted, else the card's own is used; n_channels : wanted, at most
-        the number that the card has.
-    Raises: DeviceError: it cannot be opened.
+    Parameters: card : from `find_input`; rate_hz : requested rate, if impossible the card's own is used; n_channels :
+        requested number, limited to the card's.
+    Raises: DeviceError: the input cannot be opened.
     """
 
     def __init__(self, card: Card, rate_hz: int, n_channels: int) -> None:

@@ -1,8 +1,8 @@
 """PortAudio through the package sounddevice: search for devices, and translation of its errors.
 
 PortAudio lists devices only at its start, so finding a device that was plugged in later needs a restart. A restart ends
-every stream, so it is done only while none of ours is open. Two threads must not call PortAudio at once, hence the
-lock; callbacks are outside it.
+every stream, so it is done only while none of ours is open. The lock prevents that two threads call PortAudio at once;
+callbacks run without the lock.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ def _restart() -> None:
 
 
 def named(device: str | int, known: list[Card]) -> Card | None:
-    """Return the device with an index, or the first whose name is, or else contains, `device`."""
+    """Return the device with an index, or the first whose name equals `device`, otherwise contains it."""
     if isinstance(device, int):
         return next((card for card in known if card.index == device), None)
     wanted = device.casefold()

@@ -33,7 +33,7 @@ DEFAULT_LATENCY_S = 0.1
 """Smallest latency without a gap in all measurements [s]; see docs/actuators.md."""
 
 AHEAD_S = 0.012
-"""Time rendered ahead beyond the device's latency [s]: some iterations of the sink's thread."""
+"""Time rendered ahead beyond the device's latency [s], for some iterations of the sink's thread."""
 
 CHUNK_S = 0.005
 """Approximate length of rendered blocks [s]. Gains and the watchdog act only between two blocks."""

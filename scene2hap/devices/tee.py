@@ -1,8 +1,8 @@
 """One mix on several sinks.
 
-Devices have clocks of their own, so a buffer stores the mix, and each device reads it at its own rate. The fastest
-reader makes the session render. A reader more than 0.1 s behind (a slower clock, a device that was disconnected) jumps
-to the newest frame, with a cross-fade. Sinks without a clock, such as WavSink, get every block once, in order.
+Each device has its own clock, so a buffer stores the mix, and each device reads it at its own rate. The fastest reader
+makes the session render. A reader more than 0.1 s behind (a slower clock, a device that was disconnected) jumps to the
+newest frame, with a cross-fade. Sinks without a clock, such as WavSink, get every block once, in order.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ class _Buffer:
         """Render and store the next frames."""
         self._block = block = self._fill(n_frames)
         for recorder in self._recorders:
-            recorder.pull(n_frames)  # type: ignore[attr-defined]  # what makes it one
+            recorder.pull(n_frames)  # type: ignore[attr-defined]  # sinks without a clock have it
         self._samples = np.concatenate([self._samples[-self._keep :], block])
         self.head += n_frames
         return block

@@ -1,4 +1,4 @@
-"""From the envelope of a signal to a haptic clip with few points."""
+"""Conversion of a signal's envelope to a haptic clip with few points."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class CurveSettings:
 def curves_of(
     channel: Channel, settings: CurveSettings, *, power: float = 1.0, about: About | None = None
 ) -> HapticClip:
-    """Return the clip of a channel: its own if a person drew one, else curves that follow its envelope.
+    """Return the clip of a channel: its own if a person drew one, otherwise curves that follow its envelope.
 
     Parameters: power : of the curves; 2 for formats that store roots (`Curve`).
     """

@@ -1,4 +1,4 @@
-"""From a signal to amplitude, frequency and transients over time.
+"""Analysis of a signal: amplitude, frequency and transients over time.
 
 Amplitude is the magnitude of the analytic signal (Hilbert transform; Oppenheim and Schafer, Discrete-Time Signal
 Processing, ch. 12), with its power smoothed over `SMOOTHED_S`: that of a sine wave of equal power. Frequency is a ridge

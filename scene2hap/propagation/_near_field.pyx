@@ -49,7 +49,7 @@ cdef class Dimples:
         return M_PI / ((corner + half) / (kx * kx) + (M_PI / 2 - corner + half) / (ky * ky))
 
     cdef double share(self, double x, double y, Py_ssize_t drive, double cut2) noexcept:
-        """The sum over a force and its fifteen images."""
+        """Return the sum over a force and its fifteen images."""
         cdef Py_ssize_t i, j, piece, last = self.pieces.shape[0] - 1
         cdef double dx2[4]
         cdef double dy2[4]
@@ -57,12 +57,12 @@ cdef class Dimples:
         separate(dx2, x, self.drive_m[drive, 0], self.length2)
         separate(dy2, y, self.drive_m[drive, 1], self.width2)
         for i in range(4):
-            if dx2[i] >= far2:  # as are most images
+            if dx2[i] >= far2:  # true of most images
                 continue
             for j in range(4):
                 if dx2[i] + dy2[j] >= far2:
                     continue
-                # g is kept over the root of K r.
+                # The table of g has equal steps of the root of K r.
                 t = self.per_piece * sqrt(sqrt((dx2[i] + dy2[j]) * cut2))
                 if t < last:
                     piece = <Py_ssize_t>t
@@ -74,12 +74,12 @@ cdef class Dimples:
 
 
 cdef void separate(double* squares, double x, double drive, double length2) noexcept:
-    """Squares of the separations of a point from a force and its images along an axis, of twice its length."""
+    """Compute squared distances along an axis of a point from a force and its images. length2 : twice the length."""
     cdef double apart = fabs(x - drive), sum = x + drive
     squares[0], squares[1] = apart * apart, sum * sum
     squares[2], squares[3] = (length2 - sum) * (length2 - sum), (length2 - apart) * (length2 - apart)
 
 
 cdef double near_of(double k2, double cut2, double share) noexcept:
-    """The near field of a force by its share, see `_beyond`."""
+    """Return the near field of a force from its share. See `_beyond`."""
     return atanh(k2 / cut2) * share / (4 * M_PI * k2)

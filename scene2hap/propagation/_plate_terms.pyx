@@ -57,7 +57,7 @@ cdef class ContractedShapes:
         return found
 
     cdef void fill(self, double x, double y) noexcept:
-        """Take in the cosines of a point."""
+        """Compute the cosines at a point."""
         cdef Py_ssize_t k
         fill_point(&self.cosines[0], x * self.per_length - 1, y * self.per_width - 1, self.n_x, self.n_y)
         if self.is_single:
@@ -75,7 +75,7 @@ cdef void fold(
     double x,
     double y,
 ) noexcept:
-    """Add what a plate does at a point: what its cosines tell, and near fields."""
+    """Add the response of a plate at a point: the smooth part from its cosines, and near fields."""
     cdef Py_ssize_t drive, node, n_k2 = self.k2.shape[0]
     cdef double cut, share, here2
     add_rows(out, smooth, cosines, self.cosines.shape[0], self.n)
@@ -110,7 +110,7 @@ def fill_cosines(
 cdef void fill_point(double* row, double xi, double eta, Py_ssize_t n_x, Py_ssize_t n_y) noexcept:
     cdef Py_ssize_t i, j
     cdef double cosine, along = acos(fmin(fmax(xi, -1.0), 1.0)), across = acos(fmin(fmax(eta, -1.0), 1.0))
-    # The first row holds those across, from which all others are made.
+    # The first n_y entries hold the cosines across the plate; all others are products with them.
     for j in range(n_y):
         row[j] = cos(j * across)
     for i in range(n_x - 1, -1, -1):

@@ -1,4 +1,4 @@
-"""Rows of numbers, added to one another: the inner loops of what is looked up at a point."""
+"""Weighted sums of rows of numbers: the inner loops of queries at a point."""
 
 ctypedef fused real:
     float
@@ -15,8 +15,8 @@ cdef inline void add_row(real* out, const real* row, real share, Py_ssize_t n) n
 cdef inline void add_rows(
     real* out, const real* rows, const real* shares, Py_ssize_t n_rows, Py_ssize_t n
 ) noexcept nogil:
-    """Add rows (n_rows, n), each times its share: four at once, since reading and writing the sum takes as long as the
-    product."""
+    """Add rows (n_rows, n), each times its share, four at once: reading and writing the sum takes as long as a product.
+    """
     cdef Py_ssize_t row = 0, k
     cdef real a, b, c, d
     while row + 4 <= n_rows:

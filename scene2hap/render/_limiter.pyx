@@ -33,7 +33,7 @@ def turn_down_in_place(Sample[:, :] mix, double[::1] held, scratch, double thres
 
 
 cdef double turned_down(double x, double *u, double threshold, double release) noexcept:
-    """The next sample, given how much the last was turned down, which is replaced."""
+    """Turn down the next sample. `u` is the reduction of the last sample (0 for none) and is updated."""
     cdef double level = fabs(x)
     u[0] *= release
     if level > threshold and 1 - threshold / level > u[0]:
@@ -42,6 +42,6 @@ cdef double turned_down(double x, double *u, double threshold, double release) n
 
 
 cdef double limited(double x, double threshold) noexcept:
-    """A sample beyond the threshold, limited."""
+    """Limit a sample beyond the threshold."""
     cdef double rest = 1 - threshold
     return copysign(threshold + rest * tanh((fabs(x) - threshold) / rest), x)

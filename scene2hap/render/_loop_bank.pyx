@@ -1,7 +1,7 @@
 """The compiled twins of the kernels in `loop_bank`."""
 
 cdef enum:
-    CELL = 24  # known to the compiler
+    CELL = 24  # a compile-time constant
 
 
 cdef class StoredLoop:
@@ -13,7 +13,7 @@ cdef class StoredLoop:
         assert len(fade) == CELL
         self.samples, self.length, self.fade = samples, length, fade
         self.numerator, self.denominator = numerator, denominator
-        # Up to here no product is more than a number of C can hold; with loops of minutes that takes days.
+        # Up to this position no product overflows in C. With loops of minutes it is reached after days.
         self.last = 2**62 // (2 * max(numerator, denominator)) - CELL
 
     def fill(self, begin, float[:, ::1] out):

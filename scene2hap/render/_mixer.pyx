@@ -11,7 +11,7 @@ import numpy as np
 from scene2hap.render import limiter, loop_bank
 
 cdef enum:
-    CELL = 24  # known to the compiler
+    CELL = 24  # a compile-time constant
 
 assert CELL == loop_bank.CELL
 
@@ -49,7 +49,7 @@ cdef class Playhead:
             if frame == self.cell_end_frame:
                 self.enter_cell()
             stop = min(end, self.cell_end_frame)
-            # Up to the newest input that the last of these outputs needs.
+            # Gains up to the newest input that the last of these outputs needs.
             self.take_gains((stop - 1) * self.down // self.up + 1)
             if self.mix.compute():
                 self.filter.fill(self.outputs, self.inputs, self.cell_frame * self.down - self.cell_begin * self.up)
@@ -71,10 +71,10 @@ cdef class Playhead:
         self.mix.enter(self.cell_begin)
 
     cdef take_gains(self, long long end):
-        """Start the gains whose time comes before a tactile sample, none of them in what is rendered."""
+        """Start the gains that are due before a tactile sample, but not before samples that are already rendered."""
         while self.incoming:
             change = self.incoming[0]
-            # In numbers of Python: a caller may give a frame too large for integers of C.
+            # Python integers, since a caller may give a frame number too large for C.
             due = max(-(-change.at_frame * self.tactile_rate_hz // self.sample_rate_hz), self.tick)
             if due >= end:
                 break

@@ -5,7 +5,7 @@ cdef class RampedProduct:
     cdef const float[::1] rise
     cdef Py_ssize_t n_hands, n_rows
     cdef long long begin
-    # The slots whose products are still to be found.
+    # Whether the product of each slot must be computed again.
     cdef unsigned char[::1] is_stale
 
     cpdef set(self, Py_ssize_t slot, const float[:, :, ::1] values, list places, Py_ssize_t n_rows)

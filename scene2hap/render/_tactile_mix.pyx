@@ -6,7 +6,7 @@ from scene2hap.render import loop_bank
 from scene2hap.render.tactile_mix import rise_over, slots_for
 
 cdef enum:
-    CELL = 24  # known to the compiler, which has a row of it in registers
+    CELL = 24  # a compile-time constant, so that the compiler keeps a row in registers
     MOST = 64
 
 assert CELL == loop_bank.CELL
@@ -20,7 +20,7 @@ cdef class RampedProduct:
         self.n_hands, self.rise, self.begin, self.n_rows = n_hands, rise, 0, -1
         self.is_stale = np.ones(n_slots, dtype=np.uint8)
         self.loops = np.zeros((n_rows, CELL), dtype=np.float32)
-        # The gains of a hand in a slot side by side, for they are read in a row.
+        # The gains of a hand in a slot are adjacent, since they are read one after the other.
         gains = np.zeros((n_slots, n_hands, n_places), dtype=np.float32)
         self.gains = gains.transpose(2, 0, 1)
         self.L, self.G, self.P = self.loops, gains, np.zeros((n_slots, n_hands, CELL), dtype=np.float32)
@@ -43,7 +43,7 @@ cdef class RampedProduct:
         self.G[:, :, place : place + n] = 0
 
     cdef move(self, Py_ssize_t there, Py_ssize_t here, Py_ssize_t n):
-        """Take gains of all slots to another place."""
+        """Copy gains of all slots to another place."""
         self.gains[there : there + n] = self.gains[here : here + n]
 
     def mix(self, float[:, :] x, Py_ssize_t n_rows, list slots, list starts, long long begin, Py_ssize_t first):
@@ -97,7 +97,7 @@ cdef class RampedProduct:
 
 
 cdef void multiply(float* product, const float* gains, const float* loops, Py_ssize_t n_rows) noexcept:
-    """The sum over all rows of their gains times their cells."""
+    """Compute the sum over all rows of gain times cell."""
     cdef Py_ssize_t row, t
     cdef float gain
     cdef float total[CELL]
@@ -112,7 +112,7 @@ cdef void multiply(float* product, const float* gains, const float* loops, Py_ss
 
 
 cdef class Held:
-    """Gains in a slot; their ramp begins at `start` and is over at `end`."""
+    """Gains in a slot; their ramp begins at `start` and ends at `end`."""
 
     cdef object heard
     cdef Py_ssize_t slot
@@ -128,7 +128,7 @@ cdef class TactileMix:
         assert n_slots <= MOST
         self.bank, self.n_bands, self.ramp = bank, bank.n_bands, ramp
         self.x = self.mixed = x
-        # Behind the places of loops in use there is one for gains of loops that are not.
+        # After the places of loops in use there is one place for the gains of unused loops.
         n_places = bank.n_rows + bank.n_bands
         self.product = RampedProduct(bank.n_rows, n_places, n_slots, n_hands, rise_over(ramp))
         silence = () if is_skipping else range(len(bank))
@@ -170,7 +170,7 @@ cdef class TactileMix:
                     is_more = True
                     break
             if is_more:
-                # Samples before this one keep the old product; see the plain twin.
+                # Samples before this one keep the old product; see the Python twin.
                 self.compute()
                 self.first = tick - self.begin
             first_new = len(self.loops)
@@ -200,7 +200,7 @@ cdef class TactileMix:
         return True
 
     cdef read(self, Py_ssize_t first):
-        """Read the loops in use, from one of them on."""
+        """Read the cells of the loops in use, from the loop `first` on."""
         cdef Py_ssize_t n_loops = len(self.loops)
         if first < n_loops:
             rows = self.product.loops[first * self.n_bands : n_loops * self.n_bands]
@@ -219,7 +219,7 @@ cdef class TactileMix:
         for loop in heard:
             self.users[<Py_ssize_t>loop] -= 1
             if self.users[<Py_ssize_t>loop] == 0:
-                # The last loop takes the place, so that those in use stay together.
+                # The last loop moves to the free place, so that loops in use stay contiguous.
                 at, moved = self.place_of[<Py_ssize_t>loop], self.loops.pop()
                 if moved != loop:
                     self.loops[at] = moved

@@ -5,7 +5,7 @@ import numpy as np
 from scene2hap.render import loop_bank
 
 cdef enum:
-    CELL = 24  # known to the compiler
+    CELL = 24  # a compile-time constant
 
 assert CELL == loop_bank.CELL
 
@@ -35,7 +35,7 @@ cdef class PolyphaseFilter:
             end = &X[channel, 0] + n_inputs - n_taps
             for frame in range(n_frames):
                 total = 0
-                # The last output of some cells belongs to the next one; it is not used.
+                # The last output of some cells belongs to the next cell and is not used here.
                 if x <= end:
                     for k in range(n_taps):
                         total += taps[phase * n_taps + k] * x[k]

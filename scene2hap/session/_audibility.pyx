@@ -28,7 +28,7 @@ def sifted(const float[:, :, ::1] gains, peaks, double least_felt, least):
     cdef bint is_sifting = least is not None, is_heard
     cdef const float[:, :] peak = peaks
     cdef const float[:, :] floor = least
-    # Each column is written to the next free place. The following column overwrites one that is not felt.
+    # Each column is written to the next free place. If it is not felt, the following column overwrites it.
     kept = np.empty((n, m, n_bands), dtype=np.float32)
     cdef float[:, :, ::1] out = kept
     columns = []
@@ -58,7 +58,7 @@ def sifted(const float[:, :, ::1] gains, peaks, double least_felt, least):
 cdef bint is_below(
     const float* gains, const float[:, :] peak, Py_ssize_t j, Py_ssize_t n_bands, double least, Py_ssize_t* n_new
 ) noexcept:
-    """Whether a source is felt by less than `least`. Sets `n_new` to 1 if that is more than 0."""
+    """Return True if a source is felt by less than `least`. Sets `n_new` to 1 if it is felt by more than 0."""
     cdef Py_ssize_t k
     cdef double felt = 0
     for k in range(n_bands):

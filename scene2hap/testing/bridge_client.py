@@ -49,8 +49,7 @@ def check_bridge_client(
     timeout_s: float = 120.0,
     environment: Mapping[str, str] | None = None,
 ) -> ClientCheck:
-    """Start a bridge and a client that plays the game of docs/bridge-protocol.md; compare its gains with a session
-    here.
+    """Start a bridge and a client that plays the game of docs/bridge-protocol.md; compare gains with a local session.
 
     Parameters: command : starts the client; rate_hz : frames per second, 0 for as fast as answers come; cuts : True to
     cut the connection once in the middle; timeout_s : for the client to end [s]; environment : variables in addition

@@ -46,7 +46,7 @@ def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
 
 
 class _Watched:
-    """Pass questions on, and check the replies."""
+    """Forward questions, and check the replies."""
 
     def __init__(self, backend: LLMBackend) -> None:
         self.n_requests: Counter[str] = Counter()

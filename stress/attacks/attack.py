@@ -16,9 +16,9 @@ Kind = TypeVar("Kind")
 class Attack:
     """A command with its limits.
 
-    argv : the command; "scene2hap" first means the command line of this package, which is forked for speed. call : a
-    function that the child calls instead; it returns the status. seconds : limit of processor time. memory_bytes :
-    limit of resident memory. untouched : further paths that must not change.
+    argv : the command; if it starts with "scene2hap", the child is forked and calls scene2hap's command line directly,
+    which is faster. call : a function that the child calls instead; it returns the status. seconds : limit of processor
+    time. memory_bytes : limit of resident memory. untouched : further paths that must not change.
     """
 
     family: str

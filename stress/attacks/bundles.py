@@ -1,4 +1,4 @@
-"""Damaged, wrongly edited and malicious bundles, for all code that reads or replaces bundles."""
+"""Damaged, wrongly edited and malicious bundles, for every command that reads or replaces bundles."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _ODD_VALUES: tuple[Any, ...] = (
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """One damage, or a few, to a sound bundle; then inspect, report, play into a file, or bake over it. Without end."""
+    """Damage an intact bundle once or three times; then inspect, report, render or bake over it. Without end."""
     whole = sound(work)
     scene = work / "scene.json"
     for number in itertools.count():
@@ -77,7 +77,7 @@ def _damaged(folder: Path, rng: random.Random, damage: Callable[[Path, random.Ra
     try:
         return damage(folder, rng)
     except (AttributeError, IndexError, RecursionError, TypeError, ValueError):
-        return "nothing"  # it is too damaged for that already
+        return "nothing"  # the bundle is already too damaged for this
 
 
 def _cut(folder: Path, rng: random.Random) -> str:
@@ -99,7 +99,7 @@ def _flip(folder: Path, rng: random.Random) -> str:
 
 
 def _retype(folder: Path, rng: random.Random) -> str:
-    """One value anywhere in a document becomes another."""
+    """Replace one value anywhere in a document."""
     path = _document(folder, rng)
     try:
         document = json.loads(path.read_text())
@@ -132,7 +132,7 @@ def _places(document: Any) -> Iterator[tuple[Any, Any]]:
 
 
 def _whole(folder: Path, rng: random.Random) -> str:
-    """A whole document becomes something that is no object, or no JSON."""
+    """Replace a whole document by text that is not a JSON object, or not JSON."""
     path = _document(folder, rng)
     depth = rng.choice([500, 5000, 100_000])
     text = rng.choice(
@@ -143,7 +143,7 @@ def _whole(folder: Path, rng: random.Random) -> str:
 
 
 def _nest(folder: Path, rng: random.Random) -> str:
-    """A value that is nested deeply, in a place where a value belongs."""
+    """Replace a document by an object with one deeply nested value."""
     path = _document(folder, rng)
     depth = rng.choice([100, 900, 3000])
     keys = rng.choice(['"phone"', '"table"', '"objects"', '"name"'])
@@ -216,7 +216,7 @@ def _loop(folder: Path, rng: random.Random) -> str:
 
 
 def _spell(folder: Path, rng: random.Random) -> str:
-    """Names that differ by case, lead elsewhere or stand twice, and numbers of thousands of digits, as text."""
+    """Edit a document as text: names in other case, names that are paths, repeated names, numbers of many digits."""
     path = _document(folder, rng)
     try:
         text = path.read_text()

@@ -15,7 +15,7 @@ from attacks import bundles
 from attacks.attack import Attack
 
 _NUMBERS = ("nan", "inf", "-inf", "-1", "0", "1e400", "1e-400", "9" * 5000, "", "x", "²", "1_000", "0x10", "٣")
-# No path here is outside of the case's folder and writable, for any user who runs the campaign.
+# None of these paths is outside of the case's folder and writable for the user who runs the campaign.
 _WORDS = (
     "", " ", "-", "--", "\n", "\x1b[2J", "é" * 300, "a" * 5000, "/dev/null", "/dev/full",
     "{", '{"kind": 1}', "{" * 2000, "[]", "null", "no:such", "http://", "kind:\ud800", ".", "~",
@@ -38,7 +38,7 @@ _REDIRECTIONS = (
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Arguments, places to write to, and streams, in turn. Without end."""
+    """Attacks by streams, arguments and output folders, in turn. Without end."""
     room = bundles.sound(work)
     for number in itertools.count():
         rng = random.Random(f"command_line/{seed}/{number}")
@@ -91,9 +91,9 @@ def _streams(number: int, rng: random.Random, work: Path, room: Path) -> Attack:
     where = rng.choice(_REDIRECTIONS)
     run = shlex.join([sys.executable, "-m", "scene2hap", *words])
     unbuffered = rng.choice(["", "1"])
-    # A pipeline returns the status of its last command by default; the status of the reader does not count here.
+    # By default a pipeline returns the status of its last command, the reader, which does not matter here.
     shell = f"export PYTHONIOENCODING={encoding} PYTHONUNBUFFERED={unbuffered}; set -o pipefail; {run} {where}"
-    # Where standard error is closed or full, no error message can be printed.
+    # If standard error is closed or full, scene2hap cannot print its error message.
     message = "; status=$?; case $status in 1 | 2) echo 'scene2hap: error: as stated' >&2;; esac; exit $status"
     name = f"{number} {words[:1]} {where} {encoding}"
     return Attack("command_line", name, ("bash", "-c", shell + message), untouched=(room,))

@@ -1,4 +1,4 @@
-"""Keys that a server, a library or a program repeats in other spellings: no shown or stored text may reveal one."""
+"""API keys that a server, a library or a program repeats in other encodings: no shown or stored text may reveal one."""
 
 # ruff: noqa: E501  # tables of cases
 
@@ -58,7 +58,7 @@ SPELLINGS: dict[str, Spelling] = {
 }  # fmt: skip
 
 NOT_COVERED = frozenset({"base85", "ascii85", "uuencode", "rot13", "gzip in base64", "zlib in hex", "hexdump"})
-"""Codes of punctuation, ciphers, packing, and lines of 16 bytes: see `scene2hap.key_search`."""
+"""Encodings with punctuation, ciphers, compression, and lines of 16 bytes. See `scene2hap.key_search`."""
 AROUND: dict[str, tuple[str, str]] = {
     "bare": ("", ""), "sentence": ("Incorrect API key provided: ", ". You can find yours at"), "quoted": ('{"error": "', '"}'), "letters": ("abc", "xyz"), "tag": ("<b>", "</b>"),
     "digits": ("12", "34"), "header": ("authorization: Bearer ", "\r\n"), "long": ("word " * 4000, " word" * 4000), "percent": ("%", "%"), "slashes": ("\\" * 9, "\\" * 9), "brackets": ("[b'", "', None]"),
@@ -66,7 +66,7 @@ AROUND: dict[str, tuple[str, str]] = {
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Every spelling, and pairs of them, in every surrounding. Without end."""
+    """Attacks by every covered spelling, combined ones included, each in random surroundings. Without end."""
     names = [name for name in SPELLINGS if name not in NOT_COVERED]
     for number in itertools.count():
         rng = random.Random(f"keys/{seed}/{number}")
@@ -75,7 +75,7 @@ def attacks(seed: int, work: Path) -> Iterator[Attack]:
 
 
 def shown(name: str, around: str) -> str:
-    """The scrubbed text of a key in a spelling."""
+    """Text with a key in a spelling, after scrubbing."""
     from scene2hap.secret import Secret
 
     before, after = AROUND[around]
@@ -83,7 +83,7 @@ def shown(name: str, around: str) -> str:
 
 
 def is_shown(name: str, text: str) -> bool:
-    """Whether half of the spelled key, or more, still stands in a text."""
+    """Whether a text still contains half of the spelled key, or more."""
     spelled = SPELLINGS[name](KEY)
     half = len(spelled) // 2
     return any(spelled[at : at + half] in text for at in range(len(spelled) - half + 1))

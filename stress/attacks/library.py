@@ -1,4 +1,4 @@
-"""Hostile numbers and arrays at the public names of the library: refused with an error of scene2hap, or harmless.
+"""Hostile numbers and arrays for the public names of the library: each must raise an error of scene2hap or be harmless.
 
 Objects of a wrong class are not part of this family: Python itself reports them.
 """
@@ -125,7 +125,7 @@ def _session(room: Path, **config: Any) -> Any:
 
 
 def _played(room: Path, act: Callable[[Any], object], **config: Any) -> Any:
-    """Rendered samples of a session after an action, to be checked."""
+    """Result of an action in a session, and samples rendered after it, both to be checked."""
     from scene2hap import Touch
 
     with _session(room, **config) as session:
@@ -136,7 +136,7 @@ def _played(room: Path, act: Callable[[Any], object], **config: Any) -> Any:
 
 
 def _field(kind: str, **how: Any) -> Callable[[Any, Path], object]:
-    """A model's answer over two plates, with a hostile number in one place."""
+    """Function that queries a propagation model with a hostile number in the argument named by `how`."""
 
     def query(value: Any, room: Path) -> object:
         import scene2hap as s
@@ -387,7 +387,7 @@ def _pull(frames: Any, room: Path) -> Any:
 
 
 def every() -> Iterator[tuple[str, Callable[[Path], object]]]:
-    """Every entry with every value, each as a function of the bundle's folder."""
+    """Yield a name and a function of the bundle's folder for every entry with every value."""
     for (name, entry), value in itertools.product(NUMBERS.items(), SCALARS):
         yield f"{name} = {value}", partial(entry, SCALARS[value])
     for name, (rows, columns, entry) in ARRAYS.items():
@@ -399,7 +399,7 @@ def every() -> Iterator[tuple[str, Callable[[Path], object]]]:
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Entries and values drawn from the seed; a few values of one entry each. Without end."""
+    """Attacks by eight pairs of entry and value each, drawn from the seed. Without end."""
     room = bundles.sound(work)
     cases = list(every())
     for number in itertools.count():
@@ -423,6 +423,6 @@ def _one(name: str, entry: Callable[[Path], object], room: Path) -> int:
             made = entry(room)
     except Scene2HapError as error:
         return printed(error)
-    if not is_harmless(made) and not name.startswith("Pose.to_"):  # a change of frame passes any number on
+    if not is_harmless(made) and not name.startswith("Pose.to_"):  # a change of coordinates returns any number
         raise AssertionError(f"{name} gave a number that is none, or one outside of [-1, 1]")
     return 0

@@ -1,4 +1,4 @@
-"""MJCF whose rows are small and whose sums are not."""
+"""MJCF files whose rows are small but add up to large totals."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _obj(n_vertices: int, n_faces: int, rng: random.Random) -> bytes:
 
 
 def height_field(rng: random.Random) -> Files:
-    """Heights without bytes in the file."""
+    """A height field that is declared without data."""
     return _mjcf('<geom type="hfield" hfield="h"/>', '<hfield name="h" nrow="5000" ncol="5000" size="1 1 1 1"/>')
 
 
@@ -42,7 +42,7 @@ def height_field_shared(rng: random.Random) -> Files:
 
 
 def height_field_in_defaults(rng: random.Random) -> Files:
-    """The same, named by a default alone, in copies."""
+    """A height field that only a default class names, in copies."""
     before = '<default><default class="c"><geom type="hfield" hfield="h"/></default></default>'
     inside = '<replicate count="900" offset="1 0 0"><geom class="c"/></replicate>'
     return _mjcf(inside, '<hfield name="h" nrow="400" ncol="400" size="1 1 1 1"/>', before)
@@ -70,7 +70,7 @@ def one_mesh_in_many_geoms(rng: random.Random) -> Files:
 
 
 def one_mesh_in_copies(rng: random.Random) -> Files:
-    """The same by a row that is copied."""
+    """One mesh that a replicated body draws."""
     inside = '<replicate count="2000" offset="1 0 0"><body><geom type="mesh" mesh="m"/></body></replicate>'
     return _mjcf(inside, '<mesh name="m" file="m.obj"/>') | {"m.obj": _obj(5000, 40_000, rng)}
 
@@ -95,7 +95,7 @@ def built_in_meshes_of_all_kinds(rng: random.Random) -> Files:
 
 
 def bodies(rng: random.Random) -> Files:
-    """Free balls without number."""
+    """A very large number of free balls."""
     return _mjcf(_BALL * 18_000)
 
 
@@ -105,7 +105,7 @@ def geoms_of_the_world(rng: random.Random) -> Files:
 
 
 def distinct_bodies(rng: random.Random) -> Files:
-    """Almost as many bodies as are read, no two of one shape."""
+    """Almost the largest accepted number of bodies, all of different shapes."""
     shapes = ('type="box" size="{0} 1 1"', 'type="ellipsoid" size="{0} 1 2"', 'type="capsule" size="{0} 1"')
     rows = (f'<body pos="{3 * i} 0 0"><geom {shapes[i % 3].format(1 + i / 1000)}/></body>' for i in range(3900))
     return _mjcf("".join(rows))
@@ -117,23 +117,23 @@ def geoms_of_one_body(rng: random.Random) -> Files:
 
 
 def joints(rng: random.Random) -> Files:
-    """Chains of joints, whose mass matrix grows with length times length."""
+    """Chains of joints, whose mass matrix grows with the square of the length."""
     chain = "<body>" + '<joint type="slide"/>' * 5 + '<geom size="1"/>'
     return _mjcf((chain * 190 + "</body>" * 190) * 18)
 
 
 def numbers(rng: random.Random) -> Files:
-    """Custom numbers that are declared but absent."""
+    """Custom numbers with a declared size but without values."""
     return _mjcf(before=f'<custom><numeric name="n" size="{rng.choice([500_000_000, 2_000_000_000])}"/></custom>')
 
 
 def sensors(rng: random.Random) -> Files:
-    """A sensor of as many numbers as a number can count."""
+    """A sensor of up to 2e9 numbers."""
     return _mjcf(before=f'<sensor><user dim="{rng.choice([200_000_000, 2_000_000_000])}"/></sensor>')
 
 
 def delays(rng: random.Random) -> Files:
-    """Histories that are kept of sensors and actuators."""
+    """A sensor with a very long history."""
     row = '<clock nsample="300000000" delay="1" interp="linear"/>'
     return _mjcf(before=f"<sensor>{row}</sensor>")
 
@@ -144,20 +144,20 @@ def key_frames(rng: random.Random) -> Files:
 
 
 def user_data(rng: random.Random) -> Files:
-    """User numbers in every row, as many as in the longest."""
+    """User data of every geom, as many numbers as in the longest row."""
     geoms = "".join(f'<geom size="1" pos="{i} 0 0"/>' for i in range(3800))
     return _mjcf(geoms + f'<geom size="1" user="{"1 " * 150_000}"/>')
 
 
 def tendons(rng: random.Random) -> Files:
-    """Tendons around everything."""
+    """Tendons through thousands of sites."""
     sites = "".join(f'<site name="s{i}"/>' for i in range(5000))
     rows = "".join(f'<site site="s{i}"/>' for i in range(5000))
     return _mjcf(sites, before=f"<tendon>{f'<spatial>{rows}</spatial>' * 4}</tendon>")
 
 
 def equalities(rng: random.Random) -> Files:
-    """Balls that are tied together."""
+    """Balls that are all connected to one ball."""
     balls = "".join(f'<body name="b{i}" pos="{3 * i} 0 0"><freejoint/><geom size="1"/></body>' for i in range(2000))
     rows = "".join(f'<connect body1="b{i % 2000}" body2="b0" anchor="0 0 0"/>' for i in range(1, 8000))
     return _mjcf(balls, before=f"<equality>{rows}</equality>")
@@ -182,7 +182,7 @@ def skin_of_numbers(rng: random.Random) -> Files:
 
 
 def cable(rng: random.Random) -> Files:
-    """A composite of as many bodies as are read."""
+    """A composite of almost the largest accepted number of bodies."""
     joint = '<joint kind="main" damping="1"/><geom type="capsule" size=".01"/>'
     return _mjcf(f'<composite type="cable" curve="s" count="3900 1 1" size="1">{joint}</composite>')
 

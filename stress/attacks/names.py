@@ -1,4 +1,4 @@
-"""Names with control characters, with characters that no encoding can write, and with a meaning to file systems."""
+"""Names with control characters, with characters that cannot be encoded, and with a meaning to file systems."""
 
 from __future__ import annotations
 

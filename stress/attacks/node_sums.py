@@ -1,4 +1,4 @@
-"""glTF, GLB, Draco and scene JSON whose rows are small and whose sums are not."""
+"""Files in glTF, GLB, Draco and scene JSON whose rows are small but add up to large totals."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _boxes(nodes: list[dict[str, Any]], **more: Any) -> Files:
 
 
 def distinct_boxes(rng: random.Random) -> Files:
-    """Almost as many boxes as are read, no two of one size."""
+    """Almost the largest accepted number of boxes, all of different sizes."""
     return _boxes(
         [
             {
@@ -68,7 +68,7 @@ def items_of_one_group(rng: random.Random) -> Files:
 
 
 def touching_items_of_one_group(rng: random.Random) -> Files:
-    """The same, each beside the next."""
+    """The same group, in which each leaf touches the next."""
     n = 9000
     leaves: list[dict[str, Any]] = [
         {"name": "tea_cup" if i % 2 else "tea_lid", "mesh": 0, "translation": [i, 0, 0]} for i in range(n)
@@ -77,7 +77,7 @@ def touching_items_of_one_group(rng: random.Random) -> Files:
 
 
 def chains_of_groups(rng: random.Random) -> Files:
-    """Chains as deep as is read, each with a box at its end."""
+    """Deep chains of groups, each with a box at its end."""
     nodes: list[dict[str, Any]] = []
     roots = []
     for chain in range(200):
@@ -158,7 +158,7 @@ def painted_primitives(rng: random.Random) -> Files:
 
 
 def sparse_of_sparse(rng: random.Random) -> Files:
-    """Sparse tables upon one stored table, whose values are replaced as often as they are stored."""
+    """Sparse accessors of one stored table, each of which replaces as many values as are stored."""
     n, m = 20_000, 60
     data = _floats(3 * n, rng) + b"".join(struct.pack("<I", rng.randrange(n)) for _ in range(n))
     views = [
@@ -212,7 +212,7 @@ def huge_numbers(rng: random.Random) -> Files:
 
 
 def data_uri_pictures(rng: random.Random) -> Files:
-    """As many pictures as fit, each unpacking to the largest that is read."""
+    """As many pictures as fit, each of which unpacks to the largest accepted size."""
     uri = "data:image/png;base64," + base64.b64encode(_png(2000)).decode()
     n = _MB // len(uri)
     return _gltf(
@@ -239,7 +239,7 @@ def glb_chunks(rng: random.Random) -> Files:
 
 
 def glb_of_one_view(rng: random.Random) -> Files:
-    """A GLB whose accessors step through one view in every stride."""
+    """A GLB with views of the same bytes in many strides."""
     data = _floats(3 * 20_000, rng)
     views = [{"buffer": 0, "byteLength": len(data), "byteStride": 12 + 4 * (i % 60)} for i in range(1000)]
     rows = [_vec3(len(data) // (12 + 4 * (i % 60)) - 1, bufferView=i) for i in range(1000)]
@@ -291,7 +291,7 @@ def draco_shared(rng: random.Random) -> Files:
 
 
 def draco_in_many_meshes(rng: random.Random) -> Files:
-    """Packed triangles that few share with many meshes."""
+    """Thousands of meshes that share one primitive of few packed triangles."""
     return _draco(_packed_plane(60), 1, 2000)
 
 
@@ -308,7 +308,7 @@ def draco_promises(rng: random.Random) -> Files:
 
 
 def json_distinct_boxes(rng: random.Random) -> Files:
-    """Boxes of every size and turn."""
+    """Boxes that all differ in size and rotation."""
     objects = [
         {
             "id": f"o{i}",
@@ -329,7 +329,7 @@ def json_contacts(rng: random.Random) -> Files:
 
 
 def json_meshes(rng: random.Random) -> Files:
-    """Meshes of numbers of any size, each of its own."""
+    """Different meshes with very small and very large coordinates."""
     objects = []
     for i in range(2000):
         points = [[rng.choice([0, 1, 1e-300, 1e6, -1e6, rng.random()]) for _ in range(3)] for _ in range(5)]

@@ -1,4 +1,4 @@
-"""Child process of the servers' family: query a server once, or read a sound. Exits with 0 or a one-line error.
+"""Child process of the family `servers`: query a server once, or read a sound. Exits with 0 or a one-line error.
 
 python query.py openai|ollama|page|sound WHERE
 """
@@ -22,7 +22,7 @@ _WITHOUT_KEY = ("page", "sound")
 
 
 def main(kind: str, where: str) -> None:
-    """Query a server, or read a sound, and print the reply as a log would."""
+    """Query a server, or read a sound, and print the reply as a log shows it."""
     if kind == "sound":
         from scene2hap.audio.files import read_clip
 

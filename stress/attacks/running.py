@@ -36,7 +36,7 @@ class Verdict:
 
 
 def run(attack: Attack, around: Path) -> Verdict:
-    """Run an attack in a fresh folder within `around`, whose other files are the canaries."""
+    """Run an attack in a new folder within `around`, whose other files are the canaries."""
     folder = around / "case"
     shutil.rmtree(folder, ignore_errors=True)
     for inner in ("home", "tmp"):
@@ -83,7 +83,7 @@ def _fault(
 
 
 def _child(attack: Attack, folder: Path, logs: Path) -> tuple[int, float, int]:
-    """Returns exit status (negative: a signal), processor time [s] and peak memory [bytes]."""
+    """Fork and run the attack. Returns exit status (negative: a signal), processor time [s] and peak memory [bytes]."""
     pid = os.fork()
     if pid == 0:
         status = 71

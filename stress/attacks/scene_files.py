@@ -18,11 +18,11 @@ from attacks.attack import Attack
 
 _MB = 1 << 20
 Files = dict[str, bytes]
-"""Contents by file name; the first is the scene."""
+"""Contents by file name; the first file is the scene."""
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Bombs and mutations in turn, without end."""
+    """Attacks by decompression bombs and by mutated files, in turn. Without end."""
     originals = {**seeds(), ".dae": _dae().encode(), ".xml": _mjcf("").encode()}
     for number in itertools.count():
         rng = random.Random(f"scene_files/{seed}/{number}")
@@ -67,14 +67,14 @@ def _vec3(count: int, **more: Any) -> dict[str, Any]:
 
 
 def accessors_without_bytes(rng: random.Random) -> Files:
-    """Fifty rows that each declare a large table of zeros."""
+    """Accessors without data, each of which declares a large table of zeros."""
     n, count = rng.choice([1, 50, 2000]), rng.choice([10**5, 10**6, 10**7])
     primitives = [{"attributes": {"POSITION": i}} for i in range(n)]
     return _gltf(accessors=[_vec3(count)] * n, meshes=[{"primitives": primitives}])
 
 
 def sparse_accessors(rng: random.Random) -> Files:
-    """Large tables of which one value is stored."""
+    """Large sparse tables, each with one stored value."""
     n = rng.choice([10, 500])
     sparse = {
         "count": 1,
@@ -98,7 +98,7 @@ def shared_accessor(rng: random.Random) -> Files:
 
 
 def overlapping_accessors(rng: random.Random) -> Files:
-    """The same bytes under many accessors."""
+    """Many accessors of the same bytes."""
     count, n = 20_000, rng.choice([50, 3000])
     primitives = [{"attributes": {"POSITION": i}} for i in range(n)]
     rows = [_vec3(count, bufferView=0)] * n
@@ -117,7 +117,7 @@ def instances(rng: random.Random) -> Files:
 
 
 def deep_nodes(rng: random.Random) -> Files:
-    """A tree that is a chain, or a ring."""
+    """A long chain of nodes, or a cycle."""
     n = rng.choice([150, 250, 20_000])
     nodes = [{"children": [i + 1]} for i in range(n)] + [{"mesh": 0}]
     if rng.random() < 0.3:
@@ -144,7 +144,7 @@ def embedded_pictures(rng: random.Random) -> Files:
 
 
 def meshopt_zeros(rng: random.Random) -> Files:
-    """Packed views that unpack to many times their size, under one accessor or many."""
+    """Packed views that unpack to many times their size, for one accessor or many."""
     n, count = rng.choice([1, 40, 1000]), 256 * rng.choice([1, 200, 30_000])
     # A block of 256 elements of zeros has four bytes of headers for each of 16 channels.
     data = b"\xa0" + bytes(64 * (count // 256) + 32)
@@ -159,7 +159,7 @@ def meshopt_zeros(rng: random.Random) -> Files:
 
 
 def _png(edge: int) -> bytes:
-    """A picture of nothing, packed a thousand times."""
+    """A black picture, which packs to a thousandth of its size."""
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -180,7 +180,7 @@ def obj_continued(rng: random.Random) -> Files:
 
 
 def obj_many_objects(rng: random.Random) -> Files:
-    """Objects times vertices, as honest files from CAD have them."""
+    """Many objects in a file of many vertices, as in valid files from CAD."""
     n = rng.choice([1000, 15_000])
     vertices = b"".join(b"v %d %d %d\n" % (i, i % 7, i % 11) for i in range(n))
     return {"case.obj": vertices + b"".join(b"o o%d\nf %d %d %d\n" % (i, i, i + 1, i + 2) for i in range(1, n - 2))}
@@ -228,7 +228,7 @@ def ply_promises(rng: random.Random) -> Files:
 
 
 def stl_promises(rng: random.Random) -> Files:
-    """A count that does not fit, or text without end."""
+    """A wrong number of triangles, or text that does not end its loops."""
     if rng.random() < 0.5:
         count = rng.choice([0, 1, 2**31, 2**32 - 1])
         return {"case.stl": bytes(80) + struct.pack("<I", count) + bytes(rng.choice([0, 50, 500_000]))}
@@ -262,7 +262,7 @@ def dae_document_type(rng: random.Random) -> Files:
 
 
 def dae_instances(rng: random.Random) -> Files:
-    """Nodes that instance nodes, twice each."""
+    """Nodes that each instance the next node twice."""
     depth = rng.choice([10, 40, 300])
     library = "".join(
         f'<node id="n{i}"><instance_node url="#n{i + 1}"/><instance_node url="#n{i + 1}"/></node>' for i in range(depth)
@@ -325,7 +325,7 @@ def mjcf_copies(rng: random.Random) -> Files:
 
 
 def mjcf_models(rng: random.Random) -> Files:
-    """Models that name models, twice each."""
+    """Models that each name the next model twice."""
     depth = rng.choice([5, 19])
     files = {}
     for i in range(depth):
@@ -339,7 +339,7 @@ def mjcf_models(rng: random.Random) -> Files:
 
 
 def _habitat(templates: list[str], rng: random.Random, **files: bytes) -> Files:
-    """A scene of these templates, all about, with its dataset in one folder."""
+    """Habitat scene with an instance of each template, and its dataset, in one folder."""
     rows = [
         {"template_name": name, "translation": [i, 0, 0], "uniform_scale": rng.uniform(0.5, 2)}
         for i, name in enumerate(templates)
@@ -349,7 +349,7 @@ def _habitat(templates: list[str], rng: random.Random, **files: bytes) -> Files:
 
 
 def habitat_instances(rng: random.Random) -> Files:
-    """One model, in as many sizes as objects are read."""
+    """Many instances of one model, each of a different size."""
     count, n = rng.choice([3, 300, 30_000]), rng.choice([100, 3900, 40_000])
     model = _gltf(_floats(3 * count, rng), accessors=[_vec3(count, bufferView=0)])["case.gltf"]
     return _habitat(["a"] * n, rng, **{"a.gltf": model})
@@ -382,7 +382,7 @@ def habitat_names(rng: random.Random) -> Files:
 
 
 def usd_doubling(rng: random.Random) -> Files:
-    """Prims that draw the next one twice, by any kind of arc, as instances or not."""
+    """Prims that each draw the next prim twice, by any kind of arc, as instances or not."""
     arc = rng.choice(["references", "payload", "inherits", "specializes", "instanceable = true\nreferences"])
     depth = rng.choice([12, 30, 200])
     rows = "".join(
@@ -393,7 +393,7 @@ def usd_doubling(rng: random.Random) -> Files:
 
 
 def usd_files(rng: random.Random) -> Files:
-    """Layers that name two layers each, themselves, files outside, addresses."""
+    """Layers that each name the next layer twice; the last one names the first, another file or an address."""
     depth = rng.choice([3, 15, 300])
     files = {}
     for i in range(depth):

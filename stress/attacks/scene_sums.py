@@ -1,6 +1,6 @@
-"""Scene files of a megabyte whose rows are small and whose sums are not: read by `inspect`, then by `bake`.
+"""Scene files of a megabyte whose rows are small but add up to large totals: read by `inspect`, then by `bake`.
 
-Where `scene_files` draws its cases from the seed, these are the same in every campaign but for their random numbers.
+These cases are the same in every campaign except for their random numbers; `scene_files` draws its cases from the seed.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from attacks import mjcf_sums, node_sums, text_sums
 from attacks.attack import Attack
 
 BAKE_SECONDS = 15.0
-"""Processor time of a bake, which answers for each object and makes sounds besides reading the file."""
+"""Limit of processor time of a bake, which also infers each object and makes sounds."""
 CASES = (*node_sums.CASES, *text_sums.CASES, *mjcf_sums.CASES)
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Every case by `inspect`, then every case by `bake`."""
+    """Attacks by every case with `inspect`, then by every case with `bake`."""
     for number, (command, case) in enumerate(itertools.product(("inspect", "bake"), CASES)):
         files = case(random.Random(f"scene_sums/{seed}/{case.__name__}"))
         folder = work / str(number)

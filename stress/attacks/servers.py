@@ -1,4 +1,4 @@
-"""Servers that answer too much, too slowly, in odd codes, or with the key; and sound files that unpack to hours."""
+"""Servers whose answers are too long, too slow, oddly encoded, or contain the key; and sound files of hours."""
 
 # ruff: noqa: E501  # tables of cases
 
@@ -32,7 +32,7 @@ ECHOES = tuple(spelling for name, spelling in keys.SPELLINGS.items() if name not
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Replies drawn from the seed, by a server on the loopback interface that runs as long as this generator."""
+    """Attacks by replies drawn from the seed, from a loopback server that runs as long as this generator."""
     with _Server(("127.0.0.1", 0), _Handler) as server:
         server.seed = seed
         threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True).start()
@@ -53,7 +53,7 @@ KINDS = ("openai", "ollama", "page")
 
 
 def _sound(path: Path, rng: random.Random) -> Path:
-    """Silence at a high rate in many channels, or a file that is broken."""
+    """Write silence at a high rate in many channels, sometimes as a broken file."""
     rate, channels = rng.choice([(8000, 1), (655_350, 8), (96_000, 8), (48_000, 2)]), rng.choice([1, 2, 8])
     with soundfile.SoundFile(path, "w", rate[0], channels, "PCM_16", format="FLAC") as file:
         for _ in range(rng.choice([1, 40, 200])):
@@ -86,7 +86,7 @@ class _Handler(socketserver.StreamRequestHandler):
 
 
 def _play_raw(rng: random.Random, send: Send) -> None:
-    """Invalid HTTP: endless or slow heads, wrong lengths, nested compression, the key in a header line."""
+    """Send invalid HTTP: endless or slow heads, wrong lengths, nested compression, the key in a header line."""
     ok, length = b"HTTP/1.1 200 OK\r\n", b"content-length: "
     twice = gzip.compress(gzip.compress(bytes(1 << 24)))
     once = rng.choice(
@@ -117,7 +117,7 @@ def _play_raw(rng: random.Random, send: Send) -> None:
 
 
 def _play(rng: random.Random, send: Send) -> None:
-    """One reply: a head, which may be wrong, and a body."""
+    """Send one reply: a head, which may be wrong, and a body."""
     kind = rng.choice(
         ["bomb", "endless", "drip", "headers", "charset", "echo", "odd", "deep", "cut", "redirect", "raw"]
     )

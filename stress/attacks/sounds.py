@@ -1,4 +1,4 @@
-"""Sound files of hours, with wrong lengths, or without sound: for `convert`, as a sound folder, and as a user's clip."""
+"""Sound files of hours, with wrong lengths, or without sound, for `convert`, as sound folder and as a user's clip."""
 
 # ruff: noqa: E501  # tables of cases
 
@@ -20,13 +20,13 @@ from attacks.judging import printed, wav_is_harmless
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """One file of each kind in turn, for a use drawn from the seed. Without end."""
+    """Attacks by a file of each kind in turn, for a use drawn from the seed. Without end."""
     room = bundles.sound(work)
     for number, kind, folder, rng in in_turn("sounds", _KINDS, seed, work):
         made = kind(folder, rng)
         use = rng.choice(["convert", "convert", "folder", "convert folder", "clip", "more", "table"])
         name = f"{number} {kind.__name__.strip('_')} as {use}"
-        # Reading two minutes of sound, which is within the bounds, takes some seconds by itself.
+        # Reading two minutes of sound, an accepted length, takes some seconds.
         yield Attack("sounds", name, (), call=partial(_used, made, use, work, room), seconds=8.0, untouched=(room,))
 
 
@@ -115,7 +115,7 @@ def _lying_wave(folder: Path, rng: random.Random) -> Path:
 
 
 def _sparse_wave(folder: Path, rng: random.Random) -> Path:
-    """Hours of zeros that take no place on the disk."""
+    """A sparse file of hours of zeros, which takes no disk space."""
     path = folder / "fan humming.wav"
     path.write_bytes(_header(rng.choice([8000, 48_000]), rng.choice([1, 8]), 16, 1, 2**32 - 100))
     os.truncate(path, rng.choice([2**28, 2**32, 2**36]))
@@ -149,7 +149,7 @@ def _long_flac(folder: Path, rng: random.Random) -> Path:
 
 
 def _claiming_flac(folder: Path, rng: random.Random) -> Path:
-    """STREAMINFO states 2^36 samples, none, or another rate."""
+    """A FLAC file whose STREAMINFO states up to 2^36 - 1 samples, none, or another rate."""
     path = _flac(folder / "fan humming.flac", 48_000, 1, 4.0)
     data = bytearray(path.read_bytes())
     word = int.from_bytes(data[18:26], "big")

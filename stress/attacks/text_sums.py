@@ -1,4 +1,4 @@
-"""OBJ, STL, PLY and COLLADA whose rows are small and whose sums are not."""
+"""Files in OBJ, STL, PLY and COLLADA whose rows are small but add up to large totals."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ def obj_libraries(rng: random.Random) -> Files:
 
 
 def obj_libraries_that_are_there(rng: random.Random) -> Files:
-    """Libraries of one material each."""
+    """Thousands of existing libraries of one material each."""
     files = {f"a{i}.mtl": f"newmtl m{i}\nKd 1 0 0\n".encode() for i in range(3000)}
     lines = "".join(f"mtllib a{i}.mtl\n" for i in range(3000))
     return {"case.obj": f"{lines}{_TRIANGLE}usemtl m1\nf 1 2 3\n".encode(), **files}
 
 
 def obj_tetrahedra(rng: random.Random) -> Files:
-    """Objects of four triangles, each of its own size."""
+    """Objects of four triangles, all of different sizes."""
     rows = []
     for i in range(3990):
         rows.append(f"o thing{i}\nv {i} 0 0\nv {i + rng.random():.4f} 0 0\nv {i} {rng.random():.4f} 0\n")
@@ -64,7 +64,7 @@ def obj_numbers(rng: random.Random) -> Files:
 
 
 def obj_slashes(rng: random.Random) -> Files:
-    """Corners of nothing but slashes."""
+    """Corners that consist of slashes only."""
     return {"case.obj": (_TRIANGLE + "vt 0 0\n" + "f 1" + "/" * 300_000 + " 2/1" + "/1" * 300_000 + " 3\n").encode()}
 
 
@@ -96,12 +96,12 @@ def stl_solids(rng: random.Random) -> Files:
 
 
 def stl_named_solids(rng: random.Random) -> Files:
-    """Solids of one triangle, each of its own name."""
+    """Solids of one triangle, all with different names."""
     return {"case.stl": "".join(f"solid s{i}\n{_facet(i)}endsolid s{i}\n" for i in range(9000)).encode()}
 
 
 def stl_words(rng: random.Random) -> Files:
-    """The word that begins a solid, and nothing else."""
+    """One keyword of STL, repeated."""
     return {"case.stl": rng.choice([b"solid ", b"solid\n", b"solid solid endsolid\n", b"vertex "]) * 160_000}
 
 
@@ -145,7 +145,7 @@ def ply_wide(rng: random.Random) -> Files:
 
 
 def ply_colours(rng: random.Random) -> Files:
-    """Painted vertices of which none is a number."""
+    """Coloured vertices, some of whose coordinates are NaN."""
     n = 40_000
     head = (
         f"ply\nformat binary_big_endian 1.0\nelement vertex {n}\n{_XYZ}property uchar red\nproperty uchar green\n"
@@ -170,7 +170,7 @@ def ply_one_list(rng: random.Random) -> Files:
 
 
 def dae_polygons_drawn_again(rng: random.Random) -> Files:
-    """A mesh of polygons that is triangulated again for every node."""
+    """A mesh of polygons that is drawn by thousands of nodes and triangulated again for each."""
     n = 60_000
     polygons = (
         f'<polylist count="{n}"><input semantic="VERTEX" source="#v" offset="0"/><vcount>{"3 " * n}</vcount>'
@@ -186,7 +186,7 @@ def dae_inputs(rng: random.Random) -> Files:
 
 
 def dae_sets_shared(rng: random.Random) -> Files:
-    """Many sets of coordinates of many triangles."""
+    """Many sets of texture coordinates for many triangles."""
     inputs = "".join(f'<input semantic="TEXCOORD" source="#p" offset="0" set="{i}"/>' for i in range(3000))
     triangles = _DRAWN.replace('offset="0"/><p>', f'offset="0"/>{inputs}<p>')
     triangles = triangles.replace('count="1"', 'count="40000"').replace("0 1 2", "0 1 2 " * 40_000)
@@ -194,7 +194,7 @@ def dae_sets_shared(rng: random.Random) -> Files:
 
 
 def dae_transforms(rng: random.Random) -> Files:
-    """A node that is turned, moved and scaled without end."""
+    """A node with thousands of rotations, scales and views."""
     steps = "<rotate>0 0 1 1</rotate><scale>1 1 1</scale><lookat>0 0 1 0 0 0 0 1 0</lookat>" * 9000
     return {"case.dae": _dae(f'<node id="n">{steps}{_INSTANCE}</node>').encode()}
 
@@ -226,7 +226,7 @@ def dae_bound_materials(rng: random.Random) -> Files:
 
 
 def dae_wide_tree(rng: random.Random) -> Files:
-    """A node that instances one node of many children, again and again."""
+    """A node that instances one node of many children thousands of times."""
     library = f'<library_nodes><node id="l">{f"<node>{_INSTANCE}</node>" * 1000}</node></library_nodes>'
     return {"case.dae": _dae('<node id="r">' + '<instance_node url="#l"/>' * 15_000 + "</node>", library).encode()}
 
@@ -239,7 +239,7 @@ def dae_numbers(rng: random.Random) -> Files:
 
 
 def dae_packed(rng: random.Random) -> Files:
-    """Packed text under the name of plain text."""
+    """Compressed text in a file with the suffix of plain text."""
     return {"case.dae": zlib.compress(b"<COLLADA>" + bytes(300 * _MB), 9)}
 
 

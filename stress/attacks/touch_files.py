@@ -50,7 +50,7 @@ _CONFIGS: tuple[dict[str, Any], ...] = (
 
 
 def attacks(seed: int, work: Path) -> Iterator[Attack]:
-    """Each kind of file in turn, with values drawn from the seed. Without end."""
+    """Attacks by each kind of file in turn, with values drawn from the seed. Without end."""
     room = bundles.sound(work)
     for number, kind, folder, rng in in_turn("touch_files", _KINDS, seed, work):
         label, path, more = kind(folder, rng)

@@ -47,7 +47,7 @@ SCALARS: dict[str, Any] = {
 
 
 def arrays(rows: int, columns: int) -> dict[str, Any]:
-    """Values that are almost an array of floats of a shape."""
+    """Values that are almost an array of floats of the shape (rows, columns)."""
     whole = np.linspace(0.0, 1.0, rows * columns).reshape(rows, columns)
     read_only = whole.copy()
     read_only.setflags(write=False)

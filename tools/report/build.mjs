@@ -1,4 +1,4 @@
-// Builds the assets of the report page into scene2hap/report/assets: `npm ci && npm run build`.
+// Build the assets of the report page into scene2hap/report/assets: `npm ci && npm run build`.
 
 import { createHash } from "node:crypto";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
@@ -21,7 +21,7 @@ const result = await build({
   target: ["es2022", "chrome111", "firefox113", "safari16.4"],
   // The page is sent as UTF-8, but a copy may not be.
   charset: "ascii",
-  // Licences go into a file of their own.
+  // Licences are in a separate file.
   legalComments: "none",
 });
 
@@ -51,7 +51,7 @@ const inHtml = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 const page = (await readFile(join(here, "src", "page.html"), "utf8"))
   .replace("%SCRIPT_HASH%", hash(script))
   .replace("%STYLE_HASH%", hash(style))
-  // A page is a copy of the libraries too, and must carry their licences.
+  // A page contains copies of the libraries, so it must contain their licences.
   .replace("%LICENCES%", () => inHtml(licenceText));
 
 await mkdir(assets, { recursive: true });

@@ -5,7 +5,7 @@ import numpy as np
 from libc.math cimport fabs
 
 cdef double VANISHED = 1e-200  # as in `sections`
-cdef Py_ssize_t STRETCH = 1024  # samples after which the memory is looked at
+cdef Py_ssize_t STRETCH = 1024  # samples after which the state is checked
 
 
 def through_sections(const double[:, ::1] sections, const double[:, ::1] x, double[:, :, ::1] state):
@@ -18,7 +18,7 @@ def through_sections(const double[:, ::1] sections, const double[:, ::1] x, doub
         for at in range(0, x.shape[1], STRETCH):
             n = min(STRETCH, x.shape[1] - at)
             before, below = &x[row, at], &x[row + 1, at]
-            # Two by two: a section or a row works while another waits for its own last result.
+            # Two sections and two rows at a time, since each step of one waits for the result of its previous step.
             for k in range(0, n_sections - 1, 2):
                 two_of_both(
                     &sections[k, 0], before, below, &y[row, at], &y[row + 1, at], n, &state[k, row, 0],

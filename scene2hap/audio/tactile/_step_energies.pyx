@@ -13,7 +13,7 @@ def mean_squares(const double[::1] x, Py_ssize_t step):
 
 
 cdef double sum_of_squares(const double* x, Py_ssize_t n) noexcept nogil:
-    """Eight sums, so that none waits for its own last result."""
+    """Sum of squares by eight partial sums, so that no addition waits for the result of the previous one."""
     cdef double sums[8]
     cdef double rest = 0.0
     cdef Py_ssize_t i, k

@@ -1,4 +1,4 @@
-"""Axis-aligned boxes: the inline functions of the searches in trees."""
+"""Axis-aligned boxes: inline functions for searches in trees."""
 
 
 cdef struct Box:

@@ -130,7 +130,7 @@ def polygon_gap(x, y, double rise_m, double within_m, double slack_m):
         strip = widest(&other, &one, strip, within_m)
     if strip < -ROUNDING_M:
         return None
-    # Without initial values compilers warn, since they cannot see that a first segment always replaces these.
+    # The first segment always replaces these values. They only avoid warnings of compilers.
     best.length, best.pu, best.pv, best.qu, best.qv = INFINITY, 0.0, 0.0, 0.0, 0.0
     if strip <= within_m:
         n = nearest(&one, &other, segments, False)
@@ -172,8 +172,8 @@ cdef bint comes_before(const Segment* one, const Segment* best) noexcept:
 
 
 cdef int nearest(const Ring* corners, const Ring* ring, Segment* segments, bint is_back) noexcept:
-    """Fill in, for each corner and each edge of the ring, the segment to the edge's nearest point; reversed if
-    `is_back`. Returns the number of segments."""
+    """Compute, for each corner and each edge of the ring, the segment to the edge's nearest point. Returns the number
+    of segments, which are reversed if `is_back`."""
     cdef int i, k, after, n = 0
     cdef double u, v, eu, ev, t, a, b
     for i in range(corners.n):
@@ -195,7 +195,7 @@ cdef int nearest(const Ring* corners, const Ring* ring, Segment* segments, bint 
 
 
 cdef double widest(const Ring* ring, const Ring* other, double known, double enough) noexcept:
-    """Return the largest gap along the normals of a ring's edges, but at least `known`; the first above `enough`."""
+    """Return the largest gap along the normals of a ring's edges, at least `known`, or the first above `enough`."""
     cdef int k, i, after
     cdef double mu = 0, mv = 0, nu, nv, offset, length, inside
     for k in range(ring.n):

@@ -27,9 +27,9 @@ def spread_few(points):
 cdef int farthest_points(
     Py_ssize_t* chosen, const double* points, double* apart, Py_ssize_t n, int n_axes
 ) noexcept:
-    """Choose at most MAX_POINTS of some points (n, n_axes) that are far from each other. Returns how many.
+    """Choose at most MAX_POINTS of the points (n, n_axes) that are far from each other. Returns the number of chosen.
 
-    Parameters: chosen : receives their rows; apart : memory for n lengths.
+    Parameters: chosen : receives the rows of the chosen points; apart : memory for n lengths.
     """
     cdef double[3] middle
     cdef double high

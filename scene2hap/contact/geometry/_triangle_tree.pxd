@@ -27,7 +27,7 @@ cdef struct Tree:
     const Py_ssize_t* columns  # (n_leaves,) in the shape
     const unsigned char* features  # (n_leaves,)
     Py_ssize_t n_leaves, m
-    bint is_placed             # if False, the tree is in the frame of the search already
+    bint is_placed             # if False, the tree is already in the frame of the search
     Placement at
     Role role
     # Filled at the first visit of a node: boxes of a placed tree, faces of leaves. NULL while the tree is not open.

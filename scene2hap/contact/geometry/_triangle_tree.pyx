@@ -12,8 +12,8 @@ from libc.string cimport memset
 from scene2hap.contact.geometry._boxes cimport greater, lesser
 
 
-# Memory of the last searches, kept for the next ones. For meshes of 10,000 triangles the system would take it back
-# after each search, and its pages would cost a quarter of the time.
+# Memory of the last searches, kept for the next ones. Otherwise, for meshes of 10,000 triangles, the system would take
+# it back after each search, and new pages would take a quarter of the time.
 cdef Memory kept[2]
 cdef enum:
     MOST_KEPT = 1 << 26  # [bytes] of each
@@ -44,7 +44,7 @@ cdef int open_tree(Tree* tree, shape, Role role, const Placement* at) except -1:
 
 
 cdef Memory* reserved(size_t size) noexcept:
-    """Return memory of at least a size, NULL if there is none; `close_tree` gives it back."""
+    """Return memory of at least a size, NULL if out of memory; `close_tree` releases it."""
     cdef Memory* memory = &kept[0]
     if memory.is_used:
         memory = &kept[1]

@@ -1,6 +1,6 @@
 """One pair of triangles in the compiled kernels of `mesh_distance`.
 
-The arithmetic repeats that of `triangles`, operation by operation, for equal bits.
+The arithmetic repeats that of `triangles`, operation by operation, so that results are bit-identical.
 """
 
 from libc.math cimport NAN, fabs, sqrt

@@ -1,5 +1,4 @@
-"""OpenXR, XR_FB_haptic_pcm: samples for controllers with a voice coil. One pair per channel: a header and raw
-floats."""
+"""OpenXR, XR_FB_haptic_pcm: samples for controllers with a voice coil. Header and raw floats per channel."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ cdef class BandRms:
 
 
 cdef double near(double length, double u1, double width) noexcept:
-    """The gain of a band for a length at which the difference would lose digits."""
+    """Return the gain of a band for a length so short that the difference would lose digits."""
     cdef double b = 2 * sqrt(2 * M_PI) * length, x = b * width, first, second
     if x < 1e-2:
         first = 1 - x / 2 + x * x / 6 - x * x * x / 24 + x * x * x * x / 120

@@ -11,11 +11,11 @@ cdef class BandLengths:
     cdef object shapes
     cdef Py_ssize_t n_spaces, n_each
     cdef Py_ssize_t[::1] n_own
-    # Space after space, column after column, row after row down to the diagonal: of all vectors beside each other, so
-    # that one long row is added to another.
+    # Factors by space, then by column, then by row down to the diagonal. Entries of all vectors are adjacent, so that
+    # one long row is added to another.
     cdef float[::1] factors
     cdef float[:, ::1] mixing
-    cdef float[::1] turned, sides  # one longer than is used, so that they begin somewhere
+    cdef float[::1] turned, sides  # one longer than needed, so that a first element exists
     cdef double[::1] squares
 
     def __init__(self, shapes, mixing, factors):
@@ -58,7 +58,7 @@ cdef class BandLengths:
         return found
 
     cdef void sum_squares(self, Py_ssize_t n) noexcept:
-        """Of what has been turned to n numbers, for each vector."""
+        """Compute the sum of the squares of n numbers in `turned`, for each vector."""
         cdef Py_ssize_t row, each
         cdef double one
         for each in range(self.n_each):

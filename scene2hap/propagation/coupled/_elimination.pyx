@@ -6,7 +6,7 @@ from cpython.mem cimport PyMem_Free, PyMem_Malloc
 from libc.math cimport INFINITY
 from libc.string cimport memset
 
-# Four frequencies at a time: an entry holds their real parts and then their imaginary parts, one line of the cache.
+# Four frequencies at a time: an entry holds their real parts and then their imaginary parts, one cache line.
 cdef extern from *:
     """
     static void s2h_take(double* __restrict to, const double* __restrict a, const double* __restrict b) {
@@ -40,7 +40,7 @@ cdef struct Part:
 def factored(elements, diagonal, const double[:, ::1] free, pattern, double worst_growth, forces, inverses_at):
     cdef const int[::1] begins = pattern.begins, columns = pattern.columns, place = pattern.place
     cdef const int[:, ::1] entry = pattern.entry
-    # Complex numbers as pairs: not every C compiler has them.
+    # Complex numbers as pairs of numbers, since not every C compiler supports complex ones.
     cdef const double[:, ::1] yielding = np.ascontiguousarray(diagonal).view(np.float64)
     cdef double[:, :, ::1] found = forces.view(np.float64)
     cdef const double[:, :, ::1] receptance
@@ -95,7 +95,7 @@ def factored(elements, diagonal, const double[:, ::1] free, pattern, double wors
 cdef void assemble(
     double* matrix, const Part* parts, int n_parts, const int* entry, int n, int first, int n_f
 ) noexcept nogil:
-    """Add the receptances of all bodies at four frequencies; past the last frequency, that again."""
+    """Add the receptances of all bodies at four frequencies. Beyond the last frequency, the last one is repeated."""
     cdef int e, i, j, w, low, high
     cdef Py_ssize_t f
     cdef double sign
@@ -122,7 +122,7 @@ cdef void fill(
     double* matrix, double* x, const double[:, ::1] diagonal, const double[:, ::1] free, const int[::1] place,
     const int[::1] begins, int first, int n_f
 ) noexcept nogil:
-    """Add what is on the diagonal, and put in the free deflections."""
+    """Add the diagonal to the matrix, and write the free deflections into x."""
     cdef int row, column, w, f
     cdef double* to
     for row in range(diagonal.shape[0]):
@@ -140,7 +140,7 @@ cdef void eliminate(
     double* matrix, double* x, double* inverses, double* factors, const int* begins, const int* columns,
     const int* entry, int n, int n_sources
 ) noexcept nogil:
-    """A = L D L^T in place: the rows of L^T beside the diagonal, 1 / D in `inverses`; and x = L^-1 b."""
+    """Factor A = L D L^T in place: rows of L^T beside the diagonal, 1 / D in `inverses`. Also compute x = L^-1 b."""
     cdef int i, p, q, m, w, column
     cdef double size
     cdef double* row
@@ -172,7 +172,7 @@ cdef void eliminate(
 cdef void substitute(
     const double* matrix, double* x, const double* inverses, const int* begins, const int* columns, int n, int n_sources
 ) noexcept nogil:
-    """x = L^-T D^-1 x."""
+    """Compute x = L^-T D^-1 x."""
     cdef int i, p, m, column
     cdef const double* row
     cdef const int* own
@@ -190,7 +190,7 @@ cdef void read(
     const double* matrix, const double* x, double[:, :, ::1] forces, const int[::1] place,
     const int[::1] begins, unsigned char[::1] is_good, double worst_square, int first, int n_f
 ) noexcept nogil:
-    """Write the forces, and note the frequencies at which a factor is too large or no number."""
+    """Write the forces, and mark the frequencies at which a factor is too large or a number is not finite."""
     cdef int row, column, w, p, i, n_sources = forces.shape[1]
     cdef const double* at
     for w in range(min(4, n_f - first)):
@@ -212,7 +212,7 @@ cdef void invert(
     double* matrix, const double* inverses, double* factors, const int* begins, const int* columns, const int* entry,
     int n
 ) noexcept nogil:
-    """The entries of A^-1 where L has any, in place, the last row first: each needs those of rows behind it only."""
+    """Compute A^-1 in place at the entries of L, the last row first, since each row needs only rows behind it."""
     cdef int i, p, q, m, w, low, high
     cdef double* row
     cdef const int* own
@@ -233,7 +233,7 @@ cdef void invert(
 cdef void read_inverses(
     const double* matrix, const Part* parts, int n_parts, const int* entry, int n, int first, int n_f
 ) noexcept nogil:
-    """Write the entries of A^-1 among the joints of each body that wants them."""
+    """Write the entries of A^-1 among the joints of each body that has memory for them."""
     cdef int e, i, j, w, low, high
     cdef const Part* part
     cdef const double* at

@@ -9,7 +9,7 @@ cdef double ROUNDED_UP = 1 + 1e-9
 
 cdef struct Edge:
     double x, y, z, crossing_cost
-    # The best label of the search of that number.
+    # Best label in the search with the number `search`.
     double least
     int least_hops
     long long search
@@ -38,14 +38,14 @@ cdef inline double apart(double ax, double ay, double az, double bx, double by, 
 
 
 cdef class Object:
-    """An object of the network, with the entries of the search of that number."""
+    """An object of the network, with its entries in the search with the number `search`."""
 
     cdef object id
     cdef double price
     cdef bint has_price
     cdef Py_ssize_t row  # of a source, else -1
     cdef dict neighbours
-    cdef list onward  # neighbours through which a path may lead on, in any order
+    cdef list onward  # neighbours through which a path may continue, in any order
     cdef list sources  # neighbours that are sources
     cdef Entry* entries
     cdef Py_ssize_t n_entries, room
@@ -96,13 +96,13 @@ cdef class Object:
 
 
 cdef class Neighbour:
-    """The contact points from one object into another."""
+    """The contact points from one object to another."""
 
     cdef Object out_of, into
     cdef object junction
     cdef Edge* edges
     cdef Py_ssize_t n
-    cdef Py_ssize_t place  # in `onward` of the object it leads out of, -1 if it does not lead on
+    cdef Py_ssize_t place  # index in `out_of.onward`, -1 if no path continues here
 
     def __dealloc__(self):
         PyMem_Free(self.edges)
@@ -118,7 +118,7 @@ cdef class Neighbour:
         return 0
 
     cdef int sort_in(self) except -1:
-        """Put it among the neighbours that lead on, or take it out."""
+        """Add this neighbour to `out_of.onward` if a path may continue through it, otherwise remove it."""
         cdef Neighbour last
         cdef list onward = self.out_of.onward
         cdef bint leads_on = self.into.has_price and (
@@ -182,7 +182,7 @@ cdef class ContactPaths:
                 self.connect(a, b, junction)
 
     cdef int update_all(self, dict beside) except -1:
-        """Connect what is new or moved, a junction that moved being another one, and disconnect what is gone."""
+        """Connect objects with a new or moved junction (a moved junction is another one), and disconnect the others."""
         cdef Object x
         cdef Neighbour there
         cdef dict around, known
@@ -277,7 +277,7 @@ cdef class ContactPaths:
         return 0
 
     cdef int sort_around(self, Object x) except -1:
-        """An object with one neighbour leads on in another way than one with more: tell its neighbours."""
+        """Update `onward` of an object's neighbours, which depends on whether the object has several neighbours."""
         cdef Neighbour out, back
         if len(x.neighbours) <= 2:
             for out in x.neighbours.values():
@@ -382,7 +382,7 @@ cdef class ContactPaths:
                     edge.search, edge.least, edge.least_hops = self.search, INFINITY, 2147483647
                 if further >= edge.least and hops >= edge.least_hops:
                     continue
-                # The bound costs less than a label in the heap, which it would prune later.
+                # Checking the bound costs less than a label in the heap that would be pruned later.
                 if not self.may_reach(edge, further) or beyond.dominates(self.search, edge, further, hops):
                     continue
                 if further <= edge.least and hops <= edge.least_hops:
@@ -391,7 +391,7 @@ cdef class ContactPaths:
         return 0
 
     cdef void drop_targets(self, double cost) noexcept:
-        """Drop the targets that no path of such a cost improves."""
+        """Drop the targets that no path of this cost or more can improve."""
         cdef Py_ssize_t i = 0
         while i < self.n_targets:
             if cost <= self.targets[i].at_most and cost < self.found[self.targets[i].row]:
@@ -411,7 +411,7 @@ cdef class ContactPaths:
                 return True
         return False
 
-    # A binary heap of labels. Their neighbours outlive the search: nothing updates the network meanwhile.
+    # A binary heap of labels. They need no references to their neighbours, since no search updates the network.
 
     cdef int push(self, double cost, int hops, Neighbour way, Py_ssize_t k) except -1:
         cdef Py_ssize_t i = self.n_labels, parent

@@ -1,4 +1,4 @@
-// Colour scales with even steps of lightness, which people with any colour vision can read.
+// Colour scales of even lightness steps, which are legible with any colour vision.
 
 // Viridis: Smith and van der Walt, matplotlib 1.5, CC0. Cividis: Nunez, Anderton, Renslow, PLoS ONE 13(7), 2018.
 const POINTS = {
@@ -6,7 +6,7 @@ const POINTS = {
   cividis: ["00224e", "123570", "3b496c", "575d6d", "707173", "8a8678", "a59c74", "c3b369", "e1cc55", "fee838"],
 };
 
-/** Of points at which nothing arrives: grey, not a colour of a scale. */
+/** Colour of points at which no vibration arrives: grey, not a colour of a scale. */
 export const NOTHING = [138, 138, 146];
 export const SCALES = Object.keys(POINTS);
 

@@ -1,11 +1,11 @@
-// Contacts as lines from the middle of an object to the point of contact and on to the other; what passes more is wider.
+// Contacts as lines from the middle of an object over the contact point to the other object; wider if more passes.
 
 import { Color, Group } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 
-/** Classes of contacts: at least so much passes [dB], with the width [px] and opacity of their lines. */
+/** Classes of contacts: least transmission [dB], and width [px] and opacity of their lines. */
 export const CLASSES = [
   { least_db: -6, width: 4, opacity: 0.9, label: "-6 dB or more" },
   { least_db: -20, width: 2.5, opacity: 0.75, label: "-20 to -6 dB" },
@@ -18,10 +18,10 @@ export function classOf(passes_db) {
   return CLASSES.find(({ least_db }) => passes_db >= least_db);
 }
 
-/** Objects larger than this part of the scene's radius get no line to their middle: all lines would meet there. */
+/** Objects larger than this fraction of the scene's radius get no line to their middle, where all lines would meet. */
 const LARGE_SHARE = 0.3;
 
-/** The contact of each pair of objects that passes most. */
+/** Of each pair of objects, the contact that passes most. */
 function strongestOfPairs(contacts) {
   const found = new Map();
   for (const contact of contacts) {

@@ -1,9 +1,9 @@
-// What a person changes in the page: fields that differ from the document's, and the file that keeps them.
+// Corrections that the user makes in the page: fields that differ from the document, and the file that holds them.
 
 const FORMAT = "scene2hap/overrides";
 const VERSION = 1;
 
-/** Corrections of a document. A field that is set back to the document's value is no correction any more. */
+/** Corrections of a document. A field that is set back to the document's value is no longer a correction. */
 export function makeCorrections(report, onChange) {
   const changed = new Map(); // id -> Map of "field" or "field/state" -> {field, state, value}
 
@@ -14,7 +14,7 @@ export function makeCorrections(report, onChange) {
   };
 
   return {
-    /** The value of a field now: corrected, or the document's. */
+    /** The present value of a field: the corrected one, or the document's. */
     value(id, field, state = null) {
       const entry = changed.get(id)?.get(JSON.stringify([field, state]));
       return entry ? entry.value : given(id, field, state);
@@ -37,7 +37,7 @@ export function makeCorrections(report, onChange) {
     get count() {
       return [...changed.values()].reduce((all, fields) => all + fields.size, 0);
     },
-    /** The file. Ids are any text: `fromEntries` makes own properties of all of them, of "__proto__" too. */
+    /** The file of corrections. Ids are any text; `fromEntries` makes own properties of all, even of "__proto__". */
     file() {
       const rows = [...changed].map(([id, fields]) => {
         const row = {};

@@ -1,4 +1,4 @@
-// Elements made without any HTML text: names in a document are data and only ever become text nodes.
+// Elements made without HTML text: names in a document are data and become only text nodes.
 
 /** Make an element. Attributes that are functions become listeners, `class` and `data-*` are as in HTML. */
 export function h(tag, attributes = {}, ...children) {
@@ -25,7 +25,7 @@ export function replaceChildren(element, ...children) {
   append(element, children);
 }
 
-/** Text with control characters as escapes, so that an escape sequence is seen and does nothing. */
+/** Text with control characters as escapes, so that an escape sequence is visible and has no effect. */
 export function visible(text) {
   return String(text).replace(
     /[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/g,
@@ -48,7 +48,7 @@ export function isolated(text) {
   return `\u2068${visible(text).replace(/[\u202a-\u202e\u2066-\u2069]/g, "")}\u2069`;
 }
 
-/** Numbers as a person reads them: three digits, powers of ten from a million. */
+/** A number as text: three digits, powers of ten from a million. */
 export function shownNumber(value) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);

@@ -71,7 +71,7 @@ function makeField(id, { field, label, kind, min, max, step }, state, correction
       const value = input.value === "" ? null : Number(input.value);
       const isBad = input.validity.badInput || (value !== null && !(value >= min && value <= max));
       if (isBad) {
-        // A number out of bounds is never saved; the document's value stands again.
+        // A number out of bounds is never saved; the document's value is restored.
         corrections.set(id, field, null, state);
         mark(`Give a number from ${min} to ${max}.`);
         return;

@@ -2,7 +2,7 @@
 
 import { float32Of, uint16Of, uint32Of } from "./report_document.js";
 
-/** Of levels at the lower end of the scale and below it. */
+/** Code of levels at the lower end of the scale and below it. */
 export const LOWEST_CODE = 1;
 const LAST_CODE = 65535;
 const own = (object, key) => (object && Object.hasOwn(object, key) ? object[key] : undefined);
@@ -39,7 +39,7 @@ export function feltLevels(felt) {
       }
       return decoded.get(key);
     },
-    /** Level over the threshold of touch [dB] of a code; null where nothing arrives. */
+    /** Level over the threshold of touch [dB] of a code; null if no vibration arrives. */
     level: (code) => (code === 0 ? null : ((code - 1) / (LAST_CODE - 1)) * (felt.high_db - felt.low_db) + felt.low_db),
     /** Index of an object's point that is nearest to a position [m] in the world; -1 if it has no points. */
     nearest(id, [x, y, z]) {
@@ -59,7 +59,7 @@ export function feltLevels(felt) {
       }
       return best;
     },
-    /** Highest level [dB] on an object; null where nothing arrives. */
+    /** Highest level [dB] on an object; null if no vibration arrives. */
     highest(id, choice) {
       return this.level(this.codes(choice)[this.loudest(id, choice)] ?? 0);
     },
@@ -72,7 +72,7 @@ export function feltLevels(felt) {
       }
       return best;
     },
-    /** Sources that arrive at a point by a choice, the strongest first: [{source, code, path}]. */
+    /** Sources whose vibration arrives at a point, for a choice, the strongest first: [{source, code, path}]. */
     arriving(index, choice) {
       const [all, ...sources] = felt.sources;
       return (choice.source === all ? sources : [choice.source])
@@ -81,7 +81,7 @@ export function feltLevels(felt) {
         .sort((a, b) => b.code - a.code)
         .map((one) => ({ ...one, path: this.path(choice.model, one.source, index) }));
     },
-    /** Objects from a source to a point; null where the model has no single path. */
+    /** Objects on the path from a source to a point; null if the model has no single path. */
     path(model, source, index) {
       const key = JSON.stringify([model, source]);
       if (!decodedPaths.has(key)) {
@@ -97,7 +97,7 @@ export function feltLevels(felt) {
 /** Place of a code in a table of 256 colours: 0 for nothing, 1 to 255 along the scale. */
 export const tablePlace = (code) => (code === 0 ? 0 : 1 + ((code - 1) / (LAST_CODE - 1)) * 254);
 
-/** A level as text. The ends of the scale stand for all that is beyond them. */
+/** A level as text. The ends of the scale stand for all levels beyond them. */
 export function shownLevel(level, felt) {
   if (level === null) return "nothing arrives";
   if (level >= felt.high_db) return `${felt.high_db} dB or more`;

@@ -17,7 +17,7 @@ void main() {
   gl_Position = projectionMatrix * view;
 }`;
 
-// Colours leave as the bytes of the table, without a change of colour space, so that they equal the legend's.
+// Colours are written as the bytes of the table, without a change of colour space, so that they equal the legend's.
 const FRAGMENT = `
 uniform sampler2D table;
 varying float vLevel;
@@ -39,7 +39,7 @@ export function tableTexture(scale) {
   return texture;
 }
 
-/** Of an object's mesh, or of its patch, which is drawn just in front of the mesh. */
+/** Material of an object's mesh, or of its patch, which is drawn just in front of the mesh. */
 export function feltMaterial(table, shellUniforms, { isShell, isPatch }) {
   return new ShaderMaterial({
     vertexShader: VERTEX,

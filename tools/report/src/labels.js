@@ -8,7 +8,7 @@ export function makeLabels(layer, report, onSelect) {
   const labels = new Map();
   const labelOf = (id) => {
     if (!labels.has(id)) {
-      // Not in the order of Tab and unseen by screen readers: the table of objects offers the same.
+      // Not reached by Tab and hidden from screen readers, since the table of objects has the same names.
       const element = h("span", { class: "label", "aria-hidden": "true", click: () => onSelect(id) }, nameOf(report.name(id)));
       layer.append(element);
       labels.set(id, { element, width: 0, height: 0 });
@@ -16,7 +16,7 @@ export function makeLabels(layer, report, onSelect) {
     return labels.get(id);
   };
   return {
-    /** Place labels at [{id, x, y, isSelected, isSource}], the most important first; one that finds no room is hidden. */
+    /** Place labels at [{id, x, y, isSelected, isSource}], the most important first. Labels that overlap are hidden. */
     place(wanted, width) {
       const taken = [];
       const shown = new Set();

@@ -1,4 +1,4 @@
-// The report page: reads the document that stands in the page, and joins the parts.
+// The report page: reads the document in the page, and connects the parts.
 
 import { makeCorrections } from "./corrections.js";
 import { h, isolated, nameOf, pathOf, replaceChildren } from "./dom.js";
@@ -13,7 +13,7 @@ import { makeTableViews } from "./table_views.js";
 import { makeTheme } from "./theme.js";
 import { makeToolbar } from "./toolbar.js";
 
-/** Sources whose paths the tip shows, the strongest first. */
+/** Largest number of sources whose paths the tooltip shows, the strongest first. */
 const MOST_PATHS = 3;
 
 const one = (selector) => document.querySelector(selector);
@@ -21,7 +21,7 @@ const one = (selector) => document.querySelector(selector);
 try {
   start(readDocument(one("#report").textContent));
 } catch (cause) {
-  // The data is cut short, or of another version: say so on the page and in the console.
+  // The data is incomplete or of another version: show the error on the page and in the console.
   one("#problem").textContent = `This report cannot be shown: ${cause.message}`;
   one("#problem").hidden = false;
   throw cause;
@@ -88,12 +88,12 @@ function start(report) {
     tip.style.transform = `translate(${Math.round(Math.max(left, 4))}px, ${Math.round(Math.max(top, 4))}px)`;
   }
 
-  /** The ways of the sources that arrive at a point, each with its level where there are several. */
+  /** Paths of the sources whose vibration arrives at a point, with the level of each if there are several. */
   function pathsAt(index) {
     const choice = store.get("choice");
     const arriving = index < 0 ? [] : felt.arriving(index, choice);
     if (arriving.length > 0 && arriving[0].path === null) return h("span", { class: "quiet" }, "over all paths at once");
-    // Beside the strongest those that are not below all levels of the page.
+    // The strongest source, and all others above the lowest level of the page.
     const told = arriving.filter(({ code }, i) => i === 0 || code > LOWEST_CODE).slice(0, MOST_PATHS);
     const shown = told.map(({ code, path }) =>
       h("span", { class: "tip-path" }, pathOf(path.map(report.name)), arriving.length > 1 && ` (${shownLevel(felt.level(code), report.felt)})`),
@@ -140,7 +140,7 @@ function start(report) {
     const target = event.target instanceof Element ? event.target : document.body;
     const isField = target.closest("input:not([type=checkbox]), select, textarea") !== null;
     if (isField) {
-      // Back to where the other keys count.
+      // Leave the field, so that the other keys work again.
       if (event.key === "Escape") target.blur();
       return;
     }

@@ -26,7 +26,7 @@ const EDGE_ANGLE = 30;
 const MOST_EDGE_FACES = 30_000;
 const SOURCE_GLOW = new Color(0xff7a1a);
 
-/** A room in one piece is cut face by face; a wall that is an object of its own is there or not. */
+/** A room in one piece is cut face by face; a wall that is a separate object is shown or hidden as a whole. */
 const isCutByFace = (object) => object.is_shell && object.outward === null;
 
 export function makeMeshes(report, felt, shellUniforms, table) {
@@ -40,7 +40,7 @@ export function makeMeshes(report, felt, shellUniforms, table) {
     return geometry;
   });
   const items = new Map();
-  // Colours of a dark scale tell nothing of shapes: thin edges do.
+  // Dark colours of a scale do not show shapes, so thin edges are drawn.
   const edges = new Map();
   const edgeMaterial = new LineBasicMaterial({ color: 0xffffff, transparent: true, opacity: 0.28 });
   const shellEdgeMaterial = new LineBasicMaterial({ color: 0xffffff, transparent: true, opacity: 0.12 });
@@ -48,7 +48,7 @@ export function makeMeshes(report, felt, shellUniforms, table) {
     const material = new MeshLambertMaterial({
       color: new Color().setRGB(...object.color, SRGBColorSpace),
       flatShading: true,
-      // Meshes from files are often open: their backs must be seen.
+      // Meshes from files are often open, so that their back faces must be visible.
       side: DoubleSide,
     });
     if (object.is_source) material.emissive.copy(SOURCE_GLOW).multiplyScalar(0.25);

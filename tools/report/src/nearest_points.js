@@ -1,4 +1,4 @@
-// Nearest point of a patch for many vertices: a grid of cells, so that large meshes cost no more than their size.
+// Nearest point of a patch for many vertices, by a grid of cells, so that the time grows linearly with the mesh.
 
 /** Index of the nearest of `points` (n*3) for each of `queries` (m*3), by a grid of about two points to a cell. */
 export function nearestPoints(points, queries) {
@@ -12,7 +12,7 @@ export function nearestPoints(points, queries) {
     high[i % 3] = Math.max(high[i % 3], points[i]);
   }
   const span = Math.max(high[0] - low[0], high[1] - low[1], high[2] - low[2], 1e-9);
-  // Points lie on a surface: their number grows with the square of cells along a side.
+  // Points lie on a surface: their number grows with the square of the number of cells along a side.
   const size = span / Math.max(1, Math.sqrt(n / 2));
   const sides = [0, 1, 2].map((axis) => Math.floor((high[axis] - low[axis]) / size) + 1);
   const cells = new Map();

@@ -1,4 +1,4 @@
-// The panel of the selected object, or of the scene where nothing is selected.
+// The panel of the selected object, or of the scene if nothing is selected.
 
 import { h, nameOf, pathOf, replaceChildren, shownNumber, visible } from "./dom.js";
 import { makeForm } from "./editing.js";

@@ -1,4 +1,4 @@
-// Players of a sound and of its tactile loop, in step: both start together and the second follows the first.
+// Synchronous players of a sound and of its tactile loop: both start together, and the second follows the first.
 
 import { h } from "./dom.js";
 import { makeWave } from "./waves.js";
@@ -83,7 +83,7 @@ export function makePlayers(state) {
     if (!isPlaying) return;
     const wanted = audio.sound.currentTime % state.touch.seconds;
     const drift = Math.abs(audio.touch.currentTime - wanted);
-    // Near the seam one of the two has begun again and the other has not: that is no drift.
+    // Near the seam only one of the two may have started again, which is not drift.
     if (drift > DRIFT_S && drift < state.touch.seconds - 2 * DRIFT_S) audio.touch.currentTime = wanted;
     place();
     requestAnimationFrame(follow);

@@ -18,7 +18,7 @@ function wordsOf(base64, ArrayType, read) {
 }
 
 export const float32Of = (base64) => wordsOf(base64, Float32Array, "getFloat32");
-/** Two bytes each; alignment is kept, since decoded bytes begin their own buffer. */
+/** Decode values of two bytes each, which are aligned, since decoded bytes start their own buffer. */
 export function uint16Of(base64) {
   const bytes = bytesOf(base64);
   if (IS_LITTLE_ENDIAN) return new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 2);
@@ -27,7 +27,7 @@ export function uint16Of(base64) {
 }
 export const uint32Of = (base64) => wordsOf(base64, Uint32Array, "getUint32");
 
-/** Read the document of the page. Throws an Error with a message for people where it is not one. */
+/** Read the document of the page. Throws an Error with a message for the user if it is not a valid one. */
 export function readDocument(text) {
   const data = JSON.parse(text);
   if (data.format !== "scene2hap/report") {
@@ -46,7 +46,7 @@ export function readDocument(text) {
     ...data,
     byId,
     contactsOf,
-    /** The name of an object: what its author wrote. */
+    /** The name that the author gave to an object. */
     name: (id) => byId.get(id)?.name || id,
   };
 }

@@ -1,4 +1,4 @@
-// Saving corrections: a download, and a POST where the page is served on this machine.
+// Saving corrections: a download, or a POST if the page is served on this machine.
 
 const LOOPBACK = new Set(["localhost", "127.0.0.1", "[::1]"]);
 
@@ -14,7 +14,7 @@ export function download(file, name = "overrides.json") {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** Send to the server of the page; a message of what happened. Throws where the server did not take it. */
+/** Send a file to the server of the page. Returns a message for the user. Throws if the server did not accept it. */
 export async function send(file) {
   const reply = await fetch("/overrides", {
     method: "POST",
@@ -27,7 +27,7 @@ export async function send(file) {
   try {
     name = JSON.parse(text).file ?? "";
   } catch {
-    // A server may answer nothing.
+    // The server's reply may be empty.
   }
   return name ? `Saved as ${name}.` : "Saved.";
 }

@@ -30,7 +30,7 @@ import { themeColour } from "./theme.js";
 const CLICK_PX = 5;
 const TURN_RAD = 0.12;
 
-/** The view, or null where the browser has no WebGL. */
+/** Make the view; null if the browser has no WebGL. */
 export function makeSceneView({ canvas, layer, report, felt, store, onHover, onFirstFrame }) {
   const context = canvas.getContext("webgl2", { antialias: true, alpha: false });
   if (!context) return null;
@@ -112,12 +112,12 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
     labels.place(wanted, canvas.clientWidth);
   }
 
-  /** Whether a wall of its own lies between the camera and the room. */
+  /** Whether a wall that is a separate object lies between the camera and the room. */
   function isHiddenWall({ centre, outward }) {
     return store.get("walls") === "cut" && isCut(centre, outward, shellUniforms.shellCentre.value, camera.position);
   }
 
-  /** What is seen at a place of the viewport [px]: {id, point}, or null. */
+  /** The visible object at a place of the viewport [px]: {id, point}, or null. */
   function hit(x, y) {
     const box = canvas.getBoundingClientRect();
     if (x < box.left || x > box.right || y < box.top || y > box.bottom) return null;
@@ -264,7 +264,7 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
         const found = hit(event.clientX, event.clientY);
         store.set("selected", found?.id ?? null);
         if (event.pointerType !== "mouse") {
-          last = null; // a move that was seen before would take the tip away
+          last = null; // an earlier move would otherwise hide the tooltip
           onHover(found, event.clientX, event.clientY);
         }
       }
@@ -282,7 +282,7 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
       }
     });
     canvas.addEventListener("pointerleave", (event) => {
-      if (event.pointerType === "touch") return; // a finger leaves when it is lifted, and the tip is for that moment
+      if (event.pointerType === "touch") return; // a lifted finger leaves too, and the tooltip is shown just then
       last = null;
       onHover(null, 0, 0);
     });
@@ -297,7 +297,7 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
         away.applyAxisAngle(camera.up, turns[0] * TURN_RAD);
         const side = new Vector3().crossVectors(camera.up, away).normalize();
         const turned = away.clone().applyAxisAngle(side, turns[1] * TURN_RAD);
-        // Not over the poles, where left and right would change places.
+        // Not over the poles, where left and right would be exchanged.
         if (Math.abs(turned.clone().normalize().dot(camera.up)) < 0.995) away.copy(turned);
       }
       camera.position.copy(controls.target).add(away);
@@ -323,7 +323,7 @@ export function makeSceneView({ canvas, layer, report, felt, store, onHover, onF
   };
 }
 
-/** Bounds of what is inside the shells; of the shells where there is nothing else. */
+/** Bounds of the objects inside the shells; of the shells if there are no other objects. */
 function boundsOf(items) {
   const bounds = new Box3();
   const all = [...items.values()];
@@ -335,7 +335,7 @@ function boundsOf(items) {
   return bounds;
 }
 
-/** A soft disc of light around each source, seen through walls too. */
+/** A soft disc of light around each source, also visible through walls. */
 function makeHalos(items) {
   const picture = document.createElement("canvas");
   picture.width = picture.height = 64;

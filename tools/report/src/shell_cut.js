@@ -1,9 +1,9 @@
-// Walls, floor and ceiling between the camera and the room are cut away, so that one sees into rooms.
+// Walls, floor and ceiling between the camera and the room are cut away, so that the inside of rooms is visible.
 //
-// A face of a shell is cut where its plane lies on the camera's side of the scene's centre and the camera is outside it.
+// A face of a shell is cut if its plane lies on the camera's side of the scene's centre and the camera is outside it.
 // With `s` the distance of the plane and `c` that of the camera from the centre, both along the face's normal:
-// cut if s * c > 0 and |c| > |s|. The picture and picking use the same rule. A wall that is an object of its own follows
-// it as a whole, by its middle and the direction out of the room: cut by faces one would see that it is hollow.
+// cut if s * c > 0 and |c| > |s|. The picture and picking use the same rule. A wall that is a separate object is cut as
+// a whole, by its middle and the direction out of the room: cut by faces, it would look hollow.
 
 export const VERTEX_DECLARATION = "varying vec3 vShellPosition;";
 export const VERTEX_ASSIGNMENT = "vShellPosition = (modelMatrix * vec4(position, 1.0)).xyz;";
@@ -23,7 +23,7 @@ export function isCut(point, normal, centre, camera) {
   return shellSide * cameraSide > 0 && Math.abs(cameraSide) > Math.abs(shellSide);
 }
 
-/** Let a material of three.js follow the rule; `uniforms` are shared by all shells. */
+/** Apply the rule to a material of three.js; `uniforms` are shared by all shells. */
 export function cutMaterial(material, uniforms) {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);

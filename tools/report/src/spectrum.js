@@ -5,11 +5,11 @@ import { themeColour } from "./theme.js";
 
 const HEIGHT = 210;
 
-/** Draw into `element`, which must be in the page already: its width is needed. Returns the chart. */
+/** Draw into `element`, which must already be in the page, since its width is needed. Returns the chart. */
 export function drawSpectrum(element, { hz, touch_db, threshold_db }) {
   element.replaceChildren();
   const finite = [...touch_db, ...threshold_db].filter(Number.isFinite);
-  // Empty bands lie far below all that matters.
+  // Empty bands lie far below all relevant levels.
   const high = Math.ceil(Math.max(...finite, -20) / 10) * 10 + 5;
   const low = Math.max(Math.floor(Math.min(...finite) / 10) * 10, high - 105);
   const font = "12px system-ui, sans-serif";

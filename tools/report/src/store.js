@@ -1,4 +1,4 @@
-// State that several parts of the page share, and who is called when it changes.
+// State that several parts of the page share, with listeners that are called when it changes.
 
 export function makeStore(state) {
   const listeners = new Map();

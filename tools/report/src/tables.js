@@ -1,10 +1,10 @@
-// Tables to sort, to search and to go through by keys.
+// Tables that can be sorted, searched and navigated by keys.
 
 import { h, nameOf, replaceChildren } from "./dom.js";
 
 const collator = new Intl.Collator(undefined, { numeric: true });
 
-/** Order of two cells: numbers by size, texts by alphabet, what is unknown last in both directions. */
+/** Order of two cells: numbers by size, texts by alphabet, unknown values last in both directions. */
 export function compared(a, b, direction) {
   const [noA, noB] = [a === null || a === undefined || a === "", b === null || b === undefined || b === ""];
   if (noA || noB) return Number(noA) - Number(noB);
@@ -15,7 +15,7 @@ export function compared(a, b, direction) {
 /**
  * A table: {element, show()}.
  *
- * columns: [{label, value(row), shown(row)?}], where `value` sorts and is searched, `shown` is a text if it differs.
+ * columns: [{label, value(row), shown(row)?}]: `value` is sorted and searched, `shown` is the shown text if it differs.
  * idOf(row): the object that a row selects, or null.
  */
 export function makeTable({ label, columns, rows, search, idOf, store, onFocus }) {

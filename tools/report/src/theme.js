@@ -1,4 +1,4 @@
-// Dark and light: the system's choice until a person makes another.
+// Dark or light theme: the system's choice until the user makes another.
 
 const system = matchMedia("(prefers-color-scheme: dark)");
 

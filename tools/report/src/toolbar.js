@@ -1,4 +1,4 @@
-// What the picture shows: felt map or colours, source, model, band, colour scale, walls, contacts, names.
+// Choice of the picture's content: felt map or colours, source, model, band, colour scale, walls, contacts, names.
 
 import { SCALES } from "./colour_scales.js";
 import { h, replaceChildren } from "./dom.js";

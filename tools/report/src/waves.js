@@ -1,4 +1,4 @@
-// The picture of a clip: its waveform over its spectrogram, with a playhead over both.
+// The picture of a clip: its waveform above its spectrogram, with a playhead over both.
 
 import { h } from "./dom.js";
 import { bytesOf } from "./report_document.js";
