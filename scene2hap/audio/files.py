@@ -26,9 +26,10 @@ MAX_FILE_S = 600.0
 """Longer files are refused before they are decoded [s]; assumed: no sound of an object needs ten minutes, and a
 damaged header may promise a thousand hours."""
 
-MAX_FILE_SAMPLES = 1 << 26
-"""Most samples of all channels together (assumed: ten minutes of stereo at 48 kHz, decoded in a second or two). A
-megabyte of FLAC may hold hours of silence at 655 kHz."""
+MAX_FILE_SAMPLES, SAMPLES_PER_BYTE = 1 << 26, 16
+"""Most samples of all channels together (assumed: ten minutes of stereo at 48 kHz, decoded in a second or two), and
+further samples for each byte of the file (assumed: Ogg at 48 kbit/s has 7). A megabyte of FLAC may hold hours of
+silence at 655 kHz."""
 MAX_CHANNELS = 64
 """Most channels: those of seventh-order ambisonics; each has a conversion stream of its own, which takes memory."""
 
@@ -64,22 +65,24 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
 
 
 def _require_bounded(path: Path, file: soundfile.SoundFile) -> None:
-    """Check the size in a file's header. Raises: AudioError: more than `MAX_CHANNELS` or `MAX_FILE_SAMPLES`."""
+    """Check the size in a file's header. Raises: AudioError: too many channels, or samples for its bytes."""
     if file.channels > MAX_CHANNELS:
         raise AudioError(f"{path} has {file.channels} channels; it must have at most {MAX_CHANNELS}. Mix some.")
     n_samples = file.frames * file.channels
-    if n_samples > MAX_FILE_SAMPLES:
+    most = MAX_FILE_SAMPLES + SAMPLES_PER_BYTE * path.stat().st_size
+    if n_samples > most:
         raise AudioError(
             f"{path} has {file.frames:,} frames of {file.channels} channels at {file.samplerate:,} Hz, "
-            f"{n_samples:,} samples; it must have at most {MAX_FILE_SAMPLES:,}. Shorten it, or save it at 48,000 Hz."
+            f"{n_samples:,} samples; a file of its size must have at most {most:,}. Shorten it, or save it as WAV."
         )
 
 
 @contextmanager
 def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
-    """Open a sound file of at most `MAX_FILE_SAMPLES` and `MAX_CHANNELS` for reading.
+    """Open a sound file for reading.
 
-    Raises: AudioError: it is absent, no sound, larger than that, or cut short, now or while it is read.
+    Raises: AudioError: it is absent, no sound, or cut short, now or while it is read; it has more than `MAX_CHANNELS`,
+    or more samples than `MAX_FILE_SAMPLES` and `SAMPLES_PER_BYTE` allow.
     """
     if not path.is_file():
         raise AudioError(f"{path} is not a file. Give the path of an existing sound file.")

@@ -56,7 +56,7 @@ class ContactGraph:
     """The contacts of a scene, kept up to date as its objects move.
 
     Parameters: scene : a snapshot, or the path of a scene file; tolerance_m >= 0 : gap at which any two surfaces cease
-    to touch [m]. None: tolerances depend on the objects, since real scenes leave gaps of 0-45 mm under objects at rest.
+    to touch [m]. None: tolerances depend on the objects, since real scenes leave gaps of 0-60 mm under objects at rest.
     The tolerance has no effect if the scene gives its contacts.
     Raises: SceneError: the tolerance is negative or not finite.
 

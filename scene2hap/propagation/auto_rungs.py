@@ -130,4 +130,4 @@ _MAKERS: dict[str, Callable[[Plate, float, float], ElasticBody]] = {
     **{rung: _modal(fineness) for rung, fineness in FINENESS.items()},
 }
 RUNGS = tuple(_MAKERS)
-"""Names of the rungs, from the cheapest to the most expensive."""
+"""Names of the rungs, in the order in which they are tried."""

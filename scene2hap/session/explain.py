@@ -51,7 +51,7 @@ class PathStep:
 
     def __str__(self) -> str:
         cut = f" by way of {', '.join(self.by_way_of)}" if self.by_way_of else ""
-        return f"{self.object_id} ({self.length_m:.2f} m{cut}, {self.change_db:+.1f} dB)"
+        return f"{self.object_id} ({self.length_m:.2f} m{cut}, {self.change_db:+z.1f} dB)"
 
 
 @dataclass(frozen=True)
@@ -81,8 +81,8 @@ class FeltSource:
         return sum(step.length_m for step in self.steps)
 
     def __str__(self) -> str:
-        volume = f", volume {self.level_db:+.1f} dB" if abs(self.level_db) >= 0.05 else ""
-        total = f"{self.source_id} ({self.state}) {self.gain_db:+.1f} dB"
+        volume = f", volume {self.level_db:+z.1f} dB" if abs(self.level_db) >= 0.05 else ""
+        total = f"{self.source_id} ({self.state}) {self.gain_db:+z.1f} dB"
         if self.over_threshold_db is not None and self.over_threshold_db < 0:
             volume += ", too weak to be felt"
         if self.carriers:
@@ -119,7 +119,7 @@ class Explanation:
         on = f"touches {', '.join(self.touches)}" if self.touches else "touches nothing"
         late = "" if self.is_current else " (the next field is still being prepared)"
         lines = [f"{self.hand} {on}{late}" + (":" if self.felt or self.impacts else " and feels nothing.")]
-        struck = (f"  {item}, {decibels(item.felt[self.hand]):+.1f} dB re full scale" for item in self.impacts)
+        struck = (f"  {item}, {decibels(item.felt[self.hand]):+z.1f} dB re full scale" for item in self.impacts)
         return "\n".join([*lines, *(f"  {item}" for item in (*self.reasons, *self.felt)), *struck])
 
     def to_data(self) -> dict[str, Any]:
@@ -131,11 +131,11 @@ class Explanation:
 
     def _repr_html_(self) -> str:
         impacts = [
-            (f"impact on {item.object_id}", "-", "-", f"{decibels(item.felt[self.hand]):+.1f} re full scale", "-", "-")
+            (f"impact on {item.object_id}", "-", "-", f"{decibels(item.felt[self.hand]):+z.1f} re full scale", "-", "-")
             for item in self.impacts
         ]
         rows = [
-            (one.source_id, one.state, one.on, f"{one.gain_db:+.1f}", f"{one.level_db:+.1f}", one.way)
+            (one.source_id, one.state, one.on, f"{one.gain_db:+z.1f}", f"{one.level_db:+z.1f}", one.way)
             for one in self.felt
         ]
         columns = ("source", "state", "felt on", "gain [dB]", "volume [dB]", "path or share of power")

@@ -140,6 +140,7 @@ def test_samples_of_all_channels_count(tmp_path: Path, monkeypatch: pytest.Monke
     soundfile.write(tmp_path / "a.flac", np.zeros((2000, 8)), 655_350, format="FLAC")
     assert len(read_clip(tmp_path / "a.flac").samples) == 2000
     monkeypatch.setattr(files, "MAX_FILE_SAMPLES", 15_999)
+    monkeypatch.setattr(files, "SAMPLES_PER_BYTE", 0)
     with pytest.raises(AudioError, match="2,000 frames of 8 channels at 655,350 Hz, 16,000 samples"):
         read_clip(tmp_path / "a.flac")
 

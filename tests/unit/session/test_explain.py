@@ -10,6 +10,7 @@ from scene2hap import Contact, HapticBundle, HapticSession, SceneSnapshot, Touch
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.errors import SessionError
 from scene2hap.propagation import MODELS
+from scene2hap.session.explain import PathStep
 from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
 
 
@@ -266,3 +267,7 @@ def test_a_source_behind_an_unknown_material_is_not_connected() -> None:
     s.set_source("phone", on=False)
     s.update(touches=[ON_TABLE])
     assert s.explain("left").reasons == ("No source touches it, directly or over other objects.",)
+
+
+def test_no_level_is_minus_zero() -> None:
+    assert str(PathStep("mat", 0.001, -0.01)) == "mat (0.00 m, +0.0 dB)"

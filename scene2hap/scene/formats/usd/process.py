@@ -1,7 +1,7 @@
 """The parent's side of the child process that reads a USD file.
 
 usd-core parses files in C++. Of 8,000 broken binary files it crashed on 11, and deep text overflows its stack
-(`stress/fuzz_scenes.py --kinds usd`). A process cannot catch its own crash. The child also has limits of memory (only
+(`stress/fuzz_scenes.py --kinds .usdc`). A process cannot catch its own crash. The child also has limits of memory (only
 on Linux) and of time, since a few bytes may define any number of prims.
 
 A program that is no Python interpreter, such as a frozen application, cannot start a child, and reads the file itself.

@@ -12,6 +12,7 @@ from PIL import Image
 from scipy.signal import butter, sosfilt
 
 from scene2hap import audio
+from scene2hap.audio import files
 from scene2hap.audio.actuators import actuator_profile, response_db
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.conversion import stream as stream_module
@@ -264,9 +265,22 @@ def test_file_with_hours_of_silence_is_refused_before_conversion(tmp_path: Path)
     with soundfile.SoundFile(source, "w", 1000, 8, "PCM_16", format="FLAC") as file:
         for _ in range(9):
             file.write(np.zeros((1 << 20, 8), np.int16))
-    with pytest.raises(AudioError, match=r"75,497,472 samples; it must have at most 67,108,864"):
+    with pytest.raises(AudioError, match=r"75,497,472 samples; a file of its size must have at most 6\d,\d{3},\d{3}\."):
         audio.convert(source, tmp_path / "felt.wav")
     assert not (tmp_path / "felt.wav").exists()
+
+
+def test_long_recording_is_converted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its length is that of its bytes, unlike that of packed silence."""
+    monkeypatch.setattr(files, "MAX_FILE_SAMPLES", 1000)
+    source = write(tmp_path / "long.wav", sound(2.0, 1, 150.0), subtype="FLOAT")
+    with soundfile.SoundFile(source) as file:
+        n_frames, rate = file.frames, file.samplerate
+    assert n_frames > 1000
+    assert audio.convert(source, tmp_path / "felt.wav").duration_s == pytest.approx(n_frames / rate)
+    soundfile.write(tmp_path / "silence.flac", np.zeros(n_frames, np.int16), rate)
+    with pytest.raises(AudioError, match="a file of its size"):
+        audio.convert(tmp_path / "silence.flac", tmp_path / "silent.wav")
 
 
 def felt_of(
