@@ -27,7 +27,7 @@ def content(folder: Path) -> dict[str, bytes]:
 
 @pytest.fixture(params=["exchange", "renames"])
 def both_ways(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With the system's exchange, and as where there is none."""
+    """Run a test with the system's exchange of folders, and with renames instead."""
     if request.param == "renames":
         monkeypatch.setattr(folder_replacement, "exchange", lambda one, other: False)
 
@@ -176,7 +176,7 @@ def test_foreign_file_with_a_bundle_file_name_is_renamed(tmp_path: Path) -> None
 
 @pytest.mark.usefixtures("both_ways")
 def test_file_saved_by_an_editor_during_a_save_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Editors write beside a file and rename: the name then means another file than the one that was linked."""
+    """Editors write a new file and rename it, so that the name then belongs to another file than the linked one."""
     folder = a_bundle().save(tmp_path / "room")
     (folder / "thesis.txt").write_text("ten years")
     carry_over = folder_replacement.carry_over
@@ -235,7 +235,7 @@ table_with_two_phones()[1].override("phone", gain_db=-7.0).save(sys.argv[1])
 
 
 def dying(folder: Path, where: str) -> subprocess.Popen[str]:
-    """A process that begins to save there, and dies: when it is told to, or between the two renames."""
+    """Start a process that begins to save to a folder and dies, on command or between the two renames."""
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
     arguments = [sys.executable, "-c", DIES, str(folder), where]
     return subprocess.Popen(arguments, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
