@@ -65,7 +65,7 @@ class Plan:
 
 
 class BatchServer:
-    """Holds files, batches, and how often each question was sent and answered; each of `faults` spoils one request."""
+    """A store of files and batches that counts sent and answered requests; each of `faults` spoils one request."""
 
     def __init__(self, by: Callable[[Asked], Scripted]) -> None:
         self.by = by
@@ -79,7 +79,7 @@ class BatchServer:
         self.live: list[Asked] = []
         self.base_url = ""
 
-    # -- what a test does -------------------------------------------------------------------------------------------
+    # -- calls of tests ---------------------------------------------------------------------------------------------
 
     def end(self, plan: Plan | None = None) -> None:
         """End all batches that are still running."""
@@ -117,7 +117,7 @@ class BatchServer:
         self.files[name] = content
         return name
 
-    # -- what it answers ----------------------------------------------------------------------------------------------
+    # -- replies to requests ------------------------------------------------------------------------------------------
 
     def posted(self, path: str, content: bytes, headers: dict[str, str]) -> tuple[int, Any]:
         if path == "/v1/files":

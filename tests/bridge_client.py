@@ -52,7 +52,7 @@ class Refused(Exception):
 
 
 class Client:
-    """Connects and sends `hello`; `heard` keeps all messages that no call waited for."""
+    """A connection that has sent `hello`; `heard` keeps all messages that no call waited for."""
 
     def __init__(self, url: str, token: str | None = None, version: int = 1, **options: Any) -> None:
         self._open = ExitStack()

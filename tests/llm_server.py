@@ -97,7 +97,7 @@ class Asked:
 
 
 class Server:
-    """Sends the replies of `script` in order, then the last one repeatedly; or calls `script` with each request.
+    """Send the replies of `script` in order, then the last one repeatedly; or call `script` with each request.
 
     `pages` are the replies to GET, by path.
     """

@@ -18,7 +18,7 @@ SCENE = scene(
 
 
 class Scripted:
-    """Answers each component with a fixed rule, changed by `changes`; keeps the requests in `asked`."""
+    """Answer each component by a fixed rule, modified by `changes`; keep the requests in `asked`."""
 
     def __init__(self, **changes: Any) -> None:
         self.asked: list[LLMRequest] = []

@@ -49,7 +49,7 @@ class Counting:
 
 
 class Kept:
-    """Makes reference devices that store the samples that they accept."""
+    """A factory of reference devices that store the samples that they accept."""
 
     def __init__(self, **settings: int) -> None:
         self.blocks: list[NDArray[np.int16]] = []

@@ -54,7 +54,7 @@ class Room:
 
     @property
     def ids(self) -> list[str]:
-        """The ids of all things, in the order of the file."""
+        """The ids of all objects, in the order of the file."""
         return [thing.id for thing in self.things]
 
     @property

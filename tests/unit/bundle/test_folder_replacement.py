@@ -32,7 +32,7 @@ def both_ways(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -
         monkeypatch.setattr(folder_replacement, "exchange", lambda one, other: False)
 
 
-# --- what may be replaced ---------------------------------------------------------------------------------------------
+# --- folders that may be replaced -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_long_folder_name_is_accepted(tmp_path: Path) -> None:
     assert len(list(tmp_path.iterdir())) == 1
 
 
-# --- what stays -------------------------------------------------------------------------------------------------------
+# --- files that stay --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.usefixtures("both_ways")
@@ -209,7 +209,7 @@ def test_the_folder_s_mode_stays(tmp_path: Path) -> None:
     assert folder.stat().st_mode & 0o777 == 0o750
 
 
-# --- what was left ----------------------------------------------------------------------------------------------------
+# --- leftovers of earlier saves ---------------------------------------------------------------------------------------
 
 DIES = """
 import os, sys

@@ -16,7 +16,7 @@ SECONDS = 10.0
 
 
 class Notes:
-    """Records the samples and thread of each prepared loop. A closed gate blocks the worker, not the main thread."""
+    """A record of samples and thread of each prepared loop. A closed gate blocks the worker, not the main thread."""
 
     def __init__(self) -> None:
         self.threads: list[int] = []

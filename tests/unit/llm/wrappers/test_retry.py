@@ -13,7 +13,7 @@ AWAY = BackendUnavailable("away", retryable=True)
 
 
 class Failing:
-    """Fails with each of the given errors, then answers; records the waits between."""
+    """A backend that fails with each of the given errors, then answers; records the waits between retries."""
 
     def __init__(self, *errors: Exception) -> None:
         self.errors = list(errors)

@@ -298,7 +298,7 @@ def test_colours_come_from_states_materials_and_vertices() -> None:
         np.testing.assert_allclose(colour, expected[key], atol=2 / 255)
 
 
-# -- what cannot be read ---------------------------------------------------------------------------------------------
+# -- errors ----------------------------------------------------------------------------------------------------------
 
 
 def test_missing_panda3d_error_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
