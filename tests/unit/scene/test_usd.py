@@ -185,7 +185,7 @@ def test_native_instances_share_their_mesh(tmp_path: Path) -> None:
 
 
 def instancer(stage: Any, *, n: int = 3) -> Any:
-    """A point instancer of cubes at x = 0, 2, 4, ...; its only prototype is a child prim."""
+    """A point instancer of cubes at x = 0, 2, 4, ...; its only prototype is a prim below it."""
     made = usd("UsdGeom").PointInstancer.Define(stage, "/World/cups")
     mesh(stage, "/World/cups/prototypes/cup")
     made.CreatePrototypesRel().AddTarget("/World/cups/prototypes/cup")

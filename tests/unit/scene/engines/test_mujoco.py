@@ -100,7 +100,7 @@ def test_flat_shapes_are_exact(name: str) -> None:
 def test_meshes_face_outwards_even_if_their_scale_mirrors_them() -> None:
     mesh = snapshot(*load(ALL_SHAPES)).object("mesh").geometry.mesh
     a, b, c = np.moveaxis(mesh.vertices_m[mesh.faces], 1, 0)
-    # 1 x 2 x 3 / 6 for the tetrahedron of the file.
+    # The file has a tetrahedron of 1 x 2 x 3 / 6 = 1; the scales give 0.1^3 and 0.1 x 0.1 x 0.2.
     assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(0.001 + 0.002, rel=1e-6)
 
 
