@@ -59,10 +59,8 @@ def haptics(
 
 
 def table_with_two_phones() -> tuple[SceneSnapshot, HapticBundle]:
-    """Two phones at x = 0.1 m and x = 1.5 m on an oak table, a block under the table, and a cup that touches nothing.
-
-    The table is 1.6 m long and its top is at y = 0.72 m.
-    """
+    """Two phones at x = 0.1 m and x = 1.5 m on an oak table 1.6 m long with its top at y = 0.72 m.
+    A block stands under the table; a cup touches nothing."""
     snapshot = scene(
         box("table", (1.6, 0.02, 0.8), (0.8, 0.71, 0.4)),
         box("block", (0.4, 0.7, 0.4), (0.8, 0.35, 0.4)),

@@ -99,10 +99,7 @@ def test_batch_gives_the_bundles_of_live_requests_without_repeats(
 
 
 def test_only_failed_requests_are_sent_again(run: Run, server: BatchServer) -> None:
-    """Four batches in turn: expired, failed on the server, cancelled, and refused as a whole.
-
-    In the first three, some requests are answered.
-    """
+    """Four batches: three partly expired, failed on the server or cancelled, and one refused as a whole."""
     broken = refused(500, {"message": "try later", "type": "server_error", "param": None, "code": None})
     plans = (
         Plan("expired", lambda place, body: "expired" if place % 3 else "answered"),

@@ -75,10 +75,7 @@ def test_held_edge_is_at_rest_and_the_plate_is_passive(edges: str, aspect: float
 @pytest.mark.parametrize("rung", FINENESS)
 @pytest.mark.parametrize("edges", ["CCFF", "SSFF", "CFFF", "FFFF"])
 def test_energy_gain_by_truncated_near_fields_is_below_the_stated_bound(edges: str, rung: str) -> None:
-    """The bound is 2e-5 of the largest receptance, for clustered points on plates with free edges.
-
-    Source: docs/physical-models.md.
-    """
+    """The bound for clustered points and free edges is 2e-5 of the largest receptance (docs/physical-models.md)."""
     rng = np.random.default_rng(4)
     for _ in range(25):
         aspect = np.exp(rng.uniform(np.log(2), np.log(40)))

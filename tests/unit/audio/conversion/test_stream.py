@@ -284,10 +284,7 @@ def felt_of(
 @pytest.mark.parametrize("converter", sorted(CONVERTERS.builtins))
 @pytest.mark.parametrize("actuator", ["flat", "voice_coil"])
 def test_a_file_is_felt_at_the_level_of_its_source(tmp_path: Path, converter: str, actuator: str) -> None:
-    """Measured by the felt level of loops, independent of streams; a tenth of the intensity is 17 dB less.
-
-    The peak limit of the output may lower the level.
-    """
+    """The felt level equals that of loops: 17 dB less at a tenth of the intensity, unless the peak limit lowers it."""
     source = write(tmp_path / "a.wav", sound(12.0, 1, 150.0), subtype="FLOAT")
     reached = {}
     for intensity in (0.5, 0.05):
