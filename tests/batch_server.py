@@ -1,4 +1,4 @@
-"""A scripted server of files and batches on the loopback interface, as OpenAI's reference describes them."""
+"""A scripted loopback server of OpenAI's file and batch endpoints, after OpenAI's reference."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FIELDS = {
 
 
 def answered(asked: Asked) -> Scripted:
-    """A model that finds a fridge everywhere; which question it is, the schema tells."""
+    """The good answer to a request, chosen by the fields of its response schema."""
     schema = json.dumps(asked.body["response_format"])
     return said(GOOD[next(component for name, component in FIELDS.items() if f'"{name}"' in schema)])
 
@@ -54,9 +54,9 @@ class Batch:
 
 @dataclass
 class Plan:
-    """How the next batches end: their status, and what becomes of each request by its place in the file.
+    """How the next batches end: their status, and the outcome of each request by its place in the file.
 
-    A request is "answered", "expired", "cancelled", or a reply of its own without success.
+    The outcome is "answered", "expired", "cancelled", or a `Scripted` error reply.
     """
 
     status: str = "completed"
@@ -65,7 +65,7 @@ class Plan:
 
 
 class BatchServer:
-    """Files, batches, and how often each question was sent and answered; each of `faults` spoils one request."""
+    """A store of files and batches that counts sent and answered requests; each of `faults` spoils one request."""
 
     def __init__(self, by: Callable[[Asked], Scripted]) -> None:
         self.by = by
@@ -79,10 +79,10 @@ class BatchServer:
         self.live: list[Asked] = []
         self.base_url = ""
 
-    # -- what a test does -------------------------------------------------------------------------------------------
+    # -- calls of tests ---------------------------------------------------------------------------------------------
 
     def end(self, plan: Plan | None = None) -> None:
-        """Let all batches end that have not."""
+        """End all batches that are still running."""
         plan = plan or Plan()
         for batch in self.batches.values():
             if batch.status in ("in_progress", "cancelling"):
@@ -106,7 +106,7 @@ class BatchServer:
                 errors.append({"id": f"b{place}", "custom_id": key, "response": None, "error": error})
         batch.status, batch.errors = plan.status, list(plan.errors)
         batch.counts = {"total": len(output) + len(errors), "completed": len(output), "failed": len(errors)}
-        # Backwards: the service promises no order.
+        # In reverse order, since the service promises no order.
         if output:
             batch.output_file = self._store(_jsonl(output[::-1]))
         if errors:
@@ -117,7 +117,7 @@ class BatchServer:
         self.files[name] = content
         return name
 
-    # -- what it answers ----------------------------------------------------------------------------------------------
+    # -- replies to requests ------------------------------------------------------------------------------------------
 
     def posted(self, path: str, content: bytes, headers: dict[str, str]) -> tuple[int, Any]:
         if path == "/v1/files":
@@ -150,7 +150,7 @@ class BatchServer:
             after = dict(part.split("=") for part in query.split("&")).get("after")
             shown = [batch.shown() for batch in reversed(self.batches.values())]
             begin = 1 + [row["id"] for row in shown].index(after) if after else 0
-            # Pages of one, so that every test turns pages.
+            # One batch a page, so that every test reads several pages.
             return 200, {"object": "list", "data": shown[begin : begin + 1], "has_more": begin + 1 < len(shown)}
         if path.startswith("/v1/batches/"):
             return 200, self.batches[path.rpartition("/")[2]].shown()

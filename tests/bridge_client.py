@@ -1,4 +1,4 @@
-"""A client of a bridge for tests, on `websockets`' blocking client."""
+"""A bridge client for tests, built on the blocking client of `websockets`."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ n_held: Counter[str] = Counter()
 
 
 def answered(message: str) -> dict[str, Any]:
-    """A message of the server, held against the published schema."""
+    """Decode a server message; the first `MOST_HELD` of each kind are checked against the published schema."""
     found: dict[str, Any] = json.loads(message)
     kind = found["type"]
-    if kind != "of a later server" and n_held[kind] < MOST_HELD:  # one takes some milliseconds
+    if kind != "of a later server" and n_held[kind] < MOST_HELD:  # a check takes milliseconds
         n_held[kind] += 1
         ANSWER.validate(found)
     return found
@@ -52,14 +52,14 @@ class Refused(Exception):
 
 
 class Client:
-    """Connects and says hello; `heard` keeps all messages that nobody waited for."""
+    """A connection that has sent `hello`; `heard` keeps all messages that no call waited for."""
 
     def __init__(self, url: str, token: str | None = None, version: int = 1, **options: Any) -> None:
         self._open = ExitStack()
         self.socket = self._open.enter_context(connect(url, compression=None, max_size=None, **options))
         self.heard: list[dict[str, Any]] = []
         self.gains: list[Gains] = []
-        self._id = 1_000_000  # not to be met by numbers that tests make up
+        self._id = 1_000_000  # far from the numbers that tests choose
         self.welcome = self.ask("hello", version=version, client="tests", **({} if token is None else {"token": token}))
 
     def say(self, kind: str, **fields: Any) -> int:
@@ -72,7 +72,7 @@ class Client:
         return self.hear(lambda found: found.get("re") == number)
 
     def hear(self, is_wanted: Any, timeout_s: float = 30.0) -> dict[str, Any]:
-        """The next JSON message that is wanted. Raises: Refused: it is an error."""
+        """Wait for the next JSON message for which `is_wanted` is true. Raises: Refused: it is an error."""
         end_s = time.monotonic() + timeout_s
         while True:
             message = self.socket.recv(timeout=max(0.0, end_s - time.monotonic()))
@@ -97,7 +97,7 @@ class Client:
         return self.order
 
     def frame(self, sequence: int, at_s: float, poses: Any, felt: Sequence[Touch] = ()) -> bytes:
-        """The message of a frame in the layout in use."""
+        """Encode a frame message in the current layout."""
         hands, objects = self.order["hands"], self.order["objects"]
         rows = [(hands.index(x.hand), objects.index(x.object_id), x.point_m) for x in felt]
         return encode_frame(self.order["layout"], self.key, sequence, at_s, np.asarray(poses, np.float32), rows)
@@ -122,12 +122,12 @@ class Client:
 
 
 def poses_of(frame: int) -> np.ndarray:
-    """Poses (30, 7) float32 of the game."""
+    """Poses (30, 7) float32 of the check game in a frame."""
     return np.hstack((positions_m(frame), np.tile(np.float32((0, 0, 0, 1)), (len(IDS), 1))))
 
 
 def main() -> None:
-    """The game, as docs/bridge-protocol.md asks for it."""
+    """Play the check game of docs/bridge-protocol.md."""
     url, token = os.environ["SCENE2HAP_URL"], os.environ["SCENE2HAP_TOKEN"]
     n_frames, rate_hz = int(os.environ["SCENE2HAP_FRAMES"]), float(os.environ["SCENE2HAP_RATE_HZ"])
     client = Client(url, token)

@@ -1,6 +1,6 @@
 """The example page of clients/browser in headless Chromium.
 
-Run as a program it plays the check game of docs/bridge-protocol.md in that page, by the variables SCENE2HAP_*.
+Run as a program, it plays the check game of docs/bridge-protocol.md in that page. The variables SCENE2HAP_* set it up.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
-    # The page of a foreign origin: the name of a host that is none.
+    # evil.test does not exist; mapped to loopback, it gives the page a foreign origin.
     "--host-resolver-rules=MAP evil.test 127.0.0.1",
 ]
 
@@ -45,7 +45,7 @@ def chromium() -> str | None:
 
 
 def find_modules(folder: Path) -> Path | None:
-    """`node_modules` of the page: that of the repository, else one in `folder`. None if npm cannot make it."""
+    """`node_modules` of the page: the repository's, else a new one in `folder`. None if npm cannot make it."""
     own = CLIENT / "node_modules"
     if all((own / name / "package.json").exists() for name in ("three", "iwer")):
         return own
@@ -64,10 +64,10 @@ def find_modules(folder: Path) -> Path | None:
 
 @contextmanager
 def served(modules: Path, pages: Mapping[str, str] | None = None) -> Iterator[int]:
-    """Serve clients/browser on loopback, as if these modules and pages were in it. Gives the port."""
+    """Serve clients/browser on loopback, with these modules and pages added. Yields the port."""
 
     class Handler(SimpleHTTPRequestHandler):
-        # Not those of the system, which may call modules plain text.
+        # Replaces the system's table, which may serve modules as plain text.
         extensions_map: ClassVar = {
             ".html": "text/html",
             ".css": "text/css",
@@ -109,7 +109,7 @@ def served(modules: Path, pages: Mapping[str, str] | None = None) -> Iterator[in
 
 @contextmanager
 def launched() -> Iterator[Any]:
-    """A browser of playwright."""
+    """A headless Chromium under playwright."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
@@ -121,8 +121,8 @@ def launched() -> Iterator[Any]:
 
 
 def address(port: int, host: str = "127.0.0.1", **parameters: object) -> str:
-    """Address of the page."""
-    # Drawn seldom: a page that draws with the processor leaves little of it to the bridge.
+    """URL of the example page."""
+    # Draw rarely: software rendering would leave little processor time to the bridge.
     return f"http://{host}:{port}/example/index.html?{urlencode({'draw': 500, **parameters})}"
 
 

@@ -1,11 +1,11 @@
-"""Saves a bundle over another with a fault at each step in turn, as SQLite is tested; prints what each left, as JSON.
+"""Save a bundle over another with a fault at each step in turn, as SQLite is tested. Prints the results as JSON.
 
-A step is an operation of Python on files, seen by an audit hook before it happens: the process is ended there, or the
-operation is refused. Each try is a child of its own, which takes its hook with it.
+A step is a file operation of Python, seen by an audit hook before it happens. There the process ends, or the operation
+is refused. Each try runs in a child process, because an audit hook cannot be removed.
 
 Run by tests/integration/test_bundle_faults.py: python bundle_faults.py FOLDER kill|refuse exchange|renames [STRIDE]
-Most steps write one file after the other into a draft; with a stride only each so-maniest of these is tried, and all of
-those at the end, which put the draft in the bundle's place.
+Most steps write files into a draft. With a stride n, only every nth of these steps is tried, but always all steps at
+the end, which put the draft in the bundle's place.
 """
 
 import json
@@ -48,9 +48,9 @@ def begin() -> None:
 
 
 def save_with_fault(step: int, kind: str) -> int:
-    """In a child: save the new bundle with a fault at a step.
+    """Save the new bundle in a child process, with a fault at a step. Returns its exit status.
 
-    0 saved, 9 killed, 3 refused with a sentence, `NEVER` saved before that step, 1 anything else.
+    0 saved, 9 killed, 3 an error of the library, `NEVER` saved before that step, 1 anything else.
     """
     child = os.fork()
     if child:
@@ -82,7 +82,7 @@ def save_with_fault(step: int, kind: str) -> int:
 
 
 def count_steps() -> int:
-    """The steps of a save."""
+    """Count the steps of a save without faults."""
     seen, is_counting = 0, True
 
     def hook(event: str, arguments: tuple[object, ...]) -> None:
@@ -102,7 +102,7 @@ def is_step(event: str, arguments: tuple[object, ...]) -> bool:
 
 
 def which() -> str:
-    """The bundle that is at the place, loaded."""
+    """Load the bundle at the path: "new" or "old", with ", recovered" for each warning of recovery."""
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         bundle = HapticBundle.load(ROOM)
@@ -124,7 +124,7 @@ def thesis_is_there() -> bool:
 def main() -> None:
     kind = sys.argv[2]
     if sys.argv[3] == "renames":
-        folder_replacement.exchange = lambda one, other: False  # type: ignore[assignment]  # as where no system exchanges
+        folder_replacement.exchange = lambda one, other: False  # type: ignore[assignment]  # as without exchange
     stride, n_steps = int(sys.argv[4]) if len(sys.argv) > 4 else 1, count_steps()
     rows = []
     for step in sorted({*range(1, n_steps, stride), *range(max(1, n_steps - N_AT_THE_END), n_steps + 2)}):

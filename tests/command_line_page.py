@@ -1,4 +1,4 @@
-"""The page of the command line, written from its parser: `python tests/command_line_page.py`."""
+"""Write the documentation page of the command line from its parser: `python tests/command_line_page.py`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _COMMON = {"help", "quiet", "json"}
 
 
 def page() -> str:
-    """The page as it ought to be."""
+    """The text that the page must have."""
     return "\n".join([_HEAD, *_commands(command_parser())]).rstrip() + "\n"
 
 
@@ -76,7 +76,7 @@ def _cell(text: str) -> str:
 
 
 def _described(text: str) -> str:
-    """Paragraphs as they are, lines that begin with the program's name as a block of code."""
+    """Keep paragraphs as they are, and put those that begin with the program's name into a code block."""
     paragraphs = []
     for paragraph in re.split(r"\n\s*\n", text.strip()):
         is_code = paragraph.startswith("scene2hap ")

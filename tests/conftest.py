@@ -1,4 +1,4 @@
-"""Shared by all tests: helpers on the path, no network, and the same examples of Hypothesis in every run."""
+"""Set-up shared by all tests: helpers on the path, no network, the same Hypothesis examples in every run."""
 
 import os
 import socket
@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 MEMORY = Path("/dev/shm")
 LEAST_MEMORY_BYTES = 4 << 30
 
-# A change is judged by the same examples in each run; --hypothesis-profile=search draws others.
+# The same examples in each run make runs comparable; --hypothesis-profile=search draws others.
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.register_profile("search", deadline=None, print_blob=True)
 settings.load_profile("same")
@@ -23,8 +23,10 @@ settings.load_profile("same")
 
 @pytest.hookimpl(tryfirst=True)  # before pytest chooses its folder
 def pytest_configure(config: pytest.Config) -> None:
-    """Let tests touch, turn and add carelessly; those of the warnings catch them. Write into memory where there is
-    enough: bundles and answers wait for the disk at each file, which is a quarter of the suite's time."""
+    """Ignore scene warnings, except in the tests that catch them, and write temporary files into memory if it has room.
+
+    Bundles and cached answers wait for the disk at each file, which takes a quarter of the suite's time.
+    """
     if config.option.basetemp is None and os.access(MEMORY, os.W_OK) and disk_usage(MEMORY).free > LEAST_MEMORY_BYTES:
         config.option.basetemp = mkdtemp(prefix="scene2hap-tests-", dir=MEMORY)
         config.add_cleanup(lambda: rmtree(config.option.basetemp, ignore_errors=True))

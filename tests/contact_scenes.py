@@ -23,18 +23,18 @@ def thing(name: str, geometry: Geometry, pose: Pose) -> SceneObject:
 
 
 def box(name: str, size_m: Triple, at_m: Triple, rotation_xyzw: Sequence[float] = (0, 0, 0, 1)) -> SceneObject:
-    """A cuboid (x, y up, z) with its middle at `at_m`."""
+    """A cuboid (x, y up, z) with its centre at `at_m`."""
     x, y, z, w = rotation_xyzw
     return thing(name, Box(size_m), Pose(at_m, (x, y, z, w)))
 
 
 def on_floor(name: str, size_m: Triple, x: float, z: float, gap_m: float = 0.0) -> SceneObject:
-    """A cuboid whose bottom is `gap_m` over y = 0."""
+    """A cuboid whose bottom is `gap_m` above y = 0."""
     return box(name, size_m, (x, size_m[1] / 2 + gap_m, z))
 
 
 def boxes(name: str, *parts: tuple[Triple, Triple], at_m: Triple = (0.0, 0.0, 0.0)) -> SceneObject:
-    """One object made of cuboids, each (size, middle)."""
+    """One object made of cuboids, each (size, centre)."""
     vertices: list[NDArray[np.float64]] = []
     faces: list[NDArray[np.int64]] = []
     for size_m, middle_m in parts:

@@ -1,4 +1,4 @@
-"""Scenes at the edge of what a session is given, built in code: every suite that runs sessions runs these as well."""
+"""Edge cases of scenes for sessions, built in code; every suite that runs sessions also runs these."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _CUBE_M = 0.5
 
 
 def no_source() -> Bundled:
-    """A plate that lies on a table, and a silent bundle."""
+    """A plate that lies on a table, and a bundle without sounds."""
     objects = {"table": haptics("oak", (1.6, 0.8, 0.02)), "phone": haptics("glass", (0.1, 0.1, 0.01))}
     return _bundled(scene(_TABLE, _PHONE), objects, ())
 
@@ -31,7 +31,7 @@ def one_silent_object() -> Bundled:
 
 
 def no_contact() -> Bundled:
-    """Three objects that hang apart in the air, one of which vibrates and one only while it stands on the table."""
+    """Three separate objects in the air: one vibrates, and one vibrates only in contact with the table."""
     apart = (_TABLE, box("phone", (0.1, 0.01, 0.1), (0.1, 3.0, 0.4)), box("pan", (0.2, 0.01, 0.2), (1.0, 5.0, 0.4)))
     objects = {
         "table": haptics("oak", (1.6, 0.8, 0.02)),
@@ -42,7 +42,7 @@ def no_contact() -> Bundled:
 
 
 def all_unknown() -> Bundled:
-    """Objects of which inference says nothing at all."""
+    """Objects without any result of inference."""
     return _bundled(scene(_TABLE, _PHONE), {}, ())
 
 
@@ -53,7 +53,7 @@ def unknown_source() -> Bundled:
 
 
 def equal_cubes() -> Bundled:
-    """Sixty equal cubes with names of their own in rows that touch, six of which vibrate."""
+    """Sixty equal cubes with different names, in rows that touch; six of them vibrate."""
     names = [f"cube {n}" for n in range(60)]
     size = (_CUBE_M,) * 3
     cubes = [box(x, size, (_CUBE_M * (n % 10), _CUBE_M * (0.5 + n // 10), 0.0)) for n, x in enumerate(names)]

@@ -1,4 +1,4 @@
-"""Random tracks and settings of exporters, and the verdict of a checker that was written apart from them."""
+"""Random tracks and exporter settings, and the verdict of an independently written checker."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CHECKED = ("haptic", "ahap", "hjif", "openxr_pcm", "openxr_envelope", "openxr_pa
 
 
 def random_track(rng: np.random.Generator, longest_s: float = 4.0) -> Track:
-    """A loop, or two hands over time: tones, glides, noise, beats, pulses, silence and clipping, each maybe."""
+    """A loop, or one or two hands over time, with random tones, sweeps, noise, beats, pulses, silence and clipping."""
     duration_s = float(rng.choice([0.01, rng.uniform(0.05, 1.0), rng.uniform(0.5, longest_s)]))
     is_loop = bool(rng.random() < 0.5)
     names = [""] if is_loop or rng.random() < 0.5 else ["left", "right"]
@@ -48,7 +48,7 @@ def _signal(rng: np.random.Generator, duration_s: float) -> np.ndarray:
 
 
 def random_exporter(rng: np.random.Generator, kind: str) -> tuple[Exporter, dict[str, Any]]:
-    """An exporter of a kind, and its settings."""
+    """An exporter of a kind with random settings, and these settings."""
     settings: dict[str, Any] = {}
     if kind in ("haptic", "ahap", "hjif", "openxr_parametric") and rng.random() < 0.6:
         low = float(rng.uniform(10.0, 200.0))

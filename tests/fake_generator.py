@@ -1,6 +1,6 @@
-"""A text-to-audio program that behaves, or not, as its first argument says: fake_generator.py MANNER REQUEST FOLDER.
+"""A fake text-to-audio program; its first argument selects a fault: fake_generator.py MANNER REQUEST FOLDER.
 
-Standard library alone, so that it starts fast.
+It uses only the standard library, so that it starts fast.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def main() -> int:
     if manner == "hang":
         time.sleep(60)
     if manner == "orphan":
-        # A child that ignores the end of its parent and would run on for a minute.
+        # A child that would outlive its parent by a minute.
         child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
         Path(os.environ["FAKE_PID"]).write_text(str(child.pid), encoding="utf-8")
     if manner == "die":

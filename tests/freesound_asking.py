@@ -1,4 +1,4 @@
-"""Freesound as it is asked in tests, by a clock that runs while it sleeps."""
+"""Freesound sources for tests: connected to a fake API, with a clock that advances only in `sleep`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from scene2hap.haptics import VibrationDescription
 
 
 class Time:
-    """A clock that runs while somebody sleeps by it."""
+    """A clock that `sleep` advances without waiting."""
 
     def __init__(self) -> None:
         self.now_s = 1000.0

@@ -1,4 +1,4 @@
-"""A loopback server that plays freesound.org or the host of its previews."""
+"""A loopback server that acts as freesound.org or as the host of its previews."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ BY_NC = "http://creativecommons.org/licenses/by-nc/3.0/"
 
 @dataclass
 class Page:
-    """One reply; or silence until the test is over, a dropped connection, a body that comes a byte at a time."""
+    """One reply. `manner` "hang" never replies, "drop" closes the connection, "drip" and "endless" send on and on."""
 
     body: Any = b""
     status: int = 200
@@ -39,7 +39,7 @@ class Get:
 
 
 class Host:
-    """`answer` plays a list of pages in order, then its last one again, or is a function of what was asked."""
+    """`answer` is a list of pages, sent in order and then the last one repeatedly, or a function of the request."""
 
     def __init__(self, answer: list[Page] | Callable[[Get], Page]) -> None:
         self.answer = answer
@@ -55,7 +55,7 @@ class Host:
 
     @property
     def tokens(self) -> list[str]:
-        """Every header or query that could carry the token."""
+        """The authorization header and token parameter of each request, joined."""
         return [get.headers.get("authorization", "") + get.query.get("token", "") for get in self.asked]
 
 
@@ -89,7 +89,7 @@ def host(*pages: Page, by: Callable[[Get], Page] | None = None) -> Iterator[Host
                 else:
                     self.wfile.write(raw)
             except OSError:
-                pass  # the other side has had enough
+                pass  # the client has closed the connection
             if page.manner:
                 self.close_connection = True
 
@@ -118,7 +118,7 @@ def hum(seconds: float = 3.0, *, pitch_hz: float = 100.0, rate: int = 8000, kind
 
 
 def result(number: int, preview: str, **changes: Any) -> dict[str, Any]:
-    """One sound of a search."""
+    """One row of a search result."""
     return {
         "id": number,
         "name": f"hum {number}",

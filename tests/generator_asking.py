@@ -1,4 +1,4 @@
-"""The fake generator as TextToAudio asks it, and what it left behind."""
+"""TextToAudio set up to run the fake generator, and checks of the files that a run leaves behind."""
 
 from __future__ import annotations
 

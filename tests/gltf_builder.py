@@ -1,4 +1,4 @@
-"""glTF files written by hand, so that tests can say what is in them and break them in one place."""
+"""Build glTF files by hand, so that tests know their content and can damage one place in them."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0
 """The corners of the unit cube."""
 _CUBE_SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 CUBE_FACES = np.array([face for a, b, c, d in _CUBE_SIDES for face in ((a, b, c), (a, c, d))])
-"""Its twelve triangles, facing outwards."""
+"""The twelve triangles of the cube, facing outwards."""
 
 
 class Gltf:
-    """A header and its one buffer; `header` may be changed at will before it is written."""
+    """A header and its one buffer; tests may change `header` before they write it."""
 
     def __init__(self) -> None:
         self.header: Json = {
@@ -39,7 +39,7 @@ class Gltf:
         self.buffer = bytearray()
 
     def view(self, array: ArrayLike, dtype: str, **fields: Any) -> int:
-        """Append values as a buffer view; its number."""
+        """Append values as a buffer view. Returns its number."""
         data = np.asarray(array).astype(dtype).tobytes()
         self.buffer += b"\0" * (-len(self.buffer) % 4)
         row = {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), **fields}
@@ -48,17 +48,17 @@ class Gltf:
         return self._append("bufferViews", row)
 
     def accessor(self, array: ArrayLike, dtype: str, kind: str, **fields: Any) -> int:
-        """Append values as an accessor; its number."""
+        """Append values as an accessor. Returns its number."""
         codes = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
         row = {"bufferView": self.view(array, "<" + dtype), "componentType": codes[dtype], "type": kind}
         return self._append("accessors", {**row, "count": len(np.asarray(array)), **fields})
 
     def mesh(self, *primitives: Json, name: str | None = None) -> int:
-        """Append a mesh; its number."""
+        """Append a mesh. Returns its number."""
         return self._append("meshes", {"primitives": list(primitives), **({"name": name} if name else {})})
 
     def cube(self, **primitive: Any) -> int:
-        """Append a mesh that is the unit cube; its number."""
+        """Append the unit cube as a mesh. Returns its number."""
         positions = self.accessor(CUBE, "f4", "VEC3")
         indices = self.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
         return self.mesh({"attributes": {"POSITION": positions}, "indices": indices, **primitive})
@@ -72,7 +72,7 @@ class Gltf:
         root: bool = False,
         **row: Any,
     ) -> int:
-        """Append a node, in the scene's own list if it is a root; its number."""
+        """Append a node, and list it in the scene if it is a root. Returns its number."""
         if name is not None:
             row["name"] = name
         if mesh is not None:
@@ -85,11 +85,11 @@ class Gltf:
         return number
 
     def glb(self) -> bytes:
-        """The file in one piece."""
+        """The file as GLB."""
         return glb_bytes(self.header, bytes(self.buffer))
 
     def write(self, path: Path) -> Path:
-        """The file as GLB, or as a .gltf with its buffer beside it, by the name's suffix."""
+        """Write GLB, or .gltf with its buffer in a file beside it, by the suffix. Returns the path."""
         if path.suffix == ".glb":
             path.write_bytes(self.glb())
             return path
@@ -109,7 +109,7 @@ class Gltf:
 
 
 def glb_bytes(header: Json, binary: bytes) -> bytes:
-    """A GLB of a header and a binary chunk."""
+    """A GLB with this header and this binary chunk."""
     text = json.dumps(header).encode("utf-8")
     text += b" " * (-len(text) % 4)
     binary += b"\0" * (-len(binary) % 4)

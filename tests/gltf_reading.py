@@ -1,4 +1,4 @@
-"""A reading of glTF files that shares nothing with the library's, to hold the library's against."""
+"""Reference reader of glTF files, independent of the library's reader, which tests compare with it."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ def values(header: dict[str, Any], buffer: bytes, number: int) -> NDArray[np.flo
 
 
 def drawn_triangles(path: Path, textured: bool = False) -> Iterator[NDArray[np.float64]]:
-    """World corners (m, 3, 3) of each mesh node, walked from each node up to its root.
+    """World corners (m, 3, 3) of each mesh node; transforms are multiplied from each node up to its root.
 
-    `textured`: only those with a texture, and with its coordinates behind each corner: (m, 3, 5).
+    `textured`: only meshes with a texture, with the texture coordinates behind each corner: (m, 3, 5).
     """
     header, buffer = header_and_buffer(path)
     nodes = header["nodes"]
@@ -79,7 +79,7 @@ def drawn_triangles(path: Path, textured: bool = False) -> Iterator[NDArray[np.f
 
 
 def images_of(header: dict[str, Any], buffer: bytes, material: dict[str, Any], folder: Path) -> set[bytes]:
-    """The file of the image that a material shows, if it shows one."""
+    """The content of the image file of a material's base colour texture; empty without a texture."""
     info = material["pbrMetallicRoughness"].get("baseColorTexture")
     if info is None:
         return set()

@@ -1,6 +1,6 @@
-"""Habitat datasets written by hand, so that tests can say what is in them and break them in one place.
+"""Build Habitat datasets by hand, so that tests know their content and can damage one place in them.
 
-Structure and fields are those of habitat-sim's data/test_assets/dataset_tests and docs/pages/attributesJSON.rst.
+Structure and fields follow habitat-sim's data/test_assets/dataset_tests and docs/pages/attributesJSON.rst.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def rooms() -> Gltf:
 
 
 class Dataset:
-    """A dataset with a stage, a chair, a washer whose name is a hash, and no scene yet."""
+    """A dataset with a stage, a chair, and a washer whose name is a hash, but no scene yet."""
 
     def __init__(self, folder: Path, *, document: Json | None = DATASET) -> None:
         self.folder = folder
@@ -55,14 +55,14 @@ class Dataset:
         self.write(f"objects/0/{HASH}.object_config.json", {"render_asset": f"{HASH}.glb"})
 
     def write(self, name: str, document: Any) -> Path:
-        """A JSON file in the dataset."""
+        """Write a JSON file into the dataset. Returns its path."""
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(document if isinstance(document, str) else json.dumps(document), encoding="utf-8")
         return path
 
     def scene(self, *objects: Json, name: str = "scenes/flat.scene_instance.json", **fields: Any) -> Path:
-        """A scene of these object instances."""
+        """Write a scene of these object instances. Returns its path."""
         document = {
             "translation_origin": "asset_local",
             "stage_instance": {"template_name": "stages/home"},
@@ -88,11 +88,11 @@ ODD: tuple[Any, ...] = (
     *([], {}, [[]], [0, 0, 0], [0, 0, 0, 0], [1e308] * 3, ["a", "b", "c"], [1, 2], [0] * 1000, {"a": {}}),
     *(CHAIR, HASH, f"{CHAIR}.glb", "cubeSolid", ".", "..", "objects", f"{HASH}.object_config.json"),
 )
-"""Values that nobody expects where something else stands."""
+"""Invalid values, put in place of valid ones."""
 
 
 def mutated_dataset(folder: Path, rng: random.Random) -> Path:
-    """A dataset of which one file, or two, is broken at random; the path of its scene."""
+    """Write a dataset and damage one or two of its files at random. Returns the path of its scene."""
     dataset = Dataset(folder)
     row = instance(
         CHAIR, [1, 0, 0], rotation=[1, 0, 0, 0], uniform_scale=1.0, non_uniform_scale=[1, 1, 1], mass_scale=1.0
@@ -126,7 +126,7 @@ def mutated_dataset(folder: Path, rng: random.Random) -> Path:
 
 
 def _with_odd_value(text: str, rng: random.Random) -> str:
-    """JSON with another value, or none, somewhere; the text itself where it is no longer JSON."""
+    """JSON with one random value replaced, repeated or removed; the same text if it is not valid JSON."""
     try:
         document = json.loads(text)
     except ValueError:
@@ -146,7 +146,7 @@ def _with_odd_value(text: str, rng: random.Random) -> str:
 
 
 def _torn(text: str, rng: random.Random) -> str:
-    """A text that ends early, or of which a part is there again and again, or is something else."""
+    """A text that ends early, or has one part removed, repeated or replaced."""
     begin = rng.randrange(len(text) + 1)
     end = min(len(text), begin + rng.randrange(1, 40))
     middle = rng.choice(["", text[begin:end] * 1000, "[" * 50_000, '"', "\0", "9" * 5000, "\ud800", "é\n\r,"])

@@ -1,4 +1,4 @@
-"""The published rules of the haptic file formats, held against decoded content, apart from the library's exporters.
+"""Check decoded haptic files against the published rules of their formats, independently of the library's exporters.
 
 Sources: Meta's haptic_data/src/v1.rs, Apple's AHAP guide, MPEG's IOJson.cpp and the text of XR_EXT_haptic_parametric.
 """
@@ -23,7 +23,7 @@ INT32, UINT32, INT64 = 2**31 - 1, 2**32 - 1, 2**63 - 1
 
 
 class _Reading:
-    """What is wrong with a document. If values are missing or of a wrong type, rules between values are left out."""
+    """The faults of a document. If values are missing or of a wrong type, rules between values are not checked."""
 
     def __init__(self, shape: _Shape, document: object, where: str = "document") -> None:
         self.told: list[str] = []
@@ -51,7 +51,7 @@ _Shapes = Mapping[str, _Shape]
 
 def _number(low: float = -math.inf, high: float = math.inf, kind: type = float) -> _Shape:
     def read(value: Any, where: str, found: _Reading) -> None:
-        # JSON writes a whole number without a point. All formats read at most 32-bit floats.
+        # JSON may write a float without a point. All formats read at most 32-bit floats.
         right = isinstance(value, int | kind) and not isinstance(value, bool)
         if not right or not abs(value) <= float(np.finfo(np.float32).max):
             found.tell(where, f"is not a finite {'number' if kind is float else 'integer'}", breaks=True)
@@ -83,7 +83,7 @@ def _items(shape: _Shape, least: int = 0, most: float = math.inf) -> _Shape:
 
 
 def _object(needed: _Shapes, optional: _Shapes | None = None, *, others: bool = False) -> _Shape:
-    """An object with the needed keys, maybe the optional ones, and unknown ones only if `others`."""
+    """An object that has the needed keys, may have the optional ones, and unknown ones only if `others`."""
     shapes = {**needed, **(optional or {})}
 
     def read(value: Any, where: str, found: _Reading) -> None:
@@ -106,7 +106,7 @@ _integer, _text = partial(_number, kind=int), partial(_kind, str)
 UNIT, TIME, TEXT, NUMBER, BOOLEAN = _number(0, 1), _number(0), _text(), _number(), _kind(bool)
 TICK, ID, COUNT = _integer(0, INT32), _integer(0, INT32), _integer(0, UINT32)
 
-# -- Meta .haptic: unknown keys pass, as Meta's reader ignores them ----------------------------------------------------
+# -- Meta .haptic: unknown keys are allowed, since Meta's reader ignores them ------------------------------------------
 _EMPHASIS = {"emphasis": _open({"amplitude": UNIT, "frequency": UNIT})}
 _ENVELOPES = _open(
     {"amplitude": _items(_open({"time": TIME, "amplitude": UNIT}, _EMPHASIS), 2)},
@@ -119,7 +119,7 @@ _HAPTIC = _open({"version": _VERSIONS, "signals": _SIGNALS}, {"metadata": _open(
 
 
 def check_haptic(document: object, *, legacy: bool = False) -> list[str]:
-    """Hold a .haptic document against Meta's Strict rules; `legacy` drops the one on the span of the frequency."""
+    """Check a .haptic document against Meta's Strict rules; `legacy` drops the rule on the span of the frequency."""
     found = _Reading(_HAPTIC, document)
     if found.broken:
         return found.told
@@ -127,7 +127,7 @@ def check_haptic(document: object, *, legacy: bool = False) -> list[str]:
     found.ordered((one["time"] for one in points), "times of amplitude points")
     found.ordered((one["time"] for one in others), "times of frequency points")
     start, end = points[0]["time"], points[-1]["time"]
-    # Meta reads float32, in which two near times are one.
+    # Meta reads float32, in which two close times may be equal.
     if not np.float32(end) > np.float32(start):
         found.tell("the amplitude envelope", "has no duration above 0")
     for one in points:
@@ -144,7 +144,7 @@ def haptic_duration_s(document: Any) -> float:
 
 
 def haptic_amplitude(document: Any, times: Samples) -> Samples:
-    """Amplitudes at times. The first and the last point hold outside the clip."""
+    """Amplitudes at times. Outside the clip, the first or the last point applies."""
     return _line(_points(document, "amplitude"), "time", "amplitude", times)
 
 
@@ -159,7 +159,7 @@ def _points(document: Any, name: str) -> Any:
 
 
 def _line(points: Any, time: str, value: str, times: Samples) -> Samples:
-    # At a jump, two points at one time, np.interp takes the later one.
+    # At a jump (two points at one time), np.interp takes the later one.
     return np.interp(times, [float(one[time]) for one in points], [float(one[value]) for one in points])
 
 
@@ -182,7 +182,7 @@ def _pattern_item(value: Any, where: str, found: _Reading) -> None:
 
 
 def check_ahap(document: Any) -> list[str]:
-    """Hold an AHAP document against Apple's rules, and against joints without a gap."""
+    """Check an AHAP document against Apple's rules, and that its events and curves join without a gap."""
     found = _Reading(_object({"Version": _number(1, 1), "Pattern": _items(_pattern_item)}), document)
     if found.broken:
         return found.told
@@ -190,7 +190,7 @@ def check_ahap(document: Any) -> list[str]:
     for one in events:
         if (one["EventType"] == "HapticContinuous") != ("EventDuration" in one):
             found.tell(f"the {one['EventType']} at {one['Time']}", "has an EventDuration, or lacks one, wrongly")
-        # Apple lets both be missing, but then a value holds that is not in the facts.
+        # Apple allows both to be missing, but then a default applies that is not in the published rules.
         if sorted(row["ParameterID"] for row in one["EventParameters"]) != ["HapticIntensity", "HapticSharpness"]:
             found.tell(f"the event at {one['Time']}", "does not have one HapticIntensity and one HapticSharpness")
     for before, after in pairwise(one for one in events if one["EventType"] == "HapticContinuous"):
@@ -211,7 +211,7 @@ def check_ahap(document: Any) -> list[str]:
 
 
 def ahap_duration_s(documents: Sequence[Any]) -> float:
-    """The greatest end of all events. A transient counts as a moment, as Apple gives it no length."""
+    """The latest end of all events. A transient has no length, since Apple defines none."""
     events = (one["Event"] for document in documents for one in document["Pattern"] if "Event" in one)
     return max((float(one["Time"] + one.get("EventDuration", 0)) for one in events), default=0.0)
 
@@ -219,7 +219,7 @@ def ahap_duration_s(documents: Sequence[Any]) -> float:
 def ahap_intensity(document: Any, times: Samples, *, absolute: bool = False) -> Samples:
     """Intensity of the continuous events times its control, 0 where there is no event.
 
-    `absolute` reads the points' times as file times in curves whose own time is above 0, as Meta writes them.
+    `absolute` reads the points' times as file times in curves whose time is above 0, as Meta writes them.
     """
     return np.clip(_base(document, times, "HapticIntensity") * _control(document, times, _CONTROLS[0], absolute), 0, 1)
 
@@ -252,7 +252,7 @@ def _value(event: Any, name: str) -> float:
 def _base(document: Any, times: Samples, name: str) -> Samples:
     values = np.zeros(len(times))
     for one in _events(document, "HapticContinuous"):
-        # A joint that is right within rounding leaves no gap.
+        # Widened by the rounding tolerance, so that joints leave no gap.
         inside = (times >= one["Time"] - JOINT) & (times <= one["Time"] + one["EventDuration"] + JOINT)
         values[inside] = _value(one, name)
     return values
@@ -284,7 +284,7 @@ _DEVICE_NUMBERS = "maximum_amplitude impedance maximum_voltage maximum_current m
 _DEVICE_REST = {"body_part_mask": COUNT, "type": TEXT} | dict.fromkeys([*_HERTZ, *_DEVICE_NUMBERS.split()], NUMBER)
 _DEVICE = _object({"id": ID, "name": TEXT}, _DEVICE_REST)
 _AVATAR_TYPE = _text("Vibration", "Pressure", "Temperature", "Custom")
-# 0 is kept for "no avatar".
+# 0 means "no avatar".
 _AVATAR = _object({"id": _integer(1, INT32), "lod": TICK, "type": _AVATAR_TYPE}, {"mesh": TEXT})
 _KEYFRAME = _object({"relative_position": TICK, "amplitude_modulation": NUMBER}, {"frequency_modulation": TICK})
 _EFFECT = {"effect_type": _text("Basis"), "position": TICK, "phase": NUMBER, "keyframes": _items(_KEYFRAME, 1)} | {
@@ -307,7 +307,7 @@ def _hjif(profile: str) -> _Shape:
         | {"direction": _object(dict.fromkeys("XYZ", _integer(-128, 127)))},
     )
     exponent = _integer(-INT32 - 1, INT32)
-    # The loader refuses any effect_semantic_scheme, so that it is an unknown key here.
+    # The loader refuses any effect_semantic_scheme, so here this key is unknown.
     perception = _object(
         {"id": ID, "avatar_id": ID, "description": TEXT, "perception_modality": _text("Vibrotactile")}
         | {"effect_library": _items(_object(_EFFECT | {"id": ID}))}
@@ -322,7 +322,7 @@ def _hjif(profile: str) -> _Shape:
 
 
 def check_hjif(document: Any, profile: str) -> list[str]:
-    """Hold an HJIF document of a profile against the rules of MPEG's loader."""
+    """Check an HJIF document of a profile against the rules of MPEG's loader."""
     found = _Reading(_hjif(profile), document)
     if found.broken:
         return found.told
@@ -380,7 +380,7 @@ def _check_band(band: Any, where: str, found: _Reading) -> None:
     for i, effect in enumerate(band["effects"]):
         found.ordered(_ticks(effect), f"keyframes of effect {i} of {where}")
         hertz = [one.get("frequency_modulation") for one in effect["keyframes"]]
-        # A curve and a wavelet have no frequency to modulate.
+        # Curve and wavelet bands have no frequency to modulate.
         if None in hertz and kind in ("Transient", "VectorialWave"):
             found.tell(f"effect {i} of {where}", "has a keyframe without frequency_modulation")
         if any(one is not None and not low <= one <= high for one in hertz):
@@ -397,7 +397,7 @@ def _ticks(effect: Any) -> list[int]:
 
 
 def hjif_duration_s(document: Any) -> float:
-    """The last keyframe of all effects. A transient counts as a moment."""
+    """The time of the last keyframe of all effects. A transient has no length."""
     channels = (channel for perception in document["perceptions"] for channel in perception["channels"])
     effects: Iterator[Any] = (one for channel in channels for band in channel["bands"] for one in band["effects"])
     ends = (one["position"] + _ticks(one)[-1] for one in effects)
@@ -427,7 +427,7 @@ _PARAMETRIC = _object(
 
 
 def check_openxr_pcm(header: Any, samples: bytes) -> list[str]:
-    """Hold a header and its samples against XR_FB_haptic_pcm."""
+    """Check a header and its samples against XR_FB_haptic_pcm."""
     found = _Reading(_PCM, header, "header")
     if not found.broken and not re.fullmatch(r"[^/\\]+", header["samples"]):
         found.tell("header.samples", f"is {header['samples']!r}, not a file name")
@@ -440,12 +440,12 @@ def check_openxr_pcm(header: Any, samples: bytes) -> list[str]:
 
 
 def check_openxr_envelope(document: object) -> list[str]:
-    """Hold a document against XR_FB_haptic_amplitude_envelope."""
+    """Check a document against XR_FB_haptic_amplitude_envelope."""
     return _Reading(_ENVELOPE, document).told
 
 
 def check_openxr_parametric(document: Any, *, first_frame_ns: int = 50_000_000) -> list[str]:
-    """Hold a document against XR_EXT_haptic_parametric, whose runtime asks for a first frame of so many ns."""
+    """Check a document against XR_EXT_haptic_parametric, for a runtime that requires a first frame of so many ns."""
     found = _Reading(_PARAMETRIC, document)
     if found.broken:
         return found.told
@@ -490,7 +490,7 @@ _ANDROID = _object(
 
 
 def check_android(document: Any) -> list[str]:
-    """Hold a document against the arguments of createWaveform, in steps of 10 ms."""
+    """Check a document against the arguments of createWaveform, in steps of 10 ms."""
     found = _Reading(_ANDROID, document)
     if not found.broken and len(document["timings_ms"]) != len(document["amplitudes"]):
         found.tell("document", "does not have as many timings as amplitudes")

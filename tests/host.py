@@ -1,4 +1,4 @@
-"""What some tests need of the operating system, and the reason to skip them without it."""
+"""Features of the operating system that some tests need, and the reason to skip a test without them."""
 
 import os
 from functools import cache

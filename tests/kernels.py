@@ -1,4 +1,4 @@
-"""Both of every pair of kernels, and how they are compared."""
+"""Pairs of plain and compiled kernels, and the Hypothesis settings of the tests that compare them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ steady = settings(max_examples=60)
 
 
 def both(name: str) -> tuple[Callable[..., Any], Callable[..., Any]]:
-    """A plain kernel and its compiled twin."""
+    """A plain kernel and its compiled twin; skips the test without a twin, unless SCENE2HAP_COMPILED is 1."""
     plain, twin = KERNELS[f"scene2hap.{name}"]
     if twin is None:
         wish = os.environ.get("SCENE2HAP_COMPILED", "")

@@ -1,8 +1,8 @@
-"""A laundry in plain glTF, for comparison with the same file as tools pack it.
+"""A laundry scene in plain glTF, for comparison with the same scene packed by other tools.
 
     PYTHONPATH=tests python tests/laundry.py laundry.glb
 
-writes it; tests/data/meshopt/README.md says how the packed files were made of it.
+writes the file; tests/data/meshopt/README.md says how the packed files were made from it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Backends that talk to a scripted server, and one question put to them."""
+"""LLM backends connected to a scripted server, and a function that sends them one request."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def ollama(server: Server, **settings: Any) -> LocalBackend:
 
 
 def failed(*script: Scripted, **settings: Any) -> BackendUnavailable:
-    """What an OpenAI backend raises for a script."""
+    """The error that an OpenAI backend raises for scripted answers."""
     with openai_serving(*script) as server, pytest.raises(BackendUnavailable) as caught:
         ask(openai(server, **settings))
     return caught.value

@@ -1,4 +1,4 @@
-"""One fault, many requests at once, through the standard stack; and what became of each of them."""
+"""Send many concurrent requests with one fault through the standard LLM stack, and record the outcome of each."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _NUMBER = re.compile(r"Question (\d+)\.")
 
 @dataclass
 class Outcome:
-    """What became of the requests of one fault."""
+    """The outcome of the requests of one fault."""
 
     requests: int = 0
     ends: Counter[str] = field(default_factory=Counter)
@@ -79,7 +79,7 @@ def run(
     retries: int = 2,
     sleep: Callable[[float], Awaitable[object]] = asyncio.sleep,
 ) -> Outcome:
-    """`n` requests through the standard stack, and a second run over the same cache; then a search for the key."""
+    """Send `n` requests through the standard stack, twice over the same cache; then search all output for the key."""
     outcome = Outcome(requests=n)
     play = Play(fault, float("inf") if for_good else 1, kind)
     began_s = time.monotonic()
@@ -115,7 +115,7 @@ async def _all(
             except Scene2HapError as error:
                 shown.extend(_all_of(error))
                 outcome.ends[type(error).__name__] += 1
-            except Exception as error:  # the campaign is there to find these
+            except Exception as error:  # the campaign searches for such errors
                 outcome.foreign.append(repr(error))
             else:
                 shown.append(repr(reply))
@@ -135,10 +135,10 @@ def _is_good(component: Component, reply: LLMReply) -> bool:
 
 
 def _all_of(error: BaseException) -> list[str]:
-    """All that a reporter of errors might show of an error, its causes and contexts: local variables too."""
+    """All texts that an error reporter might show of an error, its causes and contexts, with local variables."""
     frames = error.__traceback__
     while frames is not None and frames.tb_frame.f_code.co_filename == __file__:
-        frames = frames.tb_next  # ours hold everything that was shown before
+        frames = frames.tb_next  # frames of this module hold everything shown before
     whole = "".join(traceback.TracebackException(type(error), error, frames, capture_locals=True).format())
     chain = list(itertools.islice(_chain(error), 20))
     return [whole, *map(str, chain), *map(repr, chain), *(repr(vars(link)) for link in chain)]
@@ -153,7 +153,7 @@ def _chain(error: BaseException | None) -> Iterator[BaseException]:
 
 
 class _listening(logging.Handler):
-    """All logs at DEBUG and all warnings, into `shown`."""
+    """Append all log records from DEBUG up and all warnings to `shown`."""
 
     def __init__(self, shown: list[str]) -> None:
         super().__init__(logging.DEBUG)
@@ -178,5 +178,5 @@ class _listening(logging.Handler):
 
 
 def _serving(play: Play, kind: str) -> AbstractContextManager[Server]:
-    """OpenAI's requests and answers are held against its schema; others may have keys of their own."""
+    """Serve the play; check requests and answers of OpenAI's kind against its schema, as others may have other keys."""
     return (openai_serving if kind == "openai" else serving)(by=play.answer)

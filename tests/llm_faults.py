@@ -1,4 +1,4 @@
-"""Everything that a model's server may do wrong, as scripted replies by name."""
+"""Faults of an LLM server, as scripted replies by name."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from llm_server import GOOD, KEY, Scripted, refused, said
 from scene2hap.llm.protocol import COMPONENTS, Component
 
 WAIT_MS = 60
-"""What the scripted rate limit asks for."""
+"""The wait that the scripted rate limit demands."""
 DRIP_S = 30.0
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A reply instead of the good one, for the components that it concerns.
+    """A faulty reply for the components that it concerns.
 
-    `ends` is what becomes of a request whose server mends itself after `mends_after` faults: "valid", or the name of an
-    error. `calls` are how many it takes then. `breaks_for_good`: what becomes of it where the server never mends.
+    `ends` is the outcome of a request if the server recovers: "valid", or the name of an error. `calls` is the number
+    of calls that this takes. `breaks_for_good` is the outcome if the server never recovers.
     """
 
     reply: Callable[[Component], Scripted]
@@ -44,7 +44,7 @@ def _fatal(reply: Scripted, error: str) -> Fault:
 
 
 def _read_through(text: Callable[[str], str]) -> Fault:
-    """Not a fault of the answer: it is there, among other words."""
+    """A reply that the library accepts: the valid answer among other words."""
     return Fault(lambda component: said(text(json.dumps(GOOD[component]))), "valid", 1, "valid")
 
 
@@ -127,11 +127,11 @@ FAULTS: Mapping[str, Fault] = {
 
 
 NOT_OF_OLLAMA = frozenset({"429 quota"})
-"""Ollama sells nothing; its errors are bare texts without a code."""
+"""Faults that Ollama does not have: it has no quota, and its errors are bare texts without a code."""
 
 
 def as_ollama(reply: Scripted) -> Scripted:
-    """The same reply in Ollama's own chat, where it has one."""
+    """The same reply in the format of Ollama's native chat, if there is one."""
     if reply.claims == "ErrorResponse":
         return replace(reply, body={"error": reply.body["error"]["message"]}, claims="")
     if reply.claims != "CreateChatCompletionResponse":

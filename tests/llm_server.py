@@ -1,4 +1,4 @@
-"""A scripted HTTP server on the loopback interface that plays a model's server."""
+"""A scripted HTTP server on the loopback interface that acts as an LLM server."""
 
 from __future__ import annotations
 
@@ -67,8 +67,8 @@ def request(component: Component = "scene_analyzer", **changes: Any) -> LLMReque
 
 @dataclass
 class Scripted:
-    """One reply: JSON or raw bytes, at once or dripping for `drip_s`; or silence until the test is over; or a
-    connection that is dropped, or reset. `claims` names the schema of OpenAI's that the body fits."""
+    """One reply: JSON or raw bytes, at once or spread over `drip_s`. With `hang`, no reply comes; with `drop` or
+    `reset`, the connection ends. `claims` names the OpenAI schema that the body follows."""
 
     body: Any = None
     status: int = 200
@@ -97,9 +97,9 @@ class Asked:
 
 
 class Server:
-    """Plays `script` in order, then its last line again; or asks it, where it is a function of what was asked.
+    """Send the replies of `script` in order, then the last one repeatedly; or call `script` with each request.
 
-    `pages` are what can be got, by path.
+    `pages` are the replies to GET, by path.
     """
 
     def __init__(
@@ -152,7 +152,7 @@ class _HTTPServer(ThreadingHTTPServer):
     request_queue_size = 64
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        pass  # a client that hung up is part of the play
+        pass  # tests let clients hang up
 
 
 class _Handler(BaseHTTPRequestHandler):
@@ -220,7 +220,7 @@ def said(content: Any = GOOD["scene_analyzer"], finish_reason: str | None = "sto
 
 
 def ollama_said(content: Any = GOOD["scene_analyzer"], **changes: Any) -> Scripted:
-    """A reply of Ollama's native chat."""
+    """A reply in the format of Ollama's native chat."""
     text = content if isinstance(content, str) else json.dumps(content)
     body = {
         "model": "qwen2.5vl",
@@ -234,7 +234,7 @@ def ollama_said(content: Any = GOOD["scene_analyzer"], **changes: Any) -> Script
 
 
 def refused(status: int, error: Any = "no", **headers: str) -> Scripted:
-    """An error as OpenAI sends it, or with a bare text as others do; underscores in header names stand for hyphens."""
+    """An error as OpenAI sends it, or a bare text as others send; underscores in header names stand for hyphens."""
     named = {name.replace("_", "-"): value for name, value in headers.items()}
     if not isinstance(error, dict):
         return Scripted({"error": error}, status, named)

@@ -22,12 +22,12 @@ PIXELS = np.array([[RED, GREEN], [BLUE, WHITE]], np.uint8)
 """Upper left, upper right, lower left and lower right of a texture."""
 
 QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-"""A square in x (rightwards) and y (upwards)."""
+"""A square in x (to the right) and y (up)."""
 QUAD_FACES = np.array([[0, 1, 2], [0, 2, 3]])
 QUAD_UV = np.array([[0.25, 0.75], [0.75, 0.75], [0.75, 0.25], [0.25, 0.25]])
 """The image upright on the square: each corner at the middle of a pixel, v running down."""
 UPRIGHT = {(0.0, 0.0): BLUE, (1.0, 0.0): WHITE, (1.0, 1.0): GREEN, (0.0, 1.0): RED}
-"""What each corner of the square then shows."""
+"""The colour at each corner of the square with `QUAD_UV`."""
 
 
 def image_file(pixels: NDArray[np.uint8] = PIXELS, kind: str = "PNG") -> bytes:
@@ -38,7 +38,7 @@ def image_file(pixels: NDArray[np.uint8] = PIXELS, kind: str = "PNG") -> bytes:
 
 
 def quad(material: dict[str, Any] | None, *, uv: ArrayLike = QUAD_UV, **attributes: int) -> Gltf:
-    """A textured square whose image is still to be given; no node."""
+    """A textured square without its image and without a node."""
     gltf = Gltf()
     places = {"POSITION": gltf.accessor(QUAD, "f4", "VEC3"), "TEXCOORD_0": gltf.accessor(uv, "f4", "VEC2")}
     order = gltf.accessor(QUAD_FACES.reshape(-1), "u2", "SCALAR")
@@ -68,7 +68,7 @@ def one(gltf: Gltf, folder: Path, name: str = "scene.glb", **node: Any) -> Scene
 
 
 def beside(tmp_path: Path, uri: str) -> Path:
-    """A scene in a folder of its own that names an image."""
+    """Write a scene that refers to the image `uri` into the folder `models`."""
     home = tmp_path / "models"
     home.mkdir()
     gltf = quad(pbr(baseColorFactor=[1.0, 0.0, 0.0, 1.0]))

@@ -1,4 +1,4 @@
-"""The small room in which the usual mistakes are made, and the answer that each one gets."""
+"""Run the code of usual mistakes in a small room, and write their error messages to docs/errors.md."""
 
 from __future__ import annotations
 
@@ -40,32 +40,32 @@ _BOXES = {  # size and centre, y up [m]
 
 
 class Refused(Scene2HapError):
-    """What the command line says as it gives up."""
+    """The error message of a failed command line."""
 
 
 class Usage(Exception):
-    """What argparse says of arguments."""
+    """The message of argparse on wrong arguments."""
 
 
 class Answer(NamedTuple):
-    """How a mistake ended: the type of the error or warning and its sentence, None and empty if it worked."""
+    """The outcome of a mistake: type and message of the error or warning; None and "" if the code worked."""
 
     kind: type[BaseException] | None = None
     sentence: str = ""
 
     @property
     def is_ours(self) -> bool:
-        """Whether the error is of our own tree."""
+        """Whether the error is a `Scene2HapError`."""
         return self.kind is not None and issubclass(self.kind, Scene2HapError)
 
     @property
     def is_warning(self) -> bool:
-        """Whether it went on, with a warning of our own."""
+        """Whether the code worked, with a warning."""
         return self.kind is not None and issubclass(self.kind, Warning)
 
 
 class Room:
-    """A folder with a scene, its bundle and other files, and what a line of code may name."""
+    """A folder with a scene, its bundle and other files, and the names that the code may use."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -84,7 +84,7 @@ class Room:
             (folder / name).write_bytes(b"not a scene")
 
     def answer(self, code: str) -> Answer:
-        """Run some lines in the folder, and tell how they ended."""
+        """Run lines of code in the folder. Returns their outcome."""
         with _inside(self.folder), contextlib.ExitStack() as life, warnings.catch_warnings():
             names = self._names(life)
             warnings.simplefilter("ignore", RuntimeWarning)  # "coroutine was never awaited" is part of a mistake
@@ -129,7 +129,7 @@ class Room:
 
 
 def shell(*arguments: str) -> None:
-    """Run the command line. Raises: Refused: its error; Usage: that of its arguments."""
+    """Run the command line. Raises: Refused: the command failed; Usage: its arguments are wrong."""
     with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()) as errors:
         try:
             status = cli.main(arguments)
@@ -159,7 +159,7 @@ def _inside(folder: Path) -> Iterator[None]:
 
 
 def is_answered(mistake: Mistake, answer: Answer) -> bool:
-    """Whether it works, or ends in an error or a warning of our own that says what it has to."""
+    """Whether the outcome is as expected: it works, or its error or warning contains the expected words."""
     if not mistake.words:
         return answer.kind is None
     is_right_kind = answer.is_warning if mistake.is_warning else answer.is_ours or mistake.is_python
@@ -167,13 +167,13 @@ def is_answered(mistake: Mistake, answer: Answer) -> bool:
 
 
 ON_PAGE = 10
-"""How many of each topic docs/errors.md shows."""
+"""How many mistakes of each topic docs/errors.md shows."""
 
 BEGIN, END = "<!-- tests/mistakes_room.py writes what follows -->\n", "<!-- until here -->\n"
 
 
 def page_tables(room: Room) -> str:
-    """The first mistakes of each topic with their answers, as docs/errors.md has them."""
+    """The tables of docs/errors.md: the first mistakes of each topic with their messages."""
     lines = []
     for topic, mistakes in ALL_TOPICS.items():
         lines += ["", f"### {topic}", "", "| you write | you get |", "|---|---|"]
@@ -188,12 +188,12 @@ def page_tables(room: Room) -> str:
 
 
 def _command(code: str) -> str:
-    """`shell('bake', 'x.glb')` as it is typed."""
+    """`shell('bake', 'x.glb')` as a user types it in a shell."""
     return shlex.join(["scene2hap", *ast.literal_eval(f"[{code.removeprefix('shell(').removesuffix(')')}]")])
 
 
 def with_tables(page: str, tables: str) -> str:
-    """A page with other tables between its marks."""
+    """Replace the tables between the marks of a page."""
     before, rest = page.split(BEGIN)
     return before + BEGIN + tables + END + rest.split(END)[1]
 

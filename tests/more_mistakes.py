@@ -1,9 +1,9 @@
-"""More mistakes of users, by topic; `usual_mistakes` has the first, and says what a line is run with.
+"""More mistakes of users, by topic; `usual_mistakes` has the first ones and describes how each line is run.
 
-Written before any of these was tried: 430 lines of game programmers, of designers at the command line and of people
-who exchange models, of which 102 ended in a raw TypeError or AttributeError and some 25 were wrong in silence. These
-are the ones that say most. Beside the names of the first, there are `prefab` of a radio, `PLATE` of oak, and
-`shell(*arguments)`, which runs the command line and raises its last line of errors.
+Selected from 430 lines that were written before any was tried: of game programmers, of designers at the command line
+and of people who exchange models. Of these, 102 ended in a raw TypeError or AttributeError, and some 25 were wrong
+without an error. Further names are `prefab` of a radio, `PLATE` of oak, and `shell(*arguments)`, which runs the command
+line and raises its error line.
 """
 
 from usual_mistakes import Mistake, mistake, python, warned, works

@@ -1,4 +1,4 @@
-"""What OpenAI's published description says of a chat completion, held against requests and scripted answers."""
+"""Check requests and scripted answers against OpenAI's published schema of a chat completion."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _validator(name: str) -> jsonschema.Draft202012Validator:
 
 
 def assert_openai_takes(body: dict[str, Any]) -> None:
-    """The schema lets unknown keys pass; OpenAI does not."""
+    """Check a request body against the schema, and that it has no unknown keys, which OpenAI rejects."""
     _validator("CreateChatCompletionRequest").validate(body)
     assert set(body) <= _known_keys({"$ref": "#/components/schemas/CreateChatCompletionRequest"})
 
@@ -43,7 +43,7 @@ def assert_openai_says(reply: Scripted) -> None:
 
 @contextmanager
 def openai_serving(*script: Scripted, **how: Any) -> Iterator[Server]:
-    """`serving`, and afterwards a check of each request, and of each answer that claims to be OpenAI's."""
+    """Run `serving`, then check each request, and each answer that names the schema it claims to follow."""
     with serving(*script, **how) as server:
         yield server
     if SCHEMA.exists():

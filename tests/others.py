@@ -1,9 +1,8 @@
-"""What others made and this repository does not hold: scenes, recordings and tables in the folder `shared` beside it.
+"""Files by others that this repository does not hold: scenes, recordings and tables in the folder `../shared`.
 
-A test that is true of any scene runs over the rooms of `tests/rooms` everywhere, and over scenes by others where they
-are. `there` leaves out the cases whose files are absent and counts them; `tests/unit/test_without_shared.py` tells how
-many these were, so that nothing is left out unsaid.
-A test of one file alone asks `needed` for it, which skips.
+A test that is true of any scene always runs over the rooms of `tests/rooms`, and over scenes by others where they are
+present. `there` leaves out the cases whose files are absent and counts them; `tests/unit/test_without_shared.py`
+reports the count. A test of one such file alone calls `needed`, which skips.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ Case = TypeVar("Case")
 
 
 def there(cases: Iterable[Case], path_of: Callable[[Case], Path]) -> list[Case]:
-    """The cases whose file or folder is there."""
+    """The cases whose file or folder exists; counts the others in `LEFT_OUT`."""
     found = []
     for case in cases:
         path = path_of(case)
@@ -37,7 +36,7 @@ def there(cases: Iterable[Case], path_of: Callable[[Case], Path]) -> list[Case]:
 
 
 def needed(path: Path) -> Path:
-    """A path within `shared` without which a test has nothing to say: skip where it is absent."""
+    """Skip the test if this path within `shared`, which it cannot do without, is absent. Returns the path."""
     if not path.exists():
         pytest.skip(f"true of ../shared/{path.relative_to(SHARED).as_posix()} alone, which is not beside this checkout")
     return path

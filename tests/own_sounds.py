@@ -1,6 +1,6 @@
-"""Sounds of machines made from formulas: what is true of a recording of such a machine must be true of these as well.
+"""Synthetic machine sounds: a property that holds for a recording of such a machine must hold for these as well.
 
-They drift, beat and rattle as machines do, so that no stretch is the copy of another; each is the same in every run.
+They drift, beat and rattle as machines do, so that no two stretches are equal. Each sound is the same in every run.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ SECONDS = 4.5
 _T = np.arange(round(SECONDS * RATE_HZ)) / RATE_HZ
 
 PITCHES_HZ = {"own fridge": 58.7, "own oven": 100.0, "own washing machine": 99.2, "own fan": 41.3}
-"""The strongest frequency of the hums, which have strong partials at two and three times of it."""
+"""The strongest frequency of each hum. The hums also have partials at multiples of this frequency."""
 
 
 def _hum(frequency_hz: float, partials: tuple[float, ...], rng: np.random.Generator) -> Signal:
@@ -40,18 +40,18 @@ def _oven(rng: np.random.Generator) -> Signal:
 
 
 def _washing_machine(rng: np.random.Generator) -> Signal:
-    """A motor under a drum that turns once in 0.9 s."""
+    """A motor, modulated by a drum that turns once in 0.9 s."""
     drum = 1 + 0.2 * np.sin(2 * np.pi * _T / 0.9)
     return drum * _hum(99.2, (1.0, 0.6, 0.3), rng) + 0.3 * coloured_noise(rng, len(_T), 1.0)
 
 
 def _fan(rng: np.random.Generator) -> Signal:
-    """Mostly air, over a weak tone."""
+    """Mostly air noise, over a weak tone."""
     return _hum(41.3, (1.0, 0.4), rng) + 1.5 * coloured_noise(rng, len(_T), 0.5)
 
 
 def _saw(rng: np.random.Generator) -> Signal:
-    """An engine that is revved: its pitch and its level rise and fall."""
+    """An engine whose pitch and level rise and fall."""
     rev = 0.5 + 0.5 * np.sin(2 * np.pi * _T / 1.7)
     phase = 2 * np.pi * np.cumsum(70 + 50 * rev) / RATE_HZ
     buzz = sum(np.sin(k * phase) / k for k in range(1, 20))
@@ -59,7 +59,7 @@ def _saw(rng: np.random.Generator) -> Signal:
 
 
 def _clock(rng: np.random.Generator) -> Signal:
-    """Two ticks a second, no two of them equal, in a quiet room."""
+    """Two ticks a second, each of a different level, over quiet noise."""
     since, number = _T % 0.5, (_T // 0.5).astype(int)
     level = rng.uniform(0.7, 1.0, number[-1] + 1)[number]
     return level * np.sin(2 * np.pi * 900 * since) * np.exp(-since / 0.008) + 1e-3 * coloured_noise(rng, len(_T), 0.0)

@@ -1,4 +1,4 @@
-"""Finite elements for a Kirchhoff plate, a second opinion: Argyris triangles of scikit-fem, converging from above."""
+"""Finite-element reference for a Kirchhoff plate: Argyris triangles of scikit-fem, converging from above."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from scene2hap import Plate
 
-# What an edge fixes at a vertex: deflection with its tangential derivatives, and for a clamp the slope across and its
-# tangential derivative; n and t are the coordinates across and along the edge.
+# Degrees of freedom that an edge fixes at a vertex: deflection and its tangential derivatives; for a clamp also the
+# slope across the edge and its tangential derivative. n and t are the coordinates across and along the edge.
 HINGED = ("u", "u_{t}", "u_{t}{t}")
 CLAMPED = (*HINGED, "u_{n}", "u_xy")
 
@@ -83,18 +83,18 @@ def fe_receptance(
     return np.array(answers).T
 
 
-_UNITS_PER_M = 60.0  # Argyris' degrees of freedom are second derivatives, which small elements make singular
+_UNITS_PER_M = 60.0  # some degrees of freedom are second derivatives: small elements make them singular
 
 
 def outline_mesh(lines_x: object, lines_y: object, is_cut: object) -> Any:
-    """Triangles between lines [m], without those whose middles `is_cut`(x, y)."""
+    """Triangles between lines [m], without those whose centroids `is_cut`(x, y)."""
     skfem = pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
     mesh = skfem.MeshTri.init_tensor(np.unique(np.round(lines_x, 9)), np.unique(np.round(lines_y, 9)))
     return mesh.remove_elements(np.flatnonzero(is_cut(*mesh.p[:, mesh.t].mean(axis=1))))  # type: ignore[operator]
 
 
 def refined_at(mesh: Any, corners_m: object, times: int) -> Any:
-    """The mesh with smaller triangles around corners, where curvature grows without bound."""
+    """Refine a mesh around corners, where curvature grows without bound."""
     for k in range(times):
         middle = mesh.p[:, mesh.t].mean(axis=1)
         away = np.min([np.hypot(middle[0] - x, middle[1] - y) for x, y in np.asarray(corners_m)], axis=0)

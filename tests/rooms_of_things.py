@@ -1,4 +1,4 @@
-"""Small rooms as scene files, and a name for all that was made of them."""
+"""Small rooms as scene files, and hashes of the bundle files baked from them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ THINGS = {
 
 
 def write_scenes(folder: Path, n: int) -> list[Path]:
-    """Rooms of a few things each, one of them shared by all."""
+    """Write n rooms of two objects each; all rooms have the radio."""
     folder.mkdir(parents=True)
     for i in range(n):
         names = ["radio", [*THINGS][1 + i % (len(THINGS) - 1)]]
@@ -30,7 +30,7 @@ def write_scenes(folder: Path, n: int) -> list[Path]:
 
 
 def digests(folder: Path) -> dict[str, str]:
-    """Every file of every bundle, by its content."""
+    """The SHA-256 of every file of every bundle, by its path."""
     return {
         str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in sorted(folder.glob("*.bundle/**/*"))

@@ -1,4 +1,4 @@
-"""Small scenes of boxes for tests, with what was baked for them."""
+"""Small scenes of boxes for tests, with their bundles."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ RATE = 8000
 
 
 def box(name: str, size_m: tuple[float, float, float], at_m: tuple[float, float, float]) -> SceneObject:
-    """A cuboid (x, y up, z) whose plate is its top."""
+    """A cuboid (x, y up, z) whose dominant surface is its top."""
     x, y, z = size_m
     quarter_turn = (-(0.5**0.5), 0.0, 0.0, 0.5**0.5)
     surface = DominantSurface(Pose((-x / 2, 0.0, z / 2), quarter_turn), x, z, y)
@@ -46,7 +46,7 @@ def tone_loop(frequency_hz: float, amplitude: float = 0.3, seconds: float = 0.5)
 def haptics(
     material: str | None, size_m: tuple[float, float, float], *states: str, needs_contact: str | None = None
 ) -> ObjectHaptics:
-    """What inference would say; the category is left open."""
+    """Haptics as inference would give them, with the category "thing"."""
     return ObjectHaptics(
         object_category="thing",
         material_category=material or "unknown",
@@ -59,8 +59,8 @@ def haptics(
 
 
 def table_with_two_phones() -> tuple[SceneSnapshot, HapticBundle]:
-    """Two phones at x = 0.1 and x = 1.5 m on an oak table of 1.6 m whose top is at y = 0.72 m, and a cup on the floor
-    that touches nothing else; floor and table touch by nothing but the table's own slab standing on a block."""
+    """Two phones at x = 0.1 m and x = 1.5 m on an oak table 1.6 m long with its top at y = 0.72 m.
+    A block stands under the table; a cup touches nothing."""
     snapshot = scene(
         box("table", (1.6, 0.02, 0.8), (0.8, 0.71, 0.4)),
         box("block", (0.4, 0.7, 0.4), (0.8, 0.35, 0.4)),

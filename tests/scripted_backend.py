@@ -1,4 +1,4 @@
-"""A backend that answers by component from what it is asked, and a scene of three objects to ask about."""
+"""A scripted LLM backend that answers each component from the request, and a scene of three objects."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SCENE = scene(
 
 
 class Scripted:
-    """Answers by component; keeps what it was asked."""
+    """Answer each component by a fixed rule, modified by `changes`; keep the requests in `asked`."""
 
     def __init__(self, **changes: Any) -> None:
         self.asked: list[LLMRequest] = []
@@ -69,5 +69,5 @@ class Scripted:
 
 
 def run(backend: Scripted, config: dict[str, Any] | None = None) -> Inference:
-    """The chain on the scene."""
+    """Run the chain on the scene."""
     return asyncio.run(infer_scene(SCENE, backend, config=config))

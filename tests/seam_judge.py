@@ -1,9 +1,9 @@
-"""Whether the wrap of a loop stands out among ordinary places of the sound that it was cut from.
+"""Judge whether the seam of a loop differs from random positions of the sound that the loop was cut from.
 
-Four statistics around a position p of a sound x (n,), each compared with percentiles of its own values at random
-positions, since the largest of 200 lets nearly everything pass in a sound that varies: level [dB] of the 100 ms around
-p; the largest of the four steps between the five samples around p; the mean distance [dB] between the third-octave
-levels of the 100 ms before p and of those after it; and the difference [dB] of both levels.
+Four statistics at a position p of a sound x (n,): the level [dB] of the 100 ms around p; the largest of the four steps
+between the five samples around p; the mean distance [dB] between the third-octave levels of the 100 ms before p and of
+the 100 ms after p; and the difference [dB] of these two levels. Each is compared with percentiles of its values at
+random positions. The largest of 200 values would let nearly everything pass in a sound that varies.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ LEVEL_SLACK_DB = JUMP_SLACK_DB = 0.5
 STEP_RATIO = 1.1
 DISTANCE_SLACK_DB = 0.5
 FLOOR_DB = 60.0
-"""Bands this far below the loudest count as that far below: what is deeper is masked, and between the partials of a
-synthetic tone there is nothing but the side lobes of the window."""
+"""Bands further than this below the loudest band are raised to this level: they are masked. Between the partials of a
+synthetic tone such bands hold only side lobes of the window."""
 
 Signal = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """How far the wrap lies outside of what the sound does anyway; nothing at or below 0 stands out."""
+    """How far the seam lies outside the percentiles of the sound; differences at or below 0 dB do not stand out."""
 
     level_db: float
     step_ratio: float
@@ -47,7 +47,7 @@ class Verdict:
 
 
 def judge(loop: Signal, clip: Signal, rate: int, rng: np.random.Generator) -> Verdict:
-    """The wrap of `loop` (n,) against `N_POSITIONS` random positions inside `clip` (m,)."""
+    """Compare the seam of `loop` (n,) with `N_POSITIONS` random positions inside `clip` (m,)."""
     width = round(WINDOW_S * rate)
     around = np.concatenate([loop[-width:], loop[:width]])
     places = rng.integers(width, len(clip) - width, N_POSITIONS)

@@ -1,4 +1,4 @@
-"""A serial port that can be pulled out and put in again: the reference device behind a link of constant name."""
+"""A serial port that tests unplug and plug in again: the reference device behind a link of constant name."""
 
 import contextlib
 import threading
@@ -12,7 +12,7 @@ from scene2hap.devices.reference_device import PseudoTerminal, ReferenceDevice, 
 
 
 class Plug:
-    """`path` is a link to a pseudo-terminal while plugged in; each time the device starts anew."""
+    """A pluggable reference device. While plugged in, `path` links to its pseudo-terminal; each plug-in restarts it."""
 
     def __init__(self, folder: Path, make: Callable[[], ReferenceDevice] = ReferenceDevice) -> None:
         self.path = folder / "amplifier"
@@ -35,7 +35,7 @@ class Plug:
         self._thread.start()
 
     def freeze(self) -> None:
-        """The port stays, and nobody reads from it or writes to it."""
+        """Stop the device: the port stays, but nothing reads from it or writes to it."""
         self._stop.set()
         if self._thread is not None:
             self._thread.join()
@@ -61,7 +61,7 @@ class Plug:
 
 
 def eventually(holds: Callable[[], bool], within_s: float = 10.0) -> bool:
-    """Whether it comes to hold; generous, since only a failure waits so long."""
+    """Wait until `holds` is true. False after `within_s`, which is long because only a failure waits for all of it."""
     end = time.monotonic() + within_s
     while not holds():
         if time.monotonic() > end:

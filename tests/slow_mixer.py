@@ -1,4 +1,4 @@
-"""A mixer written out from its definition, in double precision and without any of the library's code."""
+"""Reference mixer: written from the definition, in double precision, without the library's code."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Changes = list[tuple[int, NDArray[np.float32]]]
 
 
 def kaiser_low_pass(rate_in_hz: int, rate_out_hz: int) -> tuple[NDArray[np.float64], int]:
-    """Windowed sinc at rate up * rate_in_hz from Kaiser's formulas for 82 dB, and `up`; phases sum to 1."""
+    """Windowed sinc at rate up * rate_in_hz from Kaiser's formulas for 82 dB, and `up`; each phase sums to 1."""
     up = rate_out_hz // math.gcd(rate_in_hz, rate_out_hz)
     if rate_in_hz == rate_out_hz:
         return np.ones(1), 1
@@ -37,9 +37,9 @@ def slow_mix(
     rate_in_hz: int,
     rate_out_hz: int,
 ) -> NDArray[np.float64]:
-    """Rows `loops` (one per band of a source, each with its own period), changes (frame, gains (hands, rows)).
+    """Mix `loops` (one row per band of a source, each with its period) under changes (frame, gains (hands, rows)).
 
-    One tactile sample at a time: every change on its own raised cosine. Then scipy's polyphase filter and the limiter.
+    Works sample by sample: each change of gains follows a raised cosine. Then scipy's polyphase filter and the limiter.
     """
     n_ticks = -(-n_frames * rate_in_hz // rate_out_hz)
     mix = np.zeros((n_ticks, n_hands))

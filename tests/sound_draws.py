@@ -1,4 +1,4 @@
-"""Random sounds of known kind, for campaigns and their small forms among the tests."""
+"""Random sounds of known kind, for long campaigns and for the short tests derived from them."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from scene2hap.audio.files import read_clip
 
 Signal = NDArray[np.float64]
 Draw = tuple[str, Signal, int]
-"""Kind, samples, rate [Hz]."""
+"""Kind, samples, sample rate [Hz]."""
 
 HUMS = {"fridge_hum_kitchen.wav", "oven_hum.wav", "computer_fan_hum.wav", "washing_machine_rinse.wav"}
 RATES = (44_100, 48_000)
 
 
 def recordings() -> dict[str, tuple[Signal, int]]:
-    """The recordings beside the repository by file name; none where they are absent."""
+    """The recordings in `../shared` by file name; empty if they are absent."""
     paths = sorted(path for path in RECORDINGS.glob("*.*") if path.suffix in (".wav", ".ogg"))
     clips = {path.name: read_clip(path) for path in paths}
     return {name: (clip.samples.astype(float), clip.sample_rate_hz) for name, clip in clips.items()}
 
 
 def coloured_noise(rng: np.random.Generator, n: int, slope: float) -> Signal:
-    """Gaussian noise whose power goes with f^-slope above 10 Hz: 0 white, 1 pink, 2 brown; unit RMS."""
+    """Gaussian noise with power proportional to f^-slope above 10 Hz: 0 white, 1 pink, 2 brown; unit RMS."""
     spectrum = np.fft.rfft(rng.standard_normal(n))
     f = np.fft.rfftfreq(n, 1 / 48_000)
     x = np.fft.irfft(spectrum * np.maximum(f, 10.0) ** (-slope / 2) * (f > 0), n)
@@ -46,7 +46,7 @@ def band_noise(rng: np.random.Generator, n: int, rate: int, low_hz: float, high_
 def loop_clip(
     kind: str, rng: np.random.Generator, real: Mapping[str, tuple[Signal, int]]
 ) -> tuple[str, Signal, int, float]:
-    """A clip of 1 to 10 s to be looped, of the kind "recording", "noise", "tone" or "beat", and its pitch [Hz] or 0."""
+    """A 1-10 s clip to loop: "recording", "noise", "tone" or "beat". Returns name, samples, rate, pitch [Hz] or 0."""
     rate = int(rng.choice(RATES))
     n = round(rng.uniform(1.0, 10.0) * rate)
     t = np.arange(n) / rate
@@ -76,14 +76,14 @@ def loop_clip(
 
 
 def chopped(x: Signal, rng: np.random.Generator) -> Signal:
-    """What careless cutting makes of a clip: half to all of it, from anywhere, without a fade."""
+    """Cut half to all of a clip, from a random start, without a fade."""
     length = int(rng.uniform(0.5, 1.0) * len(x))
     start = int(rng.integers(0, len(x) - length + 1))
     return x[start : start + length]
 
 
 def hum_in_noise(rng: np.random.Generator) -> tuple[float, Signal, int]:
-    """A tone of 15 to 500 Hz with a second partial at -6 dB in 2.5 s of noise in 20-1000 Hz at 10 dB, and its pitch."""
+    """A 15-500 Hz tone with a second partial at -6 dB in 20-1000 Hz noise, 10 dB SNR, 2.5 s. Returns pitch, x, rate."""
     rate = int(rng.choice(RATES))
     t = np.arange(round(2.5 * rate)) / rate
     frequency = float(rng.uniform(15.0, 500.0))
@@ -96,7 +96,7 @@ def hum_in_noise(rng: np.random.Generator) -> tuple[float, Signal, int]:
 def hum_among_decoys(
     rng: np.random.Generator, real: Mapping[str, tuple[Signal, int]], hums: Collection[str] = HUMS
 ) -> tuple[str, list[AudioClip]]:
-    """The title of a recorded hum, and it in random order among decoys and the recordings that are no hum."""
+    """The title of a recorded hum, and candidates in random order: the hum, decoys and recordings of other sounds."""
 
     def clip(title: str, x: Signal, rate: int) -> AudioClip:
         return AudioClip(x / max(1.0, float(np.abs(x).max())), rate, Credit(title, "somebody", "CC0-1.0"))
@@ -112,7 +112,7 @@ def hum_among_decoys(
 
 
 def decoys(rng: np.random.Generator) -> dict[str, Draw]:
-    """What a search for a hum also brings home, each 3 to 6 s: title -> draw."""
+    """Wrong results of a search for a hum, each 3 to 6 s: title -> draw."""
     makers: dict[str, Callable[[np.random.Generator, Signal, int], Signal]] = {
         "clicks": _clicks,
         "pings": _pings,
@@ -139,7 +139,7 @@ def _clicks(rng: np.random.Generator, t: Signal, rate: int) -> Signal:
 
 
 def _pings(rng: np.random.Generator, t: Signal, rate: int) -> Signal:
-    """Two strokes of a bell, far apart in digital silence: most frames hold nothing at all."""
+    """Two strokes of a bell, far apart in digital silence, so that most frames are zero."""
     x = np.zeros(len(t))
     f = rng.uniform(200, 900)
     for begin in (0.05, t[-1] - 0.2):
@@ -158,7 +158,7 @@ def _silence(rng: np.random.Generator, t: Signal, rate: int) -> Signal:
 
 
 def _speech(rng: np.random.Generator, t: Signal, rate: int) -> Signal:
-    """Voiced bursts, three to five a second, under a wandering pitch, with gaps of breath."""
+    """Voiced bursts, three to five a second, of varying pitch, with quiet noise."""
     pitch = rng.uniform(90, 220) * (1 + 0.1 * np.sin(2 * np.pi * rng.uniform(0.3, 1.0) * t))
     phase = 2 * np.pi * np.cumsum(pitch) / rate
     voice = sum(np.sin(k * phase) / k for k in range(1, 12))
@@ -171,13 +171,13 @@ def _hiss(rng: np.random.Generator, t: Signal, rate: int) -> Signal:
 
 
 def _codec_hiss(rng: np.random.Generator, t: Signal, rate: int) -> Signal:
-    """Noise as a lossy codec leaves it: nothing above 16 kHz, or above 90 % of half the rate."""
+    """Noise after a lossy codec: nothing above 16 kHz, or above 90 % of half the rate."""
     cut = min(16_000.0, 0.45 * rate)
     return np.asarray(sosfilt(butter(10, cut, fs=rate, output="sos"), rng.standard_normal(len(t))))
 
 
 def _short(rng: np.random.Generator, t: Signal, rate: int) -> Signal:
-    """A perfect tone of 1 to 2 s between silence."""
+    """A pure tone of 1 to 2 s between silence."""
     x = np.sin(2 * np.pi * rng.uniform(50, 200) * t)
     begin = 0.3
     return np.where((t > begin) & (t < begin + rng.uniform(1.0, 2.0)), x, 0.0)

@@ -1,11 +1,11 @@
-"""A PulseAudio server of one's own with a null sink, so that a real sound card is played and listened to anywhere.
+"""A private PulseAudio server with a null sink, so that tests play to and record from a sound card on any machine.
 
     with SoundServer() as server:
         recorder = server.record()
         ...
         samples = recorder.stop()
 
-Environment variables tell PortAudio's ALSA plug-in where the server is; they are put back at the end.
+Environment variables tell PortAudio's ALSA plug-in where the server is; they are restored at the end.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from numpy.typing import NDArray
 RATE = 48000
 PACKAGES = "pulseaudio pulseaudio-utils libportaudio2 libasound2-plugins"
 DEVICE = "pulse"
-"""What PortAudio calls the server."""
+"""PortAudio's name of the server."""
 
 
 def missing() -> str:
-    """What is not installed, in words; "" where all is."""
+    """A message on the programs and packages that are missing; "" if none is."""
     absent = [name for name in ("pulseaudio", "pactl", "parec") if shutil.which(name) is None]
     if absent:
         return f"{', '.join(absent)} not found; apt-get install --no-install-recommends {PACKAGES}"
@@ -44,7 +44,7 @@ def missing() -> str:
 
 
 class SoundServer:
-    """A server that plays to nowhere at 48 kHz in 32-bit floats, and can be listened to."""
+    """A server with a null sink at 48 kHz in 32-bit floats, which can be recorded."""
 
     def __init__(self, n_channels: int = 2) -> None:
         self.n_channels = n_channels
@@ -77,7 +77,7 @@ class SoundServer:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def start(self) -> None:
-        """Start the server and plug the sink in."""
+        """Start the server and load the sink."""
         command = ["pulseaudio", "-n", "--daemonize=no", "--exit-idle-time=-1", "--disable-shm=yes"]
         command += ["--use-pid-file=no", "-L", f"module-native-protocol-unix auth-anonymous=1 socket={self._socket}"]
         with (self._folder / "log").open("ab") as log:
@@ -92,7 +92,7 @@ class SoundServer:
         self.plug_in()
 
     def kill(self) -> None:
-        """End the server as a crash would."""
+        """Kill the server, as a crash would."""
         if self._process is not None:
             self._process.kill()
             self._process.wait()
@@ -107,7 +107,7 @@ class SoundServer:
     def plug_in(self) -> None:
         """Load the null sink."""
         layout = {1: "mono", 2: "stereo", 4: "surround-40", 8: "surround-71"}[self.n_channels]
-        # Without norewinds the sink renders two seconds ahead, and no two recordings are alike.
+        # Without norewinds the sink renders two seconds ahead, and no two recordings are equal.
         done = subprocess.run(
             ["pactl", "load-module", "module-null-sink", "sink_name=hap", f"rate={RATE}", "format=float32le",
              f"channels={self.n_channels}", f"channel_map={layout}", "norewinds=1"],
@@ -120,7 +120,7 @@ class SoundServer:
         subprocess.run(["pactl", "unload-module", self._module], check=True, capture_output=True)
 
     def record(self, *, is_timed: bool = False) -> Recorder:
-        """Listen to the sink from now on; `is_timed` for `Recorder.frame_at`."""
+        """Record the sink from now on; `is_timed` enables `Recorder.frame_at`."""
         self._n_recordings += 1
         return Recorder(self.n_channels, self._folder / f"take{self._n_recordings}", is_timed=is_timed)
 
@@ -130,9 +130,9 @@ class SoundServer:
 
 
 class Recorder:
-    """What is played on the sink. A process of its own writes it to a file, so that listening costs the player nothing.
+    """A recording of the sink. A separate process writes it to a file, so that recording does not delay the player.
 
-    Where `frame_at` is wanted, a thread notes how much was heard when.
+    With `is_timed`, a thread logs how many frames were recorded at which time, for `frame_at`.
     """
 
     def __init__(self, n_channels: int, path: Path, *, is_timed: bool) -> None:
@@ -156,17 +156,17 @@ class Recorder:
 
     @property
     def n_heard(self) -> int:
-        """Frames heard so far."""
+        """Frames recorded so far."""
         return self._path.stat().st_size // (4 * self._n_channels)
 
     @property
     def samples(self) -> NDArray[np.float32]:
-        """What was heard so far (n_frames, n_channels)."""
+        """The samples recorded so far (n_frames, n_channels)."""
         n_samples = self.n_heard * self._n_channels
         return np.fromfile(self._path, dtype="<f4", count=n_samples).reshape(-1, self._n_channels)
 
     def stop(self) -> NDArray[np.float32]:
-        """All that was heard (n_frames, n_channels)."""
+        """Stop recording. Returns all samples (n_frames, n_channels)."""
         self._over.set()
         if self._thread.ident is not None:
             self._thread.join()
@@ -175,8 +175,8 @@ class Recorder:
         return self.samples
 
     def frame_at(self, time_s: float) -> int:
-        """The frame heard at a moment [s, monotonic], as early as can be."""
-        # Pieces are noted late, never early: the largest lead is the truth. Near by, since a stall may lose frames.
+        """Estimate the frame that was recorded at a time [s, monotonic]."""
+        # Blocks are logged late, never early, so the largest estimate is right. Only nearby, as stalls may lose frames.
         near = [(at, n) for at, n in self._heard if abs(at - time_s) < 0.25]
         return max(n - round((at - time_s) * RATE) for at, n in near)
 

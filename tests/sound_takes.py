@@ -1,4 +1,4 @@
-"""Takes of a session through a real sound server, and how they are judged: by the recording alone."""
+"""Play a session through a real sound server, and judge the recording."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ from sound_server import DEVICE, RATE, SoundServer
 CONFIG = {"sample_rate_hz": RATE}
 TOUCHES = [Touch("left", "phone", (0.12, 0.73, 0.4)), Touch("right", "table", (1.45, 0.72, 0.4))]
 TONES_HZ = (100.0, 160.0)
-"""What is strongest at the left and at the right hand: the phone under it, and the alarm nearby through the table."""
+"""The strongest tone at each hand: left the phone that it touches, right the nearby alarm through the table."""
 
 PERIOD = RATE // 2
-"""Both loops are half a second long."""
+"""Length of both loops: half a second."""
 
 SETTLING = RATE // 2
-"""Frames after the first sound in which fades and filters come to rest."""
+"""Frames after the first sound until fades and filters have settled."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """`correlation` with `render` per channel, `frequency_hz` of each, and the largest `residual` against the safe mix.
+    """`correlation` with `render` and `frequency_hz` per channel, and the largest `residual` against the safe mix.
 
-    `residual` is relative to full scale, over all frames between settling and stop: a gap, a repetition or a slip of
-    one sample anywhere makes it large.
+    `residual` is relative to full scale, over all frames from the end of settling to the stop. A gap, a repetition or a
+    shift by one sample anywhere makes it large.
     """
 
     seconds: float
@@ -55,7 +55,7 @@ def session_on(sink: SoundCardSink, **config: object) -> HapticSession:
 
 
 class Game(threading.Thread):
-    """A game's thread: updates and, if wanted, much garbage, until told to stop or it dies."""
+    """The thread of a game: calls `update`, and if wanted makes much garbage, until `kill`."""
 
     def __init__(self, session: HapticSession, pauses_s: Callable[[int], float], *, allocates: bool = False) -> None:
         super().__init__(daemon=True)
@@ -73,7 +73,7 @@ class Game(threading.Thread):
             self.died_at = time.monotonic()
             self._session.update(touches=TOUCHES)
             if self._allocates:
-                # Cycles among them, so that the garbage collector has work as well.
+                # Chained lists, so that the garbage collector has work as well.
                 kept.append(kept[-1:] + [[float(i)] * 8 for i in range(100)])
                 if len(kept) > 50:
                     kept.clear()
@@ -82,7 +82,7 @@ class Game(threading.Thread):
             time.sleep(max(0.0, due - time.monotonic()))
 
     def kill(self) -> float:
-        """End it, and tell when it last gave a sign of life [s, monotonic]."""
+        """End the thread. Returns the time of its last update [s, monotonic]."""
         self._over.set()
         self.join()
         return self.died_at
@@ -90,9 +90,9 @@ class Game(threading.Thread):
 
 @contextmanager
 def undisturbed() -> Iterator[bool]:
-    """Run before other programs on this machine where that is allowed; tells whether it is.
+    """Run with real-time priority if the system allows it. Yields whether it does.
 
-    What is started meanwhile inherits it. Without it, a take on a busy machine tells how busy that is.
+    Processes started meanwhile inherit the priority. Without it, other programs may disturb a take.
     """
     try:
         os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(1))
@@ -106,7 +106,7 @@ def undisturbed() -> Iterator[bool]:
 
 
 def take(server: SoundServer, seconds: float, **settings: Any) -> Verdict:
-    """Play while a busy game updates at 1 kHz, and judge what was heard; settings are the sink's."""
+    """Play while a busy game updates at 1 kHz, and judge the recording; settings are the sink's."""
     sink = SoundCardSink(DEVICE, **settings)
     recorder = server.record()
     with session_on(sink) as session:
@@ -121,7 +121,7 @@ def take(server: SoundServer, seconds: float, **settings: Any) -> Verdict:
 
 
 def judge(heard: NDArray[np.float32], underruns: int = 0) -> Verdict:
-    """Hold a recording to the mix as `render` gives it, and as the safety layer passes it on."""
+    """Compare a recording with the mix of `render`, and with this mix after the safety layer."""
     begin = int(np.flatnonzero(np.abs(heard).max(axis=1) > 1e-3)[0]) + SETTLING
     steady = heard[begin:].astype(np.float64)
     mix, safe = (
@@ -138,7 +138,7 @@ def judge(heard: NDArray[np.float32], underruns: int = 0) -> Verdict:
 
 
 def frequency_hz(x: NDArray[np.float64]) -> float:
-    """Frequency of the strongest tone, from the phase that it gains over half of the signal."""
+    """Frequency of the strongest tone, from its phase advance over half of the signal."""
     n = len(x) // 2
     window = np.hanning(n)
     first, second = (np.fft.rfft(x[part : part + n] * window) for part in (0, n))
@@ -148,7 +148,7 @@ def frequency_hz(x: NDArray[np.float64]) -> float:
 
 
 def _periods() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """One period of the mix, and of what the safety layer makes of it."""
+    """One period of the mix, before and after the safety layer."""
     session = HapticSession(*table_with_two_phones(), CONFIG)
     session.update(touches=TOUCHES)
     mix = session.render(8 * PERIOD)
@@ -157,12 +157,12 @@ def _periods() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def safe_period() -> NDArray[np.float64]:
-    """One period (PERIOD, 2) of what a take plays, behind the safety layer."""
+    """One period (PERIOD, 2) of a take after the safety layer."""
     return _periods()[1]
 
 
 def _aligned(period: NDArray[np.float64], steady: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The period turned so that it begins where the recording does."""
+    """The period, rotated to the phase of the recording."""
     middle = len(steady) // 2 // PERIOD * PERIOD
     spectrum = np.fft.fft(steady[middle : middle + PERIOD], axis=0) * np.conj(np.fft.fft(period, axis=0))
     shift = int(np.argmax(np.fft.ifft(spectrum, axis=0).real.sum(axis=1)))
@@ -170,7 +170,7 @@ def _aligned(period: NDArray[np.float64], steady: NDArray[np.float64]) -> NDArra
 
 
 def take_alone(seconds: float) -> Verdict:
-    """A take in a process of its own: collecting the garbage of a whole test suite holds Python's lock too long."""
+    """A take in a separate process: in this one, collecting the test suite's garbage would hold the GIL too long."""
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
         return pool.submit(_undisturbed_take, seconds).result()
 

@@ -1,4 +1,4 @@
-"""Recordings of machines that start and stop, made from formulas, so that what they show is known; and sounds without.
+"""Synthetic recordings of machines that start and stop, with known speed and amplitude; and sounds without a start.
 
 v(t) = a(t) (sum_k sin(k phi(t)) / k + noise) + room noise,     phi' = 2 pi f s(t)
 """
@@ -25,11 +25,11 @@ RISES: dict[str, Callable[[Signal], Signal]] = {
     "half a cosine": lambda x: np.sin(np.pi / 2 * x) ** 2,
     "coast": lambda x: x**2,
 }
-"""Speed over the share x of a start; a stop is one backwards, so that the last is a coast-down."""
+"""Speed over the elapsed share x of a start. A stop is a start in reverse, so "coast" is a coast-down."""
 
 
 class Take(NamedTuple):
-    """A recording (n,), and what it was made of: speed (n,) and amplitude (n,) re steady running."""
+    """A recording (n,), and its true speed (n,) and amplitude (n,) re steady running."""
 
     samples: Signal
     speed: Signal
@@ -37,7 +37,7 @@ class Take(NamedTuple):
 
     @property
     def clip(self) -> AudioClip:
-        """As a clip."""
+        """The recording as a clip."""
         return AudioClip((0.2 * self.samples / np.abs(self.samples).max()).astype(np.float32), RATE_HZ)
 
 
@@ -56,9 +56,9 @@ def machine(
     quiet_s: float = 1.0,
     seed: int = 0,
 ) -> Take:
-    """A machine in a room; it starts and stops where a time is given. What spins has the force of an unbalance, s^2.
+    """A machine in a room; it starts and stops if a time is given. `spins`: its force is that of an unbalance, s^2.
 
-    Parameters: hiss_db : its noise re its tones, which comes up with them; room_db : of the room, which stays [dB].
+    Parameters: hiss_db : its noise re its tones [dB], which rises with them; room_db : constant room noise [dB].
     """
     rng = np.random.default_rng(seed)
     begin = quiet_s if start_s else 0.0
@@ -78,7 +78,7 @@ def machine(
 
 
 def unit(x: Signal) -> Signal:
-    """With an rms of 1."""
+    """Scale a signal to an RMS of 1."""
     return np.asarray(x / np.sqrt(np.mean(x**2)))
 
 

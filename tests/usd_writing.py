@@ -1,4 +1,4 @@
-"""USD files written by usd-core's own classes: a stage to fill, and scenes of ours as USD."""
+"""Write USD files with the classes of usd-core: an empty stage, or a `SceneSnapshot`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def usd(name: str) -> Any:
 
 
 def new_stage(path: Path, *, unit_m: float | None = 1.0, up: str | None = "Y") -> Any:
-    """A stage that is saved by `stage.Save()`; None leaves metersPerUnit or upAxis out."""
+    """A new stage, which `stage.Save()` writes. None leaves metersPerUnit or upAxis out."""
     stage = usd("Usd").Stage.CreateNew(str(path))
     if unit_m is not None:
         usd("UsdGeom").SetStageMetersPerUnit(stage, unit_m)
@@ -39,7 +39,7 @@ def mesh(
     indices: Sequence[int] = CUBE_QUADS,
     counts: Sequence[int] = (4,) * 6,
 ) -> Any:
-    """A `UsdGeom.Mesh`; a cube unless told otherwise."""
+    """A `UsdGeom.Mesh`, by default a cube."""
     vt, made = usd("Vt"), usd("UsdGeom").Mesh.Define(stage, path)
     made.CreatePointsAttr(vt.Vec3fArray.FromNumpy(np.asarray(points, np.float32)))
     made.CreateFaceVertexCountsAttr(vt.IntArray.FromNumpy(np.asarray(counts, np.int32)))
@@ -48,7 +48,7 @@ def mesh(
 
 
 def preview(stage: Any, path: str, **inputs: Any) -> Any:
-    """A material with a UsdPreviewSurface of these inputs; a tuple is a colour."""
+    """A material with a UsdPreviewSurface with these inputs; a tuple is a colour."""
     shade, types = usd("UsdShade"), usd("Sdf").ValueTypeNames
     material, surface = shade.Material.Define(stage, path), shade.Shader.Define(stage, f"{path}/surface")
     surface.CreateIdAttr("UsdPreviewSurface")
@@ -59,7 +59,7 @@ def preview(stage: Any, path: str, **inputs: Any) -> Any:
 
 
 def textured(stage: Any, path: str, file: str, *, primvar: str = "st") -> Any:
-    """A material whose diffuse colour is a texture laid by a primvar."""
+    """A material whose diffuse colour is a texture with coordinates from a primvar."""
     shade, types = usd("UsdShade"), usd("Sdf").ValueTypeNames
     material = preview(stage, path)
     texture, reader = shade.Shader.Define(stage, f"{path}/texture"), shade.Shader.Define(stage, f"{path}/reader")
@@ -81,7 +81,7 @@ def bind(prim: Any, material: Any, purpose: str = "") -> None:
 
 
 def as_usd(scene: SceneSnapshot, path: Path) -> Path:
-    """A scene of ours as USD: one Xform and one Mesh for each object."""
+    """Write a `SceneSnapshot` as USD: one Xform and one Mesh for each object."""
     gf, geom = usd("Gf"), usd("UsdGeom")
     stage = new_stage(path, up=scene.up_axis.upper())
     geom.Xform.Define(stage, "/World")

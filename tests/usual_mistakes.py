@@ -1,9 +1,9 @@
-"""The usual mistakes of people who write games and simulations with this library, by topic.
+"""Usual mistakes of people who write games and simulations with this library, by topic.
 
-Written from the stable surface, the README and docs/playing.md alone, before any of it was mended. Each line is the
-code as they write it, and the words that the answer has to contain: the value given, what is expected, what to do. A
-line without words has to work, since what is meant is plain; its `assert` tells what "works" means. A few end in
-Python's own words, since nothing of the library is called.
+Written only from the public API, the README and docs/playing.md, before any message was improved. Each line holds the
+user's code and the words that the message must contain: the value given, the value expected, what to do. A line
+without words must work, since its meaning is clear; its `assert` defines "works". A few end in a message of Python
+itself, since they do not call the library.
 
 The code is run with the public names of `scene2hap`, `np` for NumPy, `scene` and `bundle` of a small room (a phone and
 a mug on a table, and a lamp), `other_scene` of a chair, `new_object` that may be added, `session` over the room,
@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 
 class Mistake(NamedTuple):
-    """Code of a user, and the words that the answer or warning contains; no words where it has to work."""
+    """Code of a user, and the words that the error or warning must contain; no words if it must work."""
 
     code: str
     words: tuple[str, ...]
@@ -29,12 +29,12 @@ def mistake(code: str, *words: str) -> Mistake:
 
 
 def python(code: str, *words: str) -> Mistake:
-    """Answered by Python itself, before anything of the library is called."""
+    """A mistake that Python itself reports, before the library is called."""
     return Mistake(code, words, is_python=True)
 
 
 def warned(code: str, *words: str) -> Mistake:
-    """Goes on with what is meant by the letter, and warns."""
+    """A mistake after which the library does what the code literally says, and warns."""
     return Mistake(code, words, is_warning=True)
 
 
@@ -371,7 +371,7 @@ TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("Bands.third_octaves(1000, 10)", "1000", "10"),
         mistake("Bands(100)", "100"),
     ),
-    # Thought of after the first were mended, and run against what was there then.
+    # Written after the messages above were improved, and first run against that version.
     "Misspelled and misplaced arguments": (
         mistake("load_scene('kitchen.glb', upaxis='y')", "upaxis", "up_axis"),
         mistake("load_scene('kitchen.glb', 'y')", "'y'", "up_axis="),

@@ -1,4 +1,4 @@
-"""What a bad wire does to bytes."""
+"""Damage bytes as a bad wire does."""
 
 from collections.abc import Iterable, Iterator
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def damaged(pieces: Iterable[bytes], rate: float, rng: np.random.Generator) -> Iterator[tuple[bytes, bool]]:
-    """Each piece, with this share of its bytes flipped in one bit, dropped or doubled, and whether it was touched."""
+    """Yield each piece with this share of its bytes changed in one bit, dropped or doubled, and whether it changed."""
     for piece in pieces:
         hit = np.flatnonzero(rng.random(len(piece)) < rate)
         if not len(hit):

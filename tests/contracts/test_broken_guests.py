@@ -1,4 +1,4 @@
-"""A guest for each promise that it breaks: the contract finds it, by a sentence that names the guest."""
+"""Contract tests detect each broken rule of a plugin, with a message that names the plugin."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Change = Callable[..., Any]
 
 
 class Field:
-    """What `FullPropagation` answers, changed."""
+    """A field of `FullPropagation` whose gains a test changes."""
 
     def __init__(self, whole: Any, change: Change) -> None:
         self.source_ids, self._whole, self._change = whole.source_ids, whole, change
@@ -134,7 +134,7 @@ def test_broken_sinks_fail_the_contract(make: Any, words: str) -> None:
 
 
 class Converter:
-    """The low-pass, with its blocks and its end changed."""
+    """The low-pass, with changed blocks and a changed end."""
 
     def __init__(self, change: Change, end: Change = lambda rest: rest) -> None:
         self._change, self._end, self._whole = change, end, CONVERTERS.build("lowpass")
@@ -250,7 +250,7 @@ def test_broken_backends_fail_the_contract(backend: Any, words: str) -> None:
 
 
 class Renderer:
-    """Rows of the actors that are shown, changed."""
+    """A renderer that draws a row for each shown actor, and then changes the result."""
 
     def __init__(self, stage: Any, smooth: bool) -> None:
         pass

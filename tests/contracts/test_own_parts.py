@@ -1,4 +1,4 @@
-"""Every part of ours that needs no device and no network, held against the contracts that guests run."""
+"""The library's parts that need no device and no network pass the contract tests for plugins."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The parts of docs/plugins.md: of at most thirty lines, true to their contracts, and of use in a scene."""
+"""The example plugins of docs/plugins.md: at most thirty lines, they pass their contracts and work in a scene."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ ON_TABLE = Touch("left", "wooden table", (0.3, 0.72, 0.0))
 
 
 def part(kind: str, name: str) -> Any:
-    """A class of the page."""
+    """A class from the code of the page."""
     names: dict[str, Any] = {}
     exec(CODE[kind], names)
     return names[name]

@@ -1,4 +1,4 @@
-"""A slice of the attack table; `python stress/attack.py` runs as many cases as one likes."""
+"""A part of the attack table; `python stress/attack.py` runs any number of cases."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Many scenes: the same bundles wherever they are made, and nothing lost or paid for twice when something dies."""
+"""`bake_many`: equal bundles from every executor; after a crash nothing is lost or paid for twice."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def scenes(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 
 @pytest.fixture(scope="module")
 def alone(scenes: list[Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The bundles, baked here one after another."""
+    """The bundles, baked in this process one after another."""
     folder = tmp_path_factory.mktemp("alone")
     report = bake_many(scenes, folder)
     assert report.count("baked") == len(scenes)
@@ -125,7 +125,7 @@ def test_scenes_that_fail_do_not_stop_the_others(scenes: list[Path], tmp_path: P
 def test_model_is_queried_from_the_main_process_once_per_question(
     scenes: list[Path], plain: None, tmp_path: Path
 ) -> None:
-    """Scenes that share a thing share its answer; a second run, whose sounds a worker makes, asks nothing."""
+    """Scenes that share an object share its answer; a second run, with sounds made by a worker, sends no request."""
     with serving(by=answered) as server:
         config = {
             "llm": {"kind": "local", "model": "scripted", "base_url": f"{server.base_url}/v1"},
@@ -144,7 +144,7 @@ def test_model_is_queried_from_the_main_process_once_per_question(
 
 
 def radios(folder: Path, n: int) -> list[Path]:
-    """Rooms with one radio each, at its own place and beside its own thing."""
+    """Write rooms with one radio each, at different places and beside different objects."""
     folder.mkdir(parents=True)
     cabinet = trimesh.creation.box((0.3, 0.2, 0.15)).subdivide()
     mesh = TriMesh(np.asarray(cabinet.vertices), np.asarray(cabinet.faces, np.int32))
@@ -161,7 +161,7 @@ def radios(folder: Path, n: int) -> list[Path]:
 @pytest.mark.skipif(find_spec("embreex") is None, reason="needs the extra 'pictures'")
 @pytest.mark.parametrize("share", [False, True])
 def test_equal_objects_of_several_scenes_share_a_request_on_demand(share: bool, plain: None, tmp_path: Path) -> None:
-    """In three rooms: three questions about radios, or one; pictures are a worker's."""
+    """Three rooms give three requests about radios, or one if shared; a worker draws the pictures."""
     with serving(by=answered) as server:
         config = {
             "llm": {"kind": "openai", "api_key": KEY, "base_url": f"{server.base_url}/v1"},
@@ -185,7 +185,7 @@ def test_equal_objects_of_several_scenes_share_a_request_on_demand(share: bool, 
 
 
 class Broken:
-    """An executor of somebody else's, which raises errors of its own."""
+    """A plugin executor that raises its own errors."""
 
     def submit(self, fn: Any, /, *args: Any) -> Future[Any]:
         found: Future[Any] = Future()
@@ -234,7 +234,7 @@ def test_bundles_after_a_killed_run_equal_an_undisturbed_run(
 
 
 def _children(parent: int, seconds: float) -> list[int]:
-    """Worker processes of a process, once there are two of them."""
+    """Wait until a process has two worker processes. Returns their ids."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         found = []

@@ -1,4 +1,4 @@
-"""Questions in batches: whatever comes in whatever order, nothing is lost, and nothing answered is asked again."""
+"""LLM requests in batches: in any order of events no answer is lost, and no answered request is sent again."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def scenes(tmp_path: Path) -> list[Path]:
 
 
 class Run:
-    """The same scenes and settings at each step."""
+    """Batch commands on the same scenes with the same settings."""
 
     def __init__(self, server: BatchServer, scenes: list[Path], tmp_path: Path, **settings: Any) -> None:
         self.server, self.scenes, self.folder = server, scenes, tmp_path / "out"
@@ -53,7 +53,7 @@ class Run:
         return collect_batch(self.scenes, self.folder, config=self.config)
 
     def to_the_end(self, *plans: Plan) -> int:
-        """Send and collect until nothing is left to ask; how many times. What is not planned ends well."""
+        """Submit and collect until no request is left. Returns the number of rounds; those without a plan succeed."""
         for turn in range(12):
             if self.submit().n_under_way == 0:
                 return turn
@@ -75,7 +75,7 @@ def nothing_was_asked_twice(server: BatchServer) -> None:
 def test_batch_gives_the_bundles_of_live_requests_without_repeats(
     run: Run, server: BatchServer, scenes: list[Path], tmp_path: Path
 ) -> None:
-    """Kind of place, objects, materials and states, repairs of what was out of bounds: a batch each."""
+    """One batch each for the scene category, objects, materials and states, and repairs of invalid answers."""
     turns = run.to_the_end()
     assert 3 <= turns <= 7
     assert len(server.batches) == turns
@@ -83,7 +83,7 @@ def test_batch_gives_the_bundles_of_live_requests_without_repeats(
     report = run.collect()
     assert (report.n_ready, report.n_to_send, report.n_under_way) == (3, 0, 0)
     assert report.n_answers == sum(server.answered.values())
-    # 1000 tokens in and 20 out (tests/llm_server.py) at half of 1.25 and 10 dollars per million.
+    # 1000 tokens in and 20 out (tests/llm_server.py), at half of 1.25 and 10 dollars per million.
     usage = said().body["usage"]
     each = (usage["prompt_tokens"] * 1.25 + usage["completion_tokens"] * 10) / 2e6
     assert report.cost_usd is not None
@@ -99,7 +99,7 @@ def test_batch_gives_the_bundles_of_live_requests_without_repeats(
 
 
 def test_only_failed_requests_are_sent_again(run: Run, server: BatchServer) -> None:
-    """Expired, failed on the server, cut short by a cancellation: each in turn, of every third question."""
+    """Four batches: three partly expired, failed on the server or cancelled, and one refused as a whole."""
     broken = refused(500, {"message": "try later", "type": "server_error", "param": None, "code": None})
     plans = (
         Plan("expired", lambda place, body: "expired" if place % 3 else "answered"),
@@ -127,7 +127,7 @@ def test_second_collect_changes_nothing(run: Run, server: BatchServer) -> None:
 
 
 def test_pending_requests_are_not_sent_again(run: Run, server: BatchServer) -> None:
-    assert run.submit().n_under_way == 3  # what kind of place each is
+    assert run.submit().n_under_way == 3  # the scene category of each scene
     again = run.submit()
     assert (again.n_under_way, again.n_to_send) == (3, 0)
     assert run.collect().n_under_way == 3
@@ -173,7 +173,7 @@ def test_refused_parameter_is_left_out_of_the_next_batch(run: Run, server: Batch
     run.to_the_end(*[plan] * 12)
     assert run.collect().n_ready == 3
     with_it = [key for key, body in server.bodies.items() if "temperature" in body]
-    assert len(with_it) == 3  # of the first batch alone
+    assert len(with_it) == 3  # only those of the first batch
 
 
 def test_refused_request_becomes_an_error_and_others_continue(run: Run, server: BatchServer) -> None:
@@ -299,7 +299,7 @@ def test_answer_with_unknown_id_is_ignored(run: Run, server: BatchServer) -> Non
     stranger = json.dumps({**json.loads(lines[0]), "custom_id": "another"}).encode()
     server.files[batch.output_file] = b"\n".join([stranger, b"not json", b"[]", b"{}", *lines[1:], b'{"custom_id": 1}'])
     report = run.collect()
-    # The lost one again; and of both other rooms the radio, which is one question, and what stands beside it.
+    # The lost request again; of both other rooms the radio, which is one request, and the object beside it.
     assert report.n_to_send == 1 + 3
     assert report.n_answers == 2
 

@@ -1,7 +1,7 @@
-"""The Blender script: a scene built by `bpy`, written as GLB, JSON and pictures, and read again.
+"""The Blender script: a scene built with `bpy` is exported as GLB, JSON and pictures, and loaded again.
 
-Needs a Python that has the package bpy: named by SCENE2HAP_BPY_PYTHON, or this one. Expected sizes are worked out by
-hand from the numbers of `BUILD`, which are centimetres.
+Needs a Python with the package bpy: the one that SCENE2HAP_BPY_PYTHON names, or this one. Expected sizes are computed
+by hand from the numbers of `BUILD`, which are centimetres.
 """
 
 from __future__ import annotations
@@ -92,11 +92,11 @@ add("Hidden", CUBE, (0, 0, 600), (9, 9, 9)).hide_render = True
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
 )
-# Id: position, size of the box in the world, volume; m and m3.
+# Id: position, size of the world bounding box, volume; in m and m3.
 EXPECTED = {
     "Table": ((0, 0, 0.72), (1.2, 0.7, 0.04), 1.2 * 0.7 * 0.04),
     "Wedge": ((2.0, 0, 0), (0.1, 0.2, 0.3), 1e-3),
-    # Turned by 90 degrees; the arm hangs 30 cm below its frame, the shade ends 35 cm above it.
+    # Rotated by 90 degrees; the arm hangs 30 cm below its origin, the shade ends 35 cm above it.
     "Desk lamp": ((-0.3, 0, 0.74), (0.3, 0.2, 0.65), 0.2 * 0.2 * 0.1 + 1e-3),
     "Panel": ((0, 3.0, 1.0), (1.0, 0.6, 0.02), 1.0 * 0.6 * 0.02),
     "Stool": ((1.0, 1.0, 0.225), (0.4, 0.3, 0.45), 0.4 * 0.3 * 0.45),
@@ -104,7 +104,7 @@ EXPECTED = {
     "Mug": ((0.1, 0.2, 0.74), (0.1, 0.08, 0.1), 0.08 * 0.08 * 0.1 + 0.02 * 0.04 * 0.06),
     "Bowl": ((0.5, -2.0, 0.1), (0.2, 0.2, 0.2), 0.2**3),
     "Kettle": ((0, -2.0, 0), (0.2, 0.16, 0.2), 0.16 * 0.16 * 0.2 + 0.04 * 0.02 * 0.02),
-    # The door is 1.6 cm thick, 20 cm and 0.8 cm before the middle of a cabinet of 40 cm.
+    # The door is 1.6 cm thick; its middle is 20 cm + 0.8 cm in front of the middle of a cabinet of 40 cm.
     "Cabinet": ((0, 5.0, 0.4), (0.6, 0.416, 0.8), 0.6 * 0.4 * 0.8 + 0.6 * 0.016 * 0.8),
     "Vase": ((0, 5.0, 0.9), (0.15, 0.1, 0.2), 0.15 * 0.1 * 0.2),
 }
@@ -115,12 +115,12 @@ def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
 
 
 def written(code: str, folder: Path, *options: str) -> Path:
-    """The folder that the script writes of a scene; the text is "" where Blender aborted."""
+    """Build a scene with `code` and export it with the script. Returns the folder with its output."""
     (folder / "build.py").write_text(code, encoding="utf-8")
     built = run(folder / "build.py", folder / "made.blend")
     assert (folder / "made.blend").exists(), built.stdout + built.stderr
     done = run(SCRIPT, folder / "made.blend", "-o", folder / "out", *options)
-    # Not the exit code: bpy 4.2 crashes when it ends after any glTF export.
+    # The exit code is not checked: bpy 4.2 crashes at its end after any glTF export.
     assert "wrote " in done.stdout, done.stdout + done.stderr
     return folder / "out"
 
@@ -165,10 +165,10 @@ def test_objects_have_the_place_and_size_that_were_built(
     in_json, in_glb = (scene.object(object_id) for scene in scenes)
     np.testing.assert_allclose(in_json.pose.position_m, position_m, atol=1e-6)
     np.testing.assert_allclose(np.ptp(in_json.bounds_m, axis=0), size_m, atol=2e-6)
-    # Turned inside out, it would be negative.
+    # A mesh inside out would have a negative volume.
     assert volume_m3(in_json) == pytest.approx(expected_m3, rel=1e-4)
     assert volume_m3(in_glb) == pytest.approx(expected_m3, rel=1e-4)
-    # z up as (x, y, z) is y up as (x, z, -y).
+    # (x, y, z) with z up is (x, z, -y) with y up.
     x, y, z = position_m
     np.testing.assert_allclose(in_glb.pose.position_m, (x, z, -y), atol=1e-6)
     (low_x, low_y, low_z), (high_x, high_y, high_z) = in_json.bounds_m
@@ -221,7 +221,7 @@ SIZE_PX = 96
 def test_pictures_show_each_object_alone_and_outlined_among_others(tmp_path: Path) -> None:
     try:
         out = written(PICTURED, tmp_path, "--size-px", str(SIZE_PX))
-    except AssertionError:  # Blender aborts where it finds no OpenGL
+    except AssertionError:  # Blender aborts without OpenGL
         out = written(PICTURED, tmp_path, "--size-px", str(SIZE_PX), "--engine", "cycles")
     pictures = GivenPictures.load(out)
     assert len(pictures) == 4 + 3 * 8 + 2 * 8  # copies share the pictures of the object alone
@@ -241,7 +241,7 @@ def test_pictures_show_each_object_alone_and_outlined_among_others(tmp_path: Pat
         assert middle[0] > 2 * max(middle[1], middle[2])  # red
         is_pink = (np.abs(among - (255, 0, 190)) <= 2).all(axis=2)
         rows, columns = np.flatnonzero(is_pink.any(axis=1)), np.flatnonzero(is_pink.any(axis=0))
-        # 2.5 times as far away, with a line of a pixel at each side.
+        # Seen from 2.5 times the distance, with an outline of a pixel on each side.
         assert max(np.ptp(rows), np.ptp(columns)) + 1 == pytest.approx(0.75 / 2.5 * SIZE_PX + 2, abs=2)
         assert not is_pink[SIZE_PX // 2, SIZE_PX // 2]
     from_above = pixels(scene.images[0])

@@ -1,4 +1,4 @@
-"""A save that dies, or is refused an operation, at each of its steps: the old bundle or the new one, whole."""
+"""A save that is killed or refused an operation at any of its steps leaves the old or the new bundle complete."""
 
 import json
 import os
@@ -13,14 +13,14 @@ import pytest
 
 TESTS = Path(__file__).parents[1]
 NEVER = 7
-STRIDE = "5"  # of the steps that only write the draft; without it four minutes are spent on equal ones
+STRIDE = "5"  # every fifth of the similar steps that only write the draft; all of them take four minutes
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="each step is tried in a fork")
 
 
 @cache
 def faults(kind: str, how: str) -> list[dict[str, Any]]:
-    """What each fault left; tried once for all tests."""
+    """The state after each fault, computed once for all tests."""
     memory = Path("/dev/shm")
     with TemporaryDirectory(dir=memory if os.access(memory, os.W_OK) else None) as work:
         return _tried(Path(work) / "work", kind, how)
@@ -43,7 +43,7 @@ def _tried(work: Path, kind: str, how: str) -> list[dict[str, Any]]:
 @pytest.mark.parametrize("how", ["exchange", "renames"])
 @pytest.mark.parametrize("kind", ["kill", "refuse"])
 def test_bundle_is_valid_after_a_fault_at_any_step(kind: str, how: str) -> None:
-    """And what is not ours is there, and the next save removes what the fault left."""
+    """The user's files are kept, and the next save removes files that the fault left."""
     rows = faults(kind, how)
     for row in rows:
         assert row["found"] in ("old", "new", "new, recovered"), row

@@ -1,4 +1,4 @@
-"""The command line as people and machines use it."""
+"""The command line: demo, bake, render, inspect, and error messages."""
 
 import json
 import subprocess
@@ -27,7 +27,7 @@ SOURCES = {
 
 @pytest.fixture(scope="module")
 def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, object]]:
-    """One run of the demo in a process and a folder of its own, and what it printed as JSON."""
+    """Run the demo once in a separate process and folder. Returns its output folder and its JSON output."""
     folder = tmp_path_factory.mktemp("demo")
     run = subprocess.run(
         [sys.executable, "-m", "scene2hap", "demo", "--json"], cwd=folder, capture_output=True, text=True, check=True
@@ -145,7 +145,7 @@ def test_error_is_one_line_with_the_next_step(
 
 
 def test_bake_counts_further_warnings_of_one_kind(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    # Read at a hundred metres per unit, no object weighs what its box would.
+    # At a hundred metres per unit, every mass is implausible for its size.
     assert main(["bake", str(kitchen_path()), "--unit-m", "100", "-q", "-o", str(tmp_path / "bundle")]) == 0
     account = json.loads((tmp_path / "bundle.account.json").read_text())
     heavy = [name for name, doubts in account["doubts"].items() if "mass" in str(doubts)]

@@ -1,4 +1,4 @@
-"""The command line where its output is closed, full, unread or of a small encoding, and where names are hostile."""
+"""The command line with closed, full or unread output streams, with small encodings, and with hostile names."""
 
 import json
 import os
@@ -19,7 +19,7 @@ ESCAPES = "\x1b]0;changed\x07\x1b[2J\x9b2J\u202egnp"
 
 @pytest.fixture(scope="module")
 def room(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A scene of a hundred objects whose names steer terminals, or lack in most encodings."""
+    """A scene of a hundred objects, some with control characters or characters missing in most encodings."""
     folder = tmp_path_factory.mktemp("scene")
     names = ["冷蔵庫", f"box{ESCAPES}", "[red]table[/red]", "line\nbreak", *(f"box {i}" for i in range(100))]
     snapshot = scene(*(box(name, (0.3,) * 3, (i, 0, 0)) for i, name in enumerate(names)))
@@ -29,7 +29,7 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def run(command: str, *arguments: object) -> subprocess.CompletedProcess[str]:
-    """A shell's command, where `$run` is scene2hap with `arguments`."""
+    """Run a shell command in which `$run` stands for scene2hap with `arguments`."""
     words = " ".join(f"'{word}'" for word in ("-m", "scene2hap", *arguments))
     return subprocess.run(
         ["bash", "-c", "set -o pipefail; " + command.replace("$run", f"'{sys.executable}' {words}")],
@@ -70,7 +70,7 @@ def test_commands_work_with_closed_streams(room: Path, closed: str, arguments: t
 
 @posix
 def test_wrong_usage_exits_with_2_when_stderr_is_unwritable() -> None:
-    """As argparse of Python 3.11.2, the one of Debian 12, does."""
+    """The patch makes argparse behave as in Python 3.11.2 of Debian 12."""
     program = (
         "import argparse, sys\n"
         "def write(self, message, file=None): (file or sys.stderr).write(message)\n"
@@ -151,7 +151,7 @@ def test_invalid_grouping_is_refused(room: Path, group: str, capsys: pytest.Capt
 
 
 def test_a_quiet_console_lays_out_no_table(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Thousands of rows would take seconds that nobody sees."""
+    """The layout of thousands of rows would take seconds, for no output."""
     monkeypatch.setattr(console, "Table", None)
     console.Console(quiet=True).table("objects", ("id",), [("a",)])
     with pytest.raises(TypeError):

@@ -1,4 +1,4 @@
-"""``scene2hap convert`` as people and machines use it."""
+"""The command ``scene2hap convert``: files, folders, tables, JSON and errors."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_command_converts_a_file_and_prints_a_table(
     assert "1 file, 3.0 s of sound" in shown
     felt, _ = soundfile.read(output)
     assert len(felt) == 3 * RATE
-    # 0.5 is -6.0 dB; the rest is in the file.
+    # 0.5 is -6.0 dB; the other values are from the file.
     cells = ("felt.flac", "3.00", "-6.0", f"{20 * np.log10(np.abs(felt).max()):.1f}", "98.00")
     assert [cell in shown for cell in cells] == [True] * 5
     assert output.with_suffix(".png").stat().st_size > 10_000
@@ -54,7 +54,7 @@ def test_converter_actuator_and_format_are_chosen_by_name(tmp_path: Path, capsys
     [made] = json.loads(capsys.readouterr().out)["converted"]
     assert made["output"] == str(tmp_path / "out" / "hum.flac")
     assert made["frequency_out_hz"] == pytest.approx(98.0, abs=0.02)
-    # The response answers 3.9 dB less at 98 Hz, where it takes as much more drive to be felt as at 0 dB.
+    # The response is 3.9 dB lower at 98 Hz, so that the drive must be 3.9 dB higher than at 0 dB.
     assert made["level_db"] == pytest.approx(made["asked_level_db"], abs=0.1)
     assert 20 * np.log10(made["peak_out"]) == pytest.approx(threshold_db(98.0) + made["asked_level_db"] + 3.9, abs=2.5)
 
@@ -105,7 +105,7 @@ def test_invalid_settings_give_a_one_line_error(
 
 
 def test_one_converter_is_the_default_everywhere(tmp_path: Path) -> None:
-    """Command, functions and baking; docs/conversion.md names it too."""
+    """The command, the functions and baking use the same default, which docs/conversion.md names."""
     source = hum(tmp_path / "hum.wav")
     by_name = audio.convert(source, tmp_path / "a.wav", converter=DEFAULT_CONVERTER).output.read_bytes()
     assert audio.convert(source, tmp_path / "b.wav").output.read_bytes() == by_name

@@ -1,4 +1,4 @@
-"""docs/designer.md as written, and the commands that it names."""
+"""The commands and code of docs/designer.md run as written."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_designer_page_runs_as_written(tmp_path: Path, monkeypatch: pytest.Monke
     assert len(lines) > 12
     for line in lines:
         words = shlex.split(line, comments=True)[1:]
-        if words[0] != "play" and "--watch" not in words:  # these need a terminal, and do not end by themselves
+        if words[0] != "play" and "--watch" not in words:  # these need a terminal, and run until stopped
             briefly = ["--seconds", "0.2"] if words[0] == "audition" else []
             assert main([*words, *briefly, "-q"]) == 0, line
     bundle = HapticBundle.load("kitchen.bundle")
@@ -119,7 +119,7 @@ def test_a_muted_source_is_silent_until_the_game_unmutes_it(folder: Path) -> Non
 
 
 def test_audition_writes_one_source_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["edit", str(folder), "mute", "smartphone", "-q"]) == 0  # which an audition plays nevertheless
+    assert main(["edit", str(folder), "mute", "smartphone", "-q"]) == 0  # an audition also plays muted sources
     assert outcome(capsys, "audition", str(folder), "smartphone", "-o", "phone.wav", "--seconds", "2")["played"]
     samples, rate = soundfile.read("phone.wav")
     assert len(samples) >= 2 * rate
@@ -170,7 +170,7 @@ def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
     sound = tone(folder.parent / "mine.wav", 110.0)
     words = [sys.executable, "-m", "scene2hap", "edit", str(folder), "sound", "smartphone", str(sound), "--watch"]
     session = HapticSession(folder)
-    # The watch comes first: what is saved before it begins is no change.
+    # The watch starts first, since it ignores files saved before.
     with BundleWatch(session, folder) as watch:
         edit = subprocess.Popen(words, env={**os.environ, "PYTHONUNBUFFERED": "1"}, stdout=subprocess.PIPE, text=True)
         try:

@@ -1,8 +1,8 @@
-"""Every Python block of the documentation is run: by the test of its page, or here. What cannot run says why.
+"""Every Python block of the documentation is run, by the test of its page or here, or states why it cannot run.
 
-Blocks of a page run in order, in one namespace and one folder. `prepared` fills both with what pages take for granted:
-a small kitchen, its bundle, a session, and files by the names that pages use. A block behind `<!-- not run: why -->`
-needs a network, a device or a game; its syntax and its names of scene2hap are checked.
+Blocks of a page run in order, in one namespace and one folder. `prepared` fills both with the names and files that
+pages assume: a small kitchen, its bundle, a session, and files. A block after `<!-- not run: why -->` needs a network,
+a device or a game; only its syntax and its names of scene2hap are checked.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ RUN_BY = {
 }
 """Tests that run the marked blocks of a page (`ci:`, `plugin:`)."""
 WHOLE = ("docs/designer.md", "docs/profiles.md", "docs/spawning.md")
-"""Pages of which these tests run blocks without a marker as well."""
+"""Pages whose tests also run blocks without a marker."""
 PLACEHOLDERS = {
     "app",
     "backend",
@@ -58,7 +58,7 @@ PLACEHOLDERS = {
     "scene",
 }
 PLACEHOLDERS |= {"session", "show", "sink", "viewer"}
-"""Names that a block which is not run may take for granted."""
+"""Names that a block which is not run may use without defining them."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def test_a_block_is_run_by_someone(block: Block) -> None:
 
 
 def check_names(block: Block) -> None:
-    """What the block imports exists, and what it uses is bound in it, public, or a placeholder."""
+    """Check that the block's imports exist, and that each name it uses is bound in it, public, or a placeholder."""
     tree = ast.parse(block.code)
     bound = set(dir(builtins)) | PLACEHOLDERS | set(scene2hap.__all__) | set(dir(scene2hap.engines))
     for node in ast.walk(tree):
@@ -151,7 +151,7 @@ def kitchen() -> tuple[SceneSnapshot, HapticBundle]:
 
 
 def prepared(folder: Path, scene: SceneSnapshot, bundle: HapticBundle) -> dict[str, Any]:
-    """Write the files that pages name into a folder, and return the names that pages take for granted."""
+    """Write the files that pages name into a folder. Returns the names that pages assume."""
     bundle.save(folder / "kitchen.bundle")
     t = np.arange(4 * 48_000) / 48_000
     sounds = {"hum": np.sin(880 * t), "my_fan": np.sin(600 * t), "pings": np.sin(5000 * t) * (t % 1 < 0.1)}
@@ -191,7 +191,7 @@ def prepared(folder: Path, scene: SceneSnapshot, bundle: HapticBundle) -> dict[s
 
 
 def own_package(folder: Path) -> None:
-    """Install the package that docs/plugins.md takes for granted: its propagation model, by an entry point."""
+    """Install the package that docs/plugins.md assumes: its propagation model, with an entry point."""
     (model,) = (block.code for block in BLOCKS if block.marker == "<!-- plugin: propagation -->")
     (folder / "my_package").mkdir()
     (folder / "my_package" / "models.py").write_text(model)
@@ -201,7 +201,7 @@ def own_package(folder: Path) -> None:
     (told / "entry_points.txt").write_text("[scene2hap.propagation]\nneighbours = my_package.models:Neighbours\n")
 
 
-# The bundle is made for any actuator, and a page that names one would have baked for it.
+# The prepared bundle has no actuator, while a page that names one would bake for it.
 @pytest.mark.filterwarnings("ignore:the bundle's loops were made for the actuator")
 @pytest.mark.parametrize("page", RUN_HERE)
 def test_the_blocks_of_a_page_run(
@@ -221,7 +221,7 @@ def test_the_blocks_of_a_page_run(
 
 
 def test_each_kind_of_part_has_code_that_is_run() -> None:
-    """The table of docs/architecture.md, held against the examples of docs/plugins.md and docs/engines.md."""
+    """Every row of the table in docs/architecture.md has an example in docs/plugins.md or docs/engines.md."""
     page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     rows = page.partition("## Adding a part")[2].partition("\n\nIn your")[0].strip().splitlines()[2:]
     groups = {row.split("|")[3].strip(" `") for row in rows}

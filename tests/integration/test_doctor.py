@@ -1,4 +1,4 @@
-"""`scene2hap doctor`, as a person runs it; its loop-back on a real sound server, whose monitor is the input."""
+"""The command `scene2hap doctor`; its loop-back runs on a real sound server, whose monitor is the input."""
 
 import json
 import os
@@ -71,7 +71,7 @@ def test_the_sweep_visits_one_hand_after_the_other_and_is_quiet(tmp_path: Path) 
     peaks = np.array([np.abs(samples[i * turn : (i + 1) * turn]).max(axis=0) for i in range(2)])
     assert peaks[0] == pytest.approx([0.1, 0.0], abs=2e-3)
     assert peaks[1] == pytest.approx([0.0, 0.1], abs=2e-3)
-    # The frequency rises by the same factor in equal times: zero crossings of the first and the last fifth of a second.
+    # The frequency rises exponentially: compare the zero crossings in 0.2 s near the beginning and near the end.
     crossings = np.flatnonzero(np.diff(np.signbit(samples[: round(2 * rate), 0]))) / rate
     early, late = ((crossings < 0.3) & (crossings > 0.1)).sum(), ((crossings > 1.7) & (crossings < 1.9)).sum()
     assert late / early == pytest.approx(10 ** (1.6 / 2.0), rel=0.1)
@@ -98,7 +98,7 @@ def test_loop_back_without_sound_is_reported(
 
 
 class Sweeps(doctor._Sweeps):
-    """Kept, so that a test knows when the sweeps were asked for."""
+    """Sweeps that a test can access, to know when each was requested."""
 
     latest: "Sweeps"
 
@@ -108,7 +108,7 @@ class Sweeps(doctor._Sweeps):
 
 
 def _found_s(recorder: Recorder, heard: NDArray[np.float32], channel: int, wave: NDArray[np.float64]) -> float:
-    """How long after it was asked for a hand's sweep came, as another recorder heard it [s]."""
+    """The time from the request of a hand's sweep to its beginning in an independent recording [s]."""
     requested_at_s = Sweeps.latest.requested_at_s[channel]
     assert requested_at_s is not None
     begin = recorder.frame_at(requested_at_s)
@@ -129,14 +129,14 @@ def test_loop_back_latency_equals_that_of_an_independent_recorder(
         told: dict[str, Any] = swept["loop_back"]
         found_s = [_found_s(recorder, heard, channel, wave) for channel in range(2)]
         steady_s = min(hand["uncertainty_s"] for hand in told["hands"].values())
-        # A machine that stands still breaks a take, or the server slips between the sweeps, which the other recorder
-        # hears too; a measurement that is wrong never agrees.
+        # A stalled machine may break a take, or the server may slip between the sweeps; the other recorder shows this
+        # too. A wrong measurement would never agree.
         is_whole = min(hand["correlation"] for hand in told["hands"].values()) > 0.98
         if (is_whole and abs(found_s[0] - found_s[1]) < steady_s) or attempt == 2:
             break
     assert (told["input"], told["found_from"], list(told["hands"])) == ("pulse", 0.3, ["left", "right"])
     for channel, hand in enumerate(told["hands"].values()):
-        # A block of each recorder, and a third for the server's own.
+        # One block of each recorder, and one of the server.
         assert hand["latency_s"] == pytest.approx(found_s[channel], abs=3 * hand["uncertainty_s"])
         assert 0.0 < hand["latency_s"] < 1.0
         assert hand["correlation"] > 0.98
@@ -145,7 +145,7 @@ def test_loop_back_latency_equals_that_of_an_independent_recorder(
         assert 0.0 < hand["uncertainty_s"] < 0.05
     left, right = (hand["latency_s"] for hand in told["hands"].values())
     assert left == pytest.approx(right, abs=hand["uncertainty_s"])
-    # PortAudio's own word for it, which counts on a driver that keeps to it.
+    # The latency that PortAudio reports, which relies on the driver.
     assert swept["latency_s"] == pytest.approx(left, abs=0.05)
 
 

@@ -1,4 +1,4 @@
-"""Dominant surfaces of real objects against dimensions read from the files by hand (tests/data)."""
+"""Dominant surfaces of real objects, against dimensions read by hand from the files (tests/data)."""
 
 import importlib.util
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Scenes with nothing in them, or next to nothing: from a saved bundle by the command line to a WAV file."""
+"""Edge cases of scenes, from a saved bundle by the command line to a WAV file."""
 
 import json
 from pathlib import Path

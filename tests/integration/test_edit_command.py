@@ -1,4 +1,4 @@
-"""A designer's work through the command line alone."""
+"""Editing bundles with the command line: the command `scene2hap edit`."""
 
 import json
 from pathlib import Path
@@ -21,7 +21,7 @@ THINGS = {
 
 
 def room(folder: Path) -> str:
-    """The path of a scene of three sources and a table."""
+    """Write a scene of three sources and a table. Returns its path."""
     things = [
         SceneObject(name, pose=Pose((1.5 * i, size_m[1] / 2, 0.0)), geometry=Box(size_m))
         for i, (name, size_m) in enumerate(THINGS.items())
@@ -87,7 +87,7 @@ def test_wrong_id_or_material_keeps_the_bundle_unchanged(tmp_path: Path, capsys:
 
 
 def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A designer's day: bake, a sound of one's own, lock it, another actuator, compare, undo, and again."""
+    """Bake, set a custom sound, lock it, change the actuator, compare, undo, and repeat."""
     folder, sound = tmp_path / "kitchen.bundle", tmp_path / "mine.wav"
     assert main(["bake", room(tmp_path), "-o", str(folder), "--actuator", "voice_coil", "-q"]) == 0
     mine, *others = HapticBundle.load(folder).loops
@@ -120,7 +120,7 @@ def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.Captur
 
 
 def test_a_comparison_lists_only_what_an_edit_changed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """An override has values for gain, sound, lock and mute; those that nobody set do not differ."""
+    """An override has values for gain, sound, lock and mute; values that were not set are not listed."""
     folder = tmp_path / "kitchen.bundle"
     assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
     source = next(iter(HapticBundle.load(folder).loops))
@@ -134,7 +134,7 @@ def test_undo_without_edits_is_refused(tmp_path: Path, capsys: pytest.CaptureFix
     assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
     assert main(["edit", str(folder), "undo"]) == 1
     assert "there is nothing to undo" in capsys.readouterr().err
-    # A folder of somebody else's where the bundle before would be kept.
+    # Another user's folder at the path where the previous bundle would be kept.
     other = tmp_path / "kitchen.bundle.before" / "thesis.txt"
     other.parent.mkdir()
     other.write_text("mine")
@@ -145,7 +145,7 @@ def test_undo_without_edits_is_refused(tmp_path: Path, capsys: pytest.CaptureFix
 
 
 def contents(folder: Path, object_id: str) -> list[bytes]:
-    """The files of an object's loops, as they stand on the disk."""
+    """The content of the files of an object's loops on disk."""
     rows = json.loads((folder / "loops.json").read_text(encoding="utf-8"))[object_id]
     names = [row[kind] for _, row in sorted(rows.items()) for kind in ("audible", "tactile")]
     return [(folder / name).read_bytes() for name in names]

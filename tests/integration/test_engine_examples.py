@@ -1,4 +1,4 @@
-"""The games in MuJoCo and Panda3D, run without a window as a person would run them, and what they write."""
+"""The example games in MuJoCo and Panda3D, run without a window, and their output files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from scene2hap.render.safety import FADE_OUT_S
 
 ROOT = Path(__file__).parents[2]
 SILENT = 2.0**-17
-"""Of full scale: a quarter of a step of 16 bits, as the last samples of resampler and safety filters are."""
+"""Amplitude that counts as silence, re full scale: a quarter of a 16-bit step, like the last samples of filters."""
 
 
 def run(example: str, *arguments: str | Path, folder: Path, **environment: str) -> str:
@@ -34,7 +34,7 @@ def run(example: str, *arguments: str | Path, folder: Path, **environment: str) 
 
 
 def felt(path: Path, seconds: float) -> tuple[np.ndarray, int]:
-    """The samples (n, 2) of a WAV file that lasts so long, which are numbers within full scale."""
+    """Read a WAV file, and check its duration, and that its samples (n, 2) are finite and within full scale."""
     samples, rate = soundfile.read(path)
     assert samples.shape[1] == 2
     assert len(samples) == pytest.approx(seconds * rate + FADE_OUT_S * rate, abs=0.05 * rate)
@@ -55,26 +55,26 @@ def spectrum_peak_hz(samples: np.ndarray, rate: int) -> float:
 
 # -- MuJoCo ----------------------------------------------------------------------------------------------------------
 
-# The table top of the example, 3 cm of wood: constants of any softwood, as the table of materials has them.
+# The table top of the example, 3 cm of wood; constants of softwood from the table of materials.
 DENSITY_KG_M3, MODULUS_PA, POISSON, THICKNESS_M = 600.0, 10e9, 0.35, 0.03
 PHONE_HALF_M, BESIDE_M = (0.075, 0.035), 0.12
 
 
 def wavenumber_rad_m(frequency_hz: float) -> float:
-    """Of bending waves in the table top: k^4 = rho h omega^2 / D."""
+    """Wavenumber of bending waves in the table top: k^4 = rho h omega^2 / D."""
     stiffness = MODULUS_PA * THICKNESS_M**3 / (12 * (1 - POISSON**2))
     return float((DENSITY_KG_M3 * THICKNESS_M * (2 * math.pi * frequency_hz) ** 2 / stiffness) ** 0.25)
 
 
 def to_phone_m(distance_m: float) -> float:
-    """The way from a hand, that far from the middle of the phone and 12 cm to its side, to its nearest corner."""
+    """Distance to the phone's nearest corner, from a hand at a distance from its middle and 12 cm to its side."""
     along = math.sqrt(max(distance_m**2 - BESIDE_M**2, 0.0))
     return math.hypot(min(abs(along - end) for end in (-PHONE_HALF_M[0], PHONE_HALF_M[0])), BESIDE_M - PHONE_HALF_M[1])
 
 
 @pytest.fixture(scope="module")
 def kitchen(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[float, dict[str, tuple[float, float]]], Path]:
-    """What the MuJoCo game said, (distance [m], gain) by time [s] and hand, and its WAV of 8 s."""
+    """The output of the MuJoCo game: (distance [m], gain) by time [s] and hand, and its WAV of 8 s."""
     pytest.importorskip("mujoco", reason="needs the extra mujoco")
     folder = tmp_path_factory.mktemp("kitchen")
     told = run("mujoco_kitchen.py", "-o", "kitchen.wav", folder=folder)  # headless, as there is no display
@@ -97,13 +97,13 @@ def test_gain_falls_with_distance_as_the_model_predicts(
     assert left[2.0][0] == pytest.approx(0.12, abs=0.001)
     gains = [left[t][1] for t in (2.0, 2.5, 3.0, 3.5)]
     assert gains == sorted(gains, reverse=True)
-    # Pushed at 0.55 m/s against friction of 0.04, the phone slides v^2 / (2 mu g).
+    # Pushed at 0.55 m/s against a friction coefficient of 0.04, the phone slides v^2 / (2 mu g).
     slid_m = 0.55**2 / (2 * 0.04 * 9.81)
     assert left[4.0][0] == pytest.approx(math.hypot(slid_m, BESIDE_M), rel=0.02)
     for t in (1.0, 2.0, 3.5, 4.0, 5.0, 6.0):
         distance_m, gain = left[t]
         assert gain == pytest.approx(math.exp(-k * to_phone_m(distance_m)), rel=0.03), t
-    # The pulses of the phone fall as the gain does; the refrigerator is felt too, at some percent of it.
+    # The phone's pulses fall with the gain; the refrigerator adds a few per cent.
     fall = peak(samples[4 * rate : 6 * rate, 0]) / peak(samples[rate : 2 * rate, 0])
     assert fall == pytest.approx(left[5.0][1] / left[2.0][1], rel=0.1)
 
@@ -115,9 +115,9 @@ def test_a_hand_that_follows_the_phone_keeps_its_gain(
     samples, rate = felt(wav, 8.0)
     assert told[5.0]["right"] == pytest.approx(told[2.0]["right"], rel=0.02)
     assert peak(samples[4 * rate : 6 * rate, 1]) == pytest.approx(peak(samples[rate : 2 * rate, 1]), rel=0.05)
-    # The other one reaches after the phone at last.
+    # At the end, the left hand moves to the phone.
     assert told[8.0]["left"] == pytest.approx(told[2.0]["left"], rel=0.02)
-    # Nothing is felt before a hand is on the table: they come down from 9 cm at 5 / s.
+    # Nothing is felt before a hand is on the table: hands come down from 9 cm at 5 / s.
     assert peak(samples[: rate // 5]) <= SILENT
 
 
@@ -144,14 +144,14 @@ def test_a_picture_of_the_mujoco_kitchen(tmp_path: Path) -> None:
 
 
 def seen(picture: Image.Image, rgb: tuple[int, int, int]) -> float:
-    """The part of a picture that has about that hue."""
+    """The share of pixels whose hue is near a colour's."""
     pixels = np.asarray(picture.convert("RGB"), float)
     ratio = pixels / np.maximum(pixels.sum(axis=2, keepdims=True), 1.0)
     return float((np.abs(ratio - np.array(rgb) / sum(rgb)).max(axis=2) < 0.03).mean())
 
 
 def intervals(told: str) -> list[tuple[float, float, str]]:
-    """From when to when [s] the walker touched what."""
+    """Begin [s], end [s] and object of each touch of the walker."""
     rows = [(float(t), what) for t, what in re.findall(r"at ([\d.]+) s: ([\w ;]+?) ?(?:\(|$)", told, re.MULTILINE)]
     ends = [*[t for t, _ in rows[1:]], 16.0]
     return [(begin, end, what) for (begin, what), end in zip(rows, ends, strict=True)]
@@ -171,7 +171,7 @@ def test_walker_feels_only_touched_objects(tmp_path: Path) -> None:
     ]
     levels, peaks_hz = [], []
     for begin, end, what in found:
-        # Gains come and go within 20 ms, the DC block settles by 1/e in 35 ms, and a session begins with a fade.
+        # Gains fade within 20 ms, the DC block has a time constant of 35 ms, and a session begins with a fade.
         part = samples[round((begin + 0.2) * rate) : round((end - 0.1) * rate)]
         if what == "nothing touched":
             assert peak(part) <= SILENT, (begin, end)
@@ -182,11 +182,11 @@ def test_walker_feels_only_touched_objects(tmp_path: Path) -> None:
         levels.append(peak(touching))
         peaks_hz.append(spectrum_peak_hz(touching, rate))
     near_phone, far_end, machine, shelf = levels
-    # Phone, washing machine and fan each have a frequency of their own; both ends of the table have the phone's.
+    # Phone, washing machine and fan have different frequencies; both ends of the table have the phone's.
     phone, again, washing, fan = peaks_hz
     assert again == pytest.approx(phone, rel=0.02)
     assert min(abs(math.log2(a / b)) for a, b in [(phone, washing), (phone, fan), (washing, fan)]) > 0.1
-    # From the phone's corners, 3.5 cm and 7.5 cm off its middle, over the same wood as in the kitchen.
+    # Distances from the phone's corners, 3.5 cm and 7.5 cm off its middle, on the same wood as in the kitchen.
     k = wavenumber_rad_m(phone)
     near_m = math.dist((0.3 + 0.035, -0.1 - 0.075), (0.45, -0.15))
     far_m = math.dist((0.3 - 0.035, -0.1 - 0.075), (-0.55, -0.15))

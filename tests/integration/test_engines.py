@@ -1,4 +1,4 @@
-"""Links to engines: three lines each, one contract for every adapter, and the page's own engine."""
+"""Links to engines: three lines of code each, the contract of adapters, and the example engine of docs/engines.md."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def data_of(model: str) -> Any:
 
 
 def own_engine() -> dict[str, Any]:
-    """The engine of the page, as it stands there."""
+    """The names that the code of the page's engine defines."""
     (code,) = re.findall(r"<!-- ci: run -->\n```python\n(.*?)```", PAGE, re.DOTALL)
     names: dict[str, Any] = {}
     exec(code, names)
@@ -132,7 +132,7 @@ def test_panda3d_adapter_keeps_its_contract() -> None:
 
 
 def test_objects_at_rest_are_not_updated(mujoco_engine: Any) -> None:
-    """Nor by what trembles; but slow motion adds up."""
+    """Trembling does not update objects either, but slow motion accumulates until it does."""
     _, _, scene, _ = mujoco_engine
 
     class Slow:
@@ -176,7 +176,7 @@ HAND = """
 
 
 def test_attached_parts_touch_for_their_hand() -> None:
-    """The nail touches the table, the palm nothing; contacts among the hand's own parts are none."""
+    """The nail touches the table and counts for the palm's hand; contacts among parts of the hand do not count."""
     mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
     from scene2hap.scene.engines.mujoco import snapshot
 
@@ -195,7 +195,7 @@ def test_attached_parts_touch_for_their_hand() -> None:
 
 @pytest.mark.parametrize("contacts", [None, "engine"])
 def test_objects_missing_in_the_session_are_skipped(mujoco_engine: Any, contacts: Any) -> None:
-    """Removed while the engine goes on, and followed again once it is back."""
+    """An object removed from the session is skipped, and followed again once it is added back."""
     model, data, scene, step = mujoco_engine
     session = HapticSession(scene, bake(scene))
     link = MuJoCoLink(model, data, session, hands={"left": "finger"}, contacts=contacts)
@@ -224,7 +224,7 @@ def test_a_session_may_have_less_than_the_engine(mujoco_engine: Any) -> None:
 
 
 def test_readded_object_has_the_pose_of_the_engine(mujoco_engine: Any) -> None:
-    """Also if it did not move in the engine meanwhile; the same for poses in a table and in a mapping."""
+    """Also if it did not move in the engine meanwhile; for poses in a table and in a mapping."""
     model, data, scene, _ = mujoco_engine
     for adapter in (MuJoCoLink(model, data, HapticSession(scene, bake(scene)))._adapter, Given(scene)):
         session = HapticSession(scene, bake(scene))
@@ -280,7 +280,7 @@ def test_a_node_out_of_the_graph_stays_where_it_was() -> None:
 
 
 class Given:
-    """An engine that stands still and says what it is told to; without anything, what its scene has."""
+    """An adapter with given poses, touches and contacts; by default those of its scene at rest."""
 
     def __init__(self, scene: SceneSnapshot, **given: Any) -> None:
         self.given = {"poses": {item.id: item.pose for item in scene.objects}, "touches": [], "contacts": None, **given}
@@ -327,7 +327,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("given", "error", "answered", "asserted"), WRONG)
 def test_invalid_adapter_results_are_refused(given: Any, error: type[Exception], answered: str, asserted: str) -> None:
-    """A link answers it in play, and the contract finds it."""
+    """The link raises an error in play, and the contract check detects the fault too."""
     scene = own_scene()
     with pytest.raises(error, match=re.escape(answered)):
         EngineLink(Given(scene, **given), HapticSession(scene, bake(scene))).update()
@@ -338,7 +338,7 @@ def test_invalid_adapter_results_are_refused(given: Any, error: type[Exception],
 @pytest.mark.parametrize(
     ("given", "moves", "words"),
     [
-        # w first: no rotation becomes a half turn about x.
+        # With w first, the identity becomes a half turn about x.
         ({"poses": {"table": Pose((0.5, 0.36, 0.2), (1, 0, 0, 0)), "phone": PHONE}}, None, "180 degrees"),
         ({"poses": {"table": TABLE, "phone": Pose((0.2, 0.1, 0.724))}}, None, "'phone' 0.882 m and 0 degrees"),
         ({"touches": [Touch("left", "phone", (20.0, 72.4, 10.0))]}, None, "touches.. has a point 7.* m off 'phone'"),
@@ -355,7 +355,7 @@ def test_contract_finds_faults_that_play_does_not(given: Any, moves: str | None,
 
 @pytest.mark.parametrize("as_table", [False, True])
 def test_link_moves_a_diverged_session_to_the_engine_state(as_table: bool) -> None:
-    """By an object that was put back at another place between two frames, and by a frame that was refused."""
+    """The session diverges by an object added back at another place between two frames, or by a refused frame."""
     scene = own_scene()
     session = HapticSession(scene, bake(scene))
     adapter = Given(scene)
@@ -389,7 +389,7 @@ def test_frame_has_a_time_on_the_clock() -> None:
 
 
 def test_mocap_hand_touches_only_movable_objects() -> None:
-    """MuJoCo finds no contact between a mocap body and what has no joint."""
+    """MuJoCo finds no contact between a mocap body and a body without a joint."""
     mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
     from scene2hap.scene.engines.mujoco import snapshot
 
@@ -417,7 +417,7 @@ def test_links_are_public_and_load_no_engine() -> None:
 
 
 def test_unit_mismatch_is_detected_in_play(mujoco_engine: Any) -> None:
-    """A link that forgets the unit is refused; one thing that moved away from the origin is no unit."""
+    """A link without the unit is refused; one object that moved away from the origin does not count as a unit."""
     model, data, _, _ = mujoco_engine
     from scene2hap.scene.engines.mujoco import snapshot
 
@@ -471,7 +471,7 @@ def test_objects_that_are_not_links_are_refused(
 
 
 def test_engines_are_imported_when_they_are_linked() -> None:
-    """And one that is not installed is told by the name of its extra."""
+    """The error of an engine that is not installed names its extra."""
     code = """
 import sys
 from scene2hap import Box, HapticSession, SceneObject, SceneSnapshot, bake

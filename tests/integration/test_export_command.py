@@ -1,4 +1,4 @@
-"""Exports as a user makes them: by command, and with the manifest that an engine reads."""
+"""The command `scene2hap export`: files of all formats, and the manifest for engines."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def kitchen(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def exported(kitchen: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
-    """The kitchen and its tour in every format, and the manifest."""
+    """Export the kitchen and its tour in every format. Returns the folder and the manifest."""
     folder = tmp_path_factory.mktemp("out")
     assert main(["export", str(kitchen), "-o", str(folder), "--touches", str(tour_path()), "-q"]) == 0
     return folder, json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
@@ -69,7 +69,7 @@ def test_the_manifest_keeps_its_published_schema(exported: tuple[Path, dict[str,
 
 
 def test_paths_give_the_gains_of_a_session(exported: tuple[Path, dict[str, Any]], kitchen: Path) -> None:
-    """At contacts, and by the stated decay 5 cm beside one."""
+    """The gain 5 cm beside a contact follows from the manifest's gains and decay."""
     bundle = HapticBundle.load(kitchen)
     session = HapticSession(bundle, config={"prepare": "blocking"})
     paths = [one for one in exported[1]["paths"] if one["source"] == "smartphone"]

@@ -1,4 +1,4 @@
-"""The firmware's own code, compiled for the host, at the other end of the wire."""
+"""The firmware's code, compiled for the host, as the device of a serial sink."""
 
 import shutil
 import subprocess
@@ -46,13 +46,13 @@ def test_firmware_plays_the_sent_samples(amplifier: Path, tmp_path: Path) -> Non
         assert program.stdin is not None
         port = program.stderr.readline().decode().strip()
         try:
-            for _ in range(2):  # the second time it is greeted again, with another run of sequences
+            for _ in range(2):  # the second connection begins with a new hello and new sequence numbers
                 with SerialAmplifierSink(port, buffer_s=0.05, on_event=events.append) as sink:
                     sink.open(SinkFormat(4000, ("left", "right")))
                     sink.start(counting)
                     assert eventually(lambda sink=sink: sink.stats.frames >= 4000)  # type: ignore[misc]  # bound early
                     assert sink.stats.latency_s is not None
-            time.sleep(0.2)  # its ramp to zero
+            time.sleep(0.2)  # for the firmware's ramp to zero
         finally:
             program.stdin.close()
             errors = program.stderr.read()
@@ -62,7 +62,7 @@ def test_firmware_plays_the_sent_samples(amplifier: Path, tmp_path: Path) -> Non
     assert [event.kind for event in events] == ["connected", "connected"]
     left, right = np.fromfile(heard, dtype="<i2").reshape(-1, 2).astype(int).T
     np.testing.assert_array_equal(right, -left)
-    # Whatever the timing, what rises by one per sample is the mix; an underrun ramps down and goes on where it was.
+    # The mix rises by one per sample; an underrun ramps down, then the mix continues where it was.
     steps = np.diff(left)
     assert (steps == 1).sum() > 6000
     assert not left[-1]

@@ -1,4 +1,4 @@
-"""docs/formats: the C programs compile and read what the exporters write, and the commands name kinds that exist."""
+"""docs/formats: the C programs compile and read exported files, and the commands name existing kinds."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ needs_compiler = pytest.mark.skipif(COMPILER is None, reason="no C compiler; ins
 
 
 def blocks(page: str) -> list[tuple[str, str, str]]:
-    """Language, code, and the three lines below, of each block of code on a page."""
+    """Language, code, and the next three lines of text, for each block of code on a page."""
     found = re.finditer(r"^```(\w+)\n(.*?)^```\n", PAGES[page], re.DOTALL | re.MULTILINE)
     return [(one[1], one[2], "\n".join(PAGES[page][one.end() :].splitlines()[:3])) for one in found]
 
@@ -53,14 +53,14 @@ def compiled(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 
 def lines(program: Path, *files: Path) -> list[list[str]]:
-    """The words of each line that a program prints of files."""
+    """Run a program on files. Returns the words of each line that it prints."""
     done = subprocess.run([str(program), *map(str, files)], capture_output=True, text=True, timeout=20)
     assert done.returncode == 0, done.stderr
     return [line.split() for line in done.stdout.splitlines()]
 
 
 def pairs(words: list[str]) -> dict[str, float]:
-    """Names and numbers that alternate."""
+    """Parse words in which names and numbers alternate."""
     return {name: float(value) for name, value in zip(words[::2], words[1::2], strict=True)}
 
 
@@ -74,7 +74,7 @@ def exported(spec: str | dict[str, Any], track: Track, folder: Path) -> list[Pat
 
 
 def signal(duration_s: float) -> np.ndarray:
-    """A hum that rises and falls three times a second, with a pulse."""
+    """A hum whose level rises and falls three times a second, with one pulse."""
     t = np.arange(round(duration_s * RATE_HZ)) / RATE_HZ
     x = (0.4 + 0.3 * np.sin(2 * np.pi * 3.0 * t)) * np.sin(2 * np.pi * 120.0 * t)
     start = len(t) // 2
@@ -89,7 +89,7 @@ def loop() -> Track:
 
 @pytest.fixture(scope="module")
 def hands() -> Track:
-    """Two hands of different length, the right one with curves and transients that a person drew."""
+    """Two hands of different duration; the right one has hand-drawn curves and transients."""
     drawn = HapticClip(
         Curve(np.array([0.0, 0.3, 0.3, 1.1]), np.array([0.2, 0.9, 0.1, 0.4])),
         Curve(np.array([0.0, 0.7]), np.array([0.1, 0.8])),
@@ -100,7 +100,7 @@ def hands() -> Track:
 
 @pytest.fixture(scope="module")
 def long() -> Track:
-    """More points than a call of the parametric extension holds, and more steps than one of the envelope."""
+    """A track with more points than one parametric call holds, and more steps than one call of the envelope."""
     return Track("long", {"": Channel(signal(40.7), RATE_HZ)})
 
 
@@ -227,7 +227,7 @@ def test_the_pages_are_there_and_programs_are_marked() -> None:
 
 @pytest.mark.parametrize("page", sorted(PAGES))
 def test_a_page_names_its_command(page: str) -> None:
-    """Kinds and settings of `--to` build an exporter."""
+    """Every kind and its settings after `--to` build an exporter."""
     assert "scene2hap export" in PAGES[page]
     given = re.findall(r"--to (?:'(\{.*?\})'|(\w+))", PAGES[page])
     assert given

@@ -1,4 +1,4 @@
-"""Packed glTF and URDF from file to WAV."""
+"""From packed glTF and URDF files to WAV files."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from scene2hap import HapticBundle, HapticSession, Touch, WavSink, bake, load_sc
 DATA = Path(__file__).parents[1] / "data"
 FILES = [DATA / "meshopt" / "quantised.glb", DATA / "urdf" / "laundry" / "laundry.urdf"]
 
-# The offline backends say that all else is silent.
-pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.scene.plausibility.check.SceneWarning")
+# Baking with offline backends warns that all other objects are silent.
+pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.SceneWarning")
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)

@@ -1,4 +1,4 @@
-"""A bake whose sound services fail goes on with the next source."""
+"""A bake continues with the next sound source if a sound service fails."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""docs/getting-started.md, run as written: every block in order, in an empty folder."""
+"""Every block of docs/getting-started.md runs as written, in order, in an empty folder."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the commands ar
 
 
 def shown() -> str:
-    """The commands' folder comes first, and tables are as wide as they need."""
+    """The PATH with the folder of the installed commands first."""
     return os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
 
 

@@ -1,4 +1,4 @@
-"""Habitat scenes from file to samples, one by one and many at once."""
+"""From Habitat scenes to samples, one scene and many scenes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from scene2hap.cli import main
 
 @pytest.fixture
 def dataset(tmp_path: Path) -> Dataset:
-    """Two homes with a washer, whose name only a table tells."""
+    """Two homes with a washer, whose name is only in a table."""
     found = Dataset(tmp_path / "home")
     found.write("semantics/objects.csv", f"id,name,main_category\n{HASH},W 9000,washing machine\n")
     for name, x in (("flat", 1.0), ("house", 2.0)):
@@ -53,7 +53,7 @@ def test_many_scenes_of_a_dataset(dataset: Dataset, tmp_path: Path) -> None:
     assert [Path(one.bundle).name for one in report.scenes] == ["flat.bundle", "house.bundle"]
     assert report.count("baked") == 2
     assert bake_many(scenes, tmp_path / "out").count("kept") == 2
-    # A model that both use was replaced, then the table of names that they share.
+    # A model that both scenes use is replaced, then the table of names that they share.
     model = dataset.folder / f"objects/f/{CHAIR}.glb"
     model.write_bytes((dataset.folder / f"objects/0/{HASH}.glb").read_bytes())
     assert bake_many(scenes, tmp_path / "out").count("baked") == 2

@@ -1,4 +1,4 @@
-"""The code of docs/impacts.md, run as it stands."""
+"""The code of docs/impacts.md runs as written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Study 2 of the paper as an example: the script as a person runs it, and the cells of the notebook in order."""
+"""The example of the paper's study 2: the script and its output, and the cells of the notebook in order."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_the_script_writes_every_condition_and_the_levels(tmp_path: Path) -> Non
         assert [levels[scene, "full_propagation", at] for at in POINTS_M] == [0.0] * 4
         assert [levels[scene, "no_propagation", at] for at in POINTS_M] == [0.0, *[-math.inf] * 3]
         law = [levels[scene, "exponential_plate", at] for at in POINTS_M]
-        # In a straight line of decibels over distance, as exp(-k d) is.
+        # Levels in dB fall linearly with distance, like exp(-k d).
         assert [a - b for a, b in pairwise(law)] == pytest.approx([law[0] - law[1]] * 3, abs=0.02)
         for at in POINTS_M:
             modal = levels[scene, "modal_plate", at]
@@ -60,14 +60,14 @@ def test_the_script_writes_every_condition_and_the_levels(tmp_path: Path) -> Non
             stays = samples[: 4 * round(1.5 * rate)].reshape(4, -1)[:, rate // 10 :]
             rms[condition] = np.sqrt((stays**2).mean(axis=1))
         assert rms["none"][0] > 0.001
-        # What is left of the gain that fades out, a third of a step of 16 bits.
+        # The rest of the fading gain is at most a third of a 16-bit step.
         assert rms["none"][1:] == pytest.approx([0.0] * 3, abs=1e-5)
         assert (rms["full"][1:] > 0.5 * rms["full"][0]).all()
         assert rms["attenuated"][0] > rms["attenuated"][1] > rms["attenuated"][2] >= rms["attenuated"][3]
 
 
 async def last_values(cells: list[dict[str, Any]]) -> list[object]:
-    """Run cells in one namespace while an event loop runs, as a notebook does; what each ends with, if anything."""
+    """Run cells like a notebook: in one namespace, with a running event loop. Returns their last values."""
     names: dict[str, object] = {}
     shown = []
     for cell in cells:
@@ -84,7 +84,7 @@ async def last_values(cells: list[dict[str, Any]]) -> list[object]:
 
 
 def test_notebook_cells_run_in_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In one namespace, and what a cell ends with can be shown."""
+    """Cells run in one namespace, and their last values can be displayed."""
     notebook = json.loads((EXAMPLES / "paper_study2.ipynb").read_text(encoding="utf-8"))
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
     assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in cells), "clear the outputs"

@@ -1,4 +1,4 @@
-"""The physical models in a session: the demo kitchen from bake to samples, and a table that is moved."""
+"""The physical models in a session: gains of the demo kitchen, and of a moved table."""
 
 import warnings
 

@@ -1,4 +1,4 @@
-"""The code of docs/pictures.md, every block in order, as it stands."""
+"""The code of docs/pictures.md runs as written, block by block in order."""
 
 from __future__ import annotations
 

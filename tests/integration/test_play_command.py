@@ -1,4 +1,4 @@
-"""`scene2hap play` on a pseudo-terminal, and the plan that it shows."""
+"""The command `scene2hap play` on a pseudo-terminal, and the floor plan that it shows."""
 
 import contextlib
 import json
@@ -55,7 +55,7 @@ def test_play_without_a_terminal_explains_the_alternative(tmp_path: Path, capsys
 
 
 def played(tmp_path: Path, *options: str) -> tuple[int, bytes]:
-    """What a person sees who plays the two phones for a moment, and how it ends."""
+    """Play the two phones for a moment on a pseudo-terminal. Returns the exit status and the output."""
     if problem := terminal_problem():
         pytest.skip(problem)
     import pty
@@ -71,7 +71,7 @@ def played(tmp_path: Path, *options: str) -> tuple[int, bytes]:
         if select.select([terminal], [], [], 0.1)[0]:
             try:
                 said += os.read(terminal, 65536)
-            except OSError:  # the other side has closed
+            except OSError:  # the child has closed the terminal
                 break
         if not sent_s and b"hand on" in said:
             os.write(terminal, b"\x1b[A\x1b[C\x1b[B++ ")

@@ -1,4 +1,4 @@
-"""An engine that scene2hap does not know: PyBullet through an adapter as docs/engines.md describes it."""
+"""An engine without built-in support: PyBullet, through an adapter as in docs/engines.md."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PLACES_M = {"wooden table": (0.0, 0.0, 0.36), "smartphone": (0.2, 0.0, 0.73), "f
 
 
 class PyBullet:
-    """Bodies by the ids of the scene; the body `finger` stands for the left hand."""
+    """An adapter: bodies are named by the ids of the scene, and the body `finger` is the left hand."""
 
     def __init__(self, client: int) -> None:
         self.client, self.bodies = client, {}
@@ -30,7 +30,7 @@ class PyBullet:
         self.names = {body: name for name, body in self.bodies.items()}
 
     def poses(self) -> dict[str, Pose]:
-        # PyBullet has quaternions as scene2hap has them: x, y, z, w.
+        # PyBullet's quaternions have the order of scene2hap: x, y, z, w.
         return {
             name: Pose(*pybullet.getBasePositionAndOrientation(body, physicsClientId=self.client))
             for name, body in self.bodies.items()

@@ -1,4 +1,4 @@
-"""The README's promises, run as written."""
+"""The README's example and commands run as written."""
 
 import re
 import subprocess

@@ -1,4 +1,4 @@
-"""From a file in a library to what a hand feels: a machine starts and stops as it does in its recording."""
+"""Recorded starts and stops, from a library file to a session: a machine starts and stops as in its recording."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from starting_machines import Signal, machine
 
 RATE_HZ = 48_000
 START_S, STOP_S = 2.0, 4.0
-# Evenly, as no session would assume.
+# Linear start and stop, unlike the default curves of a session.
 TAKE = machine(start_s=START_S, stop_s=STOP_S, rise="linear", fall="linear", n_harmonics=1, seed=3)
 ROOM = scene(box("table", (1.6, 0.02, 0.8), (0.8, 0.71, 0.4)), box("fan", (0.2, 0.2, 0.2), (0.4, 0.82, 0.4)))
 TOUCH = [Touch("left", "fan", (0.4, 0.92, 0.4))]
@@ -36,7 +36,7 @@ def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def feel(session: HapticSession, seconds: float) -> Signal:
-    """What the left hand feels."""
+    """The samples of the left hand over some seconds."""
     blocks = []
     for _ in range(round(seconds * 50)):
         session.update(touches=TOUCH)
@@ -45,12 +45,12 @@ def feel(session: HapticSession, seconds: float) -> Signal:
 
 
 def levels(x: Signal) -> Signal:
-    """Rms of windows of 0.1 s."""
+    """RMS of windows of 0.1 s."""
     return np.asarray(np.sqrt((x[: len(x) // WINDOW * WINDOW].reshape(-1, WINDOW) ** 2).mean(axis=1)))
 
 
 def pitches_hz(x: Signal) -> Signal:
-    """Zeros per second, halved, of windows of 0.1 s, between the first and the last of each."""
+    """Pitch of windows of 0.1 s, from the zero crossings between the first and the last of each window."""
     found = []
     for window in x[: len(x) // WINDOW * WINDOW].reshape(-1, WINDOW):
         k = np.flatnonzero(np.signbit(window[1:]) != np.signbit(window[:-1]))
@@ -72,7 +72,7 @@ def test_bundle_states_the_recorded_times(baked: Path, capsys: pytest.CaptureFix
     assert loop.wind_down is not None
     assert state.start_up_s == loop.start_up.lasts_s == pytest.approx(START_S, rel=0.15)
     assert state.wind_down_s == loop.wind_down.lasts_s == pytest.approx(STOP_S, rel=0.15)
-    assert (loop.start_up.inferred_s, loop.wind_down.inferred_s) == (1.5, 3.0)  # the lexicon's fan
+    assert (loop.start_up.inferred_s, loop.wind_down.inferred_s) == (1.5, 3.0)  # the times of the lexicon's fan
     provenance = bundle.objects["fan"].provenance
     assert provenance["start_up_s"] == provenance["wind_down_s"] == "recording"
     assert "has a start of" in bundle.choices["fan"][state.name]
@@ -114,7 +114,7 @@ def test_interrupted_recorded_starts_cause_no_click(baked: Path) -> None:
     x = np.concatenate(parts)
     assert high_db(x) < -60.0
     ends = np.cumsum([len(part) for part in parts])
-    for end in ends[:-1]:  # level goes on where it was
+    for end in ends[:-1]:  # the level continues without a jump
         before, after = (np.sqrt(np.mean(x[a:b] ** 2)) for a, b in ((end - 2400, end), (end + 1200, end + 3600)))
         assert abs(after - before) < 0.25 * steady
 

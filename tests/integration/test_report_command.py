@@ -1,4 +1,4 @@
-"""`scene2hap report` and `scene2hap bake --dry-run`, as a person runs them."""
+"""The commands `scene2hap report` and `scene2hap bake --dry-run`."""
 
 import json
 from pathlib import Path
@@ -62,7 +62,7 @@ def test_bake_needs_a_folder(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_page_shows_the_account_of_the_bake(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A run of `bake` leaves its account beside the bundle; `report` finds it there."""
+    """The command `bake` writes its account beside the bundle, where `report` finds it."""
     scene = tmp_path / "room.json"
     scene.write_text(SCENE.to_json())
     folder, page = tmp_path / "room.bundle", tmp_path / "room.json.json"

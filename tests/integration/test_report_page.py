@@ -1,4 +1,4 @@
-"""The report page in headless Chromium: no request, no error, and an answer to every click and key."""
+"""The report page in headless Chromium: no network request, no error, and a reaction to every click and key."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def html() -> str:
 
 @pytest.fixture(scope="module")
 def browser(html: str) -> Iterator[Any]:
-    # The page is made first: playwright keeps an event loop running, and `bake` refuses to stop one.
+    # The page is made first: playwright runs an event loop, and `bake` refuses to block an event loop.
     api = pytest.importorskip("playwright.sync_api", reason=_NEEDS)
     path = shutil.which("chromium") or shutil.which("chromium-browser")
     if path is None:
@@ -73,7 +73,7 @@ def browser(html: str) -> Iterator[Any]:
 
 
 class Opened:
-    """A page in the browser, with what it requested and what it complained about."""
+    """An open page, with its requests and its errors."""
 
     def __init__(self, browser: Any, address: str, **options: Any) -> None:
         self.context = browser.new_context(viewport={"width": 1280, "height": 800}, **options)
@@ -93,7 +93,7 @@ class Opened:
 
     @property
     def requested(self) -> list[str]:
-        """Requests that left the page itself."""
+        """Requests other than for the page itself and its data."""
         return [url for url in self.requests[1:] if not url.startswith(("data:", "blob:"))]
 
 
@@ -108,9 +108,9 @@ def shared(browser: Any, html: str, tmp_path_factory: pytest.TempPathFactory) ->
 
 @pytest.fixture
 def opened(shared: Opened) -> Iterator[Opened]:
-    """A page as when it was opened: to open one takes longer than a test."""
+    """The shared page, reset to its first state; opening a new page would take longer than a test."""
     shared.page.get_by_role("searchbox").fill("")
-    shared.page.keyboard.press("Escape")  # leaves the field, in which other keys are text
+    shared.page.keyboard.press("Escape")  # leaves the search field, in which other keys are text
     shared.report("setFelt({source: '', model: 'exponential_plate', band: 'all'})")
     shared.report("focus(null)")
     yield shared
@@ -153,10 +153,10 @@ def test_point_under_the_cursor_shows_its_level(opened: Opened) -> None:
 
 
 def test_point_under_the_cursor_shows_the_path_to_it(opened: Opened) -> None:
-    """The phone lies on the table; nothing else brings its vibration there."""
+    """The phone lies on the table, so that its vibration has only this path."""
     opened.report("setFelt({source: '__proto__'})")
     x, y = opened.report("project('table')")
-    for dx in range(0, 200, 10):  # a place that nothing lies on
+    for dx in range(0, 200, 10):  # search a free place on the table
         if opened.report(f"pick({x - dx}, {y})") == "table":
             opened.page.mouse.move(x - dx, y)
             break
@@ -223,7 +223,7 @@ def test_names_are_shown_as_plain_text(opened: Opened) -> None:
     opened.report("select('cup')")
     shown = opened.page.locator("#panel h2").inner_text()
     assert shown == _STRANGE.replace("\x1b", "\\x1b")
-    assert opened.page.locator("script").count() == 2  # the data and the page's own
+    assert opened.page.locator("script").count() == 2  # the data and the page's script
     assert opened.page.locator("#panel h2 *").evaluate_all("found => found.map((one) => one.localName)") == ["bdi"]
 
 
@@ -262,7 +262,7 @@ def test_touch_input_shows_level_and_path(browser: Any, html: str, tmp_path: Pat
 
 def test_page_works_without_webgl(browser: Any, html: str, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
-    # A browser without WebGL has no such context.
+    # Without WebGL, `getContext` returns null.
     path.write_text(html, encoding="utf-8")
     context = browser.new_context()
     context.add_init_script(
@@ -321,7 +321,7 @@ def test_a_served_page_saves_to_its_server(browser: Any, html: str) -> None:
 
 
 def test_the_policy_names_the_script_and_the_style_of_the_page(html: str) -> None:
-    """Built files that do not belong together are refused by browsers."""
+    """Browsers refuse a script or style whose hash differs from the policy."""
     for kind, element in (("script", r"<script>(.*?)</script>"), ("style", r"<style>(.*?)</style>")):
         (text,) = re.findall(element, html, re.S)
         digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
@@ -350,7 +350,7 @@ _WALLS = {
 
 @pytest.fixture
 def walled(browser: Any, tmp_path: Path) -> Iterator[Opened]:
-    """A room of walls that are objects, with a phone of the id "all"."""
+    """A room whose walls are objects, with a phone of the id "all"."""
     objects = [
         SceneObject(key, {"all": "smartphone", "fan": "electric fan"}.get(key, key), Pose(at), Box(size))
         for key, (at, size) in _WALLS.items()
@@ -373,7 +373,7 @@ def test_walls_towards_the_camera_are_hidden(walled: Opened) -> None:
     walled.page.get_by_label("walls").select_option("cut")
     walled.page.wait_for_timeout(200)
     assert walled.page.locator("#canvas").screenshot() != before
-    # Walls behind the room stay: here is the middle of the northern one.
+    # Walls behind the room stay visible, as the northern wall here.
     x, y = walled.report("project('north')")
     assert walled.report(f"pick({x}, {y - 40})") == "north"
 
@@ -391,7 +391,7 @@ def test_source_named_all_is_listed_separately(walled: Opened) -> None:
 
 
 def _beside(work: Callable[[], Result]) -> Result:
-    """Work in another thread: that of playwright runs an event loop, which `bake` refuses to stop."""
+    """Run `work` in another thread: playwright runs an event loop in this one, which `bake` refuses to block."""
     with ThreadPoolExecutor(1) as thread:
         return thread.submit(work).result()
 
@@ -406,7 +406,7 @@ _SCENES: dict[str, tuple[Path, float | None, int]] = {
     ),
     "messy_japanese_room": (SCENES / "messy_japanese_room" / "room.glb", 0.1, 15_000_000),
 }
-"""Scenes by file and metres per unit, and the most bytes that a page may have."""
+"""Scenes: file, metres per unit, and the largest size of their page [bytes]."""
 
 
 def _baked(name: str) -> HapticBundle:
@@ -414,13 +414,13 @@ def _baked(name: str) -> HapticBundle:
     bundle = bake(load_scene(path, unit_m=unit_m))
     if bundle.loops:
         return bundle
-    # Nobody can tell what these objects are: one of them hums, and all are of oak.
+    # These objects are unknown: make all of oak, and let one hum.
     for object_id in bundle.objects:
         bundle = bundle.override(object_id, material="oak")
     return rebake(bundle.override("Object_12", vibrates=True))
 
 
-@pytest.mark.filterwarnings("ignore")  # of scenes by others
+@pytest.mark.filterwarnings("ignore")  # scenes by others cause warnings
 @pytest.mark.parametrize("name", _SCENES)
 def test_page_supports_inspection_correction_and_rebake(name: str, browser: Any, tmp_path: Path) -> None:
     path, _, most_bytes = _SCENES[name]
@@ -465,7 +465,7 @@ def test_page_supports_inspection_correction_and_rebake(name: str, browser: Any,
 
 
 def _click_an_object(opened: Opened) -> str:
-    """Click the first place of the picture, from its middle outwards, at which there is an object; its id."""
+    """Click an object in the picture, searched from its middle outwards. Returns the object's id."""
     box = opened.page.locator("#canvas").bounding_box()
     assert box is not None
     for share in (0.5, 0.45, 0.55, 0.4, 0.6):
@@ -478,7 +478,7 @@ def _click_an_object(opened: Opened) -> str:
 
 
 def _wait_for(page: Any, condition: str) -> None:
-    """Not `wait_for_function`: it evaluates text in the page, which the page's policy forbids."""
+    """Wait until a condition is true. `wait_for_function` would evaluate text, which the page's policy forbids."""
     for _ in range(100):
         if page.evaluate(condition):
             return

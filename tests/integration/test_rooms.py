@@ -1,4 +1,4 @@
-"""The rooms that the tests build themselves: what is known of no other scene."""
+"""The rooms of `tests/rooms`: properties that are known by construction."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from rooms import ROOMS, room_file
 from scene2hap import HapticSession, Pose, SceneSnapshot, Touch, bake, load_scene
 from scene2hap.contact.graph import ContactGraph
 
-# They have rooms without sources.
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.plausibility.check.SceneWarning")
+# Some rooms have no sources.
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")
 
 
 @cache
@@ -26,7 +26,7 @@ def loaded(name: str) -> SceneSnapshot:
 def test_every_triangle_has_its_composed_place(name: str) -> None:
     room, scene = ROOMS[name], loaded(name)
     ours = [item.pose.to_world(item.geometry.mesh.vertices_m)[item.geometry.mesh.faces] for item in scene.objects]
-    # Fixed weights sort both alike, whatever the order of corners; coordinates are stored in single precision.
+    # Fixed weights sort both equally for any order of corners; coordinates are stored in single precision.
     marks = [np.sort(table.reshape(-1, 3) @ [1.0, np.pi, np.e]) for table in (np.concatenate(ours), room.triangles_m())]
     np.testing.assert_allclose(*marks, atol=1e-5)
 

@@ -1,7 +1,7 @@
-"""Scene files: the rooms that the tests build, and scenes that others made where they are there.
+"""Loading scene files: the rooms of the tests, and scenes by others where they are present.
 
-What is known of the rooms is known by construction; the others were counted by hand. Both are held against an
-independent reading of the same files.
+The properties of the rooms are known by construction; the others were counted by hand. Both are compared with an
+independent reader of the same files.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from scene2hap.errors import Scene2HapError
 from scene2hap.scene.load import TextureWarning, UnitWarning, load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
-# Objects are counted by hand in the listings of nodes: what a user would point at.
+# Objects counted by hand in the lists of nodes: those that a user would point at.
 COUNTS = {
     "sketchfab_kitchen/scene.gltf": 39,
     "aws_house_living/aws_house_living.glb": 43,
@@ -43,12 +43,12 @@ T = TypeVar("T")
 
 
 def others(*names: str) -> list[str]:
-    """Those of the scenes by others that are there."""
+    """The given scenes by others that are present."""
     return there(names, SCENES.joinpath)
 
 
 def known(own: Mapping[str, T], by_others: Mapping[str, T]) -> list[tuple[str, T]]:
-    """What is known of the rooms, and of those scenes by others that are there."""
+    """Known properties of the rooms, and of the scenes by others that are present."""
     return [*own.items(), *((name, by_others[name]) for name in others(*by_others))]
 
 
@@ -88,7 +88,7 @@ def test_names_equal_the_authored_names() -> None:
 
 @pytest.mark.parametrize(("name", "n"), [(name, 10 if name == MERGED else 2) for name in (*ROOMS, *others(*COUNTS))])
 def test_every_load_is_the_same(name: str, n: int) -> None:
-    """Ten loads of the file with six primitives to a mesh, whose names trimesh would draw at random."""
+    """A file with six primitives in a mesh is loaded ten times: trimesh would name them at random."""
     assert all(load_scene(file_of(name), unit_m=1.0) == scene(name) for _ in range(n - 1))
 
 
@@ -116,12 +116,12 @@ def world_triangles(snapshot: SceneSnapshot) -> NDArray[np.float64]:
 
 @pytest.mark.parametrize("name", [*OWN_GLTF, *others(KITCHEN, COMPOSED, BATHROOM, MERGED)])
 def test_every_triangle_has_the_place_of_the_file(name: str) -> None:
-    """All corners of all triangles, as sets, to a millionth of the scene."""
+    """All corners of all triangles agree as sets, within 1e-5 of the scene's size."""
     ours = world_triangles(scene(name)).reshape(-1, 9)
     theirs = np.concatenate(list(drawn_triangles(file_of(name)))).reshape(-1, 9)
     assert len(ours) == len(theirs)
     size = float(np.ptp(theirs))
-    # Summing with fixed weights orders both sets alike whatever order the corners were read in.
+    # Sums with fixed weights order both sets equally, for any order of the corners.
     marks = [np.sort(rows.reshape(-1, 3) @ [1.0, np.pi, np.e]) for rows in (ours, theirs)]
     np.testing.assert_allclose(marks[0], marks[1], atol=1e-5 * size)
 
@@ -140,12 +140,12 @@ def test_every_corner_has_the_coordinates_that_the_file_gives_it(name: str) -> N
     ours = np.concatenate(rows).reshape(-1, 5)
     assert len(ours) == len(theirs)
     size = np.array([float(np.ptp(theirs[:, :3]))] * 3 + [1.0, 1.0])
-    # Distinct weights, so that coordinates that went to another corner change the sums.
+    # Distinct weights, so that coordinates at a wrong corner change the sums.
     marks = [np.sort(table / size @ [1.0, np.pi, np.e, 10.1, 31.7]) for table in (ours, theirs)]
     np.testing.assert_allclose(marks[0], marks[1], atol=1e-4)
 
 
-# Materials that primitives use, and different images that these show, counted in the files.
+# Materials that primitives use, and different images of these materials, counted in the files.
 LOOKS = {
     KITCHEN: (16, 16),
     LIVING: (35, 22),
@@ -185,7 +185,7 @@ def test_bounds_equal_those_of_an_independent_reader(name: str) -> None:
 
 
 def test_draco_meshes_have_the_bounds_of_the_header() -> None:
-    """The header tells the bounds of every compressed mesh; one step of quantisation is allowed."""
+    """The header states the bounds of every compressed mesh; one step of quantisation is allowed."""
     header, _ = header_and_buffer(needed(SCENES / DRACO))
     for item, node in zip(scene(DRACO).objects, header["nodes"][2:], strict=True):
         positions = header["meshes"][node["mesh"]]["primitives"][0]["attributes"]["POSITION"]
@@ -196,7 +196,7 @@ def test_draco_meshes_have_the_bounds_of_the_header() -> None:
         )
 
 
-# -- what the scenes are known for -----------------------------------------------------------------------------------
+# -- known properties of the scenes ----------------------------------------------------------------------------------
 
 
 BOXES_BY_OTHERS = ("floor", "wall_back", "wall_left", "wall_right")
@@ -204,7 +204,7 @@ BOXES_BY_OTHERS = ("floor", "wall_back", "wall_left", "wall_right")
 
 @pytest.mark.parametrize("name", [*ROOMS, *others(COMPOSED, BATHROOM)])
 def test_closed_meshes_face_outwards(name: str) -> None:
-    """The volume of a closed mesh is positive, and that of a box is known by its size."""
+    """The volume of a closed mesh is positive, and the volume of a box follows from its size."""
     for item in scene(name).objects:
         mesh = item.geometry.mesh
         a, b, c = (mesh.vertices_m[mesh.faces[:, k]] for k in range(3))
@@ -312,7 +312,7 @@ def test_sizes_equal_constructed_or_hand_measured_sizes(
 
 def outcome(path: Path) -> str:
     with warnings.catch_warnings():
-        # A byte of an image may be hit as well.
+        # The damage may also hit an image.
         warnings.simplefilter("ignore", TextureWarning)
         try:
             load_scene(path, unit_m=1.0)
@@ -325,7 +325,7 @@ def outcome(path: Path) -> str:
 def test_a_file_cut_short_is_refused(tmp_path: Path, name: str, n: int) -> None:
     data = file_of(name).read_bytes()
     path = tmp_path / file_of(name).name
-    # A GLB tells its length, and up to three bytes at its end may be padding; JSON has no format to break but itself.
+    # A GLB states its length, and up to three bytes at its end may be padding. A cut JSON gives one of two errors.
     expected = {"SceneFormatError"} | ({"SceneError"} if path.suffix == ".json" else set())
     for length in np.linspace(0, len(data) - 4, n).astype(int):
         path.write_bytes(data[:length])

@@ -1,4 +1,4 @@
-"""docs/scene-json.md: its example loads and is felt, and what it says of axes is true."""
+"""docs/scene-json.md: the example loads and can be felt, and the table of axes is correct."""
 
 from __future__ import annotations
 
@@ -48,13 +48,13 @@ def test_every_field_of_the_schema_is_explained() -> None:
 
 
 def test_the_row_of_unity_turns_a_left_hand_into_a_right_one() -> None:
-    """The table's row for Unity, read from the document, against the mirror image of a turned tetrahedron."""
+    """The table's row for Unity, read from the page, against the mirror image of a rotated tetrahedron."""
     row = re.search(r"\| Unity \|[^|]*\| \((.*?)\) \| \((.*?)\) \|", TEXT)
     assert row
     position, quaternion = ([(-1 if "-" in part else 1) for part in group.split(",")] for group in row.groups())
     rng = np.random.default_rng(3)
     vertices, at, turn = rng.normal(size=(4, 3)), rng.normal(size=3), rng.normal(size=4)
-    # Rotation by a quaternion is the same formula in either hand; only the mirror tells them apart.
+    # A quaternion rotates by the same formula in left- and right-handed frames; only the mirror differs.
     left = Pose(tuple(at), tuple(turn))
     right = Pose(tuple(at * position), tuple(np.array(left.rotation_xyzw) * quaternion))
     mirror = np.diag(position)

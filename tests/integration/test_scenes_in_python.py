@@ -1,4 +1,4 @@
-"""Scenes made in Python: the page's code, and the game of 30 objects, run as they stand."""
+"""Scenes made in Python: the code of docs/scenes-in-python.md and the game of 30 objects run as written."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ def test_the_code_of_the_page_runs(tmp_path: Path) -> None:
 
 
 def test_a_game_of_thirty_objects_is_right_to_the_sample(tmp_path: Path) -> None:
-    """At 90 frames a second, of which none has a whole number of samples."""
+    """The game has 90 frames a second, which is not a whole number of samples per frame."""
     printed = run([str(GAME), "game.wav", "7"], tmp_path)
     assert "7 s of 30 objects" in printed
     assert len(GAME.read_text(encoding="utf-8").splitlines()) <= 60
     felt, rate = soundfile.read(tmp_path / "game.wav", always_2d=True)
-    fade = len(felt) - 7 * rate  # of the stop
+    fade = len(felt) - 7 * rate  # the fade-out at the stop
     assert 0 <= fade < 0.02 * rate
     level = [np.sqrt((felt[second * rate :][:rate] ** 2).mean(axis=0)) for second in range(7)]
     # The phone lies on the table from 3.15 to 6.28 s, and is felt there, nearer to the left hand.

@@ -1,4 +1,4 @@
-"""From file to samples: the rooms that the tests build, and scenes made by other people where they are there."""
+"""From scene file to samples: the rooms of the tests, and scenes by others where they are present."""
 
 import warnings
 from pathlib import Path
@@ -11,8 +11,8 @@ from rooms import ROOMS, room_file
 from scene2hap import HapticBundle, HapticSession, Touch, bake, load_scene
 from scene2hap.scene.load import UnitWarning
 
-# Rooms without sources are silent, and baking says so.
-pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.scene.plausibility.check.SceneWarning")
+# Baking warns of rooms without sources.
+pytestmark = pytest.mark.filterwarnings("ignore:none of:scene2hap.SceneWarning")
 
 FILES = {
     "aws_house_bedroom": "aws_house_bedroom.glb",

@@ -1,4 +1,4 @@
-"""The serial amplifier over real pseudo-terminals, with the reference device at the other end."""
+"""The serial amplifier sink over real pseudo-terminals, with the reference device at the other end."""
 
 import errno
 import itertools
@@ -33,7 +33,7 @@ SECONDS = 30 if os.environ.get("CI") else 6
 
 
 class Counting:
-    """A mix whose 16-bit samples count up, left in the low and right in the high digits, so that each is known."""
+    """A mix that counts frames in its 16-bit samples (left low digits, right high digits), so that each is known."""
 
     def __init__(self) -> None:
         self.position = 0
@@ -49,7 +49,7 @@ class Counting:
 
 
 class Kept:
-    """Makes reference devices that keep what they accept."""
+    """A factory of reference devices that store the samples that they accept."""
 
     def __init__(self, **settings: int) -> None:
         self.blocks: list[NDArray[np.int16]] = []
@@ -64,7 +64,7 @@ class Kept:
 
 
 class Deaf(ReferenceDevice):
-    """Hears one byte in a hundred wrongly."""
+    """A device that receives one byte in a hundred wrongly."""
 
     rng = np.random.default_rng(4)
 
@@ -92,7 +92,7 @@ def kinds(events: list[SinkEvent]) -> list[str]:
 def test_every_sample_arrives_bit_exact(tmp_path: Path, events: list[SinkEvent]) -> None:
     kept = Kept()
     with Plug(tmp_path, kept) as plug:
-        # Both ends share a machine that may be busy: 0.1 s in the queue rides over its pauses.
+        # Both ends share a machine that may be busy: 0.1 s in the queue bridges its pauses.
         sink = SerialAmplifierSink(str(plug.path), buffer_s=0.1, on_event=events.append)
         sink.open(FORMAT)
         sink.start(Counting())
@@ -103,7 +103,7 @@ def test_every_sample_arrives_bit_exact(tmp_path: Path, events: list[SinkEvent])
     assert kinds(events) == ["connected"], events
     assert (device.damaged, device.lost, device.refused) == (0, 0, 0)
     played = Counting.positions(kept.samples)[200:]  # after the fade
-    first = stats.dropped_frames + 200  # dropped while the device was being greeted
+    first = stats.dropped_frames + 200  # dropped before the device's hello
     np.testing.assert_array_equal(played, np.arange(first, first + len(played)))
     assert len(played) >= SECONDS * 4000 - 400
 
@@ -124,7 +124,7 @@ def test_a_session_of_48_khz_is_converted(tmp_path: Path) -> None:
         assert eventually(lambda: sink.stats.latency_s is not None)
     left = kept.samples[400:2400, 0] / 32767
     spectrum = np.abs(np.fft.rfft(left)) / 1000
-    assert spectrum[100] == pytest.approx(1, abs=1e-3)  # 200 Hz, of 2 Hz per bin
+    assert spectrum[100] == pytest.approx(1, abs=1e-3)  # 200 Hz, with 2 Hz per bin
     assert np.delete(spectrum, 100).max() < 1e-3
     np.testing.assert_allclose(kept.samples[400:2400, 1] / 32767, 0.5 * left, atol=1e-4)
 
@@ -158,7 +158,7 @@ def test_device_without_credit_resumes(tmp_path: Path, events: list[SinkEvent]) 
         assert eventually(lambda: "stalled" in kinds(events))
         assert eventually(lambda: plug.device.muted)  # by its watchdog
         position = mix.position
-        assert eventually(lambda: mix.position > position + 400)  # the session goes on
+        assert eventually(lambda: mix.position > position + 400)  # the session continues
         plug.device.grants_credit = True
         assert eventually(lambda: not plug.device.muted)
     assert kinds(events)[:2] == ["connected", "stalled"]
@@ -264,7 +264,7 @@ def test_devices_at_the_port_are_identified(
 
 def test_port_in_use_is_reported(tmp_path: Path, events: list[SinkEvent]) -> None:
     with Plug(tmp_path) as plug:
-        # What another program does; a second sink of this one is refused by `open`, see tests/unit/devices/test_claims.
+        # As another program would; `open` refuses a second sink of this program, see tests/unit/devices/test_claims.
         other = SerialPort(str(plug.path), 921600)
         with SerialAmplifierSink(str(plug.path), on_event=events.append) as sink:
             sink.open(FORMAT)

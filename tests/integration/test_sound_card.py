@@ -1,6 +1,6 @@
-"""A session on a real sound server with a null sink; judged by what its monitor hears.
+"""A session on a real sound server with a null sink, judged by a recording of the sink's monitor.
 
-Skipped, saying what to install, where there is no server; with SCENE2HAP_REQUIRE_SOUND set that is a failure instead.
+Without a server the tests are skipped with a list of packages to install; with SCENE2HAP_REQUIRE_SOUND set they fail.
 """
 
 import os
@@ -37,7 +37,7 @@ def wait_for(is_so: Callable[[], object], timeout_s: float = 20.0) -> None:
 
 
 def test_ten_seconds_are_played_without_a_gap() -> None:
-    # A virtual machine may stand still for longer than the latency; a broken player never gives a good take in five.
+    # A virtual machine may stall for longer than the latency; a broken player never gives a good take in five.
     for attempt in range(5):
         verdict = take_alone(10.0)
         if verdict.residual < 1e-4 or attempt == 4:
@@ -65,7 +65,7 @@ def test_sound_card_fades_in_and_fades_out_when_the_game_stops(server: SoundServ
         time.sleep(0.8)
         heard = np.abs(recorder.samples).max(axis=1)
         silent_from = int(np.flatnonzero(heard)[-1]) + 1
-        # Exact zeros from then on; half a second of slack for machines that stand still.
+        # Exact zeros from then on; half a second of margin for machines that stall.
         assert len(heard) - silent_from > RATE // 10
         assert (silent_from - recorder.frame_at(died)) / RATE < 0.1 + 0.01 + told_s + 0.5
         session.update(touches=TOUCHES)
@@ -140,7 +140,7 @@ def test_device_of_another_rate_is_resampled(server: SoundServer) -> None:
         game.kill()
     heard = recorder.stop()
     begin = int(np.flatnonzero(np.abs(heard).max(axis=1) > 1e-3)[0]) + RATE // 2
-    # The server resamples 44.1 kHz to the monitor's 48 kHz. Ten pieces of ten cycles each: a stall spoils few of them.
+    # The server resamples 44.1 kHz to the monitor's 48 kHz. A stall spoils only few of ten pieces of ten cycles.
     left = heard[begin : begin + RATE, 0].astype(np.float64).reshape(10, -1)
     t = np.arange(RATE // 10) / RATE
     wave = np.exp(-2j * np.pi * TONES_HZ[0] * t)

@@ -1,4 +1,4 @@
-"""PCM and OSC over the loopback, against receivers that are not ours."""
+"""PCM and OSC by UDP over the loopback, with independent receivers."""
 
 import re
 import socket
@@ -78,7 +78,7 @@ def test_udp_stream_is_paced_by_the_clock(listener: socket.socket) -> None:
         assert sink.wait_connected(10)
         began = time.monotonic()
         assert eventually(lambda: sink.stats.frames >= 2400)
-        # Never ahead of the clock; how late depends on the machine.
+        # Never ahead of the clock; the delay depends on the machine.
         assert time.monotonic() - began > 0.29
 
 
@@ -103,7 +103,7 @@ def test_receiver_that_starts_later_gets_the_stream(listener: socket.socket) -> 
 
 
 class MaxPatch:
-    """An OSC server of python-osc that writes down what it hears."""
+    """An OSC server of python-osc that records all messages."""
 
     def __init__(self) -> None:
         self.heard: list[tuple[str, tuple[Any, ...]]] = []

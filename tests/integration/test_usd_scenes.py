@@ -1,4 +1,4 @@
-"""USD beside other formats: the same room as GLB, and the way from a USD file to a sound file."""
+"""USD scenes: the same room as from GLB, and the whole way from a USD file to a sound file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""VHP boards as sinks, against boards that the test plays from docs/serial-protocol.md."""
+"""VHP boards as sinks, with boards simulated by the test from docs/serial-protocol.md."""
 
 import threading
 import time
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(bool(terminal_problem()), reason=terminal_proble
 
 
 class Board:
-    """Asks every 4 ms, and keeps what it gets."""
+    """A simulated board that requests data every 4 ms and stores it."""
 
     def __init__(self, question: bytes, size: int) -> None:
         self.terminal = PseudoTerminal()
@@ -33,7 +33,7 @@ class Board:
         due = 0
         while not self._stop.is_set():
             self.heard += self.terminal.read(0.004)
-            # It asks once for each frame that it got, as its interrupt does once per frame that it played.
+            # One request for each received frame, as the board's interrupt sends one per played frame.
             if self.asks and len(self.heard) >= due + self._size:
                 due += self._size
                 time.sleep(0.004)
@@ -69,7 +69,7 @@ def test_a_slim_board_gets_whole_frames_and_ends_at_rest(events: list[SinkEvent]
     samples = np.frombuffer(b"".join(frame[4:] for frame in frames), np.uint8).reshape(-1, 12)
     playing = samples[2 * 8 + 100 : -8 * 8]  # after two frames of rest and the fade of 50 ms
     assert len(playing) > 200
-    # A busy machine may make it fade in once more.
+    # On a busy machine, the sink may fade in once more.
     assert (playing == [192, 1, *[128] * 10]).all(axis=1).sum() > 200
     assert (playing[:, 2:] == 128).all()
     assert playing[:, 0].min() >= 128
@@ -84,7 +84,7 @@ def test_a_sleeve_is_switched_on_fed_and_switched_off(events: list[SinkEvent]) -
             sink.open(SinkFormat(48000, ("left",)))
             sink.start(lambda n: np.ones((n, 1), dtype=np.float32))
             assert eventually(lambda: sink.stats.frames > 400)
-        # Whole packets, of which the last switches off; a busy machine hands it on late.
+        # Whole packets, the last of which switches the board off; on a busy machine it arrives late.
         off = bytes([200, 3, 14, 0])
         assert eventually(lambda: len(board.heard) % 132 == 0 and bytes(board.heard)[-132:][:4] == off)
         heard = bytes(board.heard)

@@ -1,4 +1,4 @@
-"""The package as others get it: built, installed into an empty environment, and used far from the sources."""
+"""The package is built, installed into an empty environment, and used outside the source tree."""
 
 import json
 import os
@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 NO_INDEX = ("NewConnectionError", "NameResolutionError", "ConnectTimeoutError", "connection broken by", "ProxyError")
 
-# The README's command, in a process that can be asked afterwards.
+# The README's command, in a process that then prints its state.
 DEMO = """
 import json, runpy, sys
 sys.argv = ["scene2hap", "demo"]
@@ -32,7 +32,7 @@ print(json.dumps({"file": scene2hap.__file__, "in_use": are_in_use(), "twins": t
 
 
 def run(command: Sequence[object], folder: Path, **settings: str) -> subprocess.CompletedProcess[str]:
-    """Run with nothing of this environment's Python in sight."""
+    """Run a command without this environment's Python settings."""
     known = {k: v for k, v in os.environ.items() if not k.startswith(("SCENE2HAP_", "PYTHON", "VIRTUAL_ENV"))}
     return subprocess.run(
         list(map(str, command)), cwd=folder, env=known | settings, capture_output=True, text=True, timeout=400
@@ -40,7 +40,7 @@ def run(command: Sequence[object], folder: Path, **settings: str) -> subprocess.
 
 
 def wheel(source: Path, folder: Path, compiled: str) -> Path:
-    """Built without isolation from an index: only where the build's own packages are at hand."""
+    """Build a wheel without build isolation, from installed packages. Returns its path."""
     folder.mkdir()
     command = [sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "-w", folder, source]
     built = run(command, folder, SCENE2HAP_COMPILED=compiled)
@@ -71,7 +71,7 @@ def pure(sdist: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def environment(pure: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The Python of an empty environment, into which pip brought what the wheel asks for."""
+    """The Python of a new environment, into which pip has installed the wheel and its dependencies."""
     folder = tmp_path_factory.mktemp("environment")
     assert run([sys.executable, "-m", "venv", "--without-pip", folder / "env"], folder).returncode == 0
     python = folder / "env" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
@@ -87,7 +87,7 @@ def pip(python: Path, *what: object) -> subprocess.CompletedProcess[str]:
 
 
 def demo_of(built: Path, python: Path, folder: Path) -> dict[str, bool]:
-    """Which kernels have a compiled twin once the wheel is installed and has run the README's demo in `folder`."""
+    """Install a wheel and run the README's demo in `folder`. Returns which kernels have a compiled twin."""
     installed = pip(python, "--no-deps", "--force-reinstall", built)
     assert installed.returncode == 0, installed.stderr
     ran = run([python, "-I", "-c", DEMO], folder)

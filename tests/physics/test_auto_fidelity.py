@@ -1,4 +1,4 @@
-"""AutoFidelity: its tolerance against `ModalPlate`, what it says about its choices, and where they come from."""
+"""AutoFidelity: its tolerance against `ModalPlate`, and its choices of model and their reasons."""
 
 import sys
 from dataclasses import replace
@@ -27,7 +27,7 @@ FIRST_SEED = 300_000
 
 
 def furniture(count: int) -> list[campaign.Draw]:
-    """Draws whose model is quick; the campaign takes all."""
+    """Random scenes whose modal model is quick; the campaign takes all scenes."""
     drawn = (campaign.draw(seed) for seed in range(FIRST_SEED, FIRST_SEED + 400))
     quick = [one for one in drawn if modes.largest_block(one.plate, 1.5 * one.bands.edges_hz[-1]) < 110]
     return quick[:count]
@@ -51,7 +51,7 @@ def test_auto_fidelity_keeps_its_tolerance_on_furniture() -> None:
 
 
 def test_a_foil_above_its_first_resonance_has_a_level_without_overflow() -> None:
-    """A held foil of nanograms: what is below its first resonance must not be worked out above it."""
+    """A clamped foil of nanograms: formulas for below its first resonance must not be evaluated above it."""
     foil = Plate(0.034, 0.00048, 2.5e-6, replace(OAK, density_kg_m3=120.0), "CCFF")
     bands = Bands.dominant()
     with np.errstate(all="raise", under="ignore"):
@@ -119,7 +119,7 @@ def test_tightest_tolerance_gives_the_modal_plate() -> None:
 
 
 def test_a_chain_of_objects_keeps_the_tolerance() -> None:
-    """A radio on a shelf on a table: two plates on the way, each of a smaller basis."""
+    """A radio on a shelf on a table: two plates on the path, each with a reduced basis."""
     shelf, table = Plate(0.6, 0.25, 0.018, OAK), Plate(1.4, 0.8, 0.03, OAK)
     contacts = [Contact("radio", "shelf", (0.3 + x, 0.1, 0.0)) for x in (0.0, 0.1)]
     contacts += [Contact("shelf", "table", (x, y, 0.0)) for x in (0.1, 0.55) for y in (0.05, 0.2)]
@@ -164,7 +164,7 @@ def test_a_stiff_plate_that_is_held_answers_at_0_hz(beside_hz: float) -> None:
 
 @pytest.mark.parametrize("model", [AutoFidelity(), ModalPlate(), MassSpringDamper()])
 def test_high_frequencies_leave_a_slow_force_alone(model: AutoFidelity | ModalPlate | MassSpringDamper) -> None:
-    """It moves a loose plate as a mass, however much higher the others are."""
+    """A slow force moves a free plate as a mass, whatever the other frequencies of the request."""
     plate = Plate(0.5, 0.3, 0.01, OAK)
     centre = np.array([0.25, 0.15])
     slow = model.plate_receptance(plate, centre, centre, [1e-9, 100.0])[0, 0]
@@ -182,7 +182,7 @@ def test_settings() -> None:
 
 
 def test_poses_and_dominant_bands() -> None:
-    """A body that lies elsewhere answers the same; one frequency per source is a band as well."""
+    """The gains do not depend on the body's pose, also with one frequency per source as band."""
     network, excitations = phone_on(Plate(1.2, 0.7, 0.025, OAK))
     here = MODEL.prepare(network, excitations, Bands.dominant()).attenuation("top", [(0.9, 0.4, 0.0)])
     away = Pose((3.0, -1.0, 0.7))

@@ -1,4 +1,4 @@
-"""Gains over a band around the dominant frequency, against single frequencies all over it."""
+"""Gains over a band around the dominant frequency, against single frequencies within the band."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def table() -> ContactNetwork:
 
 
 def rms_of_single(source: int, object_id: str, low_hz: float, high_hz: float, n: int) -> NDArray[np.float64]:
-    """Rms over n frequencies of the gain at each alone."""
+    """RMS of the gains at n single frequencies."""
     squares = np.zeros(len(POINTS))
     for f in low_hz + (high_hz - low_hz) * (np.arange(n) + 0.5) / n:
         one = replace(SOURCES[source], frequency_tactile_hz=float(f))
@@ -54,7 +54,7 @@ def test_gain_of_a_source_does_not_depend_on_other_sources() -> None:
     both = ModalPlate().prepare(table(), SOURCES, HALF).attenuation("top", POINTS)
     turned = ModalPlate().prepare(table(), SOURCES[::-1], HALF).attenuation("top", POINTS)
     np.testing.assert_allclose(both, turned[:, ::-1], rtol=1e-9)
-    # One that resonates at another frequency brings frequencies of its own into the row.
+    # A source with another dominant frequency adds its frequencies to the solved ones.
     more = [*SOURCES, Excitation("fan", 118.0, 118.0, 1.0)]
     network = table()
     network = replace(network, contacts=[*network.contacts, Contact("fan", "elsewhere", (5.0, 5.0, 0.0))])
@@ -103,6 +103,6 @@ def test_overlapping_bands_share_frequencies() -> None:
         low, high = HALF.around_hz(source.frequency_tactile_hz)
         f = sampling.frequencies_hz[at]
         assert weights.sum() == pytest.approx(1.0)
-        # The centre of what the weights cover is that of the band, but for a part of a step.
+        # The weighted centre equals the centre of the band within part of a step.
         assert weights @ f == pytest.approx((low + high) / 2, rel=1e-3)
         assert low * 0.98 < f.min() < f.max() < high * 1.02

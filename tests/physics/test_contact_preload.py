@@ -1,4 +1,4 @@
-"""What rests on a contact: Hertz's law by hand, against the joints of a network with known masses."""
+"""Preload of contacts from known masses: joint stiffness against Hertz's law computed by hand."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CORNERS = [Contact("oven", "table", (x, 0.0, z)) for x in (0.1, 0.5) for z in (0
 
 
 def hertz(preload_n: float, radius_m: float = 0.005) -> float:
-    """k = (6 E*^2 R F)^(1/3) of oak on steel, losses left out, in which |E*| is real to a part in 10^4."""
+    """k = (6 E*^2 R F)^(1/3) of oak on steel, without losses; these change |E*| by about a part in 10^4."""
     compliance = sum((1 - m.poisson_ratio**2) / m.youngs_modulus_pa for m in (TABLE.material, OVEN.material))
     return (6 * radius_m * preload_n / compliance**2) ** (1 / 3)
 
@@ -50,7 +50,7 @@ def test_feet_of_the_lighter_object_are_the_contacts() -> None:
     shod = stiffness(replace(OVEN, feet=rubber), replace(TABLE, feet=felt), CORNERS)
     compliance = sum((1 - m.poisson_ratio**2) / m.youngs_modulus_pa for m in (rubber, TABLE.material))
     by_hand = 4 * (6 * 0.005 * 14.0 * 9.80665 / 4 / compliance**2) ** (1 / 3)
-    assert shod == pytest.approx(by_hand, rel=0.01)  # the loss of rubber, 0.1, is left out by hand
-    assert 4e4 < shod < 4e5  # rubber feet of appliances come to some 1e4 to 1e5 N/m each
+    assert shod == pytest.approx(by_hand, rel=0.01)  # the value by hand leaves out the loss of rubber, 0.1
+    assert 4e4 < shod < 4e5  # rubber feet of appliances have some 1e4 to 1e5 N/m each
     nobody = replace(OVEN, feet=rubber, object_mass_kg=None), replace(TABLE, object_mass_kg=None)
-    assert stiffness(*nobody, CORNERS) == pytest.approx(4 * hertz(0.5), rel=1e-3)  # who stands on whom is unknown
+    assert stiffness(*nobody, CORNERS) == pytest.approx(4 * hertz(0.5), rel=1e-3)  # which stands on which is unknown

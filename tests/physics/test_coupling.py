@@ -1,4 +1,4 @@
-"""Coupling against one system assembled whole: no receptance, no substructure, only masses, springs and one matrix."""
+"""Coupling of substructures, against one assembled matrix of all masses and springs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LOSS = 0.02
 
 
 class Lump:
-    """A body of point masses on springs to one another and, if held, to the ground; point (i, 0) is mass i."""
+    """A body of point masses joined by springs, and to the ground if `held`; point (i, 0) is mass i."""
 
     loss_factor = LOSS
 
@@ -118,7 +118,7 @@ def test_equal_to_one_assembled_system(build, seed: int) -> None:  # type: ignor
             points = np.array([[i, 0.0] for i in range(len(body.mass))])
             found = solved.deflection(name, points)[:, :, column]
             expected = np.array([moved[name] for moved in whole])
-            # Relative to what moves most on that body, since a point may stand still.
+            # Relative to the largest motion on that body, since a point may be at rest.
             scale = np.abs(expected).max(axis=1, keepdims=True)
             assert (np.abs(found - expected) <= 1e-9 * scale).all()
 
@@ -176,7 +176,7 @@ def test_soft_joints_decouple_and_stiff_ones_are_rigid(build) -> None:  # type: 
 
 
 def test_statically_indeterminate_rigid_feet_give_the_right_motion() -> None:
-    """Four rigid joints between two rigid masses leave the forces open, but not the motion: 1 kg carries 3 kg."""
+    """Four rigid joints between 1 kg and 3 kg: the forces are indeterminate, but the motion is not."""
     joints = [Joint("s", "r", (i, 0), (i, 0)) for i in range(4)]
     solved = couple({"s": Weight(1.0), "r": Weight(3.0)}, joints, ["s"], FREQUENCIES_HZ)
     np.testing.assert_allclose(solved.deflection("r", np.array([[0.0, 0.0]])), 0.25, rtol=1e-6)
@@ -185,7 +185,7 @@ def test_statically_indeterminate_rigid_feet_give_the_right_motion() -> None:
 @settings(max_examples=40)
 @given(st.integers(0, 10**6), st.sampled_from([pair, chain, loop, three_contacts]))
 def test_reciprocal_and_passive(seed: int, build) -> None:  # type: ignore[no-untyped-def]
-    """The coupled receptance between masses hung on anywhere is symmetric, and takes energy from no frequency."""
+    """The coupled receptance between masses attached anywhere is symmetric and creates no energy at any frequency."""
     rng = np.random.default_rng(seed)
     made = build(rng)
     probes = {f"probe{i}": Weight(10 ** rng.uniform(-2, 1)) for i in range(3)}

@@ -1,4 +1,4 @@
-"""ModalPlate and InfinitePlate over whole scenes, against closed forms and against what must hold for any scene."""
+"""ModalPlate and InfinitePlate on whole scenes, against closed forms and properties that hold for any scene."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def phone_on(plate: Plate, at: tuple[float, float] = (0.4, 0.3), **more: float) 
 
 
 def navier(plate: Plate, drive: NDArray, points: NDArray, f: float, eta: float) -> NDArray[np.complex128]:
-    """Receptance of a simply supported plate as Navier's double series, to 400 terms each way."""
+    """Receptance of a simply supported plate by Navier's double series, 400 terms in each direction."""
     m, n = np.arange(1, 401)[:, None], np.arange(1, 401)[None, :]
     D, mass = plate.bending_stiffness_nm, plate.material.density_kg_m3 * plate.thickness_m
     omega_mn = math.sqrt(D / mass) * ((m * np.pi / plate.length_m) ** 2 + (n * np.pi / plate.width_m) ** 2)
@@ -98,7 +98,7 @@ def test_a_prepared_plate_answers_as_its_kernel(plate: Plate) -> None:
 
 
 def random_scene(seed: int) -> tuple[ContactNetwork, list[Excitation]]:
-    """Up to nine objects, thin and thick, soft and hard, held and loose, with loops and several contacts per pair."""
+    """Up to nine objects, thin and thick, soft and hard, fixed and free, with loops and several contacts per pair."""
     rng = np.random.default_rng(seed)
     bodies: dict[str, Plate | RigidBody] = {}
     for i in range(rng.integers(2, 8)):
@@ -122,7 +122,7 @@ def random_scene(seed: int) -> tuple[ContactNetwork, list[Excitation]]:
 @settings(max_examples=15)
 @given(st.integers(0, 10**6), st.sampled_from(MODELS))
 def test_transfer_between_sources_is_reciprocal(seed: int, model: ModalPlate | InfinitePlate) -> None:
-    """Reciprocity: a free deflection of 1 is a force of m omega^2, so that attenuations are as the masses."""
+    """A free deflection of 1 means a force of m omega^2, so by reciprocity the gains are proportional to the masses."""
     network, sources = random_scene(seed)
     band = Bands((80.0, 100.0))
     field = model.prepare(network, sources, band)
@@ -173,7 +173,7 @@ def test_gains_are_finite_and_do_not_depend_on_order(
 @settings(max_examples=10)
 @given(*[st.floats(0.2, 5.0)] * 3)
 def test_gains_do_not_depend_on_units(kg: float, m: float, s: float) -> None:
-    """Every quantity told in other units of mass, length and time."""
+    """The gains are equal if every quantity is given in other units of mass, length and time."""
 
     def steel_shelf(kg: float, m: float, s: float) -> NDArray[np.float64]:
         sheet = Material("steel", 7800 * kg / m**3, 2e11 * kg / m / s**2, 0.3, 0.01)
@@ -206,7 +206,7 @@ def test_contact_weight_scales_the_stiffness() -> None:
     def gain(network: ContactNetwork) -> float:
         return float(model.prepare(network, source, Bands.dominant()).attenuation("table", [[0.9, 0.5, 0]])[0, 0, 0])
 
-    # Two contacts in one place act side by side.
+    # Two contacts at one point act in parallel.
     half = phone_on(TABLE, weight=0.5)
     assert gain(ContactNetwork(half.bodies, [*half.contacts] * 2)) == pytest.approx(gain(phone_on(TABLE)), rel=1e-9)
     assert gain(half) != pytest.approx(gain(phone_on(TABLE)), rel=1e-3)
@@ -229,7 +229,7 @@ def test_stiff_and_soft_contacts() -> None:
 
 
 def test_twice_as_many_frequencies_change_little() -> None:
-    """Thin sheets of low loss on stiff contacts: at most half a decibel anywhere, in any band."""
+    """Thin sheets of low loss on stiff contacts change by at most 0.5 dB at any point in any band."""
     bodies = {"sheet": Plate(0.5, 0.35, 0.002, STEEL), "pane": Plate(0.6, 0.4, 0.005, GLASS, "CFFS"), "top": TABLE}
     contacts = [Contact("phone", "sheet", (0.1, 0.1, 0)), Contact("sheet", "pane", (0.3, 0.2, 0))]
     contacts += [Contact("pane", "top", (x, 0.3, 0)) for x in (0.2, 0.5)]
@@ -315,7 +315,7 @@ def test_a_slab_thicker_than_theory_warns_once_per_object_or_raises() -> None:
 
 
 def test_a_phone_on_four_corners_resonates_where_it_should() -> None:
-    """0.2 kg on four hard plastic corners of 5 mm on something immovable: between 380 and 500 Hz."""
+    """0.2 kg on four hard plastic corners of 5 mm on a rigid base resonates between 380 and 500 Hz."""
     k, _ = ContactLaw().stiffness(None, Material("rock", 3000.0, 1e12, 0.2, 0.01))
     assert 380.0 < math.sqrt(4 * k / 0.2) / (2 * math.pi) < 500.0
     tiny, _ = ContactLaw().stiffness(None, OAK, area_m2=1e-12)
@@ -331,9 +331,9 @@ def test_phone_with_four_feet_on_an_oak_top() -> None:
         gains_db = 20 * np.log10(field.attenuation("table", [[0.5, 0.35, 0], [0.9, 0.5, 0], [1.15, 0.05, 0]])[:, 0])
         assert np.isfinite(gains_db).all()
         assert (np.abs(gains_db) < 60).all()
-        # Between the phone's weight and the stiffness of its corners a top resonates, but with a loss.
+        # The phone's mass and the stiffness of its corners resonate with the top, but with a loss.
         assert gains_db.max() < 12
-    # Far below the first mode the top is a mass: 0.2 kg against 15.75 kg, which also tips about its middle.
+    # Far below the first mode the top is a mass: 0.2 kg against 15.75 kg, which also tilts about its middle.
     gains = ModalPlate().prepare(network, [Excitation("phone", 175.0, 2.0, 0.2)], Bands.dominant())
     center = gains.attenuation("table", [[0.6, 0.35, 0.0]])[0, 0, 0]
     assert center == pytest.approx(0.2 / (0.2 + TABLE.mass_kg), rel=0.02)

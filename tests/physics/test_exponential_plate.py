@@ -1,4 +1,4 @@
-"""The paper's three equations, worked apart from the code in 50-digit decimals."""
+"""The paper's three equations, computed independently of the code in 50-digit decimals."""
 
 from decimal import Decimal, getcontext
 from itertools import pairwise
@@ -26,7 +26,7 @@ getcontext().prec = 50
 PI = Decimal("3.1415926535897932384626433832795028841971693993751")
 DISTANCES_M = (0.0, 0.4, 0.8, 1.2)
 
-# The surfaces of the paper's second study; the paper names materials and distances, thickness and frequency are ours.
+# The surfaces of the paper's second study; materials and distances are the paper's, thickness and frequency are ours.
 STUDY_2 = {
     "speaker on a metal table": ("steel", 0.002, 1.6, 0.8, 80.0),
     "smartphone on a wooden table": ("oak", 0.025, 1.6, 0.8, 175.0),
@@ -35,7 +35,7 @@ STUDY_2 = {
 
 
 def gamma_by_hand(material: str, thickness_m: float, frequency_hz: float, distance_m: float) -> Decimal:
-    """exp(-k d) with k^4 = rho h omega^2 / D and D = E h^3 / (12 (1 - nu^2)), in decimals of the very floats given."""
+    """exp(-k d) with k^4 = rho h omega^2 / D and D = E h^3 / (12 (1 - nu^2)), in exact decimals of the floats given."""
     m = materials.lookup(material)
     E, nu, rho = Decimal(m.youngs_modulus_pa), Decimal(m.poisson_ratio), Decimal(m.density_kg_m3)
     h, d, omega = Decimal(thickness_m), Decimal(distance_m), 2 * PI * Decimal(frequency_hz)
@@ -53,7 +53,7 @@ def relative_error(found: float, expected: Decimal) -> float:
 def test_transfer_along_one_plate_follows_the_published_law(surface: str, distance_m: float) -> None:
     material, h, length, width, f = STUDY_2[surface]
     plate = Plate(length, width, h, materials.lookup(material))
-    # Along both axes and slantwise: 3-4-5 triangles keep the distance exact.
+    # Along both axes and along a slanted line: 3-4-5 triangles keep the distance exact.
     for direction in ((1.0, 0.0), (0.0, 1.0), (0.6, 0.8)):
         point = [[0.2 + distance_m * direction[0], 0.3 + distance_m * direction[1]]]
         found = ExponentialPlate().plate_transfer(plate, [0.2, 0.3], point, [f])
@@ -126,7 +126,7 @@ def test_a_longer_way_over_fewer_contacts_counts_where_hops_are_few() -> None:
         field = model.prepare(network, [Excitation("s", 100.0, 100.0)], Bands.dominant())
         return -np.log(field.attenuation(body, [[x, 0, 0]])[0, 0, 0]) / k
 
-    # Short way s-a-b-c-d crosses 4 contacts; s-b-c-d crosses 3 and is longer.
+    # The short path s-a-b-c-d crosses 4 contacts; s-b-c-d crosses 3 and is longer.
     assert length_to(ExponentialPlate(), "d", 0.3) == pytest.approx(0.3)
     assert length_to(ExponentialPlate(max_hops=3), "d", 0.3) == pytest.approx(1.8 + 0.1)
 
@@ -182,7 +182,7 @@ def test_control_models_give_full_and_no_propagation(bands: Bands) -> None:
 def test_band_gain_is_the_rms_over_the_band(length: float, low_hz: float, ratio: float) -> None:
     f = np.linspace(low_hz, low_hz * ratio, 20001)
     squares = np.exp(-2 * length * np.sqrt(2 * np.pi * f))
-    # Simpson's rule, apart from the closed form.
+    # Simpson's rule, independent of the closed form.
     weights = np.ones_like(f)
     weights[1:-1:2], weights[2:-1:2] = 4, 2
     expected = np.sqrt((weights * squares).sum() / weights.sum())

@@ -1,4 +1,4 @@
-"""A hand as a load: its impedance, and what it does to plates, against systems assembled whole."""
+"""A hand as a load: its impedance, and its effect on plates, against assembled systems."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ MODELS = [ModalPlate, MassSpringDamper, InfinitePlate, AutoFidelity]
 
 
 class HandBody:
-    """The hand as a body of a scene: it yields by 1 / (j omega Z) wherever it is pushed."""
+    """The hand as a body of a scene, with receptance 1 / (j omega Z) at every point."""
 
     loss_factor = np.inf
 
@@ -44,7 +44,7 @@ class HandBody:
 
 
 def assembled_impedance(hand: Hand, f: float) -> complex:
-    """Force at the first mass over its velocity, from the dynamic stiffness of the whole row."""
+    """Force at the first mass over its velocity, from the dynamic stiffness of the whole chain."""
     n, omega = len(hand.masses_kg), 2 * np.pi * f
     whole = np.diag([-(omega**2) * m + 0j for m in hand.masses_kg])
     for i, (k, c) in enumerate(zip(hand.stiffnesses_n_m, hand.dampings_n_s_m, strict=True)):
@@ -67,7 +67,7 @@ def test_impedance(hand: Hand) -> None:
 
 
 def test_size_of_the_hands() -> None:
-    """The standard's curves of palms run from 100 to 300 N s/m; a fingertip is lighter by an order of magnitude."""
+    """The standard's curves of palms lie within 100 to 300 N s/m; a fingertip is an order of magnitude below."""
     f = np.geomspace(10.0, 500.0, 30)
     assert ((np.abs(PALM.impedance_n_s_m(f)) > 100) & (np.abs(PALM.impedance_n_s_m(f)) < 300)).all()
     assert (np.abs(FINGERTIP.impedance_n_s_m(f)) < 20).all()
@@ -78,7 +78,7 @@ def level_db(gains: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def tray_on_table(table_pose: Pose) -> ContactNetwork:
-    """A steel tray on three points of an oak top; a phone stands on the tray."""
+    """A steel tray on an oak top with three contacts; a phone stands on the tray."""
     bodies = {"top": Plate(1.0, 0.6, 0.02, OAK), "tray": Plate(0.5, 0.4, 0.0015, STEEL)}
     feet = [(0.3, 0.2, 0.0), (0.6, 0.2, 0.0), (0.45, 0.45, 0.0)]
     contacts = [*(Contact("top", "tray", at) for at in feet), Contact("tray", "phone", (0.5, 0.3, 0.0))]
@@ -88,7 +88,7 @@ def tray_on_table(table_pose: Pose) -> ContactNetwork:
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("touched", ["tray", "top"])
 def test_hand_load_equals_a_body_of_the_scene(model: type, touched: str) -> None:
-    """Touching a point loads it exactly as a rigid joint to a body of the hand's impedance does."""
+    """A touch loads a point exactly like a rigid joint to a body with the hand's impedance."""
     network, at = tray_on_table(Pose()), (0.55, 0.4, 0.0)
     for f in (25.0, 90.0, 240.0, 610.0):
         source = [Excitation("phone", f, f, 0.2)]
@@ -107,7 +107,7 @@ def test_hand_load_equals_a_body_of_the_scene(model: type, touched: str) -> None
 
 @pytest.mark.parametrize("bands", [Bands((90.0, 180.0, 355.0)), Bands.dominant(octaves=0.5)])
 def test_bands_are_the_rms_over_frequencies(bands: Bands) -> None:
-    """A compact block on a compact block: both move as masses, so that the loaded motion is a closed form."""
+    """Two compact blocks in contact move as masses, so that the loaded motion has a closed form."""
     network = ContactNetwork({"block": RigidBody(1.5, material=OAK)}, [Contact("block", "phone", (0.0, 0.0, 0.0))])
     source = [Excitation("phone", 170.0, 170.0, 0.2)]
     field = ModalPlate(hand=PALM).prepare(network, source, bands)
@@ -115,7 +115,7 @@ def test_bands_are_the_rms_over_frequencies(bands: Bands) -> None:
     k = joint.stiffness_n_m * complex(1, joint.loss_factor)
     f = field.sampling.frequencies_hz
     omega = 2 * np.pi * f
-    # Free motion 1 of 0.2 kg behind the spring drives 1.5 kg and the hand.
+    # 0.2 kg with free motion 1 drives 1.5 kg and the hand through the spring.
     below = -(omega**2) * 1.5 + 1j * omega * PALM.impedance_n_s_m(f)
     spring = 1 / (1 / k - 1 / (omega**2 * 0.2))
     moved = np.abs(spring / (below + spring))
@@ -144,7 +144,7 @@ def test_hand_loads_thin_plates_and_not_heavy_ones(model: type) -> None:
 
 
 def test_upright_board_is_loaded_in_three_directions() -> None:
-    """A board on its edge: a hand of no impedance changes nothing, one of much holds it still."""
+    """A board on its edge: a hand of almost no impedance changes nothing; one of very high impedance stops it."""
     upright = (0.5**0.5, 0.0, 0.0, 0.5**0.5)
     network = ContactNetwork(
         {"top": Plate(1.0, 0.6, 0.02, OAK), "board": Plate(0.6, 0.4, 0.02, OAK)},

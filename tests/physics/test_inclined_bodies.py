@@ -1,4 +1,4 @@
-"""Bodies pushed along their plane: against rigid mechanics, published frequencies and finite elements."""
+"""Bodies driven along their plane, against rigid-body mechanics, published frequencies and finite elements."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def ports(*rows: tuple[float, ...]) -> np.ndarray:
 
 
 def test_in_plane_frequencies_equal_the_published_ones() -> None:
-    """Of a free square, omega a sqrt(rho (1 - nu^2) / E), nu = 0.3.
+    """Frequencies of a free square, omega a sqrt(rho (1 - nu^2) / E), nu = 0.3.
 
     Source: Bardell, Langley, Dunsdon, J. Sound Vib. 191 (1996) 459, table of the completely free plate.
     """
@@ -56,7 +56,7 @@ def test_in_plane_frequencies_equal_the_published_ones() -> None:
 
 
 def test_board_moves_rigidly_far_below_its_first_mode() -> None:
-    """Two forces up at the lower edge of an upright board: heave, and roll about the middle."""
+    """Two vertical forces at the lower edge of an upright board: heave, and roll about the middle."""
     board = Plate(0.6, 0.4, 0.02, OAK)
     body = inclined(board, ModalPlate().elastic_body(board, 1000.0))
     m, f = board.mass_kg, np.array([5.0])
@@ -69,7 +69,7 @@ def test_board_moves_rigidly_far_below_its_first_mode() -> None:
 
 
 def test_box_on_front_and_rear_feet_pitches() -> None:
-    """A refrigerator that is no plate: heave and pitch of a box by its feet, in closed form."""
+    """A refrigerator as a rigid box: heave and pitch by forces at its feet, in closed form."""
     box = Plate(0.6, 0.5, 0.55, STEEL, object_mass_kg=75.0)
     body = inclined(box, None)
     at = ports((0.3, 0.0, 0.2, 0.0, 1.0, 0.0), (0.3, 0.0, -0.2, 0.0, 1.0, 0.0))
@@ -156,8 +156,8 @@ def test_only_bodies_pushed_in_their_plane_are_inclined() -> None:
 
 
 def test_an_upright_board_does_not_bend() -> None:
-    """Pushed alike on both halves of its edge it goes up and down as one stiff piece: as strong above as below, where
-    its bending, which nothing pushes, would have nodes."""
+    """With equal forces on both halves of its edge, the board moves up and down as one rigid piece, equally at all
+    heights. The same board driven in bending varies more over its height."""
     phone, at = Excitation("phone", 60.0, 60.0, 0.2), [[0.6, 0.3, height] for height in (0.02, 0.15, 0.3, 0.38)]
     inclined_field, bending_field = (
         ModalPlate().prepare(on_a_table(normal, Pose((0.3, 0.3, 0.0), UPRIGHT)), [phone], Bands.third_octaves(20, 400))
@@ -172,7 +172,7 @@ def test_an_upright_board_does_not_bend() -> None:
 
 @pytest.mark.parametrize("felt_on", ["lower", "board"])
 def test_upright_board_agrees_with_finite_elements(monkeypatch: pytest.MonkeyPatch, felt_on: str) -> None:
-    """One system of bending and plane stress; `benchmarks/coupled.py` has more cases and frequencies."""
+    """The reference is one system of bending and plane stress; `benchmarks/coupled.py` has more cases."""
     pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
     monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
     import coupled

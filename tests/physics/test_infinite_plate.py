@@ -1,4 +1,4 @@
-"""The infinite plate against tabulated values, the wavenumber integral and the asymptotic wave."""
+"""The infinite plate, against tabulated values, the wavenumber integral and the asymptotic wave."""
 
 import math
 import warnings
@@ -49,7 +49,7 @@ def test_spreading_table(kr: float, expected: float) -> None:
 
 @pytest.mark.parametrize("kr", [0.3, 2.0, 7.0])
 def test_wavenumber_integral(kr: float) -> None:
-    """w(r) = F / (2 pi D) integral of J0(q r) q / (q^4 - k_c^4) dq, by quadrature at a loss that keeps it smooth."""
+    """w(r) = F / (2 pi D) integral of J0(q r) q / (q^4 - k_c^4) dq, by quadrature; the loss keeps it smooth."""
     from scipy.special import j0
 
     eta = 0.5
@@ -72,7 +72,7 @@ def test_wavenumber_integral(kr: float) -> None:
 )
 def test_point_mobility(thickness_m: float, constants: tuple[float, float, float], expected: float) -> None:
     plate = Plate(3.0, 3.0, thickness_m, Material("test", *constants, loss_factor=0.0))
-    assert point_mobility_s_kg(plate) == pytest.approx(expected, rel=2e-4)  # the digits printed
+    assert point_mobility_s_kg(plate) == pytest.approx(expected, rel=2e-4)  # the precision of the published digits
     # j omega times the receptance at the driven point is the same number, real, at every frequency.
     f = np.array([10.0, 100.0, 400.0])
     receptance = InfinitePlate().plate_receptance(plate, [1.0, 1.0], [1.0, 1.0], f)[0]
@@ -105,7 +105,7 @@ def test_loss_decays_by_a_quarter_of_eta_per_radian(eta: float) -> None:
     ids=lambda case: str(case),
 )
 def test_transfer_depends_only_on_wavenumber_times_distance(change: dict[str, float], factor: float) -> None:
-    """A plate of `factor` times the wavenumber answers at a distance as the other does at `factor` times it."""
+    """A plate with `factor` times the wavenumber has at a distance r the transfer of the other at `factor` times r."""
     (name, times), r = next(iter(change.items())), 0.2
     f = 100.0
     material = replace(LOSSLESS, loss_factor=0.03)
@@ -135,7 +135,7 @@ def test_finite_bounded_and_symmetric_everywhere(plate: Plate, r: float, f: floa
     assert (there[:, 0] == 1).all()
     assert there[0, 1] == 1
     np.testing.assert_allclose(back[0, 0], receptance[1, 0], rtol=1e-13)
-    assert receptance[0, 0].imag < 0  # a force does work on the plate, never the other way
+    assert receptance[0, 0].imag < 0  # the force does work on the plate, never the reverse
 
 
 def test_the_smallest_and_the_largest_distance() -> None:
@@ -145,7 +145,7 @@ def test_the_smallest_and_the_largest_distance() -> None:
 
 
 def test_a_thick_plate_warns_once() -> None:
-    """140 mm of concrete: six thicknesses are a wavelength at 1.3 kHz."""
+    """140 mm of concrete: at 1.3 kHz, a wavelength is six thicknesses."""
     slab = Plate(3.0, 2.5, 0.14, Material("concrete", 2300.0, 30e9, 0.2))
     InfinitePlate().plate_transfer(slab, [0.0, 0.0], [1.0, 0.0], [1200.0])
     with pytest.warns(ThinPlateWarning, match=r"above 1.3\de\+03 Hz"):

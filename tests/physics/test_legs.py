@@ -1,4 +1,4 @@
-"""Masses where an object stands: against the same masses as bodies of their own, and the weight of the whole."""
+"""Leg masses at the feet of an object, against the same masses as separate bodies, and the total mass."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def test_precomputed_sums_equal_the_direct_sum() -> None:
 
 
 def on_a_floor(table: Plate, leg_m: float) -> ContactNetwork:
-    """A table whose feet are that far below its top."""
+    """A table whose feet are `leg_m` below its top."""
     feet = [Contact("floor", "table", (x, y, -leg_m), normal=(0.0, 0.0, 1.0)) for x, y in LEGS_M.tolist()]
     phone = Contact("table", "phone", (0.4, 0.3, 0.01), normal=(0.0, 0.0, 1.0))
     floor = Plate(4.0, 3.0, 0.15, materials.lookup("concrete"))
@@ -90,7 +90,7 @@ def test_only_objects_with_legs_get_leg_masses() -> None:
         field = ModalPlate().prepare(on_a_floor(table, leg_m), phone, Bands.dominant(0.5))
         return float(20 * np.log10(field.attenuation("table", at)[0, 0, 0]))
 
-    # A mass that is not known, or no more than the plate's, changes nothing; legs of 11 kg do.
+    # An unknown mass, or one not above the plate's, changes nothing; legs of 11 kg do.
     assert level(TOP, 0.7) == pytest.approx(level(TOP, 0.01), abs=1e-9)
     light = replace(TOP, object_mass_kg=TOP.mass_kg)
     assert abs(level(heavy, 0.7) - level(light, 0.7)) > 0.5

@@ -1,4 +1,4 @@
-"""The bending lattice against tables, the Ritz plate, closed forms and a direct solve."""
+"""The bending lattice, against tables, the Ritz plate, closed forms and a direct solve."""
 
 import math
 import warnings
@@ -36,7 +36,7 @@ def elastic(plate: Plate, resolution: int, n: int = 6) -> NDArray[np.float64]:
 
 
 def check_convergence(plate: Plate, exact_hz: NDArray[np.float64], least_order: float) -> None:
-    """Of those errors that are above the digits of what they are held against."""
+    """Check the order of convergence; errors below the precision of the exact values are left out."""
     errors = [np.abs(elastic(plate, resolution) / exact_hz - 1) for resolution in (5, 10, 20)]
     assert errors[1].max() < 0.004
     for coarse, fine in pairwise(errors):
@@ -48,21 +48,21 @@ def check_convergence(plate: Plate, exact_hz: NDArray[np.float64], least_order: 
 def test_squares_converge_to_the_table(boundary: str) -> None:
     plate = Plate(1.0, 1.0, 0.01, MATERIAL, boundary)
     m, D = 2500.0 * 0.01, 70e9 * 0.01**3 / (12 * (1 - 0.3**2))
-    # At a corner between a clamped and a free edge curvature has no bound, and the order is less.
+    # At a corner between a clamped and a free edge the curvature is unbounded, and the order is lower.
     least_order = 1.5 if boundary in ("CFFF",) else 3.0
     check_convergence(plate, np.array(TABLE[boundary]) * math.sqrt(D / m) / (2 * math.pi), least_order)
 
 
 @pytest.mark.parametrize(("boundary", "nu"), [("SFSF", 0.3), ("CCFF", 0.3), ("CFSF", 0.45)])
 def test_rectangles_converge_to_the_ritz_plate(boundary: str, nu: float) -> None:
-    """Two free edges side by side, opposite, and beside clamps; a basis far larger than the modes need."""
+    """Free edges that are adjacent, opposite, or beside clamps; the Ritz basis is far larger than the modes need."""
     plate = Plate(1.0, 0.8, 0.01, replace(MATERIAL, poisson_ratio=nu), boundary)
     exact = plate_modes(plate, max_frequency_hz=3000.0).frequencies_hz
     check_convergence(plate, exact[exact > 0][:6], 1.3 if "C" in boundary else 3.0)
 
 
 def test_auxetic_corners_converge_more_slowly() -> None:
-    """At a clamped-free corner nu = -0.5 makes the moment singular: order 1.3 is what is left, still within 0.4 %."""
+    """At a clamped-free corner, nu = -0.5 makes the moment singular: the order is about 1.3, errors within 0.4 %."""
     plate = Plate(1.0, 0.8, 0.01, replace(MATERIAL, poisson_ratio=-0.5), "CFFF")
     check_convergence(plate, plate_modes(plate, max_frequency_hz=4000.0).frequencies_hz[:6], 1.2)
 
@@ -71,7 +71,7 @@ def test_auxetic_corners_converge_more_slowly() -> None:
     ("boundary", "beta"), [("FFFF", [4.7300407, 7.8532046, 10.9956078]), ("CFFF", [1.8751041, 4.6940911, 7.8547574])]
 )
 def test_a_strip_of_1000_to_1_is_a_beam(boundary: str, beta: list[float]) -> None:
-    """Its stiffest springs are 1e16 times as stiff as the first mode."""
+    """The stiffest springs of such a strip are 1e16 times as stiff as its first mode."""
     strip = Plate(1.0, 0.001, 0.001, replace(MATERIAL, poisson_ratio=0.0), boundary)
     expected = np.array(beta) ** 2 / strip.wavenumber_per_root_omega**2 / (2 * math.pi)
     np.testing.assert_allclose(elastic(strip, 8, 3), expected, rtol=3e-3)
@@ -100,7 +100,7 @@ def test_modes_and_series_are_the_direct_solution(boundary: str) -> None:
 
 
 def test_model_converges_to_the_modal_plate() -> None:
-    """Error in dB below the fifth mode, where a frequency slightly off does not yet pass over a resonance."""
+    """Error in dB below the fifth mode, where a small frequency error does not yet cross a resonance."""
     plate = Plate(1.2, 0.7, 0.025, replace(materials.lookup("oak"), loss_factor=0.05))
     f = np.geomspace(10.0, 300.0, 60)
     points = np.random.default_rng(5).uniform(0.05, 0.95, (10, 2)) * [1.2, 0.7]
@@ -123,7 +123,7 @@ def test_static_deflection_of_a_clamped_square() -> None:
     errors = []
     for resolution in (16, 32, 64):
         found = MassSpringDamper(resolution).plate_receptance(pane, [0.25, 0.25], [0.25, 0.25], [0.0])[0, 0]
-        # By complex stiffness the deflection is smaller by |1 + 0.02 j|.
+        # The complex stiffness makes the deflection smaller by |1 + 0.02 j|.
         errors.append(abs(found) * abs(1 + 0.02j) * pane.bending_stiffness_nm / 0.25 / 0.005612 - 1)
     assert errors[2] < 0.006
     assert errors[0] / errors[1] > 3  # the load stands on one node: h^2 log h
@@ -135,7 +135,7 @@ def test_a_slow_force_moves_a_free_plate_as_a_body() -> None:
     mass = plate.material.density_kg_m3 * 1.2 * 0.7 * 0.025
     found = MassSpringDamper(12).plate_receptance(plate, [0.6, 0.35], [0.6, 0.35], [0.1])[0, 0]
     assert -found * (2 * np.pi * 0.1) ** 2 == pytest.approx(1 / mass, rel=1e-4)
-    # Forced at a corner: 7/M there and -5/M at the corner opposite, but for lumped inertia, 1 + 2/n^2 of the true one.
+    # A force at a corner gives 7/M there and -5/M at the opposite corner; lumped inertia is 1 + 2/n^2 of the true one.
     far = MassSpringDamper(32).plate_transfer(plate, [0.0, 0.0], [[1.2, 0.7]], [0.0, 1e-3])
     np.testing.assert_allclose(far, -5 / 7, rtol=3e-3)
 
@@ -208,7 +208,7 @@ def test_invalid_requests_are_refused() -> None:
 
 
 def test_resolution_is_refined_for_short_waves() -> None:
-    """Waves get the cells that they need, whatever was asked for."""
+    """Short waves get the cells that they need, even above the requested resolution."""
     plate = Plate(0.8, 0.5, 0.002, materials.lookup("steel"))
     ask = (plate, [0.1, 0.1], [[0.5, 0.3], [0.7, 0.1]], np.geomspace(100.0, 900.0, 20))
     exact = ModalPlate().plate_receptance(*ask)

@@ -1,5 +1,4 @@
-"""A scene of lattices, coupled by substructuring, against the same scene assembled whole: every mass, spring and damper
-in one sparse system."""
+"""A scene of lattices coupled by substructuring, against the same masses, springs and dampers in one sparse system."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -30,7 +29,7 @@ def scene() -> ContactNetwork:
 
 
 class Assembled:
-    """Mass, stiffness and damping of bodies in a row and joints between neighbours; the first body is rigid."""
+    """Mass, stiffness and damping of a chain of bodies with joints between neighbours; the first body is rigid."""
 
     def __init__(self, plates: list[Plate], resolution: int, mass_kg: float) -> None:
         from scipy.sparse import block_diag, csr_array, diags_array
@@ -47,7 +46,7 @@ class Assembled:
         self._diagonal = diags_array
 
     def at(self, body: int, point_m: tuple[float, float]) -> NDArray[np.float64]:
-        """Row that reads the deflection of a body, 0 the rigid one, at a point."""
+        """The row that gives the deflection of a body (0 is the rigid one) at a point."""
         row = np.zeros(self.starts[-1])
         if body == 0:
             row[0] = 1.0
@@ -59,7 +58,7 @@ class Assembled:
     def harmonic(
         self, apart: list[NDArray[np.float64]], joints: list[complex], force: NDArray[np.float64], omega: float
     ) -> NDArray[np.complex128]:
-        """Deflections under a force, for joints of those dynamic stiffnesses."""
+        """Deflections under a force, with joints of the given dynamic stiffnesses."""
         from scipy.sparse import csc_array
         from scipy.sparse.linalg import splu
 
@@ -84,7 +83,7 @@ def test_substructuring_is_the_assembled_scene(frequency_hz: float) -> None:
     k_foot, eta_foot = law.stiffness(TRAY.material, TABLE.material)
     apart = [whole.at(0, (0, 0)) - whole.at(1, (0.21, 0.17))] + [whole.at(1, at) - whole.at(2, at) for at in FEET]
     joints = [k_phone * (1 + 1j * eta_phone)] + 4 * [k_foot * (1 + 1j * eta_foot)]
-    # A force that moves the free phone by 1.
+    # This force would move the free phone by 1.
     u = whole.harmonic(apart, joints, -(omega**2) * PHONE_KG * whole.at(0, (0, 0)), omega)
     for body, name in ((1, "tray"), (2, "table")):
         expected = [abs(whole.at(body, (x, y)) @ u) for x, y, _ in touches]
@@ -92,11 +91,11 @@ def test_substructuring_is_the_assembled_scene(frequency_hz: float) -> None:
 
 
 def test_a_scene_stepped_in_time_settles_to_its_harmonic_answer() -> None:
-    """Two small plates, springs and dampers between them and a body, no loss inside: Newmark and a complex solve."""
+    """Newmark steps against a complex solve, for two lossless plates and a body joined by springs and dampers."""
     plates = [replace(plate, material=replace(plate.material, loss_factor=0.0)) for plate in (TRAY, TABLE)]
     whole = Assembled(plates, 6, PHONE_KG)
     apart = [whole.at(0, (0, 0)) - whole.at(1, (0.21, 0.17))] + [whole.at(1, at) - whole.at(2, at) for at in FEET]
-    # The table stands on the ground by its corners, and dampers leave no mode undamped for long.
+    # The table stands on the ground at its corners; dampers there and in the joints damp every mode.
     apart += [whole.at(2, (x, y)) for x in (0.0, 1.2) for y in (0.0, 0.7)] + [whole.at(1, (0.0, 0.4))]
     k, c = 2e4, 30.0
     force, omega, dt = whole.at(0, (0, 0)), 2 * np.pi * 25.0, 1 / 4000
@@ -119,7 +118,7 @@ def test_a_scene_stepped_in_time_settles_to_its_harmonic_answer() -> None:
 
 
 def test_gains_agree_with_the_modal_plate() -> None:
-    """Third octaves over the same scene, in dB."""
+    """Octave bands over the same scene, in dB."""
     bands = Bands((10.0, 20.0, 40.0, 80.0, 160.0, 320.0))
     touches = [[0.05, 0.05, 0.0], [0.45, 0.35, 0.0], [0.31, 0.2, 0.0]]
     answers = [

@@ -1,4 +1,4 @@
-"""A small form of the campaign `stress/propagation.py`: extreme plates, scenes and steps, and nothing bad in return."""
+"""A short form of the campaign `stress/propagation.py`: extreme plates, scenes and steps cause no fault."""
 
 import importlib.util
 import signal
@@ -22,7 +22,7 @@ def campaign() -> ModuleType:
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # where its dataclasses look for their annotations
+    sys.modules[spec.name] = module  # its dataclasses look up their annotations there
     spec.loader.exec_module(module)
     return module
 

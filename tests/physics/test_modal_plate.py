@@ -1,4 +1,4 @@
-"""The modal plate against closed forms, finite elements and a far larger basis."""
+"""The modal plate, against closed forms, finite elements and a far larger basis."""
 
 import warnings
 from dataclasses import replace
@@ -30,7 +30,7 @@ FREQUENCIES_HZ = np.geomspace(10.0, 1000.0, 120)
 
 
 def test_little_ripples_along_the_axes_through_a_force() -> None:
-    """Where a polynomial basis ends, both lines through the force show it most: 0.83 % if it ends with the modes'."""
+    """Truncation of the basis shows most on both lines through the force: 0.83 % if it ends with the modes' basis."""
     plate = Plate(1.2, 0.7, 0.002, materials.lookup("steel"))
     drive, along = np.array([[0.3, 0.2]]), np.linspace(0.05, 0.95, 40)
     x_line = np.column_stack([along * plate.length_m, np.full(40, 0.2)])
@@ -49,7 +49,7 @@ def db_apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> NDAr
 
 
 def some_points(plate: Plate, drive_m: NDArray[np.float64], n: int = 12) -> NDArray[np.float64]:
-    """The driven point, one a few centimetres off it, and others all over."""
+    """The driven point, one a few centimetres away, and random points on the whole plate."""
     size = np.array([plate.length_m, plate.width_m])
     others = np.random.default_rng(5).uniform(0.03, 0.97, (n, 2)) * size
     return np.vstack([drive_m, drive_m + 0.05 * (0.5 * size - drive_m), others])
@@ -59,7 +59,7 @@ def some_points(plate: Plate, drive_m: NDArray[np.float64], n: int = 12) -> NDAr
 @pytest.mark.parametrize("where", [(0.5, 0.5), (0.31, 0.64), (0.92, 1.0), (0.93, 0.12)])
 def test_a_larger_basis_agrees(name: str, where: tuple[float, float], monkeypatch: pytest.MonkeyPatch) -> None:
     plate = FURNITURE[name]
-    inset = 0.15 if plate.edges == "CCCC" else 0.0  # near clamped corners hardly anything moves, and errors are larger
+    inset = 0.15 if plate.edges == "CCCC" else 0.0  # near clamped corners motion is small, and errors are larger
     drive = (inset + (1 - 2 * inset) * np.array(where)) * [plate.length_m, plate.width_m]
     points = some_points(plate, drive)
     found = ModalPlate().plate_receptance(plate, drive, points, FREQUENCIES_HZ)
@@ -70,7 +70,7 @@ def test_a_larger_basis_agrees(name: str, where: tuple[float, float], monkeypatc
     apart = db_apart(found, finer)
     assert np.median(apart) < 0.1
     assert np.quantile(apart, 0.95) < 0.5
-    assert np.median(apart[0]) < 0.1  # the driven point by itself: what contacts are coupled by
+    assert np.median(apart[0]) < 0.1  # the driven point alone, which couples contacts
     assert np.quantile(apart[0], 0.95) < 0.5
 
 
@@ -83,7 +83,7 @@ def test_a_larger_basis_agrees(name: str, where: tuple[float, float], monkeypatc
     ids=["free", "CSFC"],
 )
 def test_finite_elements(plate: Plate) -> None:
-    drive = np.array([0.25, 0.25]) * [plate.length_m, plate.width_m]  # on a node of the mesh, where it is sharpest
+    drive = np.array([0.25, 0.25]) * [plate.length_m, plate.width_m]  # on a node of the mesh, where it is most accurate
     points = some_points(plate, drive, n=6)
     f = np.geomspace(20.0, 800.0, 25)
     expected = fe_receptance(plate, (12, 8), drive, points, f, plate.material.loss_factor)
@@ -93,7 +93,7 @@ def test_finite_elements(plate: Plate) -> None:
 
 
 def test_the_closed_form_on_hinges() -> None:
-    """4 / (m a b) sum of sin sin sin sin / (omega_n^2 (1 + j eta) - omega^2), 400 x 400 terms."""
+    """Compare with 4 / (m a b) sum of sin sin sin sin / (omega_n^2 (1 + j eta) - omega^2), 400 x 400 terms."""
     plate = Plate(0.8, 0.5, 0.006, MATERIAL, "SSSS")
     m, D = 2500.0 * 0.006, 70e9 * 0.006**3 / (12 * (1 - 0.22**2))
     drive, points = np.array([0.3, 0.2]), np.array([[0.3, 0.2], [0.31, 0.21], [0.6, 0.1]])
@@ -128,19 +128,19 @@ def test_static_deflection_of_a_clamped_square() -> None:
 
 
 def test_a_slow_force_moves_a_free_plate_as_a_body() -> None:
-    """-omega^2 times receptance at the centre goes to 1 / M, and transfer to that of a rigid rectangle."""
+    """-omega^2 times the receptance at the centre tends to 1 / M, and the transfer to that of a rigid rectangle."""
     plate = FURNITURE["oak table"]
     mass = plate.material.density_kg_m3 * plate.length_m * plate.width_m * plate.thickness_m
     centre = [plate.length_m / 2, plate.width_m / 2]
     found = ModalPlate().plate_receptance(plate, centre, centre, [0.1])[0, 0]
     assert -found * (2 * np.pi * 0.1) ** 2 == pytest.approx(1 / mass, rel=1e-4)
-    # Forced at a corner: 1/M + 3/M + 3/M there, and 1/M - 3/M - 3/M at the corner opposite.
+    # A force at a corner gives 1/M + 3/M + 3/M there, and 1/M - 3/M - 3/M at the opposite corner.
     far = ModalPlate().plate_transfer(plate, [0.0, 0.0], [[plate.length_m, plate.width_m]], [0.0, 1e-3])
     np.testing.assert_allclose(far, -5 / 7, rtol=1e-6)
 
 
 def test_modes_are_its_resonances() -> None:
-    """At a light loss, each well separated mode peaks at its frequency with phi^2 / (eta omega_n^2)."""
+    """With low loss, each well separated mode peaks at its frequency with phi^2 / (eta omega_n^2)."""
     plate = Plate(0.8, 0.5, 0.006, replace(MATERIAL, loss_factor=1e-4), "CFFF")
     modes = plate_modes(plate, 4)
     drive = [0.8, 0.17]
@@ -151,7 +151,7 @@ def test_modes_are_its_resonances() -> None:
 
 
 def test_averages_to_the_infinite_plate() -> None:
-    """Real mobility averaged over many modes is that of the plate without edges; within 10 %, some 60 modes."""
+    """The real mobility averaged over some 60 modes is that of the plate without edges, within 10 %."""
     plate = Plate(1.1, 1.5, 0.006, replace(MATERIAL, loss_factor=0.03), "SSSS")
     f = np.linspace(150.0, 1000.0, 600)
     drives = np.random.default_rng(3).uniform(0.2, 0.8, (6, 2)) * [1.1, 1.5]
@@ -176,7 +176,7 @@ def test_reciprocal_and_passive(boundary: str, aspect: float, loss: float, place
     assert np.isfinite(Y).all()
     scale = np.abs(InfinitePlate().plate_receptance(plate, [0.0, 0.0], [0.0, 0.0], f)[0])
     np.testing.assert_allclose(Y / scale, Y.transpose(1, 0, 2) / scale, atol=1e-9)
-    # No set of forces gets work out of the plate: the anti-Hermitian part of a receptance is negative.
+    # No set of forces extracts work from the plate: the anti-Hermitian part of a receptance is negative.
     for k in range(len(f)):
         lost = np.linalg.eigvalsh(-(Y[..., k] - Y[..., k].conj().T) / 2j)
         assert lost.min() > -1e-6 * scale[k]
@@ -235,7 +235,7 @@ def test_thick_plates_warn_once() -> None:
 
 
 def test_share_beyond_the_cut_off() -> None:
-    """2 integral from 1 to infinity of J0(a t) / t^3 dt, by quadrature in 1/t."""
+    """Compare with 2 integral from 1 to infinity of J0(a t) / t^3 dt, by quadrature in 1/t."""
     from scipy.special import j0
 
     t = np.linspace(1e-7, 1.0, 400_001)

@@ -1,4 +1,4 @@
-"""Plates held along their long edges, however narrow; and passivity: no plate gives energy to what drives it."""
+"""Narrow plates fixed along their long edges; and passivity: no plate gives energy to its driving forces."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def test_narrow_plate_held_on_the_other_two_edges_is_a_strip(held: str) -> None:
 
 
 def test_response_of_a_narrow_shelf_does_not_depend_on_its_length() -> None:
-    """What is held along one long edge carries nothing far along it."""
+    """A plate fixed along one long edge carries vibration only a short way along this edge."""
     answers = [compliance(Plate(length, 0.05, 0.002, "steel", "FFCF"), 0.5, 0.5) for length in (0.5, 1.0, 2.0)]
     np.testing.assert_allclose(answers, answers[1], rtol=0.02)
 
@@ -59,7 +59,7 @@ def test_response_of_a_narrow_shelf_does_not_depend_on_its_length() -> None:
 @pytest.mark.parametrize("aspect", [1.0, 5.0, 30.0])
 @pytest.mark.parametrize("edges", ["CCFF", "SCFF", "FFSS", "CFCF", "CCCC"])
 def test_held_edge_is_at_rest_and_the_plate_is_passive(edges: str, aspect: float, rung: str) -> None:
-    """Of all near fields, images in one edge must cancel in the other, which is near on a narrow plate."""
+    """The near field's image in one edge must vanish at the opposite edge, which is close on a narrow plate."""
     plate = Plate(1.0, 1.0 / aspect, 0.1 / aspect, "oak", edges)
     inside = [(0.11, 0.58), (0.05, 0.9), (0.5, 0.5), (0.93, 0.3)]
     held = {0: (0.0, 0.7), 1: (1.0, 0.3), 2: (0.4, 0.0), 3: (0.6, 1.0)}
@@ -75,7 +75,7 @@ def test_held_edge_is_at_rest_and_the_plate_is_passive(edges: str, aspect: float
 @pytest.mark.parametrize("rung", FINENESS)
 @pytest.mark.parametrize("edges", ["CCFF", "SSFF", "CFFF", "FFFF"])
 def test_energy_gain_by_truncated_near_fields_is_below_the_stated_bound(edges: str, rung: str) -> None:
-    """2e-5 of the largest receptance, among clustered points on plates with free edges (docs/physical-models.md)."""
+    """The bound for clustered points and free edges is 2e-5 of the largest receptance (docs/physical-models.md)."""
     rng = np.random.default_rng(4)
     for _ in range(25):
         aspect = np.exp(rng.uniform(np.log(2), np.log(40)))

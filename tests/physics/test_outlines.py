@@ -1,4 +1,4 @@
-"""Plates that are no rectangles, against tables, finite elements, and themselves turned round."""
+"""Plates with outlines other than rectangles, against tables, finite elements and the same plates rotated."""
 
 import math
 from dataclasses import replace
@@ -76,14 +76,14 @@ def test_a_free_disc_has_the_frequencies_of_bessels_functions() -> None:
     found = MassSpringDamper().natural_frequencies_hz(plate, 16)
     scale = 2 * math.pi * 0.4**2 * plate.wavenumber_per_root_omega**2
     exact = sorted(root for n in range(7) for root in disc_roots(n, 0.33) * (1 if n == 0 else 2))
-    assert exact[0] == pytest.approx(5.25, abs=0.02)  # as the table there has it
+    assert exact[0] == pytest.approx(5.25, abs=0.02)  # the value of Leissa's table
     assert np.abs(found[:3]).max() == 0.0
     np.testing.assert_allclose(found[3:] * scale, exact[:13], rtol=3e-3)
 
 
 @pytest.mark.parametrize("outline", [disc(0.4), L, SINK, DISC_WITH_HOLE], ids=["disc", "L", "sink", "hole"])
 def test_errors_fall_with_the_cell(outline: Outline) -> None:
-    """Against a fine lattice, by order 1.8 and more, curvature without bound at notches or not."""
+    """Errors against a fine lattice fall with order 1.8 or more, also with unbounded curvature at notches."""
     plate = outlined(outline)
     exact = MassSpringDamper(40).natural_frequencies_hz(plate, 16)[3:]
     errors = [np.abs(MassSpringDamper(n).natural_frequencies_hz(plate, 16)[3:] / exact - 1).max() for n in (4, 8, 16)]
@@ -108,7 +108,7 @@ def test_l_shape_agrees_with_finite_elements() -> None:
 
 @pytest.mark.parametrize("resolution", [4, 8])
 def test_a_round_lattice_has_the_inertia_of_a_disc(resolution: int) -> None:
-    """Of the polygon, about its middle: pixels of the rim in the wrong place would change it."""
+    """Area and inertia of the polygon about its middle; misplaced pixels of the rim would change them."""
     lattice, n, radius_m = bending_lattice(outlined(disc(0.4)), resolution), 256, 0.4
     rng = np.random.default_rng(1)
     r, turn = 0.99 * radius_m * np.sqrt(rng.random(3000)), 2 * math.pi * rng.random(3000)
@@ -135,7 +135,7 @@ def test_result_does_not_depend_on_rotation_against_the_grid(outline: Outline, a
 
 
 def test_a_round_hole_is_fine_enough_at_the_default_resolution() -> None:
-    """Its rim has no notch, and the cells of the box are as large as its radius."""
+    """The hole's rim has no notch, and the cells of the bounding box are as large as its radius."""
     plate = outlined(DISC_WITH_HOLE)
     points, f = np.array([[0.2, 0.3], [0.45, 0.1], [0.8, 0.5], [0.45, 0.8]]), np.geomspace(20.0, 400.0, 60)
     exact = MassSpringDamper(24).plate_receptance(plate, points[0], points, f)
@@ -145,7 +145,7 @@ def test_a_round_hole_is_fine_enough_at_the_default_resolution() -> None:
 @pytest.mark.parametrize("width_m", [0.002, 0.005])
 @pytest.mark.parametrize("degrees", [20, 45])
 def test_a_slanted_slot_answers_as_a_straight_one(degrees: float, width_m: float) -> None:
-    """Also if it is thinner than the pixels of the cells that it crosses, and with no more nodes."""
+    """Also for a slot thinner than the pixels of the cells that it crosses, with about the same number of nodes."""
     turn = np.radians(degrees)
     matrix = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
     slot = [(0.0, 0.25 + width_m), (0.5, 0.25 + width_m), (0.5, 0.25), (0.0, 0.25)]
@@ -160,7 +160,7 @@ def test_a_slanted_slot_answers_as_a_straight_one(degrees: float, width_m: float
 
 
 def test_a_thin_slot_across_the_grid_separates_its_sides() -> None:
-    """The grid follows the long slot of 100 mm, so the one of 3 mm crosses it aslant."""
+    """The grid follows the slot 100 mm wide, so that the slot of 3 mm crosses the grid at an angle."""
     middle, turn = np.array([0.3, 0.3]), math.radians(25)
     along, across = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
     thin = [
@@ -193,7 +193,7 @@ def test_outline_measures_its_notches_curves_slant_and_width() -> None:
 
 
 def test_slot_separates_both_sides() -> None:
-    """Both sides of a slot of 1 mm have nodes of their own, but for those that reach around its end."""
+    """The two sides of a slot of 1 mm share no nodes, except around its end."""
     comb = Outline((((0, 0), (1.0, 0), (1.0, 0.1), (0.1, 0.1), (0.1, 0.101), (1.0, 0.101), (1.0, 0.2), (0, 0.2)),))
     lattice = bending_lattice(outlined(comb), 8)
     for x, is_apart in ((0.05, False), (0.6, True), (0.95, True)):
@@ -210,13 +210,13 @@ def test_slot_separates_both_sides() -> None:
 def test_any_outline_is_reciprocal_and_passive(
     radii: list[float], hole: float, shares: list[tuple[float, float]]
 ) -> None:
-    """Stars of any radii, with a star for a hole."""
+    """Stars of random radii, with a star-shaped hole."""
     turn = np.arange(len(radii)) * 2 * math.pi / len(radii)
     star = np.array(radii)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
     low = star.min(axis=0)
     rings = [star - low] + ([hole * star - low] if hole > 0.05 else [])
     plate = outlined(Outline(tuple(ring.tolist() for ring in rings)))
-    # On a ray to a corner, beyond the hole.
+    # Points on rays to the corners, outside the hole.
     points = np.array([star[int(share * (len(star) - 1))] * out - low for share, out in shares])
     f = np.array([7.0, 60.0, 150.0])
     Y = np.stack([MassSpringDamper().plate_receptance(plate, point, points, f) for point in points], axis=1)
@@ -247,11 +247,11 @@ def test_auto_fidelity_takes_the_lattice_where_there_is_an_outline() -> None:
     solid = Plate(0.2, 0.05, 0.006, MATERIAL)
     top_hz = 40.0
     assert model.choose(solid, top_hz).rung == "rigid"
-    assert model.choose(outlined(comb), top_hz).rung == "lattice"  # its tongues bend sooner
+    assert model.choose(outlined(comb), top_hz).rung == "lattice"  # its tongues bend at lower frequencies
 
 
 def test_a_round_table_in_a_scene() -> None:
-    """A phone on a disc: the field is that of the lattice, and points beside the rim are taken to it."""
+    """A phone on a disc: AutoFidelity gives the lattice's field, and points beyond the rim are moved to the rim."""
     table = outlined(disc(0.4), 0.01)
     network = ContactNetwork({"phone": RigidBody(0.2), "table": table}, [Contact("phone", "table", (0.4, 0.6, 0.0))])
     excitation = [Excitation("phone", 150.0, 150.0, 0.2)]

@@ -1,4 +1,4 @@
-"""Plate modes against published tables, closed forms and finite elements."""
+"""Plate modes, against published tables, closed forms and finite elements."""
 
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ from scene2hap.propagation import modes as modes_module
 MATERIAL = Material("test", 2500.0, 70e9, 0.3, loss_factor=0.02)
 
 # lambda = omega a^2 sqrt(m / D) of a square, nu = 0.3, converged by an independent 18 x 18 Ritz; SSSS in closed form.
-# Leissa's letters go round the plate (x=0, y=0, x=a, y=b), ours are x, x, y, y: his SCSC is our SSCC, SFSF our SSFF.
+# Leissa lists edges around the plate (x=0, y=0, x=a, y=b), we list x, x, y, y: his SCSC is our SSCC, SFSF our SSFF.
 TABLE = {
     "SSSS": [19.7392, 49.3480, 49.3480, 78.9568, 98.6960, 98.6960, 128.305, 128.305],
     "CCCC": [35.9852, 73.3939, 73.3939, 108.2165, 131.5808, 132.2048, 165.000, 165.000],
@@ -24,7 +24,7 @@ TABLE = {
     "SSFF": [9.6314, 16.1348, 36.7256, 38.9450, 46.7381, 70.7401],
     "SSSC": [23.6463, 51.6743, 58.6464, 86.1345, 100.2698, 113.228],
 }
-# Leissa, J. Sound Vib. 31 (1973) 257: fewer terms, so within 1 % and above.
+# Leissa, J. Sound Vib. 31 (1973) 257: fewer terms, so his values are up to 1 % too high.
 LEISSA = {
     "CCCC": [35.992, 73.413, 73.413, 108.27, 131.64, 132.24],
     "FFFF": [0.0, 0.0, 0.0, 13.489, 19.789, 24.432, 35.024, 35.024, 61.526],
@@ -43,7 +43,7 @@ def plate(boundary: str, length_m: float = 1.0, width_m: float = 1.0, nu: float 
 
 
 def lambdas(of: Plate, n_modes: int) -> NDArray[np.float64]:
-    """omega L^2 sqrt(m / D) from the plate's own constants."""
+    """omega L^2 sqrt(m / D) of the plate's lowest modes."""
     m = of.material.density_kg_m3 * of.thickness_m
     D = of.material.youngs_modulus_pa * of.thickness_m**3 / (12 * (1 - of.material.poisson_ratio**2))
     return 2 * np.pi * plate_modes(of, n_modes).frequencies_hz * of.length_m**2 * np.sqrt(m / D)
@@ -64,7 +64,7 @@ def test_leissa_is_an_upper_bound(boundary: str) -> None:
 
 
 def test_free_square_of_another_poisson_ratio() -> None:
-    """The 14.1 of handbooks belongs to nu = 0.225."""
+    """The value 14.1 of handbooks is for nu = 0.225."""
     assert lambdas(plate("FFFF", nu=0.225), 4)[3] == pytest.approx(14.116, rel=1e-4)
 
 
@@ -89,14 +89,14 @@ def test_rigid_motions(boundary: str, count: int) -> None:
     modes = plate_modes(plate(boundary, 1.0, 0.6), 6)
     assert np.count_nonzero(modes.frequencies_hz == 0) == count
     assert (modes.frequencies_hz[count:] > 1.0).all()
-    # A rigid motion is a plane: deflections at three corners tell the fourth.
+    # A rigid motion is a plane: the deflections at three corners determine the fourth.
     corners = modes.shapes([[0.0, 0.0], [1.0, 0.0], [0.0, 0.6], [1.0, 0.6]])[:, :count]
     np.testing.assert_allclose(corners[3], corners[1] + corners[2] - corners[0], atol=1e-6)
 
 
 @pytest.mark.parametrize("boundary", BEAMS)
 def test_a_slender_plate_is_a_beam(boundary: str) -> None:
-    """A strip 200 times as long as wide, with nu = 0 so that it bends as a beam does."""
+    """A strip 200 times as long as wide; with nu = 0 it bends like a beam."""
     expected = np.array(BEAMS[boundary])
     strip = lambdas(plate(boundary, 1.0, 0.005, nu=0.0), 8)
     np.testing.assert_allclose(np.sqrt(strip[strip > 1e-6])[: len(expected)], expected, rtol=1e-5)
@@ -134,7 +134,7 @@ def test_turning_the_plate_changes_nothing(boundary: str) -> None:
     turned = plate_modes(plate(boundary[2:] + boundary[:2], 0.6, 1.1), 20)
     np.testing.assert_allclose(turned.frequencies_hz, one.frequencies_hz, rtol=1e-7)
     points = np.array([[0.2, 0.1], [0.7, 0.6], [1.1, 0.3]])
-    elastic = one.frequencies_hz > 0  # rigid motions share a frequency and may be mixed
+    elastic = one.frequencies_hz > 0  # rigid motions share a frequency, so their shapes may be mixed
     np.testing.assert_allclose(
         np.abs(turned.shapes(points[:, ::-1])[:, elastic]), np.abs(one.shapes(points)[:, elastic]), atol=1e-5
     )
@@ -145,7 +145,7 @@ def test_turning_the_plate_changes_nothing(boundary: str) -> None:
     [("E", 2.0**0.5), ("rho", 2.0**-0.5), ("h", 2.0), ("size", 0.25)],
 )
 def test_scaling(change: str, factor: float) -> None:
-    """Twice E, rho, h or both sides."""
+    """Double E, rho, h or both sides."""
     one = plate("CFSF", 0.9, 0.5)
     m = one.material
     other = {
@@ -177,7 +177,7 @@ def test_every_mode_up_to_the_top_is_converged(boundary: str, monkeypatch: pytes
     finer = modes_module._modes_up_to.__wrapped__(of, 1500.0).frequencies_hz
     assert len(found) > 30
     np.testing.assert_allclose(found, finer[: len(found)], rtol=1e-3)
-    assert len(finer) - len(found) <= 1  # one may have come down across the limit
+    assert len(finer) - len(found) <= 1  # one mode may move below the limit
 
 
 def test_modes_by_count_and_by_frequency_agree() -> None:

@@ -24,7 +24,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 @st.composite
 def sounds(draw: st.DrawFn, shortest_s: float = 0.3, longest_s: float = 1.5) -> np.ndarray:
-    """Partials, noise, clicks, an offset and a swell, each of them maybe absent."""
+    """Sounds with random partials, noise, clicks, offset and swell, each of which may be absent."""
     n = draw(st.integers(round(shortest_s * RATE), round(longest_s * RATE)))
     t = np.arange(n) / RATE
     rng = np.random.default_rng(draw(seeds))
@@ -65,7 +65,7 @@ def test_a_seam_lies_within_the_sound_and_its_wrap_is_a_step_of_the_sound(x: np.
     assert abs(seam.tilt_db) <= 12.0
     loop = apply_seam(x, seam).astype(float)
     wrap = abs(loop[0] - loop[-1])
-    # At the wrap the loop goes on as the sound itself did behind the seam, lifted there by half of the tilt.
+    # At the wrap the loop continues like the sound after the seam, scaled there by half of the tilt.
     end, mean = seam.start + seam.length, x.mean()
     before, behind = (10 ** (seam.tilt_db / 20 * (0.5 - ago / seam.length)) for ago in (1, 0))
     step = abs(behind * (x[end] - mean) - before * (x[end - 1] - mean))
@@ -104,7 +104,7 @@ def test_bands_always_add_up(n: int, seed: int, edges: list[float]) -> None:
     x = np.random.default_rng(seed).uniform(-1, 1, n)
     parts = split_bands(x, RATE, Bands(tuple(edges)))
     assert np.abs(parts.sum(axis=0, dtype=float) - x).max() < 1e-5 * np.abs(x).max()
-    # No band is louder than the whole: the weights lie between 0 and 1.
+    # No band has more energy than the whole: the weights lie between 0 and 1.
     assert (np.sum(parts.astype(float) ** 2, axis=1) <= np.sum(x**2) * (1 + 1e-6)).all()
 
 
@@ -125,7 +125,7 @@ def test_trimming_is_idempotent_and_never_cuts_sound(x: np.ndarray, before: int,
     padded = np.concatenate([np.zeros(before), x - x.mean(), np.zeros(after)]).astype(np.float32)
     once = analysis.trim_silence(padded, RATE)
     assert len(once) <= len(padded)
-    # What was cut off is at least 34 dB below the loudest sample of what was kept, a constant offset apart.
+    # Apart from a constant offset, the mean power of the removed samples is at least 40 dB below the squared peak.
     offset = np.median(padded)
     lost = np.sum((padded.astype(float) - offset) ** 2) - np.sum((once.astype(float) - offset) ** 2)
     if once.size:

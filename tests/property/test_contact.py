@@ -13,7 +13,7 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 
 SIZES = {"floor": (2.0, 0.1, 2.0), "slab": (0.6, 0.02, 0.4), "crate": (0.3, 0.3, 0.3), "cup": (0.08, 0.1, 0.08)}
-# Coarse steps, so that things often meet, rest, hover and cut each other.
+# Coarse steps, so that objects often touch, rest, hover and intersect.
 PLACES = st.tuples(st.sampled_from([-0.4, 0.0, 0.3]), st.integers(0, 30), st.sampled_from([-0.3, 0.0, 0.4]))
 TURNS = st.sampled_from([(0, 0, 0, 1), (0, 1, 0, 3), (1, 0, 0, 40), (0.5, 0.5, 0.5, 0.5), (1, 2, -1, 3)])
 
@@ -65,7 +65,7 @@ GAPS = st.sampled_from([0.0, 0.0013, 0.0031, 0.0117, 0.033])
 
 @st.composite
 def stacks(draw: st.DrawFn) -> list[SceneObject]:
-    """Slabs on each other, turned about the vertical, with gaps that real scenes leave."""
+    """Stacked slabs, rotated about the vertical, with gaps like those of real scenes."""
     top, objects = 0.0, []
     for name, size in SIZES.items():
         turn = draw(st.sampled_from([0.0, 0.3, 1.1]))
@@ -124,6 +124,6 @@ def test_points_lie_between_the_two_surfaces(objects: list[SceneObject], toleran
         for name in (contact.a, contact.b):
             half = np.asarray(by_id[name].geometry.size_m) / 2  # type: ignore[union-attr]
             beyond = np.abs(by_id[name].pose.to_own([contact.point_m])[0]) - half
-            # On the box, or off it by half of the farthest that things of this size fall.
+            # On the box, or off it by at most half of the fall reach of objects of this size.
             assert np.linalg.norm(np.maximum(beyond, 0.0)) <= 0.09 / 2 + 0.001
             assert beyond.max() >= -0.001

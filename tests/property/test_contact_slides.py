@@ -1,4 +1,4 @@
-"""Things that slide, step by step: the short ways that the graph takes end where building from nothing does."""
+"""Incremental contact updates of sliding objects equal a new graph after every step."""
 
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ from scene2hap.scene.shapes import TriMesh
 
 
 def mug(at_m: tuple[float, float, float]) -> SceneObject:
-    """An upright prism of 12 sides, 0.1 m wide and high, its middle at `at_m`."""
+    """An upright prism of 12 sides, 0.1 m wide and high, with its centre at `at_m`."""
     angle = 2 * np.pi * np.arange(12) / 12
     ring = 0.05 * np.stack([np.cos(angle), np.full(12, -1.0), np.sin(angle)], axis=1)
     i, j = np.arange(12), (np.arange(12) + 1) % 12
@@ -33,8 +33,8 @@ THINGS = [
     chair((-0.9, 0.0, 0.3)),
 ]
 NAMES = [item.id for item in THINGS if item.id != "floor"]
-# A room that is one mesh, in which things stand on its floor, its podium and its board, near its walls and in the air,
-# and a shelf askew with a pot between its boards and a leaning stick.
+# A room of one mesh, with objects on its floor, its podium and its board, near its walls and in the air; a rotated
+# shelf with a pot between its boards, and a leaning stick.
 INSIDE = [
     house(),
     replace(chair((-0.2, 0.0, 0.9)), id="chair"),
@@ -42,14 +42,14 @@ INSIDE = [
     mug((1.2, 0.95, 0.1)),
     boxes("shelf", *(((0.6, 0.02, 0.3), (0.0, h, 0.0)) for h in (0.01, 0.4, 0.8)), at_m=(0.3, 0.002, -1.0)),
     box("pot", (0.12, 0.1, 0.12), (0.3, 0.465, -1.0)),
-    # A frame without a bottom that is pushed about with and without the ball of wool in it.
+    # A frame without a bottom, which moves with and without the wool inside it.
     boxes("pen", *(((0.02, 0.2, 0.8), (x, 0.1, 0.0)) for x in (-0.4, 0.4)), at_m=(1.0, 0.0, -0.9)),
     box("wool", (0.1, 0.1, 0.1), (1.0, 0.05, -0.9)),
     box("stick", (0.02, 0.5, 0.02), (0.2, 0.26, 0.2), (0.05, 0.0, 0.02, 1.0)),
 ]
 INSIDE[4] = replace(INSIDE[4], pose=Pose(INSIDE[4].pose.position_m, (0.0, np.sin(0.2), 0.0, np.cos(0.2))))
 NAMES_INSIDE = [item.id for item in INSIDE if item.id != "house"]
-# Blocks a few millimetres to centimetres from each other, of which any may push along any other.
+# Blocks with gaps from a few millimetres to centimetres.
 CROWD = [
     box("table", (1.0, 0.7, 0.8), (0.0, 0.35, 0.0)),
     *(
@@ -66,7 +66,7 @@ CROWD = [
         )
     ),
 ]
-# Some steps stay within what neighbour lists allow for and some do not; heights within and beyond every reach.
+# Some steps stay within the margin of neighbour lists and some do not; heights are within and beyond every reach.
 STEPS = st.tuples(
     st.sampled_from([-0.07, -0.01, 0.0, 0.004, 0.05]),
     st.sampled_from([0.0, 0.0, 0.0, 0.0, 0.002, -0.002, 0.03, 0.2]),
@@ -112,7 +112,7 @@ def test_incremental_updates_of_a_slide_equal_a_new_graph(
 @given(st.integers(0, 10**6), st.sampled_from([THINGS, INSIDE, CROWD]))
 @settings(max_examples=12)
 def test_incremental_updates_of_small_steps_equal_a_new_graph(seed: int, items: list[SceneObject]) -> None:
-    """A game's frames: some millimetres each, some things turning, one lifted and put down again now and then."""
+    """Frames of a game: moves of some millimetres, some rotations, and sometimes an object is lifted or put down."""
     rng = np.random.default_rng(seed)
     things = {item.id: item for item in items}
     names = [item.id for item in items if item.id not in ("floor", "house", "table")]

@@ -21,7 +21,7 @@ Size = tuple[float, float, float]
 
 
 def turned(mesh: TriMesh, seed: int) -> tuple[TriMesh, Pose]:
-    """The mesh under a pose drawn evenly from all rotations."""
+    """The mesh under a random pose, with rotations drawn uniformly."""
     rng = np.random.default_rng(seed)
     x, y, z, w = rng.normal(size=4)
     pose = Pose(tuple(rng.uniform(-5, 5, size=3)), (x, y, z, w))
@@ -50,7 +50,7 @@ def middle(surface: DominantSurface) -> np.ndarray[tuple[int], np.dtype[np.float
 def test_size_of_a_box_is_its_sorted_edges(x: float, y: float, z: float, seed: int) -> None:
     mesh, pose = turned(Box((x, y, z)).mesh, seed)
     surface = dominant_surface(mesh)
-    # Sides that differ by less than a hundredth in area count as equal; any of them may be the plate.
+    # Faces whose areas differ by less than 1 % count as equal; any of them may be the surface.
     a, b, c = sorted((x, y, z), reverse=True)
     assume(b / c > 1.02 or b / c < 1 + 1e-9)
     np.testing.assert_allclose(size(surface), [a, b, c], atol=1e-9)
@@ -88,7 +88,7 @@ def test_thickness_of_a_hollow_box_is_its_wall(x: float, y: float, z: float, wal
 @given(st.floats(0.05, 1.0), st.floats(0.02, 0.2), seeds)
 @settings(max_examples=15)
 def test_size_of_a_bowl_is_its_rim_and_wall_within_a_ray_spacing(radius: float, wall_share: float, seed: int) -> None:
-    """Half a sphere with a wall: chords of the rim, and the vertical length of wall at the median of its area."""
+    """Half a sphere with a wall: chords of the rim, and the median over the area of the vertical wall length."""
     inner = radius * (1 - wall_share)
     angle = np.linspace(0, np.pi / 2, 25)
     profile = np.stack((np.sin(angle), -np.cos(angle)), axis=1)
@@ -114,7 +114,7 @@ def test_a_sheet_has_no_thickness(x: float, y: float, seed: int) -> None:
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40), st.floats(-8, 5))
 @settings(max_examples=80)
 def test_any_triangles_have_a_surface_inside_their_box(seed: int, n: int, power: float) -> None:
-    """Nonsense is measured too, without a warning: right-handed, longest first, no larger than the diagonal."""
+    """Random triangles give a surface without a warning: orthogonal axes, length >= width, within the diagonal."""
     rng = np.random.default_rng(seed)
     vertices = rng.normal(size=(max(3, n), 3)) * 10.0**power * rng.choice([1.0, 1e-9, 0.0], size=3, p=[0.8, 0.1, 0.1])
     mesh = TriMesh(vertices, rng.integers(0, len(vertices), size=(n, 3)))

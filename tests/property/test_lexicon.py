@@ -1,4 +1,4 @@
-"""The lexicon answers every request in the right form, and repeatably."""
+"""The lexicon gives every request a valid and repeatable answer."""
 
 import asyncio
 from typing import Any
@@ -15,7 +15,7 @@ from scene2hap.llm.protocol import Component, LLMRequest
 
 WORDS = [name for row in table() for name in (row.noun, *row.synonyms)]
 WORDS += ["SM", "of", "on", "toy", "mat", "glass", "light", "blue", "01", "(Clone)", "zorgon", "Куб", "A"]
-# Texts of known words steer towards the rules; the rest are any text, lone surrogates included.
+# Texts of known words reach the rules; the others are any text, including lone surrogates.
 NAMES = st.one_of(
     st.text(),
     st.text(alphabet=st.characters(categories=["Cs", "Lu", "Ll", "Mn", "Nd"])),
@@ -42,7 +42,7 @@ def test_any_name_is_read_and_unknown_ones_are_unsure(name: str) -> None:
 def test_any_object_gets_a_valid_answer(name: str, length: float, width: float, height: float, near: list[str]) -> None:
     facts = {"object_name": name, "length_m": length, "width_m": width, "thickness_m": height, "neighbour_names": near}
     found = answer("object_analyzer", ObjectAnswer, facts)
-    # The answer is bounded; what is larger than 100 km is a scene in a wrong unit.
+    # The answer is limited to 100 km; a larger scene is in a wrong unit.
     assert (found.estimated_length_m, found.estimated_width_m) == (min(length, 1e5), min(width, 1e5))
     assert found.vibrates == bool(found.states)
     assert found.object_category != "unknown" or not found.vibrates

@@ -15,14 +15,14 @@ from scenes import table_with_two_phones
 
 RATE = 48000
 TACTILE = 8000
-# Passes all above 1 kHz, and stops all tones below 880 Hz by 100 dB.
+# Passes everything above 1 kHz, and attenuates tones below 880 Hz by 100 dB.
 ABOVE_1_KHZ = firwin(2801, 940, pass_zero="highpass", window=("kaiser", 10.06), fs=RATE)
 
 
 def high_db(x: NDArray[np.float32], around: int, tone_power: float) -> float:
-    """Energy above 1 kHz in the 250 ms around a frame, re the tone's over the same time [dB].
+    """Energy above 1 kHz in the 250 ms around a frame, re the tone's energy over the same time [dB].
 
-    The filter runs over the whole signal, so that the window's own ends add nothing.
+    The filter runs over the whole signal, so that the ends of the window add no energy.
     """
     high = oaconvolve(x.astype(np.float64), ABOVE_1_KHZ, mode="same")
     return 10 * math.log10(np.mean(high[around - RATE // 8 : around + RATE // 8] ** 2) / tone_power + 1e-30)
@@ -40,7 +40,7 @@ def test_switching_a_tone_causes_no_click(frequency_hz: float, update_hz: int) -
     for shift in (0, 7, 31):
         mixer = mixer_of(frequency_hz, max(1 / update_hz, 0.010))
         on, off = RATE // 2 + shift, RATE + 5 * shift
-        # The game tells its gain every time, not only when it changes.
+        # The game sets its gain in every update, not only when it changes.
         for frame in range(shift, 3 * RATE // 2, RATE // update_hz):
             mixer.set_gains(np.full((1, 1), float(on <= frame < off), dtype=np.float32), frame)
         x = mixer.render(3 * RATE // 2 + RATE // 4)[:, 0]
@@ -50,7 +50,7 @@ def test_switching_a_tone_causes_no_click(frequency_hz: float, update_hz: int) -
 
 @pytest.mark.parametrize("update_hz", [50, 1000])
 def test_stepwise_gain_changes_cause_no_whine(update_hz: int) -> None:
-    """A gain that falls by a curve, told at the game's rate: a staircase would whine at that rate and above."""
+    """A gain that follows a curve, set at the game's rate: a staircase would whine at that rate and above."""
     mixer = mixer_of(250, max(1 / update_hz, 0.010))
     for frame in range(0, RATE, RATE // update_hz):
         gain = math.exp(-3 * frame / RATE) * (1.1 + math.sin(2 * np.pi * 3 * frame / RATE)) / 2.1
@@ -62,7 +62,7 @@ def test_stepwise_gain_changes_cause_no_whine(update_hz: int) -> None:
 
 @pytest.mark.parametrize("name", EDGE_SCENES)
 def test_edge_scenes_have_no_click_as_hands_come_and_go(name: str) -> None:
-    """Objects are touched, let go and lifted; where something vibrates no jump is heard, elsewhere nothing at all."""
+    """Objects are touched, released and lifted: scenes with sources have no click, scenes without are silent."""
     scene, bundle = EDGE_SCENES[name]()
     session = HapticSession(scene, bundle)
     items = [scene.object(x) for x in session.source_ids[:2]] or [scene.objects[0]]

@@ -32,7 +32,7 @@ def new_session(bundle: tuple[SceneSnapshot, HapticBundle] | None = None, **conf
 
 
 def play(session: HapticSession, events: list[tuple], blocks: list[int]) -> np.ndarray:
-    """Updates are given just before the block that holds their sample; touches end with the next event."""
+    """Play with each update just before the block that holds its sample; touches end with the next event."""
     home = session.snapshot.object("phone").pose
     waiting = sorted(events, key=lambda event: event[0])
     parts: list[np.ndarray] = []
@@ -95,7 +95,7 @@ def test_silence_in_silence_out(events: list[tuple], bands: Bands) -> None:
 
 
 def play_edge(session: HapticSession, data: list[tuple[int, int, float]], blocks: list[int]) -> np.ndarray:
-    """One object after the other is touched with a hand and lifted or put back."""
+    """Touch one object after another with a hand, and lift it or put it back."""
     scene, parts, n = session.snapshot, [], 0
     for object_number, hand, lift in data:
         item = scene.objects[object_number % len(scene.objects)]
@@ -136,7 +136,7 @@ def rotation(axis: tuple[float, float, float], angle: float) -> Pose:
 
 
 def stack() -> tuple[SceneSnapshot, HapticBundle]:
-    """A source on a shelf on a table: two hops, told by an engine, so that only distances count."""
+    """A source on a shelf on a table: two hops with contacts from an engine, so that only distances count."""
     from scene2hap import Contact
 
     objects = (
@@ -185,7 +185,7 @@ def test_moving_scene_and_hands_together_changes_nothing(
 def test_geometric_contacts_are_invariant_under_common_motion(
     angle: float, shift: tuple[float, float, float], x: float
 ) -> None:
-    # About the vertical, since what rests on what depends on where down is.
+    # Rotation about the vertical only, since support depends on the direction of gravity.
     snapshot, _ = table_with_two_phones()
     motion = Pose(shift, rotation((0, 1, 0), angle).rotation_xyzw)
     moved = {item.id: motion.compose(item.pose) for item in snapshot.objects}
@@ -202,7 +202,7 @@ PLACES = st.tuples(*[st.floats(-0.2, 0.2)] * 3)
 
 @st.composite
 def rooms(draw: st.DrawFn) -> tuple[SceneSnapshot, HapticBundle]:
-    """Eight things of any material, some of which hang together, and up to three tones on any of them."""
+    """Eight objects of random materials, some in contact, with up to three tones on any of them."""
     pairs = draw(st.lists(st.tuples(*[st.integers(0, 7)] * 2).filter(lambda p: p[0] < p[1]), max_size=9, unique=True))
     contacts = tuple(
         Contact(OBJECTS[a], OBJECTS[b], draw(PLACES), weight=draw(st.sampled_from([0.0, 0.3, 1.0]))) for a, b in pairs
@@ -240,11 +240,11 @@ def test_skipped_sources_are_10_db_below_the_threshold_of_touch(
         contacts = list((room[0].contacts or ())[n:])
         for _ in range(2):
             frames = [s.update(touches=touches, contacts=contacts) for s in (lean, whole)]
-        # A coupled model may solve in another order for it.
+        # With skipping, a coupled model may solve in another order.
         np.testing.assert_allclose(frames[0].gains, frames[1].gains, rtol=1e-5, atol=1e-9)
         for s in (lean, whole):
             s.render(RATE // 4)
         lost = lean.render(RATE // 2) - whole.render(RATE // 2)
         felt = np.fft.irfft(np.fft.rfft(lost, axis=0) * weights[:, None], axis=0)
-        # In thresholds; the rest is what single precision rounds off, up to 1e-6 of full scale at -45 dB.
+        # In units of the threshold. The second term is single-precision rounding: 1e-6 of full scale at -45 dB.
         assert np.abs(felt).max() <= 10 ** (-10 / 20) + 1e-6 * 10 ** (45 / 20) * 10

@@ -1,7 +1,7 @@
-"""Six small rooms built in code, of which contacts, sizes, sources and copies are known by construction.
+"""Six small rooms built in code, whose contacts, sizes, sources and copies are known by construction.
 
-They stand in for scenes by other people where `../shared` is absent: what a test says of any scene, it says of these.
-`ROOMS` holds them by name; `room_file` puts one on disk as a user would have it.
+They replace scenes by others where `../shared` is absent: a test that holds for any scene also runs on these rooms.
+`ROOMS` holds them by name; `room_file` writes one to disk in a format that users have.
 
 - `cubes`: equal cubes with names of their own, two on each other, as games are prototyped.
 - `dining_room`: meshes that rest on each other, turned furniture, copies, textures.
@@ -27,7 +27,7 @@ ROOMS: dict[str, Room] = {room.name: room for room in (cubes, dining_room, shelv
 
 @cache
 def room_file(name: str) -> Path:
-    """The file of a room, written when it is first asked for and gone with the process."""
+    """The file of a room, written at the first call and deleted with the process."""
     return ROOMS[name].write(_folder())
 
 

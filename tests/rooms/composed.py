@@ -1,4 +1,4 @@
-"""The rooms themselves."""
+"""The six rooms of `rooms.ROOMS`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from math import cos, sin
 
 from rooms.room import Room, Thing, checked, cuboid, cylinder, joined, moved, pairs, swapped
 
-_GAP_M = 0.001  # what authors leave under things
+_GAP_M = 0.001  # a gap as authors leave under objects
 _WOOD, _STEEL, _WHITE, _RED = (0.5, 0.33, 0.18), (0.7, 0.72, 0.75), (0.9, 0.9, 0.88), (0.7, 0.15, 0.1)
 _PARQUET, _PAINTED = checked(_WOOD), checked(_RED)
 
@@ -21,7 +21,7 @@ _PLACES = {name: divmod(n, 6) for n, name in enumerate(_NAMES)}
 
 
 def _stacked() -> str:
-    """The lower row stands on the floor, the upper on the lower; columns stand apart."""
+    """Contacts: the lower row stands on the floor, the upper row on the lower; columns do not touch."""
     lower, upper = _NAMES[:6], _NAMES[6:]
     return "\n".join([" ".join(lower) + ": floor", *(f"{a}: {b}" for a, b in zip(upper, lower, strict=True))])
 
@@ -59,7 +59,7 @@ _TURN = 0.3
 
 
 def _on_table(x: float, z: float, height_m: float = 0.0) -> tuple[float, float, float]:
-    """A place on the table, which is turned."""
+    """World position of a place on the rotated table."""
     return (cos(_TURN) * x + sin(_TURN) * z, _TOP_M + height_m + _GAP_M, cos(_TURN) * z - sin(_TURN) * x)
 
 

@@ -1,8 +1,8 @@
 """Furniture as MJCF: bodies with joints in files that include each other, with meshes in folders beside the main file.
 
-`write_furniture` lays it out as kits of robot kitchens are: `kitchen/kitchen.xml` includes what lies in other folders,
-so that it needs the folder above it as its root, and `dishwasher.xml` holds one machine. Z is up, lengths are in
-metres. What is seen cannot collide; what collides is larger.
+`write_furniture` uses the layout of robot kitchen kits: `kitchen/kitchen.xml` includes files from other folders, so
+that it needs the folder above as its root; `dishwasher.xml` holds one machine. Z is up, lengths are in metres. Visible
+geoms do not collide; colliding geoms are larger.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ IDS = {
     ),
     "dishwasher.xml": ("dishwasher", "top_rack", "door"),
 }
-"""The ids of each file: its bodies with geoms. The body `kettle` holds nothing but `kettleroot`."""
+"""The ids of each file: its bodies with geoms. The body `kettle` contains only the body `kettleroot`."""
 
 COUNTER_BOUNDS_M = ((0.7, -0.32, 0.0), (2.1, 0.32, 0.9))
-"""Of the base of 0.86 m and the top of 40 mm on it."""
+"""Bounds of the counter: a base of 0.86 m and a top of 40 mm."""
 
 _WALL = 0.02
 _TUB = joined(  # open to the front (y < 0), 0.6 m x 0.6 m x 0.8 m, with two rails for the rack

@@ -1,4 +1,4 @@
-"""A room for tests: what stands in it, what is true of it, and how it is written as a file."""
+"""A room for tests: its objects, their known properties, and its file."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ Triple = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Thing:
-    """An object: its mesh, the place of its origin [m], its turn about the vertical [rad] and its looks.
+    """An object: its mesh, the place of its origin [m], its rotation about the vertical [rad] and its appearance.
 
-    texture : pixels (height, width, 3) that a GLB shows on it; scene JSON has no looks.
+    texture : pixels (height, width, 3) of the object's texture in a GLB; scene JSON has no appearance.
     """
 
     id: str
@@ -38,7 +38,7 @@ class Thing:
 
 @dataclass(frozen=True)
 class Room:
-    """Things and what is true of them by construction.
+    """Objects and their properties, which are known by construction.
 
     contacts : the pairs that touch; sources : the ids that vibrate; sizes_m : length, width and thickness of some
     dominant surfaces; copies : groups of ids that share a mesh.
@@ -54,17 +54,17 @@ class Room:
 
     @property
     def ids(self) -> list[str]:
-        """The ids of all things, in the order of the file."""
+        """The ids of all objects, in the order of the file."""
         return [thing.id for thing in self.things]
 
     @property
     def n_looks(self) -> tuple[int, int]:
-        """How many materials and how many different textures a GLB of it has: one material for each mesh."""
+        """The number of materials (one for each mesh) and of different textures in the room's GLB."""
         meshes = {id(thing.mesh) for thing in self.things}
         return len(meshes), len({id(thing.texture) for thing in self.things if thing.texture is not None})
 
     def in_units(self, unit_m: float) -> Room:
-        """The room as someone exports it whose unit is `unit_m` metres and not a metre."""
+        """The room as exported from a program whose unit is `unit_m` metres."""
         meshes = {id(thing.mesh): scaled(thing.mesh, 1 / unit_m) for thing in self.things}
         things = [
             replace(thing, mesh=meshes[id(thing.mesh)], at_m=tuple(x / unit_m for x in thing.at_m))
@@ -73,7 +73,7 @@ class Room:
         return replace(self, things=tuple(things))
 
     def triangles_m(self) -> NDArray[np.float64]:
-        """World corners (m, 3, 3) [m] of all triangles, from the construction alone."""
+        """World corners (m, 3, 3) [m] of all triangles, computed only from the construction."""
         placed = []
         for thing in self.things:
             c, s = cos(thing.yaw_rad), sin(thing.yaw_rad)
@@ -82,7 +82,7 @@ class Room:
         return np.concatenate(placed)
 
     def write(self, folder: Path) -> Path:
-        """The room as a file that `load_scene` reads: a GLB, or scene JSON where z is up."""
+        """Write the room as a file for `load_scene`: a GLB, or scene JSON if z is up. Returns the path."""
         return self._json(folder / f"{self.name}.json") if self.up_axis == "z" else self._glb(folder)
 
     def _glb(self, folder: Path) -> Path:
@@ -98,7 +98,7 @@ class Room:
         return gltf.write(folder / f"{self.name}.glb")
 
     def _image(self, gltf: Gltf, pixels: NDArray[np.uint8]) -> int:
-        """Its number, of the image as of the texture that shows it."""
+        """Add an image and a texture that shows it. Returns their number, which is the same for both."""
         textures = gltf.header.setdefault("textures", [])
         gltf.header.setdefault("images", [])
         embedded(gltf, image_file(pixels))
@@ -136,19 +136,19 @@ class Room:
 
 
 def pairs(text: str) -> frozenset[Pair]:
-    """Lines of "thing thing ...: other" as pairs."""
+    """Parse lines of "thing thing ...: other" into pairs."""
     rows = (line.split(":") for line in text.strip().splitlines())
     return frozenset(pair_of(thing, other.strip()) for things, other in rows for thing in things.split())
 
 
 def cuboid(size_m: Triple, middle_m: Triple = (0.0, 0.0, 0.0)) -> TriMesh:
-    """A cuboid about a point of its own frame."""
+    """A cuboid centred on a point of its frame."""
     mesh = Box(size_m).mesh
     return TriMesh(mesh.vertices_m + np.array(middle_m), mesh.faces)
 
 
 def cylinder(radius_m: float, height_m: float, n: int = 24) -> TriMesh:
-    """A closed round body whose bottom is at y = 0."""
+    """A closed cylinder whose bottom is at y = 0."""
     around = 2 * pi * np.arange(n) / n
     ring = np.stack([radius_m * np.cos(around), np.zeros(n), radius_m * np.sin(around)], axis=1)
     top = ring + np.array((0.0, height_m, 0.0))
@@ -163,29 +163,29 @@ def cylinder(radius_m: float, height_m: float, n: int = 24) -> TriMesh:
 
 
 def joined(*parts: TriMesh) -> TriMesh:
-    """One mesh of several."""
+    """Join several meshes into one."""
     starts = np.cumsum([0, *[len(part.vertices_m) for part in parts]])
     faces = [part.faces.astype(np.int64) + start for part, start in zip(parts, starts, strict=False)]
     return TriMesh(np.concatenate([part.vertices_m for part in parts]), np.concatenate(faces))
 
 
 def swapped(mesh: TriMesh) -> TriMesh:
-    """A mesh with y up as one with z up."""
+    """Rotate a mesh with y up into one with z up."""
     return TriMesh(Pose((0.0, 0.0, 0.0), (0.5**0.5, 0.0, 0.0, 0.5**0.5)).to_world(mesh.vertices_m), mesh.faces)
 
 
 def moved(mesh: TriMesh, by_m: Sequence[float]) -> TriMesh:
-    """A mesh elsewhere in its own frame."""
+    """Move a mesh in its frame."""
     return TriMesh(mesh.vertices_m + np.array(by_m), mesh.faces)
 
 
 def scaled(mesh: TriMesh, factor: float) -> TriMesh:
-    """A mesh larger by a factor."""
+    """Scale a mesh by a factor."""
     return TriMesh(mesh.vertices_m * factor, mesh.faces)
 
 
 def checked(colour: Triple, n: int = 8) -> NDArray[np.uint8]:
-    """A chequered texture of a colour and a darker one, with a mark in a corner that tells which way up it is."""
+    """A chequered texture of a colour and a darker one, with a mark in one corner that shows its orientation."""
     odd = np.indices((n, n)).sum(axis=0) % 2
     pixels = (255 * np.asarray(colour) * np.where(odd, 1.0, 0.6)[:, :, None]).astype(np.uint8)
     pixels[0, 0] = (0, 0, 255)

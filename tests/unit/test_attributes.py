@@ -1,4 +1,4 @@
-"""Missing attributes of the public surface end in our own error; everything else that asks for attributes works."""
+"""Missing attributes of public classes raise an error of the library; pickling, copying and protocols still work."""
 
 import copy
 import dataclasses
@@ -21,7 +21,7 @@ CLASSES = [
 
 
 def unmade(cls: type) -> Any:
-    """An instance that no constructor has seen."""
+    """An instance made without its constructor."""
     return cls.__new__(cls)
 
 

@@ -1,4 +1,4 @@
-"""Arguments that do not fit are answered by what a function takes; errors from inside it stay what they are."""
+"""Invalid arguments give an error that lists the accepted ones; errors from inside a function are unchanged."""
 
 import inspect
 

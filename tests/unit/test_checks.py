@@ -1,4 +1,4 @@
-"""Bounds on numbers, and the sentences they end in."""
+"""Checks of numbers against bounds, and their error messages."""
 
 import math
 from fractions import Fraction

@@ -1,4 +1,4 @@
-"""Tables for a person: fitted to the terminal, or aligned alone where they are long."""
+"""Tables on the console: fitted to the terminal, or only aligned if they are long."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a state must touch, matched by meaning."""
+"""Contact needs of a source's state, matched to object categories by meaning."""
 
 import pytest
 
@@ -47,7 +47,7 @@ def test_every_synonym_of_lexicon_needs_matches() -> None:
     needed = {noun for row in table() for state in row.states for noun in state.needs_contact}
     assert needed
     for row in table():
-        if row.noun in needed and row.noun != "heater":  # a fan heater is no stove
+        if row.noun in needed and row.noun != "heater":  # a fan heater is not a stove
             for word in (row.noun, *row.synonyms):
                 assert meets("stove", "Object_7", word), word
 

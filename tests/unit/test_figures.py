@@ -1,4 +1,4 @@
-"""Every measured block of docs/figures names a command that exists and whose options its parser accepts."""
+"""Every measured block of docs/figures names an existing command with options that its parser accepts."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ BLOCK = re.compile(r"<!-- figure: (\S+) -->\n(.*?)<!-- end -->", re.DOTALL)
 
 
 class Accepted(Exception):
-    """The script parsed its options, and would begin its work now."""
+    """Raised when a script has parsed its options, before its work."""
 
 
 def blocks() -> dict[str, tuple[str, str]]:
-    """Page and text of each block."""
+    """Page and text of each block, by name."""
     return {
         name: (page.stem, text)
         for page in sorted(PAGES.glob("*.md"))

@@ -1,4 +1,4 @@
-"""The plain data both sides speak."""
+"""Plain data classes shared by baking and playing: bands, states and actuators."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ def test_third_octaves_from_10_to_1000_hz_are_20_bands() -> None:
     assert bands.edges_hz[0] == 10.0
     assert bands.edges_hz[10] == pytest.approx(100.0)
     assert bands.edges_hz[-1] == pytest.approx(1000.0)
-    # Three bands make an octave, nearly: 10^(3/10) = 1.995.
+    # Three bands are nearly an octave: 10^(3/10) = 1.995.
     np.testing.assert_allclose(bands.widths_hz()[3:, 0] / bands.widths_hz()[:-3, 0], 10**0.3)
 
 

@@ -1,4 +1,4 @@
-"""Numbers and arrays that are none, at the public names: refused with an error of ours that tells of which."""
+"""Invalid numbers and arrays given to public names are refused with an error of the library that names the argument."""
 
 from collections.abc import Callable
 from typing import Any
@@ -38,14 +38,14 @@ OAK = Material("oak", 700.0, 1e10, 0.3)
 
 
 class Raising(float):
-    """A number that cannot be had."""
+    """A number whose conversion raises."""
 
     def __float__(self) -> float:
         raise ZeroDivisionError("no number")
 
 
 class NoSequence:
-    """A sequence that cannot be had."""
+    """A sequence whose iteration raises."""
 
     def __iter__(self) -> Any:
         raise RuntimeError("no sequence")
@@ -59,7 +59,7 @@ def playing(act: Callable[[HapticSession], object]) -> object:
     return act(HapticSession(*table_with_two_phones(), {"prepare": "blocking"}))
 
 
-# A value of numpy that no text can be compared with.
+# A numpy value that cannot be compared with text.
 VOID: Any = np.void(b"abc")
 HUGE: Any = 10**5000
 REFUSED: dict[str, Callable[[], object]] = {

@@ -1,4 +1,4 @@
-"""What importing costs, seen in the modules of a fresh process."""
+"""Modules that imports load, in a new process."""
 
 import subprocess
 import sys

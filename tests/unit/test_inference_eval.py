@@ -1,4 +1,4 @@
-"""The evaluation of inference: its labels are whole, its counting is right, and it takes any backend."""
+"""The evaluation of inference: complete labels, correct counts, and support of any backend."""
 
 import argparse
 import asyncio
@@ -31,7 +31,7 @@ def label(category: str, families: str, vibrates: bool, name: str = "thing", not
 
 
 def three_things() -> LabelledScene:
-    """A table, a fridge and a mystery."""
+    """A scene of a table, a fridge and an unknown object."""
     things = [
         label("table", "wood", False, "a"),
         label("fridge", "metal", True, "b"),
@@ -43,7 +43,7 @@ def three_things() -> LabelledScene:
 
 
 class Scripted:
-    """Says the same of every object, but for the one called "c", of which it knows nothing."""
+    """A backend with the same answer for every object, except for "c", which it does not know."""
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         return LLMReply(json.dumps(getattr(self, request.component)(request)), "scripted", usage={"total_tokens": 10})
@@ -90,7 +90,7 @@ def test_labels_are_complete() -> None:
 
 
 def test_halves_alternate_by_family() -> None:
-    # So that a scene never stands on the other half than another by the same author.
+    # All scenes by one author are in the same half.
     families = sorted({row["family"] for row in labels.read_rows("scenes.csv")})
     expected = {family: ("tuning", "held-out")[i % 2] for i, family in enumerate(families)}
     assert all(row["half"] == expected[row["family"]] for row in labels.read_rows("scenes.csv"))
@@ -198,11 +198,11 @@ def test_unreachable_backend_becomes_a_row() -> None:
 def test_materials_beside_the_literature() -> None:
     rows = asyncio.run(material_table.material_table(Scripted()))
     assert len(rows) == 10
-    # 7850 kg/m3, 200 GPa and 0.3 are steel's; the density of nothing else, the modulus of nothing else but asphalt's
-    # odd upper bound of 140 GPa, which is below; the ratio of glass, plywood and asphalt too.
+    # The answer is steel for every material: 7850 kg/m3, 200 GPa, 0.3. Density and modulus are outside all other
+    # ranges, also above asphalt's odd upper bound of 140 GPa. The ratio also fits glass, plywood and asphalt.
     inside = {row.material: sum(row.inside) for row in rows if any(row.inside)}
     assert inside == {"steel": 3, "glass": 1, "plywood": 1, "asphalt": 1}
-    # Red in the paper's table are 8 values; the ninth is plexiglass's 3.3 GPa, printed black below the range.
+    # The paper's table prints 8 values in red; the ninth, plexiglass's 3.3 GPa, is black but below the range.
     assert sum(sum(row.gpt4o_inside) for row in rows) == 30 - 9
     assert all(math.isfinite(low) and low <= high for row in rows for low, high in row.ranges)
     assert material_table.own_table_differs() == []
@@ -237,7 +237,7 @@ def test_whole_run_prints_and_reports(capsys: pytest.CaptureFixture[str]) -> Non
     assert "names from packs" in shown
     assert "constants in the range" in shown
     found = report["halves"]["packs"]["all"]
-    # The bars are those asked of the lexicon on scenes with meaningful names.
+    # These bounds are the requirements on the lexicon for scenes with meaningful names.
     assert found["vibrates_accuracy"] >= 0.95
     assert found["family_accuracy_claimed"] >= 0.80
     assert found["unknown_share"] <= 0.15

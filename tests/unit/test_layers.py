@@ -1,4 +1,4 @@
-"""The import layers of docs/architecture.md, read from the source by `ast`."""
+"""Imports follow the layers of docs/architecture.md; they are read from the source with `ast`."""
 
 import ast
 from pathlib import Path
@@ -8,7 +8,7 @@ import pytest
 
 PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
-# Bottom to top; packages of one row never import each other.
+# From bottom to top; packages of one row never import each other.
 LAYERS = [
     {"errors", "printable", "quiet_logs"},
     {"checks", "compiled", "key_search"},
@@ -42,7 +42,7 @@ def package_of(path: Path) -> str:
 
 
 def imports_of(path: Path) -> set[str]:
-    """Every module that a file imports, at the top or inside a function."""
+    """Every module that a file imports, at module level or inside a function."""
     found: set[str] = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
@@ -85,7 +85,7 @@ def test_sound_sources_are_imported_at_design_time_alone() -> None:
 
 
 def test_no_modules_import_each_other_in_a_circle() -> None:
-    """Imports for types and within functions included."""
+    """Includes imports for types and within functions."""
     names = {path: ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts) for path in SOURCES}
     graph: nx.DiGraph[str] = nx.DiGraph()
     for path, name in names.items():

@@ -1,4 +1,4 @@
-"""docs/paper.md names code that exists."""
+"""Every name of code in docs/paper.md exists."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAMES = sorted(set(re.findall(r"`(scene2hap(?:\.\w+)+)`", TEXT)))
 
 
 def found(dotted: str) -> object:
-    """A module, or an attribute of the longest module that the name begins with."""
+    """The module of a dotted name, or the attribute of the longest module in it."""
     parts = dotted.split(".")
     for n in range(len(parts), 0, -1):
         try:

@@ -1,4 +1,4 @@
-"""One door for built-ins and guests."""
+"""Plugin groups: building built-in parts and plugins from their kind and settings."""
 
 import re
 from dataclasses import replace
@@ -87,7 +87,7 @@ def test_plugins_are_listed_with_their_errors(monkeypatch: pytest.MonkeyPatch, t
 
 class Half:
     def start(self) -> None:
-        """Without what it must take."""
+        """Lacks the parameter of the protocol."""
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Names are data: what a terminal would obey, or no encoding can write, reaches neither."""
+"""Output of untrusted names: control characters and lone surrogates are escaped."""
 
 import json
 import subprocess

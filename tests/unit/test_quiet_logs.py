@@ -1,4 +1,4 @@
-"""No logger of the HTTP library, of its parts or of its successors shows a key."""
+"""No logger of the HTTP library, its dependencies or its successors shows a key."""
 
 import logging
 

@@ -1,4 +1,4 @@
-"""A key that shows itself to nobody."""
+"""Secrets: a key is masked in every representation, in texts and in tracebacks."""
 
 import copy
 import html
@@ -90,7 +90,7 @@ def test_a_key_is_found_however_it_is_written(form: str, key: str) -> None:
     assert shown.endswith(" is wrong.")
     assert MASK in shown
     left = shown.removeprefix("You sent ").removesuffix(", which is wrong.").replace(MASK, "")
-    assert len(left) <= len(echoed) - len(key)  # what was beside the key in the same code
+    assert len(left) <= len(echoed) - len(key)  # the rest of an escape that also encoded the key
     assert not any(key[at : at + 4] in left for at in range(len(key) - 3))
 
 

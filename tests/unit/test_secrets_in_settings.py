@@ -1,4 +1,4 @@
-"""A key given in a configuration reaches no error and no traceback."""
+"""A key in a configuration does not appear in any error or traceback."""
 
 import traceback
 

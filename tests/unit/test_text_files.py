@@ -1,4 +1,4 @@
-"""Small files that a person wrote: bounded, and never waited for."""
+"""Reading small user files: limited in size, and without waiting for pipes or devices."""
 
 import os
 from pathlib import Path

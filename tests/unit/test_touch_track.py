@@ -1,4 +1,4 @@
-"""Touch files: both forms say the same, and what is wrong is named."""
+"""Touch files: JSON and CSV give the same track, and errors name the wrong field."""
 
 import json
 import os
@@ -63,7 +63,7 @@ def test_playing_follows_the_steps() -> None:
     assert frames[0.4].touches == ()
     on_phone = frames[0.6]
     assert on_phone.frame.gain("left", "phone") == 1.0
-    # Without a point: the middle of the dominant surface, here the phone's top.
+    # Without a point, the touch is at the middle of the dominant surface, here the phone's top.
     assert on_phone.touches[0].point_m == pytest.approx((0.1, 0.73, 0.4))
     assert [frames[t].touches[0].point_m[0] for t in (1.2, 1.5, 1.75, 2.0, 2.5, 2.55)] == pytest.approx(
         [0.2, 0.2, 0.45, 0.7, 1.2, 1.2]

@@ -1,6 +1,6 @@
-"""The usual mistakes of users work where their meaning is plain, and end in one sentence of our own elsewhere.
+"""Usual mistakes of users work if their meaning is clear, and otherwise raise a helpful error of the library.
 
-`usual_mistakes` and `more_mistakes` are the tables of them, written before any was mended.
+The tables `usual_mistakes` and `more_mistakes` were written before any message was improved.
 """
 
 import re
@@ -37,6 +37,6 @@ def test_the_code_of_the_page_runs(room: Room, block: str) -> None:
 
 
 def test_page_quotes_the_current_error_messages(tmp_path: Path) -> None:
-    """In a room of its own, since mistakes leave files behind, whose names are then the nearest to others."""
+    """Uses a new room, since files left by other mistakes would change the suggested names."""
     page = PAGE.read_text("utf-8")
     assert page == with_tables(page, page_tables(Room(tmp_path))), "run: python tests/mistakes_room.py"

@@ -1,4 +1,4 @@
-"""Replies of servers are bounded in bytes and seconds, packed or not, for every use of HTTP."""
+"""HTTP replies are limited in bytes and seconds, compressed or not, for every use of HTTP."""
 
 import asyncio
 import gzip
@@ -125,7 +125,7 @@ def test_endless_name_lookup_runs_into_the_timeout(monkeypatch: pytest.MonkeyPat
     try:
         with pytest.raises(BackendUnavailable, match=r"did not answer within 0\.2 s"):
             web.get("http://localhost:9/", web.Limits(0.2, 1000))
-        assert not ended  # the look-up still goes on
+        assert not ended  # the look-up is still running
     finally:
         over.set()
 

@@ -1,4 +1,4 @@
-"""What the tests that were collected leave out where the folder `shared` is not beside the checkout."""
+"""Report how many collected test cases are left out without the folder `../shared`."""
 
 from __future__ import annotations
 

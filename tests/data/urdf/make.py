@@ -1,4 +1,4 @@
-"""Writes laundry.urdf with its meshes, by yourdfpy, and the same links as laundry.glb, where yourdfpy puts them.
+"""Write laundry.urdf with its meshes, by yourdfpy, and laundry.glb with the same links at the poses of yourdfpy.
 
 python make.py FOLDER    (needs yourdfpy 0.0.60 and trimesh)
 """
@@ -55,7 +55,7 @@ STEEL, OAK = ("steel", (0.8, 0.8, 0.9, 1.0)), ("oak", (0.6, 0.4, 0.2, 1.0))
 
 def link(name: str, mass_kg: float | None, *visuals: Visual) -> Link:
     inertial = None if mass_kg is None else Inertial(origin=np.eye(4), mass=mass_kg, inertia=np.eye(3))
-    # Larger than what is seen, and no part of the object.
+    # Larger than the visuals, and no part of the object.
     hull = Collision(name=None, origin=None, geometry=Geometry(box=Box(size=np.array([2.0, 2.0, 2.0]))))
     return Link(name=name, inertial=inertial, visuals=list(visuals), collisions=[hull] if visuals else [])
 

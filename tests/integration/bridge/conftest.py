@@ -1,4 +1,4 @@
-"""A bridge in this process, and a small scene for it."""
+"""Fixtures: a bridge server in this process, and a small scene for it."""
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -36,6 +36,6 @@ def root(tmp_path: Path, desk: HapticBundle) -> Path:
 
 @pytest.fixture
 def bridge(root: Path) -> Iterator[Callable[..., BridgeServer]]:
-    """Starts bridges with that root."""
+    """A function that starts bridges with the folder `root`."""
     with ExitStack() as stack:
         yield lambda **settings: stack.enter_context(serving(**{"root": root, **settings}))

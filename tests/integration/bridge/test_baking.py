@@ -1,4 +1,4 @@
-"""Bakes that a client asks for."""
+"""Bakes requested by a client of the bridge."""
 
 import base64
 import io
@@ -43,7 +43,7 @@ def test_a_scene_file_below_the_root(bridge: Bridge, root: Path, desk: HapticBun
     with Client(server.url) as client:
         job = client.bake(path="desk.json", config={"actuator": "lra", "seed": 3})
         assert client.play(job=job)["sources"][0]["id"] == "phone"
-    # Whoever connects later may play it too: a game may have been started anew.
+    # A later client can play the baked scene too, since a game may have restarted.
     with Client(server.url) as client:
         assert client.play(job=job)["layout"] == 1
 
@@ -121,7 +121,7 @@ def test_a_bake_is_followed_over_another_connection(bridge: Bridge, desk: Haptic
 
 
 def png(shade: int) -> bytes:
-    """A picture of one colour."""
+    """An image of one colour, as PNG."""
     file = io.BytesIO()
     Image.new("RGB", (64, 48), (shade, 10, 20)).save(file, "PNG")
     return file.getvalue()

@@ -73,7 +73,7 @@ def browser() -> Iterator[Any]:
 
 
 def _check(command: Sequence[str], environment: dict[str, str], **settings: Any) -> ClientCheck:
-    # In a thread: playwright keeps an event loop running in this one, and `bake` refuses to stop one.
+    # In another thread, since playwright runs an event loop in this one, and `bake` refuses to block an event loop.
     with ThreadPoolExecutor(1) as thread:
         return thread.submit(check_bridge_client, command, environment=environment, **settings).result()
 
@@ -105,7 +105,7 @@ def test_the_game_in_node(node: str) -> None:
 
 
 class Opened:
-    """The page, and what it complained about."""
+    """An open page, and its console messages and errors."""
 
     def __init__(self, browser: Any, url: str, script: str = "", **options: Any) -> None:
         self.context = browser.new_context(viewport={"width": 1280, "height": 800}, **options)
@@ -128,7 +128,7 @@ class Opened:
         return self.page.evaluate(f"() => ({expression})")
 
     def value_once(self, expression: str) -> Any:
-        """The value of an expression as soon as it is no falsehood."""
+        """The value of an expression as soon as it is truthy."""
         found = self.page.wait_for_function(f"() => ({expression})", polling=50)
         return found.json_value()
 
@@ -149,7 +149,7 @@ def _opened(browser: Any, url: str, script: str = "", **options: Any) -> Iterato
         found.context.close()
 
 
-# A pad whose effects are noted.
+# A gamepad that records its effects.
 PADS = """
 window.effects = [];
 const actuator = {
@@ -173,7 +173,7 @@ def test_the_pages_examples(browser: Any, port: int) -> None:
 
 
 def test_the_game_in_the_page(browser: Any, modules: Path) -> None:
-    """`browser` is asked for, so that this is left out where Chromium is missing; the command starts its own."""
+    """The fixture `browser` skips this test where Chromium is missing; the command starts its own browser."""
     command = [sys.executable, browser_page.__file__]
     found = _check(command, {"SCENE2HAP_NODE_MODULES": str(modules)})
     assert found.n_frames == 600
@@ -181,7 +181,7 @@ def test_the_game_in_the_page(browser: Any, modules: Path) -> None:
 
 
 def _watched(url: str, session: str) -> dict[tuple[str, str], float]:
-    """Gains of a session, by hand and source, as another client receives them."""
+    """The gains of a session, by hand and source, received by another client."""
     with connect(url) as line:
         line.send(json.dumps({"type": "hello", "version": 1, "client": "test 1"}))
         line.send(json.dumps({"type": "watch", "session": session}))
@@ -199,8 +199,10 @@ def _watched(url: str, session: str) -> dict[tuple[str, str], float]:
 
 
 def _require_pulses(pulses: Sequence[tuple[float, float]]) -> None:
-    """Pulses last 100 ms, those of 0 none; after one of 0 comes none of 0. Where the machine is busy, gains may be late
-    once: then they are 0 by the watchdog."""
+    """Check that pulses last 100 ms, or 0 ms at intensity 0, and that no two pulses of 0 follow each other.
+
+    On a busy machine gains may be late; then the watchdog sets them to 0.
+    """
     assert all((0 < value <= 1 and ms == 100) or value == ms == 0 for value, ms in pulses)
     assert not any(a == b == 0 for (a, _), (b, _) in itertools.pairwise(pulses))
 
@@ -219,11 +221,11 @@ def shared(browser: Any, port: int, desk_server: Any) -> Iterator[Opened]:
 
 
 class TestDesk:
-    """One page for all of these: to bake its scene takes longer than a test."""
+    """Tests that share one page, because baking its scene takes longer than a test."""
 
     @pytest.fixture
     def opened(self, shared: Opened) -> Iterator[Opened]:
-        """The desk at rest, the left hand on the table and the right one on the phone."""
+        """The desk at rest, with the left hand on the table and the right hand on the phone."""
         shared.page.locator("#slides").uncheck()
         shared.value("""(() => {
           const { hands, nodes } = scene2hapExample;
@@ -242,7 +244,7 @@ class TestDesk:
         for item in scene.objects:
             points_m = item.geometry.mesh.vertices_m @ item.pose.rotation.T + item.pose.position_m
             found[item.id] = np.round([points_m.min(axis=0), points_m.max(axis=0)], 4)
-        # As they were made: the table with its legs, the phone with its screen, and the mug on the book.
+        # Known from the page's code: the table with its legs, the phone with its screen, and the mug on the book.
         assert sorted(found) == ["book", "lamp", "laptop", "mug", "phone", "shaver", "table"]
         assert found["table"].tolist() == [[-0.7, 0.0, -0.9], [0.7, 0.75, -0.2]]
         assert found["phone"][0, 1] == 0.75
@@ -259,7 +261,7 @@ class TestDesk:
             share: row.querySelector(".bar > div").getBoundingClientRect().width
               / row.querySelector(".bar").getBoundingClientRect().width,
           })))"""
-        # Of one frame in which gains were fresh: this one is 1 then.
+        # Read all rows in one frame with fresh gains, in which one number is 1.
         shown = opened.value_once(f"((rows) => rows.some(({{ number }}) => number === '1.000') && rows)({rows})")
         assert len(shown) == len(heard) == 6
         assert heard["right", "phone"] == 1.0
@@ -296,7 +298,7 @@ class TestDesk:
         assert opened.value(camera) == seen_from
         assert opened.value("scene2hapExample.hands.touchedBy('right')") == "phone"
         opened.wait("scene2hapExample.client.gain('right', 'phone') === 1")
-        # Beside everything the hand is lifted.
+        # Pointed beside all objects, the hand is lifted.
         opened.page.mouse.move(640, 80)
         opened.wait("scene2hapExample.client.gain('right', 'phone') === 0")
 
@@ -323,7 +325,7 @@ class TestDesk:
 
     def test_a_pad_gets_the_intensities_and_stops(self, opened: Opened) -> None:
         effects = "window.effects"
-        assert opened.value(effects) == []  # not switched on
+        assert opened.value(effects) == []  # not enabled yet
         opened.value("""(() => {
           const { client } = scene2hapExample;
           window.intensities = [];
@@ -337,11 +339,11 @@ class TestDesk:
         n = len(opened.value(effects))
         opened.page.wait_for_timeout(300)
         found = opened.value(effects)
-        assert len(found) == n  # 0 once, and then none
+        assert len(found) == n  # one effect of 0, then none
         assert (found[-1]["strongMagnitude"], found[-1]["weakMagnitude"]) == (0, 0)
         assert found[0]["weakMagnitude"] > 0
         _require_pulses([(max(one["strongMagnitude"], one["weakMagnitude"]), one["duration"]) for one in found])
-        # At most one in 50 ms, and each of an intensity that the server sent.
+        # At most one effect in 50 ms, and each with an intensity that the server sent.
         assert min(b["at_ms"] - a["at_ms"] for a, b in itertools.pairwise(found)) >= 48
         left, right = (set(column) | {0} for column in zip(*opened.value("window.intensities"), strict=True))
         assert all(one["strongMagnitude"] in left and one["weakMagnitude"] in right for one in found)
@@ -361,7 +363,7 @@ class TestDesk:
         opened.page.set_viewport_size({"width": 1280, "height": 800})
 
 
-# A game of three.js, as the example of the README expects it.
+# A three.js game, as the README's example expects.
 GAME = """
 import * as THREE from "three";
 const scene = new THREE.Scene();
@@ -385,7 +387,7 @@ def test_the_example_of_the_readme(browser: Any, modules: Path) -> None:
         rest = rest.replace("Scene2HapClient()", f"Scene2HapClient({{ url: '{server.url}' }})")
         page = f"""<!doctype html><link rel="icon" href="data:,"><script type="importmap">{places}</script>
             <script type="module">{imports}{GAME}{rest}window.client = client;</script>"""
-        # Served: Chromium takes a page that playwright makes up for one of another network.
+        # Served by a real server, since Chromium treats a page made by playwright as one from another network.
         with (
             browser_page.served(modules, {"/game.html": page}) as port,
             _opened(browser, f"http://127.0.0.1:{port}/game.html") as opened,
@@ -430,7 +432,7 @@ def test_controllers_of_an_emulated_headset(browser: Any, port: int, modules: Pa
         assert opened.errors == []
 
 
-# Who may connect
+# Origins and tokens
 
 
 def test_a_page_of_a_foreign_origin_is_refused(browser: Any, port: int) -> None:
@@ -440,7 +442,7 @@ def test_a_page_of_a_foreign_origin_is_refused(browser: Any, port: int) -> None:
         assert f"--origin {origin}" in opened.status
         assert server.connections == set()
         assert opened.value("scene2hapExample.client.sendFrame()") == 0
-    # The same page, once the server names it: nothing else had kept it out.
+    # The same page is accepted once the server allows its origin.
     with serving(origins=(origin,)) as other, _opened(browser, address(port, "evil.test", url=other.url)) as opened:
         opened.wait(PLAYING)
         opened.wait(FELT)
@@ -467,7 +469,7 @@ def test_token_is_sent_only_in_hello(browser: Any, port: int) -> None:
 
 @contextmanager
 def _bridge(port: int) -> Iterator[subprocess.Popen[str]]:
-    """A bridge in a process of its own, which can be killed."""
+    """A bridge in a separate process, which can be killed."""
     command = [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)]
     process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
@@ -502,10 +504,10 @@ def test_page_continues_after_a_server_restart(browser: Any, port: int) -> None:
         opened.wait(f"{number} === '0.000'")
         with serving(port=bridge_port):
             opened.wait(PLAYING)
-            # The phone is where it had slid to, not where it was baked.
+            # The phone is at its last position, not at its baked one.
             opened.wait(f"Math.abs({gain} - {before}) < 1e-4")
             assert opened.value("window.resumed") == [False]
-        # The browser itself complains of attempts that failed; the page does not.
+        # The browser reports failed connection attempts; the page must report no other error.
         assert [text for text in opened.errors if "ERR_CONNECTION" not in text] == []
 
 

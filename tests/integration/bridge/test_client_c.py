@@ -1,4 +1,4 @@
-"""The client for C and C++: compiled, against a real bridge, against scripted servers and against hostile ones."""
+"""The client for C and C++: compilation, and tests with a real bridge, scripted servers and hostile servers."""
 
 import base64
 import hashlib
@@ -46,7 +46,7 @@ Build = Callable[..., Path]
 
 @pytest.fixture(scope="module")
 def build(tmp_path_factory: pytest.TempPathFactory) -> Build:
-    """Compiles a program once, with all warnings as errors."""
+    """A function that compiles a program once, with all warnings as errors."""
     folder, made = tmp_path_factory.mktemp("c"), dict[tuple[object, ...], Path]()
     (folder / "empty.c").write_text("int main(void) { return 0; }\n")
     command = [str(C), *SANITIZERS, "-o", str(folder / "empty"), str(folder / "empty.c")]
@@ -74,7 +74,7 @@ def game(build: Build) -> Path:
 
 
 def hex_of_page(before: str) -> str:
-    """The hexadecimal block of the protocol's page behind a sentence."""
+    """The hexadecimal block that follows a sentence on the protocol page."""
     page = (MAIN / "docs" / "bridge-protocol.md").read_text(encoding="utf-8")
     found = re.search(re.escape(before) + r".*?```\n(.*?)```", page, re.DOTALL)
     assert found
@@ -109,11 +109,11 @@ def test_the_example_of_the_readme_feels_the_phone(
     assert found
     assert found[1].count("s2h_create(NULL)") == 1
     source = tmp_path / "readme.c"
-    elsewhere = f's2h_create(&(s2h_settings){{.url = "{bridge().url}"}})'  # its own port may be in use
+    elsewhere = f's2h_create(&(s2h_settings){{.url = "{bridge().url}"}})'  # the default port may be in use
     source.write_text(found[1].replace("s2h_create(NULL)", elsewhere))
     program = build(source, flags=("-Wno-conversion",))
     run = subprocess.run([str(program)], capture_output=True, text=True, check=True, timeout=60)
-    # Lines of progress begin with a space. Other text would be an error.
+    # Progress lines begin with a space; other lines must be numbers.
     intensities = [float(line) for line in run.stdout.splitlines() if not line.startswith(" ")]
     assert len(intensities) == 600
     assert 0.0 < max(intensities) <= 1.0
@@ -188,7 +188,7 @@ def test_c_client_continues_after_a_server_restart(game: Path, tmp_path: Path) -
 
 
 def start_server(port: int) -> "subprocess.Popen[bytes]":
-    """A bridge that listens."""
+    """Start a bridge process and wait until it listens."""
     process = subprocess.Popen(
         [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)],
         stdout=subprocess.DEVNULL,
@@ -214,7 +214,7 @@ def test_random_and_mutated_bytes_do_no_harm(build: Build) -> None:
     assert run.returncode == 0, run.stderr
     counts = {name: int(n) for name, n in (line.split() for line in run.stdout.splitlines())}
     assert counts["inputs"] == 50_000
-    # Else the inputs would fail before they get to what matters.
+    # Enough inputs must reach the code of each state.
     assert min(counts[name] for name in ("playing", "order", "gains", "impact", "answer", "wrong")) > 5000
 
 
@@ -222,7 +222,7 @@ def test_random_and_mutated_bytes_do_no_harm(build: Build) -> None:
 
 
 class Driver:
-    """The client in a program of its own that does what is said, line by line."""
+    """The client in a driver program that executes commands, one per line."""
 
     def __init__(self, program: Path, **environment: str) -> None:
         self._process = subprocess.Popen(
@@ -237,7 +237,7 @@ class Driver:
         self.printed: list[str] = []
 
     def do(self, command: str) -> list[dict[str, Any]]:
-        """Say a line. Returns what was printed until it was done."""
+        """Send a command. Returns the lines printed until it was done."""
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._process.stdin.write(command + "\n")
@@ -255,14 +255,14 @@ class Driver:
         return found
 
     def until(self, kind: str, timeout_s: float = 10.0) -> dict[str, Any]:
-        """Poll until an event of a kind comes; `before` has those that came before."""
+        """Poll until an event of a kind comes; `before` holds the earlier events."""
         self.before = self.do(f"until {kind} {timeout_s:g}")
         assert self.before, f"no {kind}, and nothing else"
         assert self.before[-1]["event"] == kind, self.before
         return self.before.pop()
 
     def end(self) -> str:
-        """End the program. Returns what it wrote as errors, which is nothing unless a sanitizer found something."""
+        """End the program. Returns its error output, which is empty unless a sanitizer found a fault."""
         _, errors = self._process.communicate(timeout=20)
         if self._process.returncode:
             errors += f"status {self._process.returncode}"
@@ -352,10 +352,10 @@ def test_client_supports_every_session_request(driver: Driver, bridge: Callable[
     driver.do("lift left")
     assert gain()[0] == 0.0
     driver.one("touch left table 0")
-    gain()  # so that the hand is there to feel what follows
+    gain()  # the hand must touch the table before the strike
     ask("strike table - 1")
     gain()
-    if "impact" not in kinds(driver.before):  # it may come before the gains of its frame, or after them
+    if "impact" not in kinds(driver.before):  # it may come before or after the gains of its frame
         driver.until("impact")
     row = {"id": "tray", "name": "Steel tray", "pose": {"position_m": [0.0, 0.725, -0.2]}}
     row["geometry"] = {"kind": "box", "size_m": [0.3, 0.01, 0.2]}
@@ -417,7 +417,7 @@ def test_a_picture_is_taken(driver: Driver, bridge: Callable[..., BridgeServer])
     driver.do(f"create {bridge().url} - 0 0")
     driver.until("online")
     assert driver.one("request picture phone front")["request"] == 1
-    error = driver.until("error")  # its bytes are no whole picture, but the server knows of which object it is
+    error = driver.until("error")  # the image is incomplete, but the error names its object
     assert "phone" in error["text"] or "picture" in error["text"]
 
 
@@ -473,7 +473,7 @@ ORDER = {
 
 @contextmanager
 def scripted(handle: Callable[[ServerConnection, int], object], port: int = 0, **welcome: object) -> Iterator[str]:
-    """A server that greets each client and then does as `handle` does with it and its number; its URL."""
+    """Run a server that greets each client, then calls `handle` with its connection and number. Yields its URL."""
     failures: list[BaseException] = []
     connections: list[ServerConnection] = []
 
@@ -497,7 +497,7 @@ def scripted(handle: Callable[[ServerConnection, int], object], port: int = 0, *
         try:
             yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
         finally:
-            for ws in connections:  # else the server would wait for an answer to its close frame
+            for ws in connections:  # or the server would wait for replies to its close frames
                 with suppress(OSError):
                     ws.socket.shutdown(socket.SHUT_RDWR)
             server.shutdown()
@@ -506,7 +506,7 @@ def scripted(handle: Callable[[ServerConnection, int], object], port: int = 0, *
 
 
 def until_closed(ws: ServerConnection, _: int = 0) -> None:
-    """Take messages until the connection is closed, which ends `handle`."""
+    """Receive messages until the connection is closed, which raises and ends `handle`."""
     while True:
         ws.recv()
 
@@ -522,7 +522,7 @@ def say(ws: ServerConnection, kind: str, **fields: object) -> None:
 
 
 def begin(ws: ServerConnection, **order: object) -> dict[str, Any]:
-    """Answer `play`, and return it."""
+    """Answer the `play` request. Returns the request."""
     message = next_request(ws, "play")
     say(ws, "playing", re=message["id"], **{**ORDER, **order})
     return message
@@ -540,7 +540,7 @@ def gains_of(sequence: int, *, layout: int = 1, intensity: float = 0.25, gain: f
 
 
 def start(driver: Driver, url: str) -> None:
-    """Play, and give the phone a pose."""
+    """Start playing, and set a pose of the phone."""
     driver.do(f"create {url} - 0 0")
     driver.one("play 0 b phone newest")
     driver.until("playing")
@@ -562,11 +562,11 @@ def test_acknowledged_poses_are_not_sent_again(driver: Driver) -> None:
 
     with scripted(handle) as url:
         start(driver, url)
-        driver.do("frame 0.1")  # is not answered, so that the next repeats its poses
+        driver.do("frame 0.1")  # not answered, so that the next frame repeats its poses
         driver.do("frame 0.2")
         driver.until("gains")
         driver.do("frame 0.3")
-        driver.one("pose phone 1 2 3")  # as it was
+        driver.one("pose phone 1 2 3")  # unchanged
         driver.do("frame 0.4")
         driver.until("gains")
         driver.one("pose phone 1 2 3.5")
@@ -588,9 +588,9 @@ def test_outdated_gains_become_zero_and_invalid_gains_are_ignored(driver: Driver
         next_request(ws, "pause")
         for one in wrong:
             ws.send(one)
-        say(ws, "order", **{**ORDER, "layout": 2})  # then it may be reported again
+        say(ws, "order", **{**ORDER, "layout": 2})  # after a new order, invalid gains may be reported again
         ws.send(gains_of(4, layout=2))
-        ws.send(gains_of(5, layout=1))  # was computed before the order
+        ws.send(gains_of(5, layout=1))  # computed before the order
         for one in wrong[1:]:
             ws.send(one)
         until_closed(ws)
@@ -612,7 +612,7 @@ def test_outdated_gains_become_zero_and_invalid_gains_are_ignored(driver: Driver
         driver.one("request pause")
         found = driver.until("gains")
         assert (found["of"], found["layout"]) == (4, 2)
-        assert kinds(driver.before) == ["error", "order"]  # six times wrong, reported once
+        assert kinds(driver.before) == ["error", "order"]  # six invalid messages, reported once
         found = driver.until("gains")
         assert (found["of"], found["layout"]) == (5, 1)
         assert driver.one("felt right phone")["gain"] == 0.75
@@ -665,7 +665,7 @@ def test_forgotten_session_is_baked_and_played_again(driver: Driver) -> None:
         lost = driver.before[0]
         assert (lost["error"], lost["request"]) == ("ConnectionLost", pause)
         assert not playing["is_resumed"]
-        assert driver.one("frame 1")["sent"] == 1  # its clock may begin anew
+        assert driver.one("frame 1")["sent"] == 1  # the clock may restart
 
 
 def test_a_session_that_ended_is_played_again_without_a_bake(driver: Driver) -> None:
@@ -686,7 +686,7 @@ def test_a_session_that_ended_is_played_again_without_a_bake(driver: Driver) -> 
     with scripted(handle) as url:
         driver.do(f"create {url} - 0 0")
         driver.one("bake {}")
-        driver.one("play 0 - phone newest")  # of the bake, once it ends
+        driver.one("play 0 - phone newest")  # plays the bake once it ends
         assert not driver.until("playing")["is_resumed"]
         assert kinds(driver.before) == ["online", "baking", "baked"]
         assert not driver.until("playing")["is_resumed"]
@@ -904,10 +904,10 @@ def test_the_newest_frame_wins_when_the_server_does_not_read(driver: Driver) -> 
         last = driver.one("frame 1")["sent"]
         driver.do("run 0.2")
         driver.do("destroy")
-    assert counted["n_sent"] < counted["n"] / 2  # the network took no more
+    assert counted["n_sent"] < counted["n"] / 2  # the network accepted no more
     assert last == counted["n_sent"] + 1
-    assert len(poses) == last  # what was sent arrives, in order
-    assert poses[-1] == counted["n"]  # with the newest pose, though the flood's last frames were left out
+    assert len(poses) == last  # all sent frames arrive in order
+    assert poses[-1] == counted["n"]  # the newest pose arrives, though the last frames of the flood were dropped
     assert poses == sorted(poses)
 
 
@@ -921,7 +921,7 @@ def accept_of(key: str) -> str:
 
 @contextmanager
 def raw(handle: Callable[[socket.socket], object]) -> Iterator[str]:
-    """A server of bytes: `handle` gets each connection; its URL."""
+    """Run a TCP server that passes each connection to `handle`. Yields its URL."""
     failures: list[BaseException] = []
     with socket.create_server(("127.0.0.1", 0)) as listening:
 
@@ -931,7 +931,7 @@ def raw(handle: Callable[[socket.socket], object]) -> Iterator[str]:
                     with listening.accept()[0] as sock:
                         sock.settimeout(10)
                         handle(sock)
-            except OSError:  # the end
+            except OSError:  # the listener was closed
                 pass
             except BaseException as error:
                 failures.append(error)
@@ -948,7 +948,7 @@ def raw(handle: Callable[[socket.socket], object]) -> Iterator[str]:
 
 
 def read_head(sock: socket.socket) -> dict[str, str]:
-    """The headers of the client's request."""
+    """Read the client's request. Returns its headers."""
     head = b""
     while not head.endswith(b"\r\n\r\n"):
         head += sock.recv(1)
@@ -965,7 +965,7 @@ def head_of(key: str) -> bytes:
 
 
 def greet(sock: socket.socket, *, with_head: bytes = b"") -> None:
-    """The handshake, `hello` and `welcome`; `with_head` comes in the same packet as the head."""
+    """Do the handshake, `hello` and `welcome`; `with_head` is sent in the same packet as the head."""
     headers = read_head(sock)
     assert headers["Host"] == f"127.0.0.1:{sock.getsockname()[1]}"
     assert (headers["Upgrade"], headers["Connection"], headers["Sec-WebSocket-Version"]) == (
@@ -987,7 +987,7 @@ def answer_play(sock: socket.socket) -> None:
 
 
 def frame(first: int, payload: bytes, length: bytes | None = None) -> bytes:
-    """A frame of a server; `length` replaces the bytes of its length."""
+    """A WebSocket frame of a server; `length` replaces the bytes of its length."""
     n = len(payload)
     if length is None:
         length = bytes([n]) if n < 126 else struct.pack(">BH", 126, n) if n < 1 << 16 else struct.pack(">BQ", 127, n)
@@ -1005,7 +1005,7 @@ def read_exactly(sock: socket.socket, n: int) -> bytes:
 
 
 def read_messages(sock: socket.socket) -> Iterator[tuple[int, bytes]]:
-    """First byte and payload of each frame of the client, until it closes the connection."""
+    """Yield the first byte and payload of each frame of the client, until it closes the connection."""
     masks = set()
     while True:
         try:
@@ -1043,7 +1043,7 @@ def test_masks_are_random(driver: Driver) -> None:
         driver.until("warning")
     assert len({*masks}) == 20
     counts = np.unpackbits(np.frombuffer(b"".join(masks), np.uint8)).sum()
-    assert 200 < counts < 440  # of 640 bits; by chance outside once in 10**20
+    assert 200 < counts < 440  # of 640 bits; outside by chance once in 10**20
 
 
 def test_messages_in_pieces_with_pings_between_them(driver: Driver) -> None:
@@ -1051,7 +1051,7 @@ def test_messages_in_pieces_with_pings_between_them(driver: Driver) -> None:
     text = json.dumps({"type": "warning", "message": "é" * 40000 + "\U0001f600"}, ensure_ascii=False).encode()
 
     def handle(sock: socket.socket) -> None:
-        # The first message comes with the head, and is of a later server.
+        # The first message comes in the packet of the head, and its type is unknown to this client.
         greet(sock, with_head=frame(0x81, b'{"type": "early", "re": null}') + frame(0x8A, b"nobody asked for it"))
         sock.sendall(frame(0x01, text[:11]) + frame(0x89, b"one") + frame(0x00, b""))
         sock.sendall(frame(0x00, text[11:70001]))
@@ -1076,7 +1076,7 @@ def test_messages_in_pieces_with_pings_between_them(driver: Driver) -> None:
 
 
 def test_pings_are_answered_while_a_long_message_is_sent(driver: Driver) -> None:
-    """Else the server would close the connection during the upload of a large scene."""
+    """Without answers, the server would close the connection during the upload of a large scene."""
     heard: list[tuple[int, bytes]] = []
 
     def handle(sock: socket.socket) -> None:
@@ -1120,7 +1120,7 @@ LONG = bytes(70000)
         (frame(0x81, b"{}", b"\x7e\x00\x02"), 1002),  # a length that is longer than needed
         (frame(0x81, b"{}", b"\x7f\x00\x00\x00\x00\x00\x00\x00\x02"), 1002),
         (frame(0x81, b"{}", b"\x7f" + b"\xff" * 8), 1002),  # a negative length
-        (frame(0x80, b"{}"), 1002),  # a piece of nothing
+        (frame(0x80, b"{}"), 1002),  # a continuation without a beginning
         (frame(0x01, b"{") + frame(0x81, b"}"), 1002),  # a message within another
         (frame(0x09, b"ping"), 1002),  # a control frame in pieces
         (frame(0x89, LONG[:126]), 1002),  # a long control frame
@@ -1131,7 +1131,7 @@ LONG = bytes(70000)
         (frame(0x88, struct.pack(">H", 1000) + b"\xff"), 1002),
         (frame(0x81, b'"\xff"'), 1007),
         (frame(0x01, b'"\xc3') + frame(0x80, b'"'), 1007),
-        (frame(0x82, b"", b"\x7f" + struct.pack(">Q", 1 << 62)), 1009),  # announced, and never sent
+        (frame(0x82, b"", b"\x7f" + struct.pack(">Q", 1 << 62)), 1009),  # announced but never sent
         (frame(0x82, LONG), 1009),
         (frame(0x02, LONG[:60000]) + frame(0x80, LONG[:60000]), 1009),
     ],
@@ -1198,12 +1198,12 @@ def test_invalid_handshakes_are_refused(driver: Driver, answer: str) -> None:
         assert driver.until("offline")["wait_s"] == 0.25
         assert not driver.before
         driver.do("destroy")
-    assert after == [b""]  # in particular no hello
+    assert after == [b""]  # the client sends nothing, in particular no hello
 
 
 def test_silent_server_counts_as_lost(driver: Driver) -> None:
     def handle(sock: socket.socket) -> None:
-        greet(sock)  # with a heartbeat of 0.1 s, which counts as 0.4 s
+        greet(sock)  # the heartbeat is 0.1 s, which the client treats as 0.4 s
         read_exactly(sock, 1)
 
     with raw(handle) as url:
@@ -1299,7 +1299,7 @@ TEXTS = [
 def test_json_is_read_as_python_reads_it(driver: Driver, text: str) -> None:
     found = driver.one(f"parse {text.encode().hex()}")
     try:
-        expected = json.loads(text, parse_constant=lambda name: name[10**9], parse_int=float)  # NaN is no JSON
+        expected = json.loads(text, parse_constant=lambda name: name[10**9], parse_int=float)  # NaN is not JSON
     except (ValueError, IndexError):
         assert not found["is_json"]
         return
@@ -1316,7 +1316,7 @@ def test_json_is_read_as_python_reads_it(driver: Driver, text: str) -> None:
 
 def assert_is(found: float, expected: float) -> None:
     if np.isinf(expected):
-        assert found == -4.5  # as for no number
+        assert found == -4.5  # the value for "not a number"
     else:
         assert found == pytest.approx(expected, rel=1e-14, abs=5e-324)
 
@@ -1340,7 +1340,7 @@ def test_lone_surrogates_and_zeros_are_replaced(driver: Driver) -> None:
 
 def test_long_strings_are_cut_between_characters(driver: Driver) -> None:
     text = json.dumps("a" + "€" * 100, ensure_ascii=False).encode()
-    assert driver.one(f"parse {text.hex()}")["string"] == "a" + "€" * 84  # of 255 bytes
+    assert driver.one(f"parse {text.hex()}")["string"] == "a" + "€" * 84  # limited to 255 bytes
 
 
 def test_numbers_round_trip_exactly(driver: Driver) -> None:

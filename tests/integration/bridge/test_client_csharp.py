@@ -1,4 +1,4 @@
-"""The C# client: game and examples of the protocol page, faults of the server, garbage, Unity's coordinates."""
+"""The C# client: game and examples of the protocol page, server faults, memory allocation, Unity's coordinates."""
 
 import base64
 import hashlib
@@ -44,11 +44,11 @@ TOKEN = "a token that nobody else may read"
 
 @pytest.fixture(scope="session")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The example as a game would build it, and the trials with the Unity component on stand-ins."""
+    """Compile the example as a game would, and the trials with the Unity component on stubs of Unity."""
     folder = tmp_path_factory.mktemp("csharp")
     client = [str(CLIENT / f"Scene2Hap{name}.cs") for name in ("Client", "Connection", "Frames", "Json", "WebSocket")]
     own = [str(Path(__file__).with_name(name)) for name in ("unity_stubs.cs", "csharp_trials.cs")]
-    # Version 6 of the language: Unity and all other compilers take it.
+    # Language version 6, which Unity and all other compilers accept.
     compiler = [str(COMPILER), "-langversion:6", "-warnaserror", "-warn:4"]
     subprocess.run([*compiler, f"-out:{folder / 'game.exe'}", str(CLIENT / "ExampleGame.cs"), *client], check=True)
     unity = ["-define:UNITY_5_3_OR_NEWER", str(CLIENT / "Scene2HapBehaviour.cs"), str(CLIENT / "ExampleGame.cs")]
@@ -58,11 +58,11 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def trial(programs: Path) -> Callable[..., list[str]]:
-    """Runs a trial to its end and returns what it printed."""
+    """A function that runs a trial to its end and returns its output lines."""
 
     def run(*arguments: object, given: str = "", token: str = "", timeout_s: float = 60.0) -> list[str]:
         command = [str(RUNTIME), str(programs / "trials.exe"), *map(str, arguments)]
-        # A small nursery, so that little garbage makes a collection.
+        # A small nursery, so that little garbage triggers a collection.
         environment = {**os.environ, "SCENE2HAP_TOKEN": token, "MONO_GC_PARAMS": "nursery-size=512k"}
         done = subprocess.run(
             command, input=given, capture_output=True, text=True, timeout=timeout_s, env=environment, check=False
@@ -75,7 +75,7 @@ def trial(programs: Path) -> Callable[..., list[str]]:
 
 @contextmanager
 def mock(take: Callable[[ServerConnection, str | bytes], None]) -> Iterator[str]:
-    """A WebSocket server that gives every message to `take`."""
+    """Run a WebSocket server that passes every message to `take`. Yields its URL."""
 
     def serve_one(connection: ServerConnection) -> None:
         try:
@@ -112,13 +112,13 @@ def order(kind: str, n_moving: int, **more: object) -> str:
 
 
 def gains(sequence: int, intensity: float) -> bytes:
-    """Gains for two hands and one source in one band, written from the table of the page."""
+    """Gains for two hands and one source in one band, encoded from the table of the protocol page."""
     begin = struct.pack("<4sBBH8sIId", b"S2HB", 2, 1, 1, bytes(8), sequence, 0, 0.5)
     return begin + struct.pack("<HHHH4f", 2, 1, 1, 0, intensity, intensity, 0.5, 0.25)
 
 
 def answer_as_desk(connection: ServerConnection, document: dict[str, Any], n_moving: int = 2) -> None:
-    """Answer a request as a bridge that plays the desk of the trials."""
+    """Answer a request like a bridge that plays the desk of the trials."""
     kind, number = document["type"], document.get("id")
     names = ["table", "phone", *(f"o{k}" for k in range(2, n_moving))]
     if kind == "hello":
@@ -191,7 +191,7 @@ def test_every_request(trial: Callable[..., list[str]]) -> None:
     received = next(int(line.split()[1]) for line in lines if line.startswith("received"))
     assert 4 + 6 * 10 <= received <= 4 + 6 * 11
     errors = [line for line in lines if line.startswith("error")]
-    assert len(errors) == 3, errors  # the object that no pose was set for, and both mistakes
+    assert len(errors) == 3, errors  # the object without a pose, and two invalid requests
     assert "no pose was set for mug" in errors[0]
     assert "set_source: UnknownObject" in errors[1]
     assert errors[2] == "error point_m is not finite; give finite numbers."
@@ -211,7 +211,7 @@ def test_session_restarts_after_a_server_restart(programs: Path) -> None:
             assert "feels nothing" in until(game.stdout, "state Connecting") + until(game.stdout, "feels nothing")
             with serving(port=port):
                 after = until(game.stdout, "feels")
-            # The connection's own errors apart, the game sees a new session, and no mistake.
+            # Apart from connection errors, the game sees only a new session.
             after = [line for line in after if not line.startswith("error the connection")]
             assert after == ["state Ready", "started", "state Playing", "feels"]
         finally:
@@ -234,7 +234,7 @@ def test_a_wrong_token_is_reported_and_not_tried_again(trial: Callable[..., list
 
 def test_missing_server_does_not_block_frames(trial: Callable[..., list[str]]) -> None:
     lines = trial("play", f"ws://127.0.0.1:{free_port()}/", 2)
-    # With waits of 0.1, 0.2, 0.4 and 0.8 s between them, 4 or 5 attempts fit into 2 s.
+    # With waits of 0.1, 0.2, 0.4 and 0.8 s between attempts, 4 or 5 attempts fit into 2 s.
     assert 3 <= sum(line.startswith("error the connection") for line in lines) <= 5, lines
     assert float(lines[-2].split()[1]) < 0.5
     assert lines[-1] == "disposed"
@@ -243,7 +243,7 @@ def test_missing_server_does_not_block_frames(trial: Callable[..., list[str]]) -
 @pytest.mark.parametrize("seed", [1, 2])
 def test_game_survives_200_damaged_messages(trial: Callable[..., list[str]], seed: int) -> None:
     messages = iter(damaged(random.Random(seed), 200))
-    # A client that a busy machine delays reads the newest of several gains alone.
+    # Repeated, since a delayed client reads only the newest of several gains.
     last = iter([*[math.nan] * 20, *[math.inf] * 20])
     n_sent = 0
     is_through = threading.Event()
@@ -267,14 +267,14 @@ def test_game_survives_200_damaged_messages(trial: Callable[..., list[str]], see
         lines = trial("play-until-felt", url)
     assert is_through.is_set()
     assert n_sent == 200
-    assert sum(line.startswith("error") for line in lines) > 20  # they were reported
+    assert sum(line.startswith("error") for line in lines) > 20  # invalid messages were reported
     assert any(line.endswith("a number that is not finite.") for line in lines)
-    assert "feels" in lines  # and the game goes on
+    assert "feels" in lines  # the game goes on
     assert lines[-1] == "disposed"
 
 
 def test_outdated_gains_become_zero(trial: Callable[..., list[str]]) -> None:
-    """The connection stays, but only the first frame is answered."""
+    """The connection stays open, but the server answers only the first frame."""
     n_answered = 0
 
     def take(connection: ServerConnection, message: str | bytes) -> None:
@@ -292,8 +292,8 @@ def test_outdated_gains_become_zero(trial: Callable[..., list[str]]) -> None:
 
 @pytest.mark.parametrize("knows_job", [True, False])
 def test_bake_continues_after_a_lost_connection(trial: Callable[..., list[str]], knows_job: bool) -> None:
-    """The first connection is lost while the server bakes, the second before `playing`. Meanwhile the server may have
-    been restarted, and know no job."""
+    """The first connection is lost during the bake, the second before `playing`. If the server has restarted meanwhile,
+    it does not know the job."""
     types: list[str] = []
     unknown = {"type": "error", "error": "BridgeError", "message": "there is no such job."}
 
@@ -329,14 +329,14 @@ def test_bake_continues_after_a_lost_connection(trial: Callable[..., list[str]],
 
 
 def test_frames_without_gains_are_sent_again_after_a_resume(programs: Path, tmp_path: Path) -> None:
-    """The server takes in 3 frames of 6 and answers 2; it repeats the last gains behind `playing`. Later it answers
-    three at once."""
+    """The server receives 3 of 6 frames and answers 2; it repeats the last gains after `playing`. Later it answers
+    three frames at once."""
     frames: list[bytes] = []
     cut: ServerConnection | None = None
 
     def take(connection: ServerConnection, message: str | bytes) -> None:
         nonlocal cut
-        if connection is cut:  # what was on its way
+        if connection is cut:  # sent before the cut
             return
         if isinstance(message, bytes):
             frames.append(message)
@@ -367,7 +367,7 @@ def test_frames_without_gains_are_sent_again_after_a_resume(programs: Path, tmp_
 
 
 def damaged(dice: random.Random, n: int) -> Iterator[str | bytes]:
-    """Messages of a server with something wrong: other types and values, cut texts, other bytes."""
+    """Yield damaged server messages: wrong types and values, cut texts, changed bytes."""
     whole: list[dict[str, Any]] = [
         json.loads(order("order", 2)),
         json.loads(order("playing", 2, re=3)),
@@ -441,13 +441,13 @@ def test_the_frame_of_a_game_allocates_nothing(trial: Callable[..., list[str]]) 
 
     with mock(take) as url:
         of_game, collections = allocated(10_000)
-        # What prints the figure allocates less than that itself, once.
+        # The code that prints the figure allocates less than this, once.
         assert of_game < 1000
-        # On no thread: 60 bytes per frame would fill the nursery of 512 KB.
+        # This covers all threads: 60 bytes per frame would fill the nursery of 512 KB.
         assert collections == 0
         of_game, _ = allocated(1000, "control")
         assert of_game >= 1000 * 16
-    assert types == 2 * ["hello", "play", "leave"]  # the last one by Dispose
+    assert types == 2 * ["hello", "play", "leave"]  # Dispose sends the last "leave"
 
 
 def test_pings_are_answered_and_parts_of_messages_joined(trial: Callable[..., list[str]]) -> None:
@@ -459,11 +459,11 @@ def test_pings_are_answered_and_parts_of_messages_joined(trial: Callable[..., li
             answer = gains(sequence_of(message), 0.5)
             connection.send([answer[:1], b"", answer[1:41], answer[41:]])
         elif json.loads(message)["type"] == "hello":
-            # While the client waits and has nothing to send.
+            # Sent while the client waits and has nothing to send.
             is_answered = connection.ping(b"x" * 125).wait(5)
             answer_as_desk(connection, json.loads(message))
         elif json.loads(message)["type"] == "play":
-            # Longer than 65535 bytes, with characters of several bytes that the parts cut.
+            # Longer than 65535 bytes, with multi-byte characters that the parts split.
             text = order("playing", 2, re=json.loads(message)["id"], objects=["table", "phone"], more="é" * 70_000)
             connection.send([text[:5], text[5:-9], text[-9:]])
         else:
@@ -482,8 +482,8 @@ def test_server_without_websocket_is_reported(trial: Callable[..., list[str]]) -
         (b"", b"\x81\x81\x00\x00\x00\x00a", "a frame that WebSockets do not have"),  # masked
         (b"", b"\x89\x7e\x00\x7e" + bytes(126), "a control frame that is too long"),
         (b"", b"\x09\x00", "a control frame that is too long"),  # in parts
-        (b"", b"\x80\x01a", "parts of messages out of order"),  # the rest of nothing
-        (b"", b"\x01\x01a\x81\x01b", "parts of messages out of order"),  # another begin
+        (b"", b"\x80\x01a", "parts of messages out of order"),  # a continuation without a beginning
+        (b"", b"\x01\x01a\x81\x01b", "parts of messages out of order"),  # a second beginning
         (b"", b"\x83\x00", "parts of messages out of order"),  # an unknown kind
         (b"", b"\x82\x7f" + b"\xff" * 8, "a message of the server is too large"),
         (b"", b"\x82\x7f" + b"\x00\x00\x00\x00\x20\x00\x00\x00", "a message of the server is too large"),
@@ -528,8 +528,10 @@ def test_unsupported_url_scheme_is_reported(trial: Callable[..., list[str]]) -> 
 
 @contextmanager
 def stalled(programs: Path, trial: str) -> Iterator[tuple[list[str], list[int | str], threading.Event]]:
-    """What a client printed that has sent large frames to a server which does not read; what the server reads once the
-    event is set: sequences of frames, and types of requests."""
+    """Run a trial that sends large frames to a server which reads nothing until the event is set.
+
+    Yields the words that the trial printed, what the server reads (frame sequences and request types), and the event.
+    """
     reads = threading.Event()
     seen: list[int | str] = []
 
@@ -610,7 +612,7 @@ def test_invalid_json_is_refused_with_its_position(trial: Callable[..., list[str
 
 
 def test_unity_scene_equals_the_matrix_conversion(trial: Callable[..., list[str]]) -> None:
-    """A point p of Unity's world is M p in a right-handed one, with M = diag(-1, 1, 1), whatever frames lie between."""
+    """A point p of Unity's world is M p in a right-handed world, M = diag(-1, 1, 1), through any nested frames."""
     text = trial("unity-scene", "meshes")
     assert text[1] == "none True"
     scene = json.loads(text[0])
@@ -626,13 +628,13 @@ def test_unity_scene_equals_the_matrix_conversion(trial: Callable[..., list[str]
     frame = affine(item["pose"]["position_m"], item["pose"]["rotation_xyzw"], (1, 1, 1))
     written = np.array(item["geometry"]["vertices_m"])
     np.testing.assert_allclose(moved(frame, written), in_unity @ mirror, atol=1e-5)
-    # The frame itself: its rotation is M R M, its origin M p.
+    # The pose: its rotation is M R M, its origin M p.
     rotation = room[:3, :3] @ turn((0.48, 0.36, 0, 0.8))
     np.testing.assert_allclose(frame[:3, :3], mirror @ rotation @ mirror, atol=1e-6)
     np.testing.assert_allclose(frame[:3, 3], mirror @ wedge[:3, 3], atol=1e-5)
-    # Unity's faces are clockwise seen from outside; (b - a) x (c - a) by components points outwards there, as in the
-    # quad of its manual: corners 0, (0, h, 0), (w, 0, 0) have the normal (0, 0, -1).
-    # Both pieces, the mirrored one too, have their faces outwards: 2 * 1 * 0.5 / 6, scaled by 2 * 0.5 * 1.
+    # Unity's faces are clockwise seen from outside, and (b - a) x (c - a) by components points outwards there. The quad
+    # of Unity's manual shows this: corners 0, (0, h, 0), (w, 0, 0) have the normal (0, 0, -1).
+    # The faces of both pieces, also the mirrored one, point outwards: volume 2 * 1 * 0.5 / 6, scaled by 2 * 0.5 * 1.
     faces = np.array(item["geometry"]["faces"])
     for piece in (faces[:4], faces[4:]):
         a, b, c = written[piece].transpose(1, 0, 2)
@@ -646,7 +648,7 @@ def test_unity_boxes_enclose_their_meshes(trial: Callable[..., list[str]]) -> No
     mug = scene["objects"][2]
     assert mug["geometry"]["kind"] == "box"
     np.testing.assert_allclose(mug["geometry"]["size_m"], (2, 1, 0.5), atol=1e-5)
-    # Centred on the middle of its mesh (1, 0.5, 0.25), one above the room's floor.
+    # Centred on the middle of its mesh (1, 0.5, 0.25), 1 m above the room's origin.
     centre = moved(room @ affine((0, 1, 0), (0, 0, 0, 1), (1, 1, 1)), np.array([[1, 0.5, 0.25]]))[0]
     np.testing.assert_allclose(mug["pose"]["position_m"], centre * (-1, 1, 1), atol=1e-5)
     wedge = scene["objects"][0]
@@ -666,7 +668,7 @@ def test_the_unity_component_drives_both_controllers(trial: Callable[..., list[s
         lines = trial("unity-play", server.url, token=TOKEN)
     assert lines[:2] == ["tracked True", "untracked False"]
     left, right = [float(word) for word in lines[2].split()[1:]]
-    assert 0 < left < right <= 1  # the right hand holds the phone, the left one touches the table 10 cm beside it
+    assert 0 < left < right <= 1  # the right hand holds the phone, the left hand touches the table 10 cm beside it
     assert lines[3:7] == ["removed", "added", "lifted True", "held True"]
     assert not [line for line in lines if line.startswith("logged error")]
 
@@ -701,7 +703,7 @@ def free_port() -> int:
 
 
 def bridge_process(port: int) -> subprocess.Popen[bytes]:
-    """A bridge in a process of its own, that listens."""
+    """Start a bridge in a separate process and wait until it listens."""
     command = [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     for _ in range(300):
@@ -716,7 +718,7 @@ def bridge_process(port: int) -> subprocess.Popen[bytes]:
 
 
 def until(lines: Any, begin: str) -> list[str]:
-    """The lines up to one, or one that begins so and goes on with a space and a number."""
+    """The lines up to the one that equals `begin`, or is `begin` followed by a space and a number."""
     found = []
     for line in lines:
         found.append(line.strip())

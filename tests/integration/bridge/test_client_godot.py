@@ -1,4 +1,4 @@
-"""The client for Godot 3, in a real Godot without a window."""
+"""The client for Godot 3, run in the real engine without a window."""
 
 import json
 import os
@@ -29,7 +29,7 @@ MAIN = Path(__file__).parents[3]
 CLIENT = MAIN / "clients" / "godot3"
 DRIVER = Path(__file__).parent / "godot3"
 GODOT = shutil.which("godot3-server")
-# Godot knows no locale "C", and keeps files of the user below the home folder.
+# Godot does not know the locale "C", and keeps user files below the home folder.
 ENVIRONMENT = {**os.environ, "LC_ALL": "C.UTF-8", "CLIENT": str(CLIENT)}
 
 pytestmark = pytest.mark.skipif(
@@ -38,7 +38,7 @@ pytestmark = pytest.mark.skipif(
 
 
 def godot(*arguments: str, **environment: str) -> str:
-    """What a run of Godot printed; its own warnings go elsewhere."""
+    """Run Godot. Returns its standard output, without its warnings."""
     run = subprocess.run(
         [str(GODOT), *arguments],
         env={**ENVIRONMENT, **environment},
@@ -52,7 +52,7 @@ def godot(*arguments: str, **environment: str) -> str:
 
 
 def drive(scenario: str, **environment: str) -> list[dict[str, Any]]:
-    """The events of a scenario of godot3/driver.gd."""
+    """Run a scenario of godot3/driver.gd. Returns its events."""
     return events_of(godot("--path", str(DRIVER), "--script", "res://driver.gd", SCENARIO=scenario, **environment))
 
 
@@ -65,7 +65,7 @@ def values(events: list[dict[str, Any]], name: str) -> list[list[Any]]:
 
 
 def hex_of_page(before: str) -> str:
-    """The hexadecimal block of the protocol's page behind a sentence."""
+    """The hexadecimal block that follows a sentence on the protocol page."""
     page = (MAIN / "docs" / "bridge-protocol.md").read_text(encoding="utf-8")
     found = re.search(re.escape(before) + r".*?```\n(.*?)```", page, re.DOTALL)
     assert found
@@ -83,7 +83,7 @@ def test_godot_client_plays_the_reference_game() -> None:
     found = check_bridge_client([str(GODOT), "--path", str(CLIENT / "example")], environment={"LC_ALL": "C.UTF-8"})
     assert found.n_frames == 600
     assert found.n_resumed == 1
-    assert found.worst < 1e-9  # what nine digits leave of a single below 1
+    assert found.worst < 1e-9  # the error of nine printed digits of a float below 1
 
 
 def test_godot_client_continues_after_a_server_restart(tmp_path: Path) -> None:
@@ -118,7 +118,7 @@ def test_godot_client_continues_after_a_server_restart(tmp_path: Path) -> None:
 
 
 def start_server(port: int) -> "subprocess.Popen[str]":
-    """A bridge that listens."""
+    """Start a bridge process and wait until it listens."""
     process = subprocess.Popen(
         [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)],
         stdout=subprocess.DEVNULL,
@@ -140,7 +140,7 @@ def test_a_wrong_token_is_an_error_that_does_not_show_it(bridge: Callable[..., B
     ((kind, message, request),) = values(said, "error")
     assert (kind, request) == ("BridgeError", 0)
     assert "token" in message
-    ((reason,),) = values(said, "lost")  # once: another attempt would be refused as well
+    ((reason,),) = values(said, "lost")  # only once, since another attempt would be refused too
     assert "4003" in reason
     assert "another" not in json.dumps(said)
 
@@ -181,7 +181,7 @@ def test_client_supports_every_session_request(bridge: Callable[..., BridgeServe
     assert answers[after["explain"][0]]["text"]
     assert answers[after["stats"][0]]["frames"]["received"] == 3 * 9
     gain, intensity, is_paused, objects = after[""][1:]
-    assert gain == pytest.approx(1.0)  # the hand is on the phone itself
+    assert gain == pytest.approx(1.0)  # the hand touches the phone
     assert 0.0 < intensity <= 1.0
     assert not is_paused
     assert after["set_source"][1] == pytest.approx(10 ** (-6 / 20), rel=1e-3)
@@ -192,7 +192,7 @@ def test_client_supports_every_session_request(bridge: Callable[..., BridgeServe
     assert any(impact["object"] == "table" for (impact,) in values(said, "impact"))
     ((kind, message, request),) = values(said, "error")
     assert (kind, request) == ("BridgeError", after["misspelt"][0])
-    assert "strike" in message  # did you mean
+    assert "strike" in message  # the suggestion "did you mean"
     assert values(said, "playing") == [[False, 0]]
 
 
@@ -236,7 +236,7 @@ ORDER = {
 
 @contextmanager
 def scripted(handle: Callable[[ServerConnection], None], port: int = 0) -> Iterator[str]:
-    """A server that greets each client and then does as `handle` does; its URL."""
+    """Run a server that greets each client, then calls `handle`. Yields its URL."""
     failures: list[BaseException] = []
 
     def handler(ws: ServerConnection) -> None:
@@ -271,7 +271,7 @@ def answer_all(ws: ServerConnection, heard: list[dict[str, Any]]) -> None:
 
 
 def begin(ws: ServerConnection, **order: object) -> dict[str, Any]:
-    """Answer `play`, and return it."""
+    """Answer the `play` request. Returns the request."""
     message: dict[str, Any] = json.loads(ws.recv(10))
     assert message["type"] == "play"
     ws.send(json.dumps({"type": "playing", "re": message["id"], **ORDER, **order}))
@@ -301,15 +301,15 @@ def test_unresponsive_server_gets_only_the_newest_frames() -> None:
         said = drive("flood", SCENE2HAP_URL=url)
     ((n, n_sent, n_replaced),) = values(said, "counted")
     assert n > 200
-    # 16 at once, then one each quarter of a second.
+    # 16 frames at once, then one each quarter of a second.
     assert 18 <= len(frames) <= 21
     assert n_sent == len(frames)
     assert n_replaced >= n - n_sent - 1
     sequences = [frame.sequence for frame in frames]
     assert sequences[:16] == [*range(1, 17)]
     steps = np.diff(sequences[15:])
-    assert (steps > 20).all()  # of those between, none was sent
-    for frame in frames:  # with the pose of its own time
+    assert (steps > 20).all()  # the frames between were not sent
+    for frame in frames:  # each frame has the pose of its time
         assert frame.poses[0, 0] == frame.sequence - 1
 
 
@@ -319,8 +319,8 @@ def test_acknowledged_poses_are_not_sent_again() -> None:
     def handle(ws: ServerConnection) -> None:
         begin(ws)
         n_poses.append(len(next_frame(ws).poses))
-        # An older frame's gains tell nothing of this one's poses.
-        ws.send(struct.pack("<4sBBH", b"S2HB", 9, 1, 0))  # of a later version
+        # The gains of an older frame do not acknowledge the poses of this frame.
+        ws.send(struct.pack("<4sBBH", b"S2HB", 9, 1, 0))  # from a later version
         ws.send("no JSON")
         ws.send(gains_of(1))
         for _ in range(4):
@@ -343,7 +343,7 @@ def test_poses_are_repeated_while_the_server_skips_their_frame() -> None:
     def handle(ws: ServerConnection) -> None:
         begin(ws)
         frames.extend((next_frame(ws), next_frame(ws)))
-        ws.send(gains_of(1))  # they tell nothing of the poses in frame 2, which this server skips
+        ws.send(gains_of(1))  # do not acknowledge the poses of frame 2, which this server skips
         for _ in range(2):
             frames.append(next_frame(ws))
             ws.send(gains_of(frames[-1].sequence, skipped=1))
@@ -408,7 +408,7 @@ def test_requests_carry_all_of_their_values_exactly() -> None:
     assert odd["huge"] == pytest.approx(1.5e300, rel=1e-6)
     assert odd["tiny"] == pytest.approx(1.5e-300, rel=1e-6)
     refused = [one for one in values(said, "error") if one[0] == "TooManyRequests"]
-    assert len(refused) == 6  # 64 of 70 wait
+    assert len(refused) == 6  # of 70 requests, 64 may wait
 
 
 def test_a_freed_node_keeps_its_pose_and_any_name_is_found() -> None:
@@ -434,7 +434,7 @@ def test_a_freed_node_keeps_its_pose_and_any_name_is_found() -> None:
     assert third.poses[:, :3].tolist() == [[7, 8, 9], [1, 2, 3]]
     ((hand, thing, point),) = third.touches.tolist()
     assert (hand, thing, [*point]) == (0, 1, [4, 5, 6])
-    # For the lamp there is no node, so that no poses are sent rather than wrong ones.
+    # There is no node for the lamp, so that the client sends no poses, instead of wrong ones.
     assert len(fourth.poses) == 0
     ((kind, message, _),) = values(said, "error")
     assert kind == "NotTracked"
@@ -442,7 +442,7 @@ def test_a_freed_node_keeps_its_pose_and_any_name_is_found() -> None:
 
 
 def test_the_client_for_godot_4_has_the_same_interface() -> None:
-    """All that can be said of it here: there is no Godot 4 to run it."""
+    """Only the interface is compared, since there is no Godot 4 to run the client."""
 
     def interface(client: str) -> list[str]:
         text = (MAIN / "clients" / client / "scene2hap_client.gd").read_text(encoding="utf-8")
@@ -471,7 +471,7 @@ def test_nodes_become_closed_meshes_and_boxes() -> None:
             np.testing.assert_allclose(item.pose.position_m, (1, 2, 3), atol=1e-6)
             np.testing.assert_allclose(matrix(item.pose.rotation_xyzw), rotation, atol=1e-6)
         mesh = scene.object(name).geometry
-        # A cuboid, and a prism of half the volume of its box; a mesh inside out has a volume below 0.
+        # A cuboid and a prism of half the volume of its box; a mesh inside out would have a negative volume.
         expected = size.prod() + np.abs(scale).prod() * 0.3 * 0.2 * 0.1 / 2
         assert volume(mesh) == pytest.approx(expected, rel=1e-5)
         box = scene.object(name + " box").geometry
@@ -493,7 +493,7 @@ def volume(mesh: Any) -> float:
 
 
 def turned(x: float, y: float, z: float) -> Any:
-    """Godot's rotation by three angles: about Z, then X, then Y."""
+    """Godot's rotation matrix for three angles: about Z, then X, then Y."""
 
     def about(axis: int, angle: float) -> Any:
         found = np.eye(3)

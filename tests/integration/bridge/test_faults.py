@@ -1,4 +1,4 @@
-"""What goes wrong between a client and a bridge: a clear error, and everybody else plays on."""
+"""Faults between a client and a bridge: each gives a clear error, and other clients play on."""
 
 import json
 import os
@@ -30,7 +30,7 @@ NO_POSES = np.empty((0, 7), np.float32)
 
 
 def closing_of(url: str, first: str | bytes | None, **options: Any) -> tuple[int, str, str]:
-    """How the server closes a connection whose first message this is: code, reason, and what it said before."""
+    """Send a first message. Returns the code and reason with which the server closes, and its text messages before."""
     with connect(url, **options) as raw:
         if first is not None:
             raw.send(first)
@@ -177,7 +177,7 @@ def test_client_that_does_not_read_is_disconnected(bridge: Bridge) -> None:
                 if sequence % 2:
                     player.say("set_source", source="phone", gain_db=-float(sequence % 7))
                 player.next_gains()
-            # The player is not held up; what waits for the other is one message of gains.
+            # The player is not delayed; at most one message of gains waits for the other client.
             (other,) = [one for one in server.connections if one.client.watched is not None]
             assert other.client.n_waiting <= 1
             raw.close()
@@ -199,7 +199,7 @@ def test_a_dead_connection_is_noticed_by_its_heartbeat(bridge: Bridge) -> None:
         b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
         b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
     )
-    assert b"s3pPLMBiTxaQ9kYGzzhZRbK+xOo=" in raw.recv(4096)  # the answer of RFC 6455, section 1.3
+    assert b"s3pPLMBiTxaQ9kYGzzhZRbK+xOo=" in raw.recv(4096)  # the accept value of RFC 6455, section 1.3
     text = hello().encode()
     mask = b"\x01\x02\x03\x04"
     assert len(text) < 126
@@ -210,13 +210,13 @@ def test_a_dead_connection_is_noticed_by_its_heartbeat(bridge: Bridge) -> None:
     assert len(server.connections) == 1
     until = time.monotonic() + 5
     while server.connections and time.monotonic() < until:
-        time.sleep(0.01)  # pings are never answered
+        time.sleep(0.01)  # the client never answers pings
     assert not server.connections
     raw.close()
 
 
 def test_random_and_mutated_messages(bridge: Bridge) -> None:
-    """The same as `stress/bridge.py`, which sends a hundred thousand."""
+    """A short form of `stress/bridge.py`, which sends a hundred thousand messages."""
     rng = random.Random(0)
     server = bridge()
     with Client(server.url) as honest:
@@ -226,7 +226,7 @@ def test_random_and_mutated_messages(bridge: Bridge) -> None:
         for turn in range(500):
             try:
                 client.socket.send(mutated(client, rng))
-                if turn % 20 == 0:  # the server drops who does not read
+                if turn % 20 == 0:  # the server drops clients that do not read
                     client.ask("stats")
             except ConnectionClosed:
                 client = Client(server.url)
@@ -237,7 +237,7 @@ def test_random_and_mutated_messages(bridge: Bridge) -> None:
 
 
 def mutated(client: Client, rng: random.Random) -> str | bytes:
-    """A message that is nearly right, or not at all."""
+    """A message that is nearly valid, or random bytes."""
     texts = [
         {"type": "set_source", "source": "phone", "gain_db": -3.0, "id": 4},
         {"type": "strike", "object": "table", "point_m": [0.0, 0.72, 0.0], "speed_m_s": 1.0},
@@ -262,7 +262,7 @@ def mutated(client: Client, rng: random.Random) -> str | bytes:
 
 @contextmanager
 def program(*words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """`scene2hap bridge` as a program of its own, and its address."""
+    """Run `scene2hap bridge` as a program. Yields its process and its address."""
     command = [sys.executable, "-m", "scene2hap", "bridge", *words]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
     try:

@@ -1,4 +1,4 @@
-"""Sessions over a bridge: what clients send is what a session in this process would be given."""
+"""Sessions over a bridge: the inputs of clients have the same effect as in a local session."""
 
 import socket
 import sys
@@ -49,7 +49,7 @@ def test_gains_over_the_bridge_equal_a_local_session(bridge: Bridge, desk: Hapti
         for i in range(20):
             x = 0.2 - 0.02 * i
             client.socket.send(client.frame(i + 1, i / 60, poses("phone", "mug", phone=(x, 0.724, 0.1)), [ON_TABLE]))
-            sent = np.array([x, 0.724, 0.1], np.float32).tolist()  # in single precision
+            sent = np.array([x, 0.724, 0.1], np.float32).tolist()  # frames have single precision
             here = session.update({"phone": Pose(tuple(sent))}, [ON_TABLE])
             found = client.next_gains()
             assert (found.sequence, found.time_s, found.layout) == (i + 1, i / 60, 1)
@@ -136,7 +136,7 @@ def test_states_levels_and_pauses(bridge: Bridge) -> None:
 def test_objects_come_and_go_and_frames_on_the_way_are_read(bridge: Bridge, desk: HapticBundle) -> None:
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=["phone", "mug"])
-        # Written before the mug goes, read after: its pose and the touch of it are left out.
+        # Encoded before the mug is removed, read afterwards: its pose and touch are ignored.
         late = client.frame(2, 0.02, poses("phone", "mug"), [ON_TABLE, Touch("right", "mug", (-0.3, 0.81, 0.0))])
         order = client.ask("remove", object="mug")
         assert (order["layout"], order["objects"]) == (2, ["phone", "table"])
@@ -364,7 +364,7 @@ def test_frames_by_udp(bridge: Bridge) -> None:
 
 
 class ClockedSink:
-    """Takes blocks of 10 ms in its own time, as a sound card does, and keeps them with their time."""
+    """A sink that takes blocks of 10 ms on its own clock, like a sound card, and stores them with their times."""
 
     def __init__(self) -> None:
         self.blocks: list[tuple[float, Block]] = []
@@ -410,13 +410,13 @@ def test_the_server_s_sink_falls_silent_when_its_player_is_killed(bridge: Bridge
                 break
         killed_s = time.monotonic()
         client.socket.socket.close()
-        # The watchdog of a session shuts after 0.1 s, and fades; a busy machine takes longer to run it.
+        # The watchdog of a session fades out after 0.1 s; a busy machine may run it later.
         while time.monotonic() < killed_s + 2.0:
             time.sleep(0.05)
         late = [np.abs(block).max() for at_s, block in sink.blocks if at_s > killed_s + 1.0]
         assert max(np.abs(block).max() for at_s, block in sink.blocks if at_s < killed_s) > 0.01
         assert late
         assert max(late) == 0.0
-        # A session that waits for its player gives the sink to another.
+        # A session that waits for its player releases the sink to another session.
         other.ask("leave")
         assert other.play(bundle="desk.bundle")["sink"] == "ClockedSink"

@@ -1,4 +1,4 @@
-"""A token in the environment, a cache of each test's own, and no proxies."""
+"""Environment of the tests: a token, a separate cache for each test, and no proxies."""
 
 from __future__ import annotations
 

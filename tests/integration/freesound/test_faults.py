@@ -1,4 +1,4 @@
-"""What the service can do wrong."""
+"""Faults of the Freesound service: errors, retries and timeouts."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_invalid_response_is_a_bad_answer(tmp_path: Path, page: Page) -> None:
 def test_stalled_server_runs_into_the_timeout(tmp_path: Path, manner: str) -> None:
     error, _, time = failed(tmp_path, Page(manner=manner), timeout_s=0.2)
     assert "did not answer within 0.2 s" in str(error)
-    assert time.slept == [0.5, 1.0]  # a busy server may not have read a request that was given up
+    assert time.slept == [0.5, 1.0]  # retried, since a busy server may not have read the first request
 
 
 def test_endless_response_is_cut_off(tmp_path: Path) -> None:

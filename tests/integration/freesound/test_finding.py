@@ -1,4 +1,4 @@
-"""Freesound against two servers on the loopback interface: the API on 127.0.0.1, previews on localhost."""
+"""Freesound searches, with two loopback servers: the API on 127.0.0.1, previews on localhost."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Licences, titles, addresses and previews that strangers have written."""
+"""Untrusted search results: licences, titles, addresses and previews."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the token goes, and where it must not."""
+"""The Freesound token is sent only to the API host, and never shown."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
 
 
 def test_token_is_sent_only_to_the_api_host(tmp_path: Path) -> None:
-    """Not to the previews' host, nor to where that one sends us, nor to where the API itself does."""
+    """It is not sent to the host of the previews, nor to a target of a redirect."""
     with host(Page(hum())) as third:
         moved = Page(b"", 302, {"location": f"http://localhost:{third.port}/a.ogg"})
         with catalogue({}, sound=moved) as (api, cdn):

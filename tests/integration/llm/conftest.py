@@ -1,4 +1,4 @@
-"""No proxy and no key from the surroundings."""
+"""Remove proxies and keys from the environment of all tests."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""docs/backends.md names every option and every fault that is played."""
+"""docs/backends.md describes every option of the backends."""
 
 import inspect
 from pathlib import Path

@@ -1,7 +1,7 @@
-"""Each fault several times at once through the standard stack; `stress/inference_faults.py` does the same fifty times.
+"""Each fault, several times concurrently, through the standard LLM stack; `stress/inference_faults.py` does fifty.
 
-Each request ends in a valid answer or in its own error, an answer that was received is never asked for again, and the
-key is in no error, traceback, log, warning, cache file or recording.
+Each request ends in a valid answer or in an error of the library. A received answer is never requested again. The key
+is in no error, traceback, log, warning, cache file or recording.
 """
 
 import asyncio

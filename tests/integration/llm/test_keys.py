@@ -1,4 +1,4 @@
-"""The key reaches the header of a request and nothing else."""
+"""The API key is sent only in the header of a request, and appears nowhere else."""
 
 import json
 import logging
@@ -29,7 +29,7 @@ def test_key_is_read_from_the_environment_at_call_time(monkeypatch: pytest.Monke
         backend = openai(server, api_key=None)
         with pytest.raises(BackendUnavailable, match="Set OPENAI_API_KEY") as caught:
             ask(backend)
-        monkeypatch.setenv("OPENAI_API_KEY", f"{KEY}\n")  # as `cat` leaves it
+        monkeypatch.setenv("OPENAI_API_KEY", f"{KEY}\n")  # with the line break of `cat`
         ask(backend)
     assert not caught.value.retryable
     assert [asked.headers["authorization"] for asked in server.asked] == [f"Bearer {KEY}"]
@@ -43,7 +43,7 @@ def test_key_with_a_line_break_is_not_quoted() -> None:
 
 
 def test_key_that_a_server_echoes_in_a_header(caplog: pytest.LogCaptureFixture) -> None:
-    """The HTTP library logs the headers of replies as they came."""
+    """The HTTP library logs the headers of replies unchanged."""
     with caplog.at_level(logging.DEBUG):
         assert "Request id ******." in str(failed(refused(401, "no", x_request_id=KEY)))
     assert "request id ******" in caplog.text
@@ -52,7 +52,7 @@ def test_key_that_a_server_echoes_in_a_header(caplog: pytest.LogCaptureFixture) 
 
 
 def test_key_echoed_by_a_server_is_removed_everywhere(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    """In no error, repr, log, answer, cache file or recording."""
+    """The key is in no error, repr, log, answer, cache file or recording."""
     shown: list[str] = []
     refusals = [
         refused(401, {"message": f"Incorrect API key provided: {KEY}", "code": KEY}),
@@ -73,7 +73,7 @@ def test_key_echoed_by_a_server_is_removed_everywhere(tmp_path: Path, caplog: py
             shown += [str(error), repr(error), repr(vars(error)), repr(error.__cause__)]
         shown += [ask(stack).text, repr(stack), repr(backend), repr(vars(backend)), str(backend.identity)]
     files = [path for path in tmp_path.rglob("*") if path.is_file()]
-    assert len(files) == 3  # a recording, an answer, and the empty file of its lock
+    assert len(files) == 3  # a recording, an answer, and an empty lock file
     shown += [path.read_text(encoding="utf-8") for path in files]
     shown.append(caplog.text)
     assert "httpcore" in caplog.text
@@ -96,7 +96,7 @@ def test_redirects_are_not_followed_with_the_key() -> None:
 
 
 def test_no_key_in_a_bundle_or_its_configuration(tmp_path: Path) -> None:
-    """The model echoes the key in each text that it writes; nothing of it is in what a bake leaves behind."""
+    """The model echoes the key in each text of its answers; the saved bundle contains no key."""
 
     async def echo(asked: LLMRequest) -> str:
         answer = json.loads((await LexiconBackend().complete(asked)).text)

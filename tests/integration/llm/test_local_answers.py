@@ -1,4 +1,4 @@
-"""Local servers that ignore the schema under status 200."""
+"""Answers of local servers that ignore the schema, with status 200."""
 
 import json
 

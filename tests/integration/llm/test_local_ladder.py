@@ -1,4 +1,4 @@
-"""Local servers that reject the form of the answer are asked for less, and remembered."""
+"""Local servers that reject an answer format are sent a simpler format, which is remembered."""
 
 import json
 
@@ -147,7 +147,7 @@ def test_settings_are_passed_on() -> None:
         "top_p": 0.9,
         "reasoning_effort": "none",
         "chat_template_kwargs": {"enable_thinking": False},
-        "extra": {"cache_prompt": False},  # with it llama.cpp's answers differ from run to run
+        "extra": {"cache_prompt": False},  # with the prompt cache, answers of llama.cpp differ between runs
         "max_tokens": 300,
         "seed": 7,
     }
@@ -160,12 +160,12 @@ def test_settings_are_passed_on() -> None:
     }
     assert sent["cache_prompt"] is False
     assert not {"top_p", "reasoning_effort", "chat_template_kwargs", "cache_prompt"} & set(server.bodies[1])
-    # What servers assume otherwise: a temperature of 1 (Ollama's /v1) and answers without an end.
+    # Without these, servers use a temperature of 1 (Ollama's /v1) and unlimited answers.
     assert {"temperature", "max_tokens", "seed"} <= set(server.bodies[1])
 
 
 def test_pictures_go_as_data_and_never_as_addresses() -> None:
-    """Ollama answers 400 to an address, and a server elsewhere could not follow it."""
+    """Ollama answers 400 to an image address, and a remote server could not open it."""
     with serving(said()) as server:
         ask(local(server), request(images=(PNG, PNG)))
     parts = server.bodies[0]["messages"][0]["content"][1:]

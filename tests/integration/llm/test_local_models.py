@@ -1,4 +1,4 @@
-"""Which model a local server serves, and whether it sees: asked of the server itself."""
+"""Detection of a local server's model and of its vision support, by requests to the server."""
 
 import asyncio
 import json
@@ -129,7 +129,7 @@ def test_capabilities_are_read_from_show_of_older_ollama(capabilities: list[str]
 
 
 def test_openai_endpoint_of_ollama_warns() -> None:
-    """There each picture is a message of its own, and the first are dropped where they do not fit."""
+    """At this endpoint each image becomes a separate message, and the first ones are dropped if they do not fit."""
     with serving(said(), pages=models({"id": "llava", "owned_by": "library"})) as server:
         backend = local(server)
         with pytest.warns(BackendWarning, match="Use dialect='ollama'"):

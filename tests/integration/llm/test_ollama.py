@@ -1,4 +1,4 @@
-"""Ollama, spoken to in its own chat."""
+"""Ollama through its native chat interface."""
 
 import base64
 

@@ -1,4 +1,4 @@
-"""What OpenAI says that must not be parsed, in the order in which it is looked at."""
+"""Replies of OpenAI that must not be parsed, in the order in which they are checked."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Failures of OpenAI: which may be retried, and when."""
+"""Failures of OpenAI: which are retryable, and after which delay."""
 
 import dataclasses
 import logging
@@ -61,7 +61,7 @@ def test_silence_is_a_timeout_that_can_be_retried() -> None:
 
 
 def test_slow_trickle_is_a_timeout() -> None:
-    """Each byte comes in time, the answer does not."""
+    """Each byte comes in time, but the whole answer does not."""
     dripping = dataclasses.replace(said(), drip_s=5.0)
     error = failed(dripping, timeout_s=0.1)
     assert error.retryable

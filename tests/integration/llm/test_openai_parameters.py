@@ -1,4 +1,4 @@
-"""Parameters that newer models of OpenAI refuse: dropped or renamed once, remembered, warned of."""
+"""Parameters that newer OpenAI models refuse are dropped or renamed once, with a warning, and remembered."""
 
 import asyncio
 import warnings
@@ -52,7 +52,7 @@ def test_top_p_is_sent_on_request_and_dropped_when_refused() -> None:
 
 
 def test_reasoning_effort_is_sent_and_never_dropped() -> None:
-    """With "none" gpt-5.1 to 5.6 take a temperature; who asked for an effort is told where the model has none."""
+    """With "none", gpt-5.1 to 5.6 accept a temperature. A model without reasoning effort raises an error."""
     with openai_serving(said(), no_parameter("reasoning_effort")) as server:
         backend = openai(server, model="gpt-5.4", reasoning_effort="none")
         ask(backend)

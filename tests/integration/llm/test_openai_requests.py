@@ -1,4 +1,4 @@
-"""What OpenAIBackend sends: to the letter of the published schema."""
+"""Requests of OpenAIBackend follow the published schema."""
 
 import base64
 import json
@@ -28,7 +28,7 @@ def test_request_bodies_fit_the_openai_schema(component: Any, settings: dict[str
     with openai_serving(said()) as server:
         ask(openai(server, **settings), request(component, images=(PNG, PNG)))
     assert_openai_takes(server.bodies[0])
-    assert server.asked[0].path == "/v1/chat/completions"  # not /v1/responses, which no local server holds to a schema
+    assert server.asked[0].path == "/v1/chat/completions"  # not /v1/responses, where no local server enforces a schema
     assert re.fullmatch(r"[A-Za-z0-9_-]{1,64}", server.bodies[0]["response_format"]["json_schema"]["name"])
 
 
@@ -69,7 +69,7 @@ def billed(prompt_tokens: int) -> Scripted:
 
 @pytest.mark.parametrize(("detail", "tokens"), [("low", 20_000), ("high", 150_000)])
 def test_pictures_billed_as_text_warn(detail: Any, tokens: int) -> None:
-    """gpt-5.4-mini was seen to bill the base64 of pictures as text: 8 tokens for each dozen characters."""
+    """gpt-5.4-mini has billed the base64 of images as text: 8 tokens for each 12 characters."""
     with openai_serving(billed(tokens)) as server:
         backend = openai(server, detail=detail)
         with pytest.warns(BackendWarning, match=f"billed {tokens} tokens .* 2 pictures"):
@@ -78,7 +78,7 @@ def test_pictures_billed_as_text_warn(detail: Any, tokens: int) -> None:
 
 
 def test_plausible_picture_costs_do_not_warn() -> None:
-    """gpt-4o-mini at its dearest: 2,833 tokens a picture, or 48,169 for eight tiles; and prompts without pictures."""
+    """The highest cost of gpt-4o-mini: 2,833 tokens an image, or 48,169 for eight tiles; and prompts without images."""
     with openai_serving(billed(2 * 2_833 + 40), billed(2 * 48_169 + 40), billed(90_000)) as server:
         ask(openai(server), request(images=(PNG, PNG)))
         ask(openai(server, detail="high"), request(images=(PNG, PNG)))

@@ -1,4 +1,4 @@
-"""A rate limit counts the requests of all lanes together, so all lanes wait."""
+"""Rate limits: the limit counts all concurrent requests together, so all of them wait."""
 
 import asyncio
 import contextlib
@@ -24,7 +24,7 @@ def limited(**headers: str) -> Scripted:
 
 
 def timed(script: Callable[[int], Scripted]) -> tuple[list[float], Callable[[Asked], Scripted]]:
-    """When each request came, and a script by its number."""
+    """The arrival times of requests (a list that grows), and a script that selects the reply by request number."""
     came_s: list[float] = []
 
     def answer(_: Asked) -> Scripted:
@@ -81,7 +81,7 @@ def test_exhausted_limit_in_a_reply_delays_the_next_request() -> None:
     ids=["no header", "too long", "no money", "our fault", "some left", "answered, too long"],
 )
 def test_invalid_pause_does_not_delay_requests(reply: Scripted) -> None:
-    """The second request goes at once; a pause of a minute would run into the timeout of the test."""
+    """The second request is sent at once; a pause of a minute would exceed the timeout of the test."""
     with openai_serving(reply, said()) as server:
         backend = openai(server)
 
@@ -102,7 +102,7 @@ def test_reset_after_hours_is_not_waited_for() -> None:
 
 
 def test_eight_concurrent_calls_pass_a_limit_of_one_request_per_window() -> None:
-    """Whoever is sent away seven times is served in the end, and nobody asks while the window is shut."""
+    """Every call succeeds in the end, even after seven refusals, and calls wait while the window is closed."""
     window_s = 0.1
     passed_s: list[float] = []
     sent_away = 0
@@ -124,6 +124,6 @@ def test_eight_concurrent_calls_pass_a_limit_of_one_request_per_window() -> None
 
         asyncio.run(all_at_once())
     assert len(passed_s) == 8
-    # Seven at the first window, six at the second, ...: a lane on its own would ask again and again within one. Twice
-    # as many leaves room for windows that open between two requests.
+    # Seven refusals in the first window, six in the second, ...; independent calls would retry many times within one.
+    # The factor 2 allows for windows that open between two requests.
     assert sent_away <= 2 * sum(range(8))

@@ -1,4 +1,4 @@
-"""The flex tier: half the price, and an answer all the same where the tier has none to give."""
+"""The flex service tier: half the price, with a fallback to the standard tier without capacity."""
 
 import asyncio
 from typing import Any
@@ -112,7 +112,7 @@ def test_concurrent_calls_fall_back_independently() -> None:
 @pytest.mark.parametrize(
     ("tier", "cached", "dollars"),
     [
-        # By hand, for gpt-5: 1.25 in, 0.125 cached, 10 out per million.
+        # Computed by hand for gpt-5: 1.25 in, 0.125 cached, 10 out, in dollars per million tokens.
         ("default", 0, 2000 * 1.25e-6 + 100 * 10e-6),
         ("flex", 0, (2000 * 1.25e-6 + 100 * 10e-6) / 2),
         ("default", 1024, 976 * 1.25e-6 + 1024 * 0.125e-6 + 100 * 10e-6),

@@ -1,4 +1,4 @@
-"""Settings of backends that cannot work."""
+"""Invalid settings of LLM backends are refused."""
 
 from typing import Any
 

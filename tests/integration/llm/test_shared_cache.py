@@ -1,4 +1,4 @@
-"""Several runs at once on one folder of a cache."""
+"""Several concurrent runs with one cache folder."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-"""A whole scene inferred over HTTP."""
+"""Inference of a whole scene over HTTP."""
 
 import dataclasses
 import json
@@ -20,7 +20,7 @@ from scenes import box, scene
 
 @pytest.mark.parametrize("dialect", ["openai", "ollama", "OpenAI itself"])
 def test_scene_inferred_over_http_equals_direct_inference(dialect: str) -> None:
-    """The lexicon plays the model: it answers the same questions once directly and once behind a server."""
+    """The lexicon acts as the model: it answers the same requests directly and through a server."""
     kitchen = scene(box("fridge", (0.7, 1.8, 0.7), (0.4, 0.9, 0.4)), box("phone", (0.1, 0.01, 0.1), (3.0, 0.7, 0.4)))
     spoken: dict[str, Any] = {}
 

@@ -1,4 +1,4 @@
-"""Folders of each test's own, and where the fake generator notes its runs."""
+"""Separate folders for each test, and the file in which the fake generator records its runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""TextToAudio against a real process: a fake generator that does as it is told."""
+"""TextToAudio with a real process: a fake generator that works."""
 
 from __future__ import annotations
 

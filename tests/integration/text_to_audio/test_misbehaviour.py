@@ -1,4 +1,4 @@
-"""Programs that hang, die, write too much or break the contract; and settings that cannot work."""
+"""Generators that hang, crash, write too much or break the contract; and invalid settings."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_child_processes_of_a_generator_are_killed(tmp_path: Path, timeout_s: fl
 
 
 def is_running(process: int) -> bool:
-    """Whether a process is there and not merely waiting for somebody to note its end."""
+    """Whether a process exists and is not a zombie."""
     try:
         stat = Path(f"/proc/{process}/stat")
         if Path("/proc/self/stat").exists():

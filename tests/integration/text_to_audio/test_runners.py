@@ -1,4 +1,4 @@
-"""The runners that come along, with stand-ins for the libraries of their models."""
+"""The included runners, with stubs of their models' libraries."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def test_runners_explain_and_check_themselves_without_a_model(tmp_path: Path, ru
     check = json.loads(subprocess.run([*script, "--check"], capture_output=True, text=True, check=True).stdout)
     assert (check["contract"], check["version"]) == ("scene2hap/text-to-audio", 1)
     assert check["rehearsal"] == "passed"
-    assert "torch" in check["missing"]  # -S hides whatever is installed
+    assert "torch" in check["missing"]  # -S hides installed packages
     assert subprocess.run(script, capture_output=True).returncode == 2
 
 
@@ -96,7 +96,7 @@ class StableAudioModel:
     ("runner", "package", "code", "rate", "licence", "peak"),
     [
         ("audiogen", "audiocraft/models.py", AUDIOCRAFT, 16000, "CC-BY-NC-4.0", 0.5),
-        # Twice full scale on the left, silence on the right: scaled down to 1, mixed to 1/2.
+        # Twice full scale on the left, silence on the right: scaled to 1, and mixed to 1/2.
         ("stable_audio", "stable_audio_3.py", STABLE_AUDIO, 44100, "Stability AI Community License", 0.5),
     ],
 )
@@ -110,7 +110,7 @@ def test_runners_call_their_libraries_as_documented(
     licence: str,
     peak: float,
 ) -> None:
-    """The libraries are played by stand-ins that take just the arguments of their documentation."""
+    """The stubs of the libraries accept only the arguments of their documentation."""
     module = tmp_path / "site" / package
     module.parent.mkdir(parents=True)
     module.write_text(code)

@@ -1,4 +1,4 @@
-"""Sounds by name: those that the tests make, and recordings that are kept beside the repository and not in it."""
+"""Sounds by name: synthetic ones made by the tests, and recordings in `../shared`."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ def test_trim_silence_removes_digital_silence_and_dither(x: np.ndarray) -> None:
     [
         ("sine", tone(100), 0.0, 0.05),
         ("white noise", WHITE, 0.3, 0.15),
-        # Falling steadily by 20 dB: 85 % of the fall lies between the percentiles.
+        # A steady fall by 20 dB: 85 % of the fall lies between the percentiles.
         ("20 dB decay", tone(200) * 10 ** (-T / 5), 17.0, 0.3),
         # Level 20 log10(1 + m cos): an arcsine law in the envelope; P95 at cos(0.05 pi), P10 at cos(0.9 pi), m = 1/3.
         (
@@ -121,7 +121,7 @@ def test_band_above_half_the_sample_rate_is_refused() -> None:
 def test_dominant_frequency_finds_a_tone_in_noise(frequency_hz: float, duration_s: float, tolerance_hz: float) -> None:
     n = round(duration_s * RATE)
     x = tone(frequency_hz)[:n] + 0.05 * WHITE[:n] + 3.0
-    # A quarter of a second holds five cycles of 20 Hz: there the mirror image at -20 Hz leans on the peak.
+    # A quarter of a second holds five cycles of 20 Hz, where the mirror image at -20 Hz shifts the peak.
     slack = 4 if frequency_hz * duration_s < 8 else 1
     assert analysis.dominant_frequency_hz(x, RATE) == pytest.approx(frequency_hz, abs=slack * tolerance_hz)
 
@@ -139,10 +139,10 @@ def test_a_wider_range_finds_the_peak_of_the_raw_sound() -> None:
 
 
 RECORDED = {
-    # What SOURCE.md beside them says; an octave error would be off by half or double.
+    # From SOURCE.md beside the recordings; an octave error would halve or double the value.
     "fridge_hum_kitchen.wav": (59.0, 1.0),
     "oven_hum.wav": (100.0, 0.5),
-    # A motor on European mains; and the strongest third octave of a bank of Butterworth filters (stress/audio.py).
+    # A motor on European mains; for the fan, the strongest third octave of Butterworth filters (stress/audio.py).
     "washing_machine_rinse.wav": (100.0, 0.5),
     "computer_fan_hum.wav": (39.8, 5.0),
 }

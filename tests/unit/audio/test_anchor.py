@@ -1,4 +1,4 @@
-"""The frequency that stands for a source: strong in its own spectrum, and within reach of touch."""
+"""The anchor, the frequency that represents a source: strong in its spectrum, and in the range of touch."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def tones(**amplitudes: float) -> np.ndarray:
 
 
 def test_anchor_is_the_component_that_is_felt_most() -> None:
-    """40 Hz is the strongest, and needs more than full scale to be felt at that level."""
+    """40 Hz is the strongest, but would need more than full scale to be felt at the requested level."""
     level_db = sensation_level_db(0.5)
     found = anchor_of(tones(f40=0.5, f150=0.3, f260=0.2), RATE, level_db, actuator_profile("flat"))
     assert found is not None
@@ -33,7 +33,7 @@ def test_anchor_is_the_component_that_is_felt_most() -> None:
 
 
 def test_anchor_is_the_strongest_component_if_its_level_is_hardly_missed() -> None:
-    """By a decibel and a half it stays; by four the next one is felt instead."""
+    """With 1.5 dB missing, the strongest component stays the anchor; with 4 dB missing, the next one is."""
     x = tones(f105=0.5, f220=0.15)
     for missed_db, expected_hz in ((1.5, 105.0), (4.0, 220.0)):
         level_db = HIGHEST_PEAK_DB + missed_db - float(threshold_db(105.0))
@@ -43,7 +43,7 @@ def test_anchor_is_the_strongest_component_if_its_level_is_hardly_missed() -> No
 
 
 def test_anchor_is_not_a_component_14_db_below_the_strongest() -> None:
-    """A hum of 50 Hz stays one, though less is felt of it, where all else is 14 dB and more below."""
+    """A hum of 50 Hz stays the anchor, though it is felt less, if all other components are 14 dB or more below."""
     level_db = sensation_level_db(0.5)
     for faint_db, expected_hz in ((-12.0, 250.0), (-16.0, 50.0)):
         x = tones(f50=0.5, f250=0.5 * 10 ** (faint_db / 20))
@@ -59,7 +59,7 @@ def test_anchor_is_not_a_component_14_db_below_the_strongest() -> None:
 def test_anchors_of_recordings_are_within_14_db_of_the_strongest_component(
     sound: Callable[[str], AudioClip], name: str, actuator: str
 ) -> None:
-    """Within 14 dB of the strongest that the actuator renders, by a plain spectrum of the whole; it was up to 21."""
+    """Measured with a plain spectrum of the whole recording; in an earlier version it was up to 21 dB."""
     clip, profile = sound(name), actuator_profile(actuator)
     x = clip.samples.astype(float)
     magnitude = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(len(x))))
@@ -75,8 +75,8 @@ def test_anchors_of_recordings_are_within_14_db_of_the_strongest_component(
 @pytest.mark.parametrize(
     ("amplitudes", "felt_hz", "rough_hz"),
     [
-        ({"f40": 0.5, "f150": 0.3}, 150.0, 40.0),  # an engine, of which the firing cannot be felt as a tone
-        ({"f40": 0.3, "f150": 0.4}, 150.0, None),  # the strongest is felt as itself
+        ({"f40": 0.5, "f150": 0.3}, 150.0, 40.0),  # an engine whose firing cannot be felt as a tone
+        ({"f40": 0.3, "f150": 0.4}, 150.0, None),  # the strongest component is felt as a tone
         ({"f200": 0.5, "f320": 0.3}, 200.0, None),
         ({"f12": 0.5, "f150": 0.3}, 150.0, None),  # too slow for roughness
     ],
@@ -93,10 +93,10 @@ def test_tone_too_low_to_be_felt_is_rendered_as_roughness(
 @pytest.mark.parametrize(
     ("amplitudes", "actuator", "own_hz", "carrier_hz", "rough_hz"),
     [
-        ({"f30": 0.5}, "flat", 30.0, 250.0, 30.0),  # too weak as itself, and slow enough for roughness
-        ({"f80": 0.5}, "flat", 80.0, None, None),  # the actuator plays it, if weaker than asked
+        ({"f30": 0.5}, "flat", 30.0, 250.0, 30.0),  # too weak as a tone, and slow enough for roughness
+        ({"f80": 0.5}, "flat", 80.0, None, None),  # the actuator plays it, but weaker than requested
         ({"f80": 0.5}, "lra", 80.0, 175.0, None),
-        ({"f50": 0.5, "f180": 0.05}, "lra", 50.0, 175.0, 50.0),  # 20 dB below is not what it is known by
+        ({"f50": 0.5, "f180": 0.05}, "lra", 50.0, 175.0, 50.0),  # a component 20 dB below is not the anchor
         ({"f50": 0.5, "f180": 0.2}, "lra", 180.0, None, 50.0),
         ({"f3000": 0.5}, "flat", 3000.0, 250.0, None),
         ({"f3000": 0.5, "f120": 0.1}, "flat", 120.0, None, None),  # a hum under a whine
@@ -117,7 +117,7 @@ def test_tone_that_cannot_be_felt_is_moved_to_the_best_frequency_of_the_actuator
 @pytest.mark.parametrize("slope", [0.0, 1.0])
 @pytest.mark.parametrize("seed", range(4))
 def test_noise_is_anchored_in_a_band_that_reaches_the_requested_level(slope: float, seed: int) -> None:
-    """The highest peak of a noise is random: a pink noise was felt 10 dB weaker than requested, and rough at 25 Hz."""
+    """The highest peak of noise is random: in an earlier version pink noise was felt 10 dB too weak and as rough."""
     clip = AudioClip(0.1 * coloured_noise(np.random.default_rng(seed), 5 * RATE, slope), RATE)
     (plan,) = plan_scene([SourceClip(clip, 0.3)], CONVERTERS.build("auto"), actuator_profile("flat"))
     assert plan.context.rough_hz is None
@@ -128,7 +128,7 @@ def test_noise_is_anchored_in_a_band_that_reaches_the_requested_level(slope: flo
 
 @pytest.mark.parametrize("seed", range(3))
 def test_anchor_of_a_hiss_is_not_the_rumble_of_its_recording(seed: int) -> None:
-    """In an earlier version a peak at 20 Hz, 38 dB weaker, made a band at 160 Hz the anchor, which is not felt."""
+    """In an earlier version a peak at 20 Hz, 38 dB weaker, made a band at 160 Hz the anchor, which cannot be felt."""
     rng, rate = np.random.default_rng(seed), 32_000
     rumble = 0.01 * coloured_noise(rng, 4 * rate, 2.0)
     found = anchor_of(band_noise(rng, 4 * rate, rate, 2000.0, 8000.0) + rumble, rate, 22.0, actuator_profile("flat"))
@@ -155,7 +155,7 @@ def test_moved_tone_reaches_the_requested_level_and_reports_its_origin(
     felt = np.abs(np.fft.rfft(loop.tactile.samples * np.hanning(len(loop.tactile.samples))))
     f = np.fft.rfftfreq(len(loop.tactile.samples), 1 / RATE)
     felt_db = 20 * np.log10(felt + 1e-12) + response_db(actuator_profile(actuator), f)
-    if is_rough and actuator != "lra":  # its resonance leaves nothing of a side band
+    if is_rough and actuator != "lra":  # the resonance of "lra" removes the side bands
         side_db = felt_db[np.abs(f - (loop.felt.target_hz - tone_hz)) < 1.0].max()
         assert side_db - felt_db.max() == pytest.approx(-12.0, abs=3.0)
 
@@ -173,7 +173,7 @@ def test_beep_that_cannot_be_felt_is_moved_to_the_most_sensitive_frequency(
 
 
 def test_a_melody_of_beeps_keeps_every_note_and_every_pause() -> None:
-    """Moving one band down would keep only notes within an octave of the strongest, and mirror some others."""
+    """Shifting one band down would keep only notes within an octave of the strongest, and mirror some others."""
     t, pause = np.arange(RATE // 2) / RATE, np.zeros(RATE // 2)
     notes = [0.5 * np.sin(2 * np.pi * hz * t) for hz in (2600.0, 3500.0, 1800.0, 3000.0, 2200.0)]
     clip = AudioClip(np.concatenate([part for note in notes for part in (note, pause)]).astype(np.float32), RATE)
@@ -186,7 +186,7 @@ def test_a_melody_of_beeps_keeps_every_note_and_every_pause() -> None:
 
 
 def test_the_level_of_what_is_kept_is_known() -> None:
-    """A band of half the energy; of a beep, all above half its frequency."""
+    """The band has half the energy of two tones; for a beep, it is everything above half the beep's frequency."""
     rate = 48_000
     t = np.arange(2 * rate) / rate
     two = anchor_of(np.sin(2 * np.pi * 150 * t) + np.sin(2 * np.pi * 5000 * t), rate, 15.0, actuator_profile("flat"))

@@ -17,7 +17,7 @@ RATE = 8000
 
 
 def tone(frequency_hz: float, n: int = 2 * RATE) -> np.ndarray:
-    """The nearest tone that closes into a loop."""
+    """The nearest tone with a whole number of cycles in the loop."""
     cycles = round(frequency_hz * n / RATE)
     return np.sin(2 * np.pi * cycles * np.arange(n) / n + 0.3)
 
@@ -67,7 +67,7 @@ def test_bands_above_half_the_rate_are_silent() -> None:
 
 
 def test_band_split_has_no_delay_and_keeps_the_loop_seamless() -> None:
-    """A shift of the loop shifts every band equally: the split has no beginning and no end."""
+    """A circular shift of the loop shifts every band equally."""
     x = np.random.default_rng(6).uniform(-1, 1, 5000)
     bands = Bands.third_octaves()
     shifted = split_bands(np.roll(x, 1234), RATE, bands)
@@ -76,7 +76,7 @@ def test_band_split_has_no_delay_and_keeps_the_loop_seamless() -> None:
 
 @pytest.mark.parametrize("n", [8000, 12_345])
 def test_weighted_bands_equal_one_circular_filter(n: int) -> None:
-    """Independently: the filter's impulse response, convolved around the loop in the time domain."""
+    """Reference: the filter's impulse response, circularly convolved in the time domain."""
     rng = np.random.default_rng(n)
     bands = Bands.third_octaves()
     gains = 10 ** (rng.uniform(-20, 20, bands.n_bands) / 20)
@@ -87,7 +87,7 @@ def test_weighted_bands_equal_one_circular_filter(n: int) -> None:
     response = gains @ split_bands(impulse, RATE, bands).astype(float)
     for i in (0, 1, n - 1, *rng.integers(0, n, 20)):
         at_once = response @ x[(i - np.arange(n)) % n]
-        # -80 dB of the whole, at every sample, those beside the wrap included.
+        # Below -80 dB at every sample, also beside the wrap.
         assert abs(mixed[i] - at_once) < 1e-4 * np.sqrt(np.mean(mixed**2))
 
 

@@ -1,4 +1,4 @@
-"""Small forms of the campaigns in stress/audio.py."""
+"""Short forms of the campaigns in stress/audio.py."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ def test_loop_wrap_is_no_larger_step_than_other_places_of_the_loop(kind: str) ->
 
 
 def test_seam_judge_detects_randomly_cut_tones_and_rumble() -> None:
-    """A test of the test: it must be able to fail. By chance a chopped tone of 30 to 500 Hz meets itself within a step
-    in 1 to 8 cases of a hundred, and rumble in a fifth of them."""
+    """The judge must be able to fail. By chance, a randomly cut tone of 30 to 500 Hz has no step in 1 to 8 % of cases,
+    and rumble in 20 %."""
     noticed = {"tone": 0, "brown": 0}
     for seed in range(8):
         rng = np.random.default_rng([3, seed])
@@ -63,7 +63,7 @@ def test_seam_judge_detects_randomly_cut_tones_and_rumble() -> None:
 
 
 def test_seam_judge_detects_a_level_jump_in_a_varying_sound() -> None:
-    """The largest jump of 200 places lets it pass."""
+    """With the largest jump of 200 positions as limit, this jump would pass."""
     rng, rate = np.random.default_rng(6), RATES[1]
     t = np.arange(12 * rate) / rate
     surge = 1.0 + 0.8 * np.sin(2 * np.pi * 0.7 * t)

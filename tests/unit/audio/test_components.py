@@ -23,7 +23,7 @@ def test_components_marks_a_hum_in_noise_as_a_line(seed: int) -> None:
 
 
 def test_noise_seldom_has_a_line() -> None:
-    """With a bound of 12 dB, one noise in ten had a line, and boiling water was felt at that frequency."""
+    """With a bound of 12 dB, one noise in ten had a line, and boiling water was felt at the line's frequency."""
     rate = 2400
     noises = np.random.default_rng(5).standard_normal((200, 5 * rate))
     found = [components(magnitudes(noise), rate, RANGE, -14.0) for noise in noises]

@@ -54,7 +54,7 @@ def test_feel_is_read_from_the_loop() -> None:
     x = 0.2 * np.sin(2 * np.pi * 180 * T) * (1 + 0.6 * np.sin(2 * np.pi * 8 * T))
     feel = feel_of(x, RATE)
     assert (feel.frequency_hz, feel.envelope_hz) == (180.0, 8.0)
-    # The side bands hold 2 (m / 2)^2 of the carrier's energy, at thresholds that differ little from its own.
+    # The side bands have 2 (m / 2)^2 of the carrier's energy, at nearly the carrier's threshold.
     carrier_db = 20 * math.log10(0.2) + 42.6
     assert feel.level_db == pytest.approx(carrier_db + 10 * math.log10(1 + 0.18), abs=0.3)
 

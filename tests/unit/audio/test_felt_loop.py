@@ -1,4 +1,4 @@
-"""The seven sources of the demo kitchen, made by the synthesizer from fixed words, through the whole conversion."""
+"""Whole conversion of the demo kitchen's seven sources, which the synthesizer makes from fixed words."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def level_db(loop: HapticLoop) -> float:
     return float(10 * np.log10(np.sum((a[inside] / 10 ** (threshold_db(f[inside]) / 20)) ** 2)))
 
 
-# The smallest published fraction, and the one that distinctness is measured by.
+# The smallest published Weber fraction, and the one that `distinctness` uses.
 @pytest.mark.parametrize("weber", [0.18, 0.22])
 def test_every_pair_of_the_kitchen_is_distinct(baked: dict[str, tuple[Plan, HapticLoop]], weber: float) -> None:
     for one, other in combinations(baked, 2):
@@ -92,7 +92,7 @@ def test_nothing_is_moved_further_than_a_third_of_an_octave_or_3_db(
     for name, (plan, loop) in baked.items():
         assert plan.context.own_hz is not None
         assert abs(math.log2(peak_hz(loop) / plan.context.own_hz)) <= 1 / 3, name
-        # What it is moved from is in its own spectrum, not far below its strongest component.
+        # The original frequency is in the source's spectrum, not far below its strongest component.
         x = sources[name].clip.samples.astype(float)
         magnitude = np.abs(np.fft.rfft(x * np.hanning(len(x))))
         f = np.fft.rfftfreq(len(x), 1 / sources[name].clip.sample_rate_hz)

@@ -24,7 +24,7 @@ def test_equal_samples_give_equal_bytes_and_other_samples_do_not(tmp_path: Path)
     a, b, c = ((tmp_path / name).read_bytes() for name in ("a.wav", "b.wav", "c.wav"))
     assert a == b
     assert a != c
-    # A RIFF header of chunks "fmt " and "data" and three bytes per sample: no room for a time stamp.
+    # A RIFF header with chunks "fmt " and "data" and three bytes per sample: no space for a time stamp.
     assert len(a) == 44 + 3 * RATE
     assert b"PEAK" not in a
 
@@ -51,7 +51,7 @@ def test_read_clip_reads_common_formats_and_averages_channels(tmp_path: Path, su
     assert clip.sample_rate_hz == RATE
     assert clip.credit == Credit("two", "unknown", "unknown")
     middle = clip.samples[2000:6000].astype(float)
-    # Lossy codecs shift and colour a little; the mean of 0.6 and 0.2 stays 0.4.
+    # Lossy codecs delay and distort a little; the mean of 0.6 and 0.2 stays 0.4.
     assert np.sqrt(2 * np.mean(middle**2)) == pytest.approx(0.4, rel=0.03)
 
 

@@ -54,7 +54,7 @@ def test_frequencies_outside_the_range_of_touch_are_not_felt() -> None:
 def test_intensity_maps_to_a_sensation_level() -> None:
     levels = [sensation_level_db(i) for i in (0.05, 0.1, 0.5, 1.0)]
     assert levels == sorted(levels)
-    assert levels[1] > 12.0  # the faintest example of the scale survives 12 dB
+    assert levels[1] > 12.0  # the faintest example of the scale is still felt 12 dB lower
     assert levels[3] - levels[2] >= 5.0  # two JNDs between a phone and a washing machine
     for wrong in (0.0, 1.1, math.nan):
         with pytest.raises(AudioError, match="intensity"):

@@ -76,7 +76,7 @@ def test_an_offset_does_not_hide_the_cycles() -> None:
 
 
 def test_seam_search_compares_levels_as_well_as_waveforms() -> None:
-    """A tone that swells and fades once a second: a loop must hold a whole number of seconds."""
+    """A tone that swells and fades once a second: the loop must last a whole number of seconds."""
     t = np.arange(5 * RATE) / RATE
     seam = find_seam((1.2 + np.cos(2 * np.pi * t)) * np.sin(2 * np.pi * 100 * t), RATE)
     assert seam.length / RATE == pytest.approx(round(seam.length / RATE), abs=0.011)
@@ -112,7 +112,7 @@ def test_tones_ticks_and_steady_noise_are_not_tilted(frequency_hz: float) -> Non
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("seconds", [3.5, 6.0])
 def test_a_loop_is_as_long_as_its_clip_allows(seconds: float, seed: int) -> None:
-    """In an earlier version noises and hums gave loops of 1.5 s of 3.5 s, the best of many similar seams."""
+    """In an earlier version noises and hums of 3.5 s gave loops of 1.5 s, with the best of many similar seams."""
     x = noise(seconds, seed) + 0.05 * tone(61.3, seconds)
     assert find_seam(x, RATE).length / RATE > 0.6 * seconds
 
@@ -129,7 +129,7 @@ def test_loop_of_a_rhythm_has_a_whole_number_of_beats() -> None:
 def test_loop_of_a_ringing_phone_keeps_the_length_of_rings_and_pauses(
     on_s: float, off_s: float, frequency_hz: float
 ) -> None:
-    """A seam within a ring fits at any cycle of the tone; that ring was then longer or shorter than the others."""
+    """A seam within a ring matches at any cycle of the tone, but would make this ring longer or shorter."""
     t = np.arange(5 * RATE) / RATE
     since_s = t % (on_s + off_s)
     speed = (since_s < on_s) * (1 - np.exp(-since_s / 0.05))
@@ -143,7 +143,7 @@ def test_loop_of_a_ringing_phone_keeps_the_length_of_rings_and_pauses(
 
 @pytest.mark.parametrize("felt_hz", [140.6, 144.2, 147.7, 162.0, 175.8])
 def test_loop_of_a_ringing_phone_keeps_its_beat_beside_a_shifted_vibration(felt_hz: float) -> None:
-    """A seam within a ring fits two tones better than any whole number of periods."""
+    """A seam within a ring matches two tones better than any whole number of periods."""
     t = np.arange(5 * RATE) / RATE
     since_s = t % 1.5
     speed = np.where(since_s < 1.0, 1 - np.exp(-since_s / 0.05), np.exp(-(since_s - 1.0) / 0.08))
@@ -155,7 +155,7 @@ def test_loop_of_a_ringing_phone_keeps_its_beat_beside_a_shifted_vibration(felt_
 
 @pytest.mark.parametrize("at_s", [0.22, 0.25, 2.0, 3.5])
 def test_loop_of_a_single_stroke_holds_the_stroke(at_s: float) -> None:
-    """Two places in the quiet behind a stroke fit each other better than any around it."""
+    """Two positions in the quiet part after a stroke match better than any around the stroke."""
     t = np.arange(4 * RATE) / RATE - at_s
     x = np.where(t > 0, np.sin(2 * np.pi * 200 * t) * np.exp(-np.maximum(t, 0.0) / 0.05), 0.0) + 1e-4 * noise(4.0)
     assert np.abs(apply_seam(x, find_seam(x, RATE))).max() > 0.5 * np.abs(x).max()
@@ -164,7 +164,7 @@ def test_loop_of_a_single_stroke_holds_the_stroke(at_s: float) -> None:
 @pytest.mark.parametrize("felt_hz", [61.3, 97.9, 163.1])
 @pytest.mark.parametrize("frequency_hz", [40.0, 187.3])
 def test_loop_of_a_tone_does_not_begin_in_the_burst_of_a_converter(frequency_hz: float, felt_hz: float) -> None:
-    """A band-pass answers the onset of a tone outside its band with a burst, here 40 dB above the tone that is felt."""
+    """A band-pass responds to the onset of a tone outside its band with a burst, here 40 dB above the felt tone."""
     t = np.arange(4 * RATE) / RATE
     felt = 0.01 * tone(felt_hz) + np.sin(2 * np.pi * 70 * t) * np.exp(-t / 0.02)
     seam = find_seam(tone(frequency_hz), RATE, felt)
@@ -200,7 +200,7 @@ def test_equal_power_fade_keeps_the_level_of_noise() -> None:
         loop = apply_seam(x, seam).astype(float)
         middle = slice(seam.crossfade // 4, 3 * seam.crossfade // 4)
         levels.append(10 * np.log10(np.mean(loop[middle] ** 2) / np.mean(loop[seam.crossfade :] ** 2)))
-    # A linear fade would dip by up to 3 dB, 2.4 dB over this stretch.
+    # A linear fade would dip by up to 3 dB, and by 2.4 dB over this stretch.
     assert np.mean(levels) == pytest.approx(0.0, abs=0.4)
 
 
@@ -213,8 +213,8 @@ def test_sounds_of_machines_have_no_step_at_the_wrap(sound: Callable[[str], Audi
         assert np.abs(np.diff(around)).max() <= 1.1 * np.abs(np.diff(samples)).max()
         at_the_wrap = abs(float(samples[0]) - float(samples[-1]))
         assert at_the_wrap <= np.abs(np.diff(samples)).max()
-    # Nor a hole or a bump: the level of the fade lies within that of the other stretches of the same length, or 20 dB
-    # below the mean, in a pause.
+    # No dip or bump either: the level of the fade is within the levels of the other stretches of the same length, or
+    # 20 dB below the mean, in a pause.
     fade = round(0.2 * original.sample_rate_hz)
     for samples in (loop.audible.samples, loop.tactile.samples):
         stretches = samples[: len(samples) // fade * fade].reshape(-1, fade).astype(float)
@@ -227,7 +227,7 @@ def test_fade_has_the_computed_samples() -> None:
     x = np.arange(20.0)
     linear = apply_seam(x, Seam(2, 8, 4, "linear"))
     assert linear.dtype == np.float32
-    # First sample is the successor of the last: x[10] after x[9]; then three quarters of x[11], one of x[3], ...
+    # The first sample follows the last: x[10] after x[9]; then 0.75 x[11] + 0.25 x[3], ...
     assert linear.tolist() == [10, 0.75 * 11 + 0.25 * 3, 0.5 * 12 + 0.5 * 4, 0.25 * 13 + 0.75 * 5, 6, 7, 8, 9]
     equal_power = apply_seam(np.ones(20), Seam(2, 8, 4, "equal-power"))
     np.testing.assert_allclose(equal_power[[0, 2, 4]], [1, np.sqrt(2), 1], rtol=1e-6)
@@ -235,7 +235,7 @@ def test_fade_has_the_computed_samples() -> None:
 
 @pytest.mark.parametrize("r", [1.0, 0.8, 0.6, 0.41, 0.3, 0.0, -0.3])
 def test_crossfade_keeps_its_power_for_any_correlation(r: float) -> None:
-    """Two stretches of noise of unit power and correlation r: the power of their sum stays 1 all along the fade."""
+    """Two noises of unit power and correlation r: the power of their sum stays 1 along the whole fade."""
     n, rng = 1000, np.random.default_rng(9)
     common, ahead, behind = rng.standard_normal((3, 400, n))
     sign = np.sign(r) or 1.0
@@ -251,8 +251,8 @@ def test_crossfade_keeps_its_power_for_any_correlation(r: float) -> None:
 
 
 def test_loop_length_follows_a_hum_under_hiss() -> None:
-    """5 dB of hiss over it; likeness that weighs all frequencies alike follows the chance of the hiss, here 3.6
-    degrees off at worst."""
+    """The hiss is 5 dB above the hum. A similarity that weighs all frequencies equally follows the random hiss, with
+    errors up to 3.6 degrees here."""
     worst = 0.0
     for seed, f in enumerate((47.3, 97.9, 143.1, 211.7)):
         rng = np.random.default_rng(seed)
@@ -328,7 +328,7 @@ def test_both_loops_share_length_rate_and_seam() -> None:
     assert len(loop.audible.samples) == len(loop.tactile.samples)
     assert loop.audible.sample_rate_hz == loop.tactile.sample_rate_hz == RATE
     assert loop.audible.credit == loop.tactile.credit == CREDIT
-    # In step: at 250 Hz the band-pass has no phase, so a 250 Hz tone is the same in both, sample for sample.
+    # At 250 Hz the band-pass has no phase shift, so a 250 Hz tone is equal in both, sample by sample.
     same = loop_pair(clip(tone(250.0)), SvfBandpass(), ConversionContext())
     np.testing.assert_allclose(
         same.tactile.samples / np.abs(same.tactile.samples).max(),
@@ -338,7 +338,7 @@ def test_both_loops_share_length_rate_and_seam() -> None:
 
 
 def test_seam_is_not_felt_for_a_hum_below_a_loud_whine() -> None:
-    """Aligned by ear alone, the whine would put the hum out of phase, which touch alone would notice."""
+    """A seam chosen by the audible sound alone would suit the whine, and break the phase of the felt hum."""
     hum_hz = 71.3
     x = 0.05 * tone(hum_hz) + tone(3000.7) + 0.02 * noise()
     loop = loop_pair(clip(x), SvfBandpass(), ConversionContext())
@@ -355,7 +355,7 @@ def test_loop_peaks_are_head_room_and_intensity() -> None:
 
 
 def test_loop_pair_states_frequencies_before_and_after_conversion() -> None:
-    # |H(40 Hz)| = (1 + Q^2 (40/250 - 250/40)^2)^(-1/2) = 0.226, so three times as loud becomes 0.68 times as strong.
+    # |H(40 Hz)| = (1 + Q^2 (40/250 - 250/40)^2)^(-1/2) = 0.226: 3 times the amplitude becomes 0.68 times.
     x = 3.0 * tone(40.0) + tone(250.0)
     loop = loop_pair(clip(x), SvfBandpass(), ConversionContext())
     assert loop.frequency_raw_hz == pytest.approx(40.0, abs=0.05)
@@ -363,7 +363,7 @@ def test_loop_pair_states_frequencies_before_and_after_conversion() -> None:
 
 
 def test_the_filter_is_settled_when_the_loop_begins() -> None:
-    """A narrow filter needs 0.13 s to swing in; without a run-up the loop would begin too weak."""
+    """A narrow filter needs 0.13 s to settle; without a lead-in the loop would begin too weak."""
     loop = loop_pair(clip(tone(250.0)), SvfBandpass(q=100.0), ConversionContext())
     cycles = loop.tactile.samples[: len(loop.tactile.samples) // 192 * 192].reshape(-1, 192)
     peaks = np.abs(cycles).max(axis=1)
@@ -372,7 +372,7 @@ def test_the_filter_is_settled_when_the_loop_begins() -> None:
 
 @dataclass(frozen=True)
 class Delay:
-    """A converter that holds samples back and returns them at the end; `loses` keeps some for ever."""
+    """A converter that delays samples and returns them at the end, except `loses` samples."""
 
     held: int
     loses: int = 0

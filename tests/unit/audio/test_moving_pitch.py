@@ -1,4 +1,4 @@
-"""A pitch that moves keeps its level: the band holds it."""
+"""Moving pitch: the converter's band is wide enough to keep the level of a pitch that changes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ T = np.arange(16 * RATE) / RATE
 
 
 def engine(low_hz: float, high_hz: float, n_orders: int = 12, seed: int = 3) -> Signal:
-    """Orders of a speed that rises and falls in 8 s, all of constant amplitude, and a little noise."""
+    """Orders of a speed that rises and falls in 8 s, each of constant amplitude, and a little noise."""
     middle, reach = 0.5 * (low_hz + high_hz), 0.5 * (high_hz - low_hz)
     phase = 2 * np.pi * np.cumsum(middle - reach * np.cos(2 * np.pi * T / 8)) / RATE
     x = sum((np.sin(k * phase + k * k) / k for k in range(1, n_orders + 1)), np.zeros(len(T)))
@@ -34,7 +34,7 @@ def engine(low_hz: float, high_hz: float, n_orders: int = 12, seed: int = 3) -> 
 
 
 def range_db(x: Signal, rate: int = RATE) -> float:
-    """From the 5th to the 95th percentile of the level in 0.1 s."""
+    """Range from the 5th to the 95th percentile of the level in 0.1 s [dB]."""
     n = rate // 10
     level = 10 * np.log10((x[: len(x) // n * n].reshape(-1, n) ** 2).mean(axis=1) + 1e-12)
     return float(np.subtract(*np.percentile(level, (95, 5))))
@@ -51,7 +51,7 @@ def test_an_engine_that_revs_keeps_its_range_in_a_file(n_orders: int, tmp_path: 
 
 @pytest.mark.parametrize("neighbour_hz", [None, 85.0])
 def test_an_engine_that_revs_keeps_its_range_in_a_scene(neighbour_hz: float | None) -> None:
-    """Also where it is moved away from a neighbour."""
+    """Also for an engine that is moved away from a neighbour."""
     sound = engine(50.0, 150.0)
     sources = [SourceClip(AudioClip(sound.astype(np.float32), RATE), 0.5, "engine")]
     if neighbour_hz is not None:
@@ -67,7 +67,7 @@ def test_an_engine_that_revs_keeps_its_range_in_a_scene(neighbour_hz: float | No
 
 
 def test_the_band_is_3_db_down_at_the_ends_of_the_pitch() -> None:
-    """A sweep whose pitch is known: its 5th and 95th percentile are 3 dB below the middle of the band."""
+    """At the 5th and 95th percentile of a known sweep's pitch, the band is 3 dB below its centre."""
     t = np.arange(20 * RATE) / RATE
     hz = 60.0 * 4.0 ** (t / 20.0)
     x = np.sin(2 * np.pi * np.cumsum(hz) / RATE)
@@ -100,7 +100,7 @@ def test_a_sound_without_moving_pitch_keeps_its_band(kind: str) -> None:
 
 
 def test_beating_lines_are_not_a_pitch_that_moves() -> None:
-    """A compressor's second order beats against the magnets at 100 Hz: level and band vary, but no frequency does."""
+    """A compressor's second order beats with the magnetic hum at 100 Hz: levels vary, but no frequency does."""
     shaft, order, pull = (np.sin(2 * np.pi * hz * T) for hz in (49.8, 99.6, 100.0))
     sound = 0.6 * (shaft + 0.3 * order + 0.2 * pull)
     beats = 0.6 * (0.3 * order + 0.2 * pull)
@@ -112,7 +112,7 @@ def test_beating_lines_are_not_a_pitch_that_moves() -> None:
 
 
 def test_growth_is_the_increase_of_the_level_range() -> None:
-    """A band that is half as strong in half of the time: 6 dB more than the sound, at any rate."""
+    """A band that is half as strong for half of the time has a range 6 dB above the sound's, at any rate."""
     sound = np.sin(2 * np.pi * 100.0 * T)
     band = np.sin(2 * np.pi * 100.0 * T[::4]) * np.where(T[::4] < 8.0, 1.0, 0.5)
     assert growth_db(sound, band, 16.0) == pytest.approx(20 * np.log10(2.0), abs=0.01)

@@ -1,4 +1,4 @@
-"""Starts and stops in recordings: found with their time, level and pitch where they are, and nowhere else."""
+"""Detection of starts and stops in recordings, with their time, level and pitch, and without false detections."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def test_reversed_start_is_a_stop_at_any_loudness(start_s: float, rise: str, gai
         turned = (
             other if other is louder.start_up else RunCurve(other.lasts_s, other.amplitude[::-1], other.speed[::-1])
         )
-        # The windows of the reversed sound begin elsewhere.
+        # In the reversed sound, analysis windows begin at other samples.
         assert turned.lasts_s == pytest.approx(found.start_up.lasts_s, rel=0.05)
         shares = np.linspace(0, 1, 50)
         np.testing.assert_allclose(turned.amplitude_at(shares), found.start_up.amplitude_at(shares), atol=0.03)
@@ -128,7 +128,7 @@ def test_start_is_found_for_any_duration_pitch_and_reverberation(
     take = machine(start_s=start_s, frequency_hz=frequency_hz, room_db=room_db, steady_s=6.0, seed=seed)
     curve = recorded_runs(take.samples, RATE_HZ).start_up
     assert curve is not None
-    # Room noise hides the beginning of a start. One below a second has too few periods to show the pitch instead.
+    # Room noise hides the beginning of a start. A start below a second has too few periods to show its pitch there.
     assert curve.lasts_s == pytest.approx(start_s, rel=0.25 if start_s >= 1.0 else 0.4)
     assert (np.diff(curve.amplitude) >= 0).all()
     assert (np.diff(curve.speed) >= 0).all()

@@ -28,7 +28,7 @@ def test_run_curve_states_whether_the_pitch_is_constant() -> None:
 def test_run_curve_keeps_the_inferred_value_that_it_replaces() -> None:
     measured = RunCurve(2.0, CURVE.amplitude, CURVE.speed)
     assert measured.instead_of(4.0, None) == CURVE
-    assert measured.instead_of(7.0, CURVE) is CURVE  # the same recording: an edit of the time is none of it
+    assert measured.instead_of(7.0, CURVE) is CURVE  # the same recording: an edited time is not an inferred one
     other = RunCurve(3.0, (0.0, 1.0))
     assert other.instead_of(2.0, CURVE).inferred_s == 4.0
     assert other.instead_of(5.0, CURVE).inferred_s == 5.0

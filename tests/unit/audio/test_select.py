@@ -60,7 +60,7 @@ def test_selection_prefers_a_steady_hum_to_clicks_decays_noise_and_silence() -> 
 
 
 def test_coded_noise_is_still_noisier_than_a_hum() -> None:
-    """Noise that lost its treble, or its upper half by a low rate, is still noisier than a hum with audible hiss."""
+    """Noise without treble, or at a low sample rate, is still noisier than a hum with audible hiss."""
     hissing = HUM + 0.5 * WHITE
     lowpassed = sosfiltfilt(butter(8, 7500, fs=RATE, output="sos"), WHITE)
     for rival in (clip("codec", lowpassed), clip("codec", resample_poly(WHITE, 1, 6), 8000)):
@@ -68,7 +68,7 @@ def test_coded_noise_is_still_noisier_than_a_hum() -> None:
 
 
 def test_steadiness_limit_is_raised_until_a_candidate_passes() -> None:
-    # Straight falls in dB: 85 % of 14, 22 and 40 dB are dynamic ranges of 11.9, 18.7 and 34.
+    # Linear falls in dB: 85 % of 14, 22 and 40 dB are dynamic ranges of 11.9, 18.7 and 34 dB.
     falls = [clip(f"{db} dB", np.sin(2 * np.pi * 100 * T) * 10 ** (-db * T / 4 / 20)) for db in (40, 22, 14)]
     choice = explain_choice(falls)
     assert choice.winner.credit.title == "14 dB"
@@ -87,7 +87,7 @@ def test_selection_prefers_the_first_of_equal_candidates() -> None:
 
 
 def test_clip_of_two_strokes_is_not_steady() -> None:
-    """Nearly all frames hold nothing, so that both percentiles would lie in the silence."""
+    """Nearly all frames are silent, so that both percentiles of all frames would lie in the silence."""
     since = np.maximum(0.0, np.minimum(T - 0.05, 4.0))
     pings = np.sin(2 * np.pi * 440 * since) * np.exp(-since / 0.01)
     pings += np.roll(pings, round(3.7 * RATE))

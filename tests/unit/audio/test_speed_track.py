@@ -1,4 +1,4 @@
-"""The speed of a machine from its lines."""
+"""Speed track: the speed of a machine over time, from the lines of its spectrum."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ FLAT = ActuatorProfile()
 
 
 def lacking(places: list[Placement], weber: float = 0.22, jnd_db: float = 2.5) -> int:
-    """How many pairs are neither two JNDs of frequency apart, nor one and two of level."""
+    """The number of pairs that are neither two JNDs of frequency apart, nor one JND of frequency and two of level."""
     count = 0
     for one, other in combinations(places, 2):
         jnds = abs(math.log(one.target_hz / other.target_hz)) / math.log1p(weber)
@@ -34,7 +34,7 @@ def test_spread_moves_equal_voices_to_the_least_distinct_distance() -> None:
 
 
 def test_spread_keeps_voices_that_are_distinct() -> None:
-    """Exactly: a difference in the last digit made a shift by nothing of them."""
+    """Frequencies are equal to the last digit; in an earlier version a rounding error counted as a shift."""
     voices = [Voice(99.99970832649828, 20.0), Voice(160.1, 20.0), Voice(251.3, 12.0)]
     for voice, place in zip(voices, spread(voices), strict=True):
         assert place.target_hz == voice.own_hz
@@ -61,7 +61,7 @@ def test_spread_keeps_placed_voices_and_moves_others_away() -> None:
 
 
 def test_voices_with_different_rhythms_share_a_frequency_when_space_is_short() -> None:
-    """There is no space for twelve voices at one frequency; three of them are distinct by rhythm."""
+    """Twelve voices at one frequency cannot all be moved apart, but three of them are distinct by rhythm."""
     steady = [Voice(200.0, 20.0, str(i)) for i in range(9)]
     lively = [Voice(200.0, 20.0, f"r{i}", rhythm_hz=hz) for i, hz in enumerate((3.0, 10.0, 30.0))]
     places = spread([*steady, *lively])[9:]

@@ -1,4 +1,4 @@
-"""`rebake` rebuilds the loops whose inputs have changed, and reports them."""
+"""`rebake` rebuilds loops whose inputs have changed, and reports them."""
 
 import json
 from collections.abc import Mapping
@@ -19,10 +19,10 @@ from scene2hap.audio.tactile.stages import StageStream
 from scene2hap.errors import BundleError, ConfigError
 from scenes import box, scene, tone_loop
 
-# They have a table far from the rest, and a room without sources.
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.plausibility.check.SceneWarning")
+# Some scenes here have a distant table, or no sources.
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")
 
-NAMES = ("desk_fan", "microwave_oven", "refrigerator")  # the latter two hum at 100 Hz, and are moved apart
+NAMES = ("desk_fan", "microwave_oven", "refrigerator")  # the last two hum at 100 Hz, and are moved apart
 RATE = 8000
 
 
@@ -149,7 +149,7 @@ def test_edited_keywords_select_another_sound(bundle: HapticBundle, tmp_path: Pa
 
 
 class Recordings:
-    """Has one sound for everything, and counts how often it is asked."""
+    """A sound source with one clip for every description; counts its queries."""
 
     def __init__(self, clip: AudioClip) -> None:
         self.clip, self.n_asked = clip, 0
@@ -170,7 +170,7 @@ def test_sound_sources_are_queried_only_when_given(bundle: HapticBundle) -> None
 
 
 def test_user_clip_keeps_its_pitch_and_others_are_moved_away(bundle: HapticBundle, tmp_path: Path) -> None:
-    # The fan's neighbour hums at 100 Hz, so that a recording of 101 Hz would have to give way.
+    # The fan's neighbour hums at 100 Hz, so that a selected recording of 101 Hz would be moved.
     wished = bundle.override("desk_fan", clip=own_tone(101.0))
     again, told = remade(wished)
     assert felt(again)["desk_fan"] == pytest.approx(101.0, abs=0.2)
@@ -217,7 +217,7 @@ def test_audible_loop_replaces_a_missing_source_clip(bundle: HapticBundle) -> No
 
 
 def without_fingerprints(folder: Path) -> Path:
-    """A folder as written before loops told what they were made from."""
+    """Rewrite a folder like those of earlier versions, without fingerprints and settings."""
     rows = json.loads((folder / "loops.json").read_text())
     for states in rows.values():
         for row in states.values():
@@ -258,7 +258,7 @@ def test_handmade_loops_can_be_converted_again(bundle: HapticBundle) -> None:
 
 
 class Guest:
-    """A converter that no kind names."""
+    """A converter object without a registered kind."""
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         return Adaptive().stream(sample_rate_hz, context)

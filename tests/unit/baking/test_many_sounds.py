@@ -1,4 +1,4 @@
-"""Many distinct sounds: several are converted at once, and come out as if each had been alone."""
+"""Parallel conversion of many sounds gives the results of single conversions."""
 
 import asyncio
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ RATE = 8000
 
 
 class Tones:
-    """A tone of its own for each object, whose frequency stands in its keywords."""
+    """A sound source that makes a tone of the frequency in the keywords."""
 
     def find(self, description: VibrationDescription) -> list[AudioClip]:
         t = np.arange(3 * RATE) / RATE
@@ -30,7 +30,7 @@ class Tones:
 
 @dataclass(frozen=True)
 class Through:
-    """Passes sound on; waits for a second stream where there is a barrier, and fails at one frequency."""
+    """A converter that passes sound on. It waits for a second stream at a barrier, and fails at given frequencies."""
 
     barrier: Barrier | None = None
     fails_at_hz: tuple[float, ...] = ()

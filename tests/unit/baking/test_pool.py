@@ -1,4 +1,4 @@
-"""That a worker's death costs its own task alone."""
+"""Worker pool: the death of a worker fails only its task."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ TASKS = {"deadly": os._exit, "harmless": abs, "slow": time.sleep}
 
 
 def test_only_tasks_that_kill_their_worker_fail() -> None:
-    """Workers die in several tasks while others run beside them or wait for a turn."""
+    """Workers die in several tasks while other tasks run or wait."""
 
     async def everything() -> list[tuple[str, Any]]:
         with Pool("processes:2") as pool:
-            # Each task gets the number of its threads first.
+            # The first argument of each task is its number of threads.
             kinds = [
                 "deadly",
                 "harmless",

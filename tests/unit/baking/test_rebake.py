@@ -11,12 +11,12 @@ from scene2hap import AudioClip, Credit, FunctionBackend, HapticBundle, LLMReque
 from scene2hap.errors import UnknownObject
 from scripted_backend import SCENE, Scripted
 
-# They have things in the air.
-pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.scene.plausibility.check.SceneWarning")
+# Some scenes here have objects in the air.
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")
 
 
 def answering() -> FunctionBackend:
-    """The scripted answers, kept by request."""
+    """A backend with scripted answers that keeps its requests."""
     scripted = Scripted()
 
     def answer(request: LLMRequest) -> str:

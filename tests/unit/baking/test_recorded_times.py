@@ -1,4 +1,4 @@
-"""Recorded, inferred and overridden times of starts and stops: which of them is played."""
+"""Times of starts and stops: precedence of recorded, inferred and overridden times."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from starting_machines import machine
 START, STOP = RunCurve(2.0, (0.0, 0.4, 1.0)), RunCurve(3.0, (1.0, 0.4, 0.0))
 STATE = SourceState("on", 0.5, "fan whirring", "fan whirring", start_up_s=1.0, wind_down_s=4.0, spins=True)
 
-# They have things in the air.
-scenes_in_the_air = pytest.mark.filterwarnings("ignore::scene2hap.scene.plausibility.check.SceneWarning")
+# Some scenes here have objects in the air.
+scenes_in_the_air = pytest.mark.filterwarnings("ignore::scene2hap.SceneWarning")
 
 
 def fan(**state: Any) -> ObjectHaptics:
@@ -97,7 +97,7 @@ def test_user_clip_brings_and_removes_its_recorded_start(tmp_path: Path) -> None
     assert own.objects["phone"].states[0].start_up_s == curve.lasts_s
     samples = own.loops["phone"][name].audible.samples
     peaks = [np.abs(part).max() for part in np.array_split(samples, 50)]
-    assert min(peaks) > 0.6 * max(peaks)  # nothing of the start is in the loop
+    assert min(peaks) > 0.6 * max(peaks)  # the loop does not contain the start
     folder = own.save(tmp_path / "own")
     loaded = HapticBundle.load(folder)
     assert loaded.loops["phone"][name].start_up == curve

@@ -1,4 +1,4 @@
-"""Who may listen where."""
+"""Settings of a bridge: addresses, tokens and the root folder."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Meaning of numbers in frames while objects are added and removed."""
+"""Frame layouts: the numbers of objects in frames while objects are added and removed."""
 
 import pytest
 

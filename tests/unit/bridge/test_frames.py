@@ -1,4 +1,4 @@
-"""Binary messages: the page's examples byte by byte, and arbitrary bytes."""
+"""Binary messages: the examples of docs/bridge-protocol.md byte by byte, and arbitrary bytes."""
 
 import contextlib
 import re
@@ -38,7 +38,7 @@ def test_the_page_s_gains_are_written_and_read() -> None:
 
 
 def test_offsets_are_those_of_the_page() -> None:
-    # Read by another way than the code's: field by field, as the table of the page has them.
+    # Read independently of the code: field by field from the table of the page.
     assert (FRAME[:4], FRAME[4], FRAME[5]) == (b"S2HB", 1, 1)
     assert struct.unpack_from("<H", FRAME, 6) == (1,)
     assert struct.unpack_from("<I", FRAME, 16) == (7,)

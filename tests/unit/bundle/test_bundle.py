@@ -1,4 +1,4 @@
-"""The bundle folder: its content, and errors of unreadable bundles."""
+"""The bundle folder: round trips, content, and errors of unreadable bundles."""
 
 import json
 import shutil
@@ -20,7 +20,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def with_meshes() -> HapticBundle:
-    """Two objects that share a mesh, one with letters that no file system likes."""
+    """Two objects that share a mesh, with ids that are difficult as file names."""
     mesh = Box((0.3, 0.3, 0.3)).mesh
     objects = [replace(box(name, (0.3,) * 3, (i, 0, 0)), geometry=mesh) for i, name in enumerate(["Куб/1", "Куб:2"])]
     snapshot = scene(*objects)
@@ -56,7 +56,7 @@ def test_round_trip(tmp_path: Path, make: object) -> None:
 def test_instances_share_a_mesh_file_and_names_stay_apart(tmp_path: Path) -> None:
     folder = with_meshes().save(tmp_path / "b")
     assert len(list((folder / "meshes").iterdir())) == 1
-    assert len(list((folder / "sounds").iterdir())) == 8  # no two of which sound alike
+    assert len(list((folder / "sounds").iterdir())) == 8  # all of them different
 
 
 def test_saving_again_gives_the_same_bytes(tmp_path: Path) -> None:

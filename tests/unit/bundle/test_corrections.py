@@ -1,4 +1,4 @@
-"""Corrections that a viewer of a report saved."""
+"""Files of corrections that a report page has saved."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A bundle that anybody damaged is read, or refused with an error of ours: never another, never a wait for a pipe."""
+"""A damaged bundle is read, or refused with a `BundleError`: no other error, and no wait for a pipe."""
 
 import json
 import os
@@ -75,7 +75,7 @@ def test_any_changed_or_removed_value_is_read_or_refused(folder: Path, name: str
 
 
 def test_any_readable_bundle_can_be_written(folder: Path) -> None:
-    """Of texts that no encoding can write, and of numbers at their bounds."""
+    """A bundle with texts that no encoding can write can be saved and loaded again."""
     path = folder / "overrides.json"
     whole = path.read_text(encoding="utf-8")
     written = 0
@@ -132,7 +132,7 @@ def test_special_file_in_place_of_a_file_is_refused(folder: Path, name: str, kin
 
 
 def test_names_that_are_not_utf_8_round_trip(tmp_path: Path) -> None:
-    """What a file system calls something; JSON can spell it, UTF-8 cannot."""
+    """Such names come from file systems; JSON can escape them, but UTF-8 cannot encode them."""
     bundle = table_with_two_phones()[1]
     odd = HapticBundle(bundle.snapshot, "caf\udce9", bundle.objects, bundle.loops)
     assert HapticBundle.load(odd.save(tmp_path / "room")).scene_category == "caf\udce9"

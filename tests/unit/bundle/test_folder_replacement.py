@@ -27,12 +27,12 @@ def content(folder: Path) -> dict[str, bytes]:
 
 @pytest.fixture(params=["exchange", "renames"])
 def both_ways(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With the system's exchange, and as where there is none."""
+    """Run a test with the system's exchange of folders, and with renames instead."""
     if request.param == "renames":
         monkeypatch.setattr(folder_replacement, "exchange", lambda one, other: False)
 
 
-# --- what may be replaced ---------------------------------------------------------------------------------------------
+# --- folders that may be replaced -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_long_folder_name_is_accepted(tmp_path: Path) -> None:
     assert len(list(tmp_path.iterdir())) == 1
 
 
-# --- what stays -------------------------------------------------------------------------------------------------------
+# --- files that stay --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.usefixtures("both_ways")
@@ -176,7 +176,7 @@ def test_foreign_file_with_a_bundle_file_name_is_renamed(tmp_path: Path) -> None
 
 @pytest.mark.usefixtures("both_ways")
 def test_file_saved_by_an_editor_during_a_save_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Editors write beside a file and rename: the name then means another file than the one that was linked."""
+    """Editors write a new file and rename it, so that the name then belongs to another file than the linked one."""
     folder = a_bundle().save(tmp_path / "room")
     (folder / "thesis.txt").write_text("ten years")
     carry_over = folder_replacement.carry_over
@@ -209,7 +209,7 @@ def test_the_folder_s_mode_stays(tmp_path: Path) -> None:
     assert folder.stat().st_mode & 0o777 == 0o750
 
 
-# --- what was left ----------------------------------------------------------------------------------------------------
+# --- leftovers of earlier saves ---------------------------------------------------------------------------------------
 
 DIES = """
 import os, sys
@@ -235,7 +235,7 @@ table_with_two_phones()[1].override("phone", gain_db=-7.0).save(sys.argv[1])
 
 
 def dying(folder: Path, where: str) -> subprocess.Popen[str]:
-    """A process that begins to save there, and dies: when it is told to, or between the two renames."""
+    """Start a process that begins to save to a folder and dies, on command or between the two renames."""
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
     arguments = [sys.executable, "-c", DIES, str(folder), where]
     return subprocess.Popen(arguments, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)

@@ -1,4 +1,4 @@
-"""docs/bundle-format.md names every field that is written, and no other."""
+"""docs/bundle-format.md names exactly the fields that are written."""
 
 from __future__ import annotations
 

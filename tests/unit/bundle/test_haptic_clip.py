@@ -1,4 +1,4 @@
-"""A hand-made clip in the place of a baked one."""
+"""Replacing a baked loop by a hand-made haptic clip."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def baked() -> HapticBundle:
 
 @pytest.fixture
 def clip(tmp_path: Path) -> Path:
-    """A second of a hum that swells, with a knock in its middle."""
+    """A clip file: a hum of a second that swells, with a knock in its middle."""
     amplitude = Curve(np.array([0.0, 0.5, 1.003]), np.array([0.2, 0.8, 0.3]))
     made = HapticClip(amplitude, None, (Transient(0.5, 1.0, 0.4),), about=About(author="Ada"))
     path = tmp_path / "kettle.haptic"
@@ -37,14 +37,14 @@ def test_a_clip_is_looped_whole_and_felt_as_it_is(baked: HapticBundle, clip: Pat
     np.testing.assert_array_equal(first_loop(drawn), first_loop(bundle))
     (loop,) = bundle.loops["kettle"].values()
     x = loop.tactile.samples
-    assert 0.98 <= loop.tactile.duration_s <= 1.003  # less the rest of its last cycle
+    assert 0.98 <= loop.tactile.duration_s <= 1.003  # cut by at most the rest of its last cycle
     assert loop.tactile.credit.author == "Ada"
     assert "kettle, by Ada" in bundle_credits(bundle.save(tmp_path / "a"))
-    # Its shape is that of the clip: the level in each tenth of a second, against the first.
+    # The loop has the clip's shape: the level in each tenth of a second, relative to the first.
     level = [float(np.abs(part).max()) for part in np.array_split(x[: 8000 - 8000 % 10], 10)]
     assert np.argmax(level) == 5  # the knock
     assert level[4] / level[0] == pytest.approx((0.2 + 0.6 * 0.95) / (0.2 + 0.6 * 0.2), rel=0.15)
-    # The wrap is no larger step than those within.
+    # The step at the wrap is not larger than steps within the loop.
     assert abs(x[0] - x[-1]) <= 1.05 * np.abs(np.diff(x)).max()
 
 

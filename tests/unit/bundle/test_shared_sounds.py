@@ -1,4 +1,4 @@
-"""Equal sounds are one file; edits of one source leave the others unchanged."""
+"""Equal sounds share one file; edits of one source leave the others unchanged."""
 
 import json
 from dataclasses import replace
@@ -16,7 +16,7 @@ N = 5
 
 
 def fans(n: int = N) -> HapticBundle:
-    """Equal fans, each with a loop of its own that sounds like the others'."""
+    """Equal fans, each with its own loop object of equal content."""
     things = [box(f"fan_{i}", (0.3, 0.3, 0.3), (float(i), 0.15, 0.0)) for i in range(n)]
     humming = haptics("plastic", (0.3, 0.3, 0.3), "on")
     loops = {

@@ -1,4 +1,4 @@
-"""AHAP: the published pairs, the limits of events and curves, and what Apple's player makes of unusual files."""
+"""AHAP files: published pairs, limits of events and curves, and unusual files as Apple's player plays them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ PAIRS = {
 
 
 def control_points(document: dict[str, Any], control: str, *, absolute: bool) -> list[tuple[float, float]]:
-    """Points of all curves of one control, times from the file's beginning; `absolute` where they are written so."""
+    """Points of all curves of a control, with times from the file's beginning; `absolute`: the file has such times."""
     found: list[tuple[float, float]] = []
     for item in document["Pattern"]:
         curve = item.get("ParameterCurve")

@@ -1,4 +1,4 @@
-"""Clips as signals: against the reference renderer's own output, and against what the rule says."""
+"""Synthesis of signals from clips, against the reference renderer's output and against its rules."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def test_signals_equal_those_of_the_reference_renderer(name: str) -> None:
     expected, rate = soundfile.read(needed(RENDERED / f"{name}.wav"))
     found = synthesize(read_haptic(RENDERED.parent / f"{name}.haptic"), rate)
     assert len(found) == len(expected)
-    # The reference counts phases in 32 bits; over 15 s they drift by a thousandth of a cycle.
+    # The reference accumulates phases in 32 bits, which drift by a thousandth of a cycle over 15 s.
     np.testing.assert_allclose(found, expected, atol=0.02)
     assert np.sqrt(np.mean((found - expected) ** 2)) < 0.02 * np.sqrt(np.mean(expected**2))
 

@@ -8,7 +8,7 @@ from scene2hap.contact.geometry.broad import Boxes, box_pairs
 
 
 def random_boxes(rng: np.random.Generator, n: int) -> Boxes:
-    # Whole numbers: many boxes touch exactly.
+    # Integers, so that many boxes touch exactly.
     low = rng.integers(0, 12, size=(3, n)).astype(float)
     return Boxes(low, low + rng.integers(0, 4, size=(3, n)))
 

@@ -33,7 +33,7 @@ def test_neighbour_lists_are_complete_and_symmetric() -> None:
             moved.append(bodies[name])
         before = {name: set(phase.neighbours[name]) for name in movers}
         left = phase.update(moved)
-        # A pair that parted is reported once, on either side.
+        # A separated pair is reported once, by one of its two bodies.
         reported = {frozenset((x, y)) for x, others in left.items() for y in others}
         assert reported == {frozenset((x, y)) for x in movers for y in before[x] - phase.neighbours[x]}
         assert len(reported) == sum(map(len, left.values()))
@@ -49,10 +49,10 @@ def test_a_body_within_its_inner_box_is_not_searched_again() -> None:
     phase = BroadPhase(1, lambda _: (0.01, 0.02))
     body = Body.of(box("b", (0.1, 0.1, 0.1), (0, 0, 0)), 1)
     assert phase.update([body]) == {"b": set()}
-    assert phase.update([body.at(Pose((0.001, 0, 0)))]) == {"b": set()}  # drawn tight at first, wide from now on
+    assert phase.update([body.at(Pose((0.001, 0, 0)))]) == {"b": set()}  # only the first fat box is tight
     assert phase.update([body.at(Pose((0.9 * SKIN_M, 0, 0)))]) == {}
     assert "b" in phase.update([body.at(Pose((1.1 * SKIN_M + 0.001, 0, 0)))])
-    # It may go back again without another list, and be lifted and put down over and over.
+    # Going back needs no new list, nor does repeated lifting and putting down.
     assert phase.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}
     assert "b" in phase.update([body.at(Pose((0.2 * SKIN_M, 0.25, 0)))])
     assert phase.update([body.at(Pose((0.2 * SKIN_M, 0, 0)))]) == {}

@@ -71,7 +71,7 @@ def test_landing_body_gets_a_certificate_if_nothing_else_is_near(
     graph.update(moved)
     assert ("cup" not in looked_at(graph)) == is_certified
     assert is_as_built(graph, *objects)
-    # And what was found there holds as it goes on.
+    # The result stays valid while the cup moves on.
     x, y, z = moved["cup"].position_m
     for step in range(1, 4):
         graph.update({"cup": Pose((x + 0.004 * step, y, z), moved["cup"].rotation_xyzw)})
@@ -100,7 +100,7 @@ def test_a_lifted_body_needs_no_narrow_phase_unless_it_may_hang(
 
 @pytest.mark.parametrize("apart_m", [0.3, 0.24, 0.12])
 def test_a_step_needs_no_narrow_phase_while_others_pass_by(apart_m: float, looked_at: Looked) -> None:
-    """A crate is pushed back and forth; two cups pass by, one of them lifted and put down again."""
+    """A crate moves back and forth; two cups pass by, and one of them is repeatedly lifted and put down."""
     table = on_floor("table", (2.0, 0.7, 1.0), 0, 0)
     objects = [floor(), table, box("crate", (0.1, 0.1, 0.1), (-0.4, 0.75, 0.0)), CUP, replace(CUP, id="other cup")]
     graph = ContactGraph(scene(*objects))
@@ -130,7 +130,7 @@ def test_a_certificate_holds_to_the_rim(angle: float, looked_at: Looked) -> None
         if "sheet" not in looked_at(graph):
             certified.append(z)
     on_table = [z for z in certified if z < 0.5]
-    # To the rim but for a step, where a circle around the sheet ends at 0.34.
+    # Certified to within one step of the rim; a circle around the sheet would end at 0.34.
     assert 0.5 - reach_m - 0.0051 <= max(on_table) <= 0.5 - reach_m
     assert len(on_table) > 0.95 * max(on_table) / 0.005
 
@@ -155,7 +155,7 @@ def test_approaching_bodies_share_the_free_distance(looked_at: Looked) -> None:
 
 
 def test_a_body_below_a_removed_support_is_checked(looked_at: Looked) -> None:
-    """A jar slides over a worktop that is 20 mm thick, from above one cupboard to above another; then it has none."""
+    """A jar slides over a worktop 20 mm thick, from above one cupboard to above another; then the worktop goes."""
     objects = [
         floor(),
         box("cupboard", (0.5, 0.7, 0.6), (-0.25, 0.35, 0.0)),
@@ -176,8 +176,8 @@ def test_a_body_below_a_removed_support_is_checked(looked_at: Looked) -> None:
 
 
 def test_a_body_below_a_support_is_checked_at_its_present_pose() -> None:
-    """A jar slides over a cupboard that nothing holds, is checked when a lamp beside it is removed, and slides on, out
-    over the cupboard's side; then it has no worktop any more."""
+    """A jar slides on a worktop over a cupboard and is checked when a lamp beside it is removed. It slides on, out over
+    the cupboard's side; then the worktop is removed."""
     lamp = box("lamp", (0.1, 0.1, 0.1), (-0.4, 0.77, 0.24))
     objects = [
         box("cupboard", (0.5, 0.7, 0.6), (-0.25, 0.35, 0.0)),
@@ -195,7 +195,7 @@ def test_a_body_below_a_support_is_checked_at_its_present_pose() -> None:
 
 @pytest.mark.parametrize("goes_away", [False, True], ids=["at once", "once it is far away"])
 def test_a_neighbour_may_be_removed_and_come_back(goes_away: bool) -> None:
-    """While a crate slides near it, touching it or not."""
+    """A neighbour is removed and added again while a crate slides near it, with and without contact."""
     for gap_m in (0.002, 0.02):
         near, crate = box("near", (0.1, 0.1, 0.1), (0.0, 0.75, 0.0)), box("crate", (0.1, 0.1, 0.1), (0.0, 0.75, 0.102))
         objects = [floor(), TABLE, near, crate]
@@ -214,7 +214,7 @@ def test_a_neighbour_may_be_removed_and_come_back(goes_away: bool) -> None:
 
 
 def test_larger_neighbours_of_a_body_that_loses_its_support_are_checked(looked_at: Looked) -> None:
-    """A crate slides 10 mm beside a picture on a shelf, without touching it; the shelf goes, and the picture hangs."""
+    """A crate slides 10 mm beside a picture on a shelf, without contact. Without the shelf, the picture hangs on it."""
     shelf = box("shelf", (0.2, 0.1, 0.1), (-0.25, 0.75, 0.0))
     picture = box("picture", (0.2, 0.2, 0.02), (-0.25, 0.9, 0.0))
     crate = box("crate", (0.3, 0.6, 0.3), (0.0, 1.0, 0.0))
@@ -233,7 +233,7 @@ def test_larger_neighbours_of_a_body_that_loses_its_support_are_checked(looked_a
 
 @pytest.mark.parametrize("angle", [0.0, 0.2, 1.1])
 def test_a_step_in_a_rotated_shelf_needs_no_narrow_phase(angle: float, looked_at: Looked) -> None:
-    """A cup moves back and forth on a board between two others, at the rotation of the shelf."""
+    """A cup moves back and forth on the middle board of a rotated shelf."""
     boards = [((0.8, 0.02, 0.3), (0.0, h, 0.0)) for h in (0.01, 0.4, 0.8)]
     sides = [((0.02, 0.8, 0.3), (x, 0.4, 0.0)) for x in (-0.41, 0.41)]
     shelf = replace(boxes("shelf", *boards, *sides), pose=Pose((0.0, 0.0, 0.0), yaw(angle)))

@@ -1,4 +1,4 @@
-"""Distances and contact points of two cuboids, against quadratic programs and points listed by hand."""
+"""Distances and contact points of two cuboids, against bounded least squares and points listed by hand."""
 
 import math
 

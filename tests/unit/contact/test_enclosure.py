@@ -1,4 +1,4 @@
-"""Objects enclosed by another with play, and objects that only stand near it."""
+"""Enclosure: objects built into another with play, and objects that only stand near another."""
 
 import math
 
@@ -20,7 +20,7 @@ REACH_M = play_reach_m(math.hypot(*DRAWER))
 
 
 def carcass(play_m: float, at_m: Triple = (0, 0, 0)) -> SceneObject:
-    """Two sides and a back, open in front (+z), above and below, with this play beside the drawer."""
+    """Two sides and a back, open in front (+z), above and below, with `play_m` on each side of the drawer."""
     x = DRAWER[0] / 2 + play_m + 0.009
     sides = [((0.018, 0.7, 0.5), (s * x, 0, 0)) for s in (-1, 1)]
     return boxes("carcass", *sides, ((2 * x, 0.7, 0.01), (0, 0, -0.25)), at_m=at_m)
@@ -31,7 +31,7 @@ def drawer(at_m: Triple = (0, 0, 0)) -> SceneObject:
 
 
 def graph_of(play_m: float, at_m: Triple = (0, 0, 0)) -> ContactGraph:
-    """The drawer is in the carcass, and lies on a board, so that it does not hang."""
+    """The graph of the drawer in the carcass, on a board, so that it does not hang."""
     board = box("board", (0.3, 0.02, 1.4), (0, -0.07, 0.5))
     return ContactGraph(scene(carcass(play_m), drawer(at_m), board))
 
@@ -43,7 +43,7 @@ def test_a_drawer_is_built_into_its_carcass(play_m: float) -> None:
     touch = points(graph, "carcass", "drawer")
     assert np.abs(touch[:, 0]) == pytest.approx(DRAWER[0] / 2 + play_m / 2)
     assert set(np.sign(touch[:, 0])) == {-1.0, 1.0}
-    if play_m > 0.004:  # Else it touches one side, and the way there has a direction.
+    if play_m > 0.004:  # With less play it touches one side, which has a normal.
         assert {c.normal for c in graph.contacts if (c.a, c.b) == ("carcass", "drawer")} == {None}
 
 
@@ -63,7 +63,7 @@ def test_the_larger_play_counts() -> None:
 
 
 def test_a_drawer_drawn_out_leaves_its_carcass_smoothly() -> None:
-    # Its box ends at 0.225 and the carcass at 0.25 m.
+    # The drawer's box ends at 0.225 m, the carcass at 0.25 m.
     for way_m, outside in ((0.025, 0.0), (0.17, 0.145 / 0.45), (0.2, 0.175 / 0.45), (0.26, 0.235 / 0.45)):
         graph = graph_of(0.0127, (0, 0, way_m))
         share = min(max(3 * outside / 0.5 - 2, 0.0), 1.0)
@@ -84,7 +84,7 @@ def test_a_leaf_is_built_into_its_frame_and_ajar_it_is_not() -> None:
     standing = {("floor", "frame"), ("floor", "leaf")}
     assert found(floor(), frame, on_floor("leaf", size, 0, 0, 0.006)) == {*standing, ("frame", "leaf")}
     for angle in (0.15, 0.6, 1.5):
-        # About a hinge at (-0.38, 0.04), which no edge of it leaves by more than its thickness.
+        # Rotation about a hinge at (-0.38, 0.04); the leaf's hinge edge stays within its thickness of the hinge.
         x, z = -0.38 + 0.4 * math.cos(angle), 0.04 + 0.4 * math.sin(angle)
         turned = (0.0, -math.sin(angle / 2), 0.0, math.cos(angle / 2))
         assert found(floor(), frame, box("leaf", size, (x, 1.001, z), turned)) == standing

@@ -1,4 +1,4 @@
-"""Corners and edges that stand for a mesh: counted by hand; without the others no distance and no contact changes."""
+"""Feature selection of a mesh: counts of corners and edges known by hand, and equal distances and contacts."""
 
 import numpy as np
 import pytest
@@ -20,13 +20,13 @@ def shape(vertices: object, faces: object) -> Shape:
 
 
 def counts(one: Shape) -> tuple[int, int]:
-    """How many edges and corners are searched."""
+    """The number of edges and corners that are searched."""
     bits = np.unpackbits(one.features[:, None], axis=1, bitorder="little")
     return int(bits[:, :3].sum()), int(bits[:, 3:6].sum())
 
 
 def gridded(n: int, height: object = 0.0) -> Shape:
-    """A square of 1 m in n x n squares, at a height (n + 1, n + 1)."""
+    """A square of 1 m divided into n x n squares, with heights (n + 1, n + 1)."""
     line = np.linspace(0.0, 1.0, n + 1)
     u, v = np.meshgrid(line, line, indexing="ij")
     points = np.stack([u.ravel(), np.broadcast_to(height, u.shape).ravel(), v.ravel()], axis=1)
@@ -61,7 +61,7 @@ def test_folds_of_any_angle_are_edges() -> None:
 
 
 def test_no_edge_of_a_finely_cut_curve_is_flat() -> None:
-    """Each edge bends by some 20 nm, all of them together by 0.1 mm."""
+    """Each edge bends by some 20 nm, but all edges together bend by 0.1 mm."""
     n = 200
     assert counts(gridded(n, 1e-4 * np.linspace(-1, 1, n + 1)[:, None] ** 2)) == (3 * n**2 + 2 * n, (n + 1) ** 2)
 
@@ -75,7 +75,7 @@ def test_strips_between_the_bends_of_a_coarse_curve_are_flat() -> None:
 def test_slender_and_empty_triangles_keep_their_edges() -> None:
     corners = [(0, 0, 0), (1, 0, 0), (2, 0, 0), (1, 0, 1e-7), (1, 0, -1)]
     n_edges, n_corners = counts(shape(corners, [(0, 1, 2), (0, 2, 3), (0, 4, 2)]))
-    # The edge from (0, 0, 0) to (2, 0, 0) is one of three triangles.
+    # The edge from (0, 0, 0) to (2, 0, 0) is shared by three triangles.
     assert (n_edges, n_corners) == (7, 5)
 
 
@@ -86,7 +86,7 @@ def test_a_mesh_of_no_triangle_has_no_features_and_a_point_keeps_its_own(n: int)
 
 
 def every_feature(one: Shape) -> Shape:
-    """The same triangles, all of whose corners and edges are searched."""
+    """The same triangles with all corners and edges searched."""
     found = Shape(one.triangles, one.corners)
     found.__dict__["features"] = np.full(one.triangles.shape[2], 0b111_111, dtype=np.uint8)
     return found
@@ -135,7 +135,7 @@ def extent(ends: Floats) -> Floats:
 def test_contacts_of_all_features_lie_within_those_of_the_selected_features(
     one: Shape, other: Shape, place: tuple[float, float, float], turn: tuple[float, float, float, float]
 ) -> None:
-    """Where surfaces lie on or cut each other, the outermost points are at corners and edges of the surfaces."""
+    """Where surfaces lie on or cut each other, the outermost contact points are at corners and edges."""
     posed = (Pose(place, turn).rotation @ other.triangles.reshape(3, -1)).reshape(other.triangles.shape)
     posed += np.array(place)[:, None, None]
     i, j = np.divmod(np.arange(one.triangles.shape[2] * posed.shape[2]), posed.shape[2])

@@ -1,4 +1,4 @@
-"""Free space around a guest, against all triangles of its host."""
+"""Free space around a guest body, against a search of all triangles of its host."""
 
 import math
 from dataclasses import replace
@@ -47,7 +47,7 @@ def test_free_space_agrees_with_triangles(
     size: tuple[float, float, float],
     step: tuple[float, float],
 ) -> None:
-    """Compare at a place, and at another near it where the first free region may still hold."""
+    """Compare at a place, and at a second place nearby, where the first free region may still be valid."""
     all_of_it = Pose((0.3, 0.1, -0.2), turned(turn_of_all))
     host = Body.of(replace(HOUSE, pose=all_of_it), 1)
     for dx, dz in ((0.0, 0.0), step):
@@ -102,7 +102,7 @@ def test_an_object_between_boards_stands_on_the_lower() -> None:
 
 
 def alone(*things: SceneObject) -> ContactGraph:
-    """The graph from triangles alone, without free regions."""
+    """The contact graph from triangles only, without free regions."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(free_space, "_upright", lambda host: None)
         return ContactGraph(scene(*things))
@@ -110,7 +110,7 @@ def alone(*things: SceneObject) -> ContactGraph:
 
 @pytest.mark.parametrize("depth_m", [0.001, 0.0035, 0.015, 0.0235, 0.03, 0.05])
 def test_contacts_of_an_object_sunk_in_a_ledge_agree_with_triangles(depth_m: float) -> None:
-    """A plate 20 mm thick in a podium; with its top up to 4 mm below that it is sunk in."""
+    """A plate 20 mm thick in a podium; up to 4 mm below the podium's top, the plate's top counts as sunk in."""
     plate = box("plate", (0.1, 0.02, 0.1), (-1.1, 0.13 - depth_m, -1.1))
     told, by_triangles = ContactGraph(scene(HOUSE, plate)), alone(HOUSE, plate)
     assert pairs(told) == pairs(by_triangles)
@@ -194,27 +194,27 @@ def test_contacts_of_a_room_equal_those_by_triangles_alone(
         one, other = (
             graph.junctions[pair].weights[0] if pair in graph.junctions else 0.0 for graph in (told, by_triangles)
         )
-        # A leaning thing's triangles are tried a little smaller, and hover so much higher.
+        # Triangles of a leaning object are tested slightly smaller, so that they hover slightly higher.
         assert one == pytest.approx(other, abs=0.06), pair
 
 
 def pen(x: float) -> SceneObject:
-    """Two walls 0.78 m apart, one object."""
+    """One object of two walls 0.78 m apart."""
     return boxes("pen", *(((0.02, 0.2, 0.8), (dx, 0.1, 0.0)) for dx in (-0.4, 0.4)), at_m=(x, 0.0, 0.3))
 
 
 def test_a_guest_moving_in_free_space_notices_that_its_host_has_moved() -> None:
-    """A box slides, and one hangs in the air, between two walls, one of which then comes near."""
+    """Between two walls, one box slides and another hangs in the air; then a wall moves close to them."""
     low, high = box("low", (0.1, 0.1, 0.1), (-0.19, 0.05, 0.55)), box("high", (0.1, 0.1, 0.1), (-0.19, 0.17, 0.05))
     graph = ContactGraph(scene(HOUSE, pen(-0.5), low, high))
-    # What has moved once may move on without its neighbours being looked for.
+    # After its first move, a body may move on without a new neighbour search.
     graph.update({"pen": Pose((-0.501, 0.0, 0.3))})
     shift = 0.0
     for k in range(6):
         shift = 0.0001 * k
         graph.update({"low": Pose((-0.19 + shift, 0.05, 0.55)), "high": Pose((-0.19 + shift, 0.17, 0.05))})
     assert pairs(graph) == {("house", "low"), ("house", "pen")}
-    # The wall comes from 30 to 12 mm, and the boxes go 10 mm of these.
+    # The wall moves from 30 to 12 mm distance, and the boxes move 10 mm towards it.
     places = {
         "pen": Pose((-0.518, 0.0, 0.3)),
         "low": Pose((-0.18 + shift, 0.05, 0.55)),
@@ -228,7 +228,7 @@ def test_a_guest_moving_in_free_space_notices_that_its_host_has_moved() -> None:
 
 
 def test_an_object_from_below_a_ledge_does_not_stand_on_it() -> None:
-    """A slab has moved through a floor, which may then fall onto it; it rises again above the lower face."""
+    """A slab has moved through a floor, which may then fall onto it; it rises again above the floor's lower face."""
     base, slab = box("base", (3.0, 0.1, 3.0), (0.0, -0.05, 0.0)), box("slab", (0.5, 0.04, 0.4), (0.0, 0.02, 0.0))
     graph = ContactGraph(scene(base, slab))
     for height in (-0.092, -0.064):

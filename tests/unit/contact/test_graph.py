@@ -1,4 +1,4 @@
-"""The contact graph as its users see it."""
+"""The public behaviour of the contact graph."""
 
 import subprocess
 import sys
@@ -88,7 +88,7 @@ def test_a_stated_tolerance_is_used_as_it_is_for_every_pair() -> None:
     assert found(floor(), lifted, beside, tolerance_m=0.019) == set()
     every = ContactGraph(scene(floor(), lifted, beside), tolerance_m=0.024)
     assert pairs(every) == {("floor", "lifted"), ("beside", "floor"), ("beside", "lifted")}
-    # 0.020 is half way from 2/3 of 0.024 to 0.024, where the cosine is half way down.
+    # 0.020 is half way between 2/3 of 0.024 and 0.024, where the raised cosine is 0.5.
     assert weight(every, "beside", "lifted") == pytest.approx(0.5)
     normals = {c.normal for c in every.contacts if (c.a, c.b) == ("beside", "lifted")}
     assert [pytest.approx(normal) for normal in normals] == [(-1, 0, 0)]
@@ -148,9 +148,9 @@ def test_bodies_at_rest_are_not_searched(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(finder.BodyPair, "__init__", tied)
     graph.update({"cup": Pose((0.25, 0.76, 0.1))})
     assert all(pair == {"cup", "table"} for pair in met)
-    # Over the table's edge the foot of a tilted thing is not all over the table, so that triangles must tell.
+    # At the table's edge, the foot of a tilted cup is not wholly over the table, so that triangles must be tested.
     graph.update({"cup": Pose((0.5, 0.77, 0.1), (0.1, 0.0, 0.0, 1.0))})
-    assert len(met) >= 2  # tied, and its triangles asked
+    assert len(met) >= 2  # a body pair, and its triangles
     assert all(pair == {"cup", "table"} for pair in met)
 
 

@@ -1,4 +1,4 @@
-"""Rims of ledges, against known outlines."""
+"""Ledges of a mesh and their rims, against known outlines."""
 
 import math
 
@@ -18,7 +18,7 @@ WIDE = (-5.0, -5.0, 5.0, 5.0)
 
 
 def ledges(triangles: NDArray[np.float64], upright: Upright = UP) -> Ledges:
-    """Of triangles (n, 3, 3), of rows that are corners."""
+    """The ledges of triangles (n, 3, 3), whose rows are corners."""
     axes_first = triangles.transpose(2, 1, 0)
     return Ledges(axes_first, boxes_of(axes_first), upright, 2e-4)
 
@@ -50,7 +50,7 @@ def test_a_stretch_of_an_l_is_found_where_there_is_one_and_holds_the_foot(
     found = shape.ledges(UP)
     number = found.heights.index(0.0)
     assume(min(abs(abs(edge) - rim) for edge in foot for rim in (0.5, 1.5)) > 1e-5)
-    # An L holds a rectangle if it holds its four corners and the rectangle does not span the notch, as none can.
+    # An L contains a rectangle if it contains the four corners; no such rectangle can span the notch.
     is_covered = all(inside_l(u, v) for u in foot[::2] for v in foot[1::2])
     stretch = stretched(found, number, foot, WIDE)
     assert (stretch is not None) == is_covered
@@ -108,7 +108,7 @@ def test_heights_are_along_the_vertical_axis() -> None:
     shape = shape_of(house().geometry.mesh)
     assert shape.ledges(UP).heights == pytest.approx([0.0, 0.12, 0.88, 0.9, 2.4])
     assert shape.ledges(Upright(1, -1, 0, 2)).heights == pytest.approx([-2.4, -0.9, -0.88, -0.12, 0.0])
-    # Walls are level where x is up.
+    # With x up, the walls are level.
     assert shape.ledges(Upright(0, 1, 1, 2)).heights == pytest.approx([-1.5, -0.7, 0.5, 1.5])
     assert Body.of(house((0.5, 0.5, 0.5, 0.5)), 1).stance.lean is not None
 

@@ -1,4 +1,4 @@
-"""Outlines against triangles: closed forms agree with `MeshPair`."""
+"""Closed-form contacts of upright bodies, from their outlines, agree with the triangles of `MeshPair`."""
 
 import math
 
@@ -33,7 +33,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     rest = rest_on(upper, lower)
     assert rest is not None
     least = BodyPair(upper, lower).first_fall_m("upper")
-    # Rims that overlap by a tenth of a millimetre may or may not count.
+    # An overlap of the rims by up to 0.1 mm may or may not count.
     if math.isinf(rest.fall_m) != math.isinf(least):
         moved = block("upper", (0.2998, 0.1, 0.1998), upper.position_m, turn_x)
         again = rest_on(moved, lower)
@@ -92,7 +92,7 @@ def test_a_leaning_body_stands_on_its_lowest_edge() -> None:
     )
     assert not leaning.stance.is_block
     posed_base_face = leaning.stance.posed_base_face
-    # The edge along x that is lowest once y has turned to z by the angle.
+    # The lowest edge along x after the rotation from y to z by the angle.
     height, z = -0.1 * math.cos(angle) - 0.15 * math.sin(angle), -0.1 * math.sin(angle) + 0.15 * math.cos(angle)
     assert posed_base_face.height == pytest.approx(height)
     assert sorted(posed_base_face.points) == [pytest.approx((-0.05, z)), pytest.approx((0.05, z))]
@@ -103,8 +103,8 @@ def test_a_leaning_body_stands_on_its_lowest_edge() -> None:
     assert rest.wholly
     told = BodyPair(leaning, floor).falls("leaning")
     assert told is not None
-    assert rest.fall_m == pytest.approx(told.min(), abs=1e-4)  # triangles are tried a little smaller
-    # Half over an edge nothing is sure.
+    assert rest.fall_m == pytest.approx(told.min(), abs=1e-4)  # triangles are tested slightly smaller
+    # Half over an edge, the closed form does not apply.
     assert rest_on(leaning, block("floor", (1, 1, 1), (0.5, -0.7, 0), 0.0)) is None
 
 

@@ -1,4 +1,4 @@
-"""Distance, contact points and fall distance of pairs of meshes: boxes in closed form, and invariants of any."""
+"""Distance, contact points and fall distance of mesh pairs: closed forms of boxes, and invariants of any mesh."""
 
 import math
 
@@ -28,7 +28,7 @@ def meeting(a: SceneObject, b: SceneObject) -> MeshPair:
 
 
 def surface_gap(size_a: Triple, size_b: Triple, offset: Triple) -> float:
-    """The distance of two axis-parallel boxes' surfaces: of the boxes, or inside a box to its nearest side."""
+    """The distance of the surfaces of two axis-parallel boxes; for a box inside another, to the nearest side."""
     half_a, half_b, between = np.array(size_a) / 2, np.array(size_b) / 2, np.abs(offset)
     outside = np.maximum(between - half_a - half_b, 0.0)
     if outside.any():
@@ -75,7 +75,7 @@ def test_one_mesh_has_one_shape() -> None:
 
 
 def patch_of(a: SceneObject, b: SceneObject, within_m: float = 0.001, way: Triple = (0, 0, 0)) -> np.ndarray:
-    """The patch's points on both surfaces, in the world, (2, n, 3)."""
+    """The points of the contact patch on both surfaces, in world coordinates, (2, n, 3)."""
     ends = meeting(a, b).patch(way, within_m)
     return np.array([[pair[k] for pair in ends] for k in (0, 1)]).reshape(2, -1, 3)
 
@@ -158,7 +158,7 @@ def heap(seed: int, up_axis: int) -> list[Body]:
 @given(seed=st.integers(0, 10**6))
 @settings(max_examples=25)
 def test_an_object_moved_by_its_fall_distance_touches_the_other(up_axis: int, seed: int) -> None:
-    """After its fall distance an object touches the other, as the host or as the guest."""
+    """After a move by its fall distance, an object touches the other, as the host or as the guest."""
     bodies, n_fell = heap(seed, up_axis), 0
     for faller in bodies:
         for other in bodies:
@@ -175,8 +175,8 @@ def test_an_object_moved_by_its_fall_distance_touches_the_other(up_axis: int, se
             x, y, z = faller.position_m
             at = (x, y - first_m, z) if up_axis == 1 else (x, y, z - first_m)
             landed = faller.at(Pose(at, faller.pose.rotation_xyzw))
-            # Falling triangles are tried a little smaller, by at most a tenth of a millimetre; one that is sunk in by
-            # more than 4 mm at one end and less at the other does not fall.
+            # Falling triangles are tested smaller by at most 0.1 mm. A triangle that is sunk in by more than 4 mm at
+            # one end and less at the other does not fall.
             assert MeshPair(landed, other).gap(3e-4 if first_m else 0.0043) is not None
     assert n_fell > 5
 
@@ -217,7 +217,7 @@ def wavy(name: str, n: int, place: Triple) -> Body:
 
 
 def test_contact_points_of_dense_meshes_are_as_far_apart_as_any() -> None:
-    """Each contact point is the farthest of all from those before; here piece by piece."""
+    """Each contact point is the candidate farthest from the points before; candidates are computed piece by piece."""
     sheet, other = wavy("a", 50, (0.0, 0.0, 0.0)), wavy("b", 40, (0.11, 0.002, 0.07))
     chosen = np.array([ends.middle_m for ends in MeshPair(sheet, other).patch((0.0, 0.0, 0.0), 0.001)])
     assert len(chosen) == MAX_POINTS

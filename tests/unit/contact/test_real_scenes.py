@@ -1,4 +1,4 @@
-"""Found contacts against pairs known by construction or listed by hand from the coordinates of scenes by others."""
+"""Contacts of whole scenes, against pairs known by construction, or listed by hand from coordinates of other scenes."""
 
 from functools import cache
 
@@ -48,7 +48,7 @@ def test_exactly_the_composed_contacts_are_found(name: str) -> None:
 
 @pytest.mark.parametrize("name", ROOMS)
 def test_contact_points_lie_on_both_objects(name: str) -> None:
-    """Within the boxes around both, which were put a millimetre apart at most, and the picture 20 mm off its wall."""
+    """Points lie within both bounding boxes, which are at most 1 mm apart; the picture is 20 mm off its wall."""
     scene = load_scene(room_file(name))
     for contact in graph_of(name).contacts:
         apart_m = 0.02 if contact.a == "picture" else 0.001
@@ -62,14 +62,14 @@ def test_contact_points_of_the_kitchen() -> None:
     for a, b, height in (("pot", "stove", 0.864), ("plate_1", "table", 0.723), ("bowl", "cutting_board", 0.774)):
         assert points(graph, a, b)[:, 1] == pytest.approx(height, abs=1e-3)
     chair = points(graph, "chair_left", "floor")
-    # A foot in each corner of its box of 0.59 m x 0.56 m about (-1.68, 1.5).
+    # The chair has a foot in each corner of its box of 0.59 m x 0.56 m about (-1.68, 1.5).
     assert {(x < -1.68, z < 1.5) for x, _, z in chair.tolist()} == {(x, z) for x in (0, 1) for z in (0, 1)}
     fridge = points(graph, "fridge", "wall_back")
     assert fridge[:, 2] == pytest.approx(-1.6, abs=1e-3)
     assert np.ptp(fridge, axis=0)[0] > 0.9
 
 
-# What a person sees to rest or hang; authors left gaps of 0-60 mm (the sofa and the folding doors hover most).
+# Pairs that a person sees resting or hanging; the scene has gaps of 0-60 mm (largest: sofa and folding doors).
 LIVING = """
     BalconyTable_01_001 ChairD_01_001 ChairD_01_002: FloorB_01_001
     TVCabinet_01_001 ShoeRack_01_001 AirconditionerB_01_001: FloorB_01_001
@@ -84,7 +84,7 @@ LIVING = """
     Board_01_001 TV_01_001 PortraitD_01 LightC_01_001 LightC_01_002: HouseWallB_01_001
     RoomWindow_01_006 RoomWindow_01_007 RoomWindow_01_008 RoomWindow_01_009: HouseWallB_01_001
 """
-# Also true: frames side by side, doors in their frame, a picture that leans, heavy things sunk through the carpet.
+# Also correct: frames side by side, doors in their frame, a leaning picture, heavy objects sunk through the carpet.
 LIVING_BESIDES = """
     RoomWindow_01_006 RoomWindow_01_008: RoomWindow_01_007
     RoomWindow_01_009: RoomWindow_01_008

@@ -1,4 +1,4 @@
-"""Holders of objects, in scenes with an obvious answer."""
+"""Contact rule: which objects hold an object, in scenes with an obvious answer."""
 
 import numpy as np
 import pytest
@@ -58,7 +58,7 @@ def test_the_weight_falls_smoothly_with_height() -> None:
     assert weights[0] == 1.0
     assert weights[-1] == 0.0
     assert (np.diff(weights) <= 0).all()
-    # Half a cosine over a third of the reach is nowhere steeper than this.
+    # The largest slope of half a cosine over a third of the reach.
     assert np.abs(np.diff(weights)).max() <= np.pi / 2 * 0.0005 / (reach / 3)
 
 
@@ -125,7 +125,7 @@ def test_objects_side_by_side_that_intersect_a_little_do_not_hold_each_other() -
 
 
 def test_only_the_bottom_falls() -> None:
-    """A table hovers 12 mm over the floor, its top 6 mm over a stool under it."""
+    """A table hovers 12 mm above the floor, and its top 6 mm above a stool."""
     legs = [((0.05, 0.7, 0.05), (x, 0.35, z)) for x in (-0.5, 0.5) for z in (-0.3, 0.3)]
     table = boxes("table", *legs, ((1.1, 0.04, 0.7), (0, 0.72, 0)), at_m=(0, 0.012, 0))
     assert found(floor(), table, on_floor("stool", (0.3, 0.706, 0.3), 0, 0)) == {("floor", "stool"), ("floor", "table")}

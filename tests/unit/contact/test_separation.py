@@ -1,4 +1,4 @@
-"""Separating lines of footprints, against the projections of their corners."""
+"""Separating lines of footprints, against projections of the corners."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def rectangle(angle: float, half_1: float, half_2: float) -> Footprint:
 
 
 def corners(footprint: Footprint, u: float, v: float) -> np.ndarray:
-    """Of its rectangle at (u, v), as (4, 2)."""
+    """The corners of a footprint's rectangle at (u, v), as (4, 2)."""
     first = np.array([footprint.a_u, footprint.a_v])
     second = np.array([-footprint.a_v, footprint.a_u])
     signs = ((1, 1), (1, -1), (-1, -1), (-1, 1))

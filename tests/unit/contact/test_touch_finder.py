@@ -1,4 +1,4 @@
-"""A stated tolerance: tables of poses, added and removed objects, views."""
+"""Contacts with a stated tolerance: pose tables, added and removed objects, array views."""
 
 import numpy as np
 import pytest

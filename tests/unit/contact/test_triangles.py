@@ -1,4 +1,4 @@
-"""Distances of triangles against quadratic and linear programs, dense sampling, and cases known by hand."""
+"""Distances of triangles, against least squares, linear programs, dense sampling, and cases known by hand."""
 
 import numpy as np
 import pytest
@@ -18,12 +18,12 @@ SMOOTH = st.integers(0, 10**6)
 
 
 def axes_first(triangles: object) -> Floats:
-    """Triangles (n, 3, 3), of rows that are corners, as the library has them."""
+    """Convert triangles (n, 3, 3), whose rows are corners, to the layout of the library."""
     return np.array(triangles, dtype=float).transpose(2, 1, 0)
 
 
 def all_meetings(p: object, q: object) -> Meetings:
-    """Of every corner and edge."""
+    """The meetings of all corners and edges."""
     first, second = axes_first(p), axes_first(q)
     features = np.full(first.shape[2], 0b111_111, dtype=np.uint8)
     return meetings(first, second, features, features)
@@ -46,7 +46,7 @@ def height_range(p: Floats, q: Floats, up: tuple[float, float, float]) -> tuple[
 
 
 def distance_by_least_squares(p: Floats, q: Floats) -> float:
-    """min |P a - Q b| over barycentric a, b >= 0 with sum 1: non-negative least squares, the sums by a heavy row."""
+    """min |P a - Q b| over barycentric a, b >= 0 with sum 1: non-negative least squares, sums held by a heavy row."""
     heavy = 1e5
     rows = np.zeros((5, 6))
     rows[:3, :3], rows[:3, 3:] = p.T, -q.T
@@ -65,7 +65,7 @@ def is_on(point: Floats, triangle: Floats) -> bool:
 @example([0] * 18)
 @example([0, 0, 0, 8, 0, 0, 0, 8, 0, 1, 1, -4, 1, 1, 4, 1, 1, 4])
 def test_any_two_triangles_are_as_far_apart_as_least_squares_says(numbers: list[int]) -> None:
-    # Integers make the hard cases common: shared corners, parallel edges, equal planes, triangles that are lines.
+    # Integers make hard cases common: shared corners, parallel edges, equal planes, degenerate triangles.
     p, q = np.array(numbers, dtype=float).reshape(2, 3, 3) / 8
     distance, on_p, on_q = one(p, q)
     assert distance == pytest.approx(distance_by_least_squares(p, q), abs=1e-6)
@@ -93,7 +93,7 @@ def test_no_sampled_pair_of_points_is_nearer() -> None:
     apart = np.linalg.norm(samples_p[:, :, None] - samples_q[:, None], axis=-1).min(axis=(1, 2))
     distance = distances(p, q)
     assert (distance <= apart + 1e-12).all()
-    # 400 points on a triangle of about this size are some 0.15 apart.
+    # 400 points on a triangle of this size are about 0.15 apart.
     assert (apart - distance < 0.3).all()
 
 
@@ -117,7 +117,7 @@ def test_distance_known_by_hand(q: list[list[float]], distance: float) -> None:
 
 
 def test_every_corner_of_two_faces_on_each_other_is_found() -> None:
-    """A square's half hangs over the other's slanted edge: the common patch has the corners below."""
+    """One triangle extends over the slanted edge of the other; the common patch has the corners listed below."""
     q = np.array([[[0.5, 0.1, 0.0], [2.0, 0.1, 0.0], [0.5, 1.6, 0.0]]])
     every = all_meetings([FLAT], q)
     touching = every.on_p[:, every.distance <= 1e-9].T
@@ -146,7 +146,7 @@ def test_height_range_is_the_optimum_of_the_linear_program(seed: int) -> None:
     up = rng.normal(size=3)
     up /= np.linalg.norm(up)
     across = np.linalg.svd(up[None])[2][1:]
-    # Barycentric weights of a point of p and one of q, level with each other, as far or as little apart as can be.
+    # Barycentric weights of a point of p and a point of q on one vertical line, with extreme height difference.
     equal = np.vstack([np.hstack([across @ p.T, -across @ q.T]), [1, 1, 1, 0, 0, 0], [0, 0, 0, 1, 1, 1]])
     height = np.concatenate([p @ up, -(q @ up)])
     lowest, highest = (
@@ -156,7 +156,7 @@ def test_height_range_is_the_optimum_of_the_linear_program(seed: int) -> None:
     if lowest.status == 2:
         assert (low[0], high[0]) == (np.inf, -np.inf)
     else:
-        assume(highest.fun + lowest.fun < -1e-9)  # a shadow of one point may or may not count
+        assume(highest.fun + lowest.fun < -1e-9)  # a projection that meets in one point may or may not count
         assert low[0] == pytest.approx(lowest.fun, abs=1e-7)
         assert high[0] == pytest.approx(-highest.fun, abs=1e-7)
 

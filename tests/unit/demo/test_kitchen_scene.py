@@ -1,4 +1,4 @@
-"""The demo's kitchen: the committed file is what its script builds, and things stand on what they stand on."""
+"""The demo kitchen: the committed file equals the output of its script, and objects touch their supports."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ TOUCH_M = 1e-6
 
 
 def read_objects():
-    """World meshes of the named nodes. A mesh of several colours comes as children of its node."""
+    """World meshes of the named nodes. A mesh with several colours is several children of its node."""
     scene = trimesh.load_scene(COMMITTED, process=False)
     named = set(scene.graph.transforms.children[scene.graph.base_frame])
     parts: dict[str, list[trimesh.Trimesh]] = {name: [] for name in named}
@@ -117,7 +117,7 @@ def test_objects_touch_in_the_plane_of_their_support(objects, thing, support, ax
 
 
 def corner_on_face(corners_of, faces_of, along, plane_m):
-    """Whether a corner in the plane lies within a face that lies in the plane, by the signs of three areas."""
+    """Whether a corner in the plane lies within a face in the plane, from the signs of three areas."""
     across = [axis for axis in range(3) if axis != along]
     corners = corners_of.vertices[np.abs(corners_of.vertices[:, along] - plane_m) <= TOUCH_M][:, across]
     flat = (np.abs(faces_of.triangles[:, :, along] - plane_m) <= TOUCH_M).all(axis=1)
@@ -141,7 +141,7 @@ def test_objects_do_not_intersect(objects):
 
 
 def sunk_corners(inner, outer, margin_m=1e-5):
-    """Corners and face centres of one mesh that lie inside another, and not only on its faces."""
+    """The number of corners and face centres of one mesh inside another, without those on its faces."""
     points = np.concatenate([inner.vertices, inner.triangles_center])
     low, high = outer.bounds
     points = points[((points > low + margin_m) & (points < high - margin_m)).all(axis=1)]
@@ -151,7 +151,7 @@ def sunk_corners(inner, outer, margin_m=1e-5):
 
 
 def turns_around(mesh, points):
-    """How often a mesh winds around points (n, 3): 1 inside, 0 outside (Van Oosterom and Strackee 1983, equation 8)."""
+    """Winding number of a mesh at points (n, 3): 1 inside, 0 outside (Van Oosterom and Strackee 1983, equation 8)."""
     a, b, c = np.moveaxis(mesh.triangles[None] - points[:, None, None], 2, 0)
     la, lb, lc = (np.linalg.norm(side, axis=-1) for side in (a, b, c))
     ab, bc, ca = (np.einsum("ijk,ijk->ij", p, q) for p, q in ((a, b), (b, c), (c, a)))

@@ -1,4 +1,4 @@
-"""One session at a time uses a sink, a file or a port in a program."""
+"""Claims: within a program, one session at a time uses a sink, a file or a port."""
 
 import gc
 from pathlib import Path
@@ -32,7 +32,7 @@ def test_two_sessions_cannot_play_on_one_sink() -> None:
         second = session(sink)
         with pytest.raises(DeviceError, match="another session plays on this MemorySink already"):
             second.start()
-        second.stop()  # was never started, and stops nobody else
+        second.stop()  # was never started, and does not stop the other session
         sink.pull(400)
         kept = sink.samples
     assert kept.shape == (800, 2)

@@ -1,4 +1,4 @@
-"""COBS, sums and frames: published vectors, bytes worked by hand, round trips, and wires that damage bytes."""
+"""COBS, checksums and frames: published vectors, bytes computed by hand, round trips, and damaged bytes."""
 
 import math
 import struct
@@ -29,7 +29,7 @@ from scene2hap.devices.framing.link_messages import Credit, DeviceFormat, Hello,
 from scene2hap.errors import DeviceError
 from wire_damage import damaged
 
-# Cheshire and Baker's cases, as collected in the article "Consistent Overhead Byte Stuffing" of Wikipedia.
+# Cheshire and Baker's cases, as listed in the Wikipedia article "Consistent Overhead Byte Stuffing".
 COBS_VECTORS = [
     ("00", "0101"),
     ("0000", "010101"),
@@ -74,12 +74,12 @@ def test_checksums_have_the_published_values() -> None:
 
 
 def test_a_pcm_frame_worked_by_hand() -> None:
-    """docs/serial-protocol.md, "A frame, byte by byte"."""
+    """Source: docs/serial-protocol.md, "A frame, byte by byte"."""
     block = np.array([[1.0, -1.0], [0.0, 0.5]], dtype=np.float32)
     body = bytes.fromhex("01 03 0201 02 01 0200 78563412 ff7f 0180 0000 0040")
     datagram = to_datagram(pcm(block, sequence=0x0102, time_us=0x12345678))
     assert datagram == body + struct.pack("<I", zlib.crc32(body))
-    # The only zeros of the body are its 8th byte and the two of the third sample and the low byte of the fourth.
+    # The body's only zeros are its 8th byte, both bytes of the third sample and the low byte of the fourth.
     crc = datagram[-4:]
     assert 0 not in crc
     by_hand = b"\0" + b"\x08" + body[:7] + b"\x09" + body[8:16] + b"\x01" + b"\x01" + b"\x06" + body[19:] + crc + b"\0"
@@ -162,7 +162,7 @@ def test_parser_drops_damaged_frames_and_returns_the_others() -> None:
         missed += not touched and recent[-1] not in found
         accepted += len(found)
     assert 0.55 < untouched / 5000 < 0.65  # 0.99^51
-    # A frame has a zero of its own in front, so what came before cannot harm it.
+    # Each frame begins with a zero, so that damaged bytes before it do no harm.
     assert missed == 0
     assert accepted >= untouched
 

@@ -1,4 +1,4 @@
-"""A sink's thread, against a line that fails on command."""
+"""The thread of a device sink, with a scripted line that fails on command."""
 
 import threading
 import time
@@ -17,7 +17,7 @@ FORMAT = SinkFormat(1000, ("left", "right"))
 
 
 class ScriptedLine:
-    """A device that is there, wants samples and takes them, or not."""
+    """A scripted device: tests set whether it is present, requests samples and accepts them."""
 
     def __init__(self) -> None:
         self.there = True
@@ -54,7 +54,7 @@ class ScriptedLine:
 
 
 class Bench:
-    """A sink on a scripted line, with a mix of ones and a list of its events."""
+    """A sink on a scripted line, with a mix of constant 1 and a list of events."""
 
     def __init__(self) -> None:
         self.line = ScriptedLine()
@@ -96,7 +96,7 @@ def test_the_mix_arrives_faded_in(bench: Bench) -> None:
     assert eventually(lambda: len(bench.line.taken) > 20)
     bench.sink.stop()
     x = bench.line.samples[:, 0]
-    # The raised cosine over 50 ms, from its definition.
+    # A raised cosine over 50 ms, from its definition.
     n = np.arange(1, 51)
     np.testing.assert_allclose(x[:50], 0.5 - 0.5 * np.cos(np.pi * n / 50), atol=1e-6)
     assert (x[50:] == 1).all()
@@ -110,7 +110,7 @@ def test_the_mix_arrives_faded_in(bench: Bench) -> None:
 def test_missing_device_is_reported_once_and_connected_later(bench: Bench) -> None:
     bench.line.there = False
     bench.start()
-    assert eventually(lambda: bench.asked > 300)  # the session's clock goes on meanwhile
+    assert eventually(lambda: bench.asked > 300)  # the session's clock continues meanwhile
     assert bench.kinds == ["unavailable"]
     assert bench.events[0].message == "no device. Trying again."
     assert bench.sink.stats.dropped_frames > 280

@@ -1,4 +1,4 @@
-"""Sweeps found in recordings whose delay, level, polarity and noise are known, and the clock of the recorded blocks."""
+"""Loop-back latency: sweeps in recordings of known delay, level, polarity and noise; the clock of recorded blocks."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -32,7 +32,7 @@ def placed(frame: int, gain: float, n: int) -> NDArray[np.float64]:
 
 
 def take(*channels: NDArray[np.float64], block: int = 40, burst: int = 1, lost: int = 0) -> Take:
-    """Blocks from 99.5 s on, handed over `burst` at a time; `lost` frames are missing after a second."""
+    """A recording of blocks from 99.5 s on, delivered `burst` at a time; `lost` frames are missing after a second."""
     samples = np.stack(channels, axis=1).astype(np.float32)
     n_heard = np.arange(block, len(samples) + 1, block)
     at_s = 99.5 + (n_heard + np.where(n_heard > RATE, lost, 0)) / RATE
@@ -61,7 +61,7 @@ def test_sweep_gives_delay_level_and_polarity_of_a_quiet_line(
 @settings(max_examples=40)
 @given(frame=st.integers(0, 4000), seed=st.integers(0, 2**32 - 1))
 def test_sweep_is_found_under_louder_noise(frame: int, seed: int) -> None:
-    """White noise of four times its power: r = 1 / sqrt(1 + 4)."""
+    """White noise of four times the sweep's power gives a correlation of 1 / sqrt(1 + 4)."""
     match = find(placed(frame, 1.0, 12000) + noise(12000, 2.0 * POWER**0.5, seed), SWEEP)
     assert abs(match.frame - frame) <= 2
     assert match.correlation == pytest.approx(5**-0.5, abs=0.06)
@@ -125,7 +125,7 @@ def test_arrival_is_measured_on_the_clock_of_the_request(delay: int, block: int,
     heard = placed(asked + delay, -0.5, 20000) + noise(20000, 1e-4, seed)
     found = arrival(take(noise(20000, 1e-3, seed + 1), heard, block=block, burst=5), ASKED_AT_S, SWEEP)
     assert found.latency_s is not None
-    # The last block of each burst is in time.
+    # The last block of each burst is on time.
     assert found.latency_s == pytest.approx(delay / RATE, abs=1e-6)
     assert found.uncertainty_s == block / RATE
     assert found.channel == 2
@@ -150,7 +150,7 @@ def test_sweeps_of_several_hands_are_distinguished_on_one_wire() -> None:
 
 
 def listed(monkeypatch: pytest.MonkeyPatch, *names: str, default: int) -> None:
-    """Let PortAudio know these devices; "phones" have no input."""
+    """Replace PortAudio's list of devices; "phones" have no input."""
     devices = [
         {"name": name, "hostapi": 0, "max_input_channels": 0 if name == "phones" else 2, "default_samplerate": 44100.0}
         for name in names

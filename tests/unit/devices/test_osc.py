@@ -1,4 +1,4 @@
-"""Messages of gain, clip and hand; bytes worked by hand from OSC 1.0."""
+"""OSC messages of gain, clip and hand, against bytes computed by hand from OSC 1.0."""
 
 import builtins
 import sys

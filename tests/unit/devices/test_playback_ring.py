@@ -1,4 +1,4 @@
-"""The ring that a sound card's callback copies from."""
+"""The ring buffer from which a sound card's callback copies samples."""
 
 import gc
 import tracemalloc
@@ -57,7 +57,7 @@ def test_underrun_and_close_fade_without_a_jump(steps: list[tuple[int, int]], cl
         out.append(played(ring, n_play))
     heard = np.concatenate(out)
     assert np.isfinite(heard).all()
-    # Slopes of the tone and of the fade, at most.
+    # The largest slopes of the tone and of the fade.
     assert np.abs(np.diff(heard, axis=0)).max() <= 2 * np.pi / 400 + np.pi / 2 / N_FADE + 1e-6
 
 
@@ -109,7 +109,7 @@ def test_callback_allocates_no_arrays() -> None:
             before = tracemalloc.get_traced_memory()[0]
             tracemalloc.reset_peak()
             ring.play(out)
-            # Views of arrays are small objects; a block of samples would be 4000 bytes.
+            # Array views are small objects; a block of samples would be 4000 bytes.
             assert tracemalloc.get_traced_memory()[1] - before < 2000
     finally:
         tracemalloc.stop()

@@ -1,4 +1,4 @@
-"""Rate conversion block by block, against sines in closed form; and the wall clock's pace."""
+"""Rate conversion block by block, against sines in closed form; and pacing by the wall clock."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ def test_rate_converter_passes_the_tactile_band_unchanged(rate_in: int, rate_out
     converter, out = converted(rate_in, rate_out, hz, [1, 7, 16, 64])
     phase = 2 * np.pi * hz * (np.arange(len(out)) / rate_out - converter.latency_s)
     settled = int(2 * converter.latency_s * rate_out) + 1
-    # 80 dB of ripple and single precision.
+    # The tolerance covers 80 dB of ripple and single precision.
     np.testing.assert_allclose(out[settled:, 0], np.sin(phase[settled:]), atol=3e-4)
     np.testing.assert_allclose(out[settled:, 1], np.cos(phase[settled:]), atol=3e-4)
 
@@ -64,7 +64,7 @@ def test_filter_equals_that_of_scipy() -> None:
     n_taps, beta = kaiserord(80, 1000 / 24000)
     pulse = np.zeros((300, 1), dtype=np.float32)
     answers = []
-    for delay in range(12):  # every twelfth tap at a time
+    for delay in range(12):  # each pass gives every twelfth tap
         converter = RateConverter(48000, 4000, 1)
         pulse[:] = 0
         pulse[delay] = 1

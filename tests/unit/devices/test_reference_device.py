@@ -1,4 +1,4 @@
-"""Requirements of a device, with a manual clock: docs/serial-protocol.md, "The device"."""
+"""The reference device meets the requirements of docs/serial-protocol.md, "The device"; with a manual clock."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,7 +64,7 @@ def test_the_watchdog_mutes_50_ms_after_the_last_frame() -> None:
     bench.credits(0.08)
     out = bench.output[:, 0].astype(int)
     assert (out[:49] == 32767).all()
-    # A ramp of 5 ms to zero, not a step, and nothing of what was queued.
+    # A ramp of 5 ms to zero instead of a step; queued samples are dropped.
     np.testing.assert_array_equal(out[49:55], np.rint(32767 * np.array([4, 3, 2, 1, 0, 0]) / 5))
     assert not out[54:].any()
     bench.say(bench.block(2), 0.081)

@@ -1,4 +1,4 @@
-"""The sound card's settings, without a sound card."""
+"""Settings of the sound card sink, tested without a sound card."""
 
 import pytest
 

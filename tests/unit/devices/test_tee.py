@@ -1,4 +1,4 @@
-"""One mix to several sinks."""
+"""TeeSink: one mix is sent to several sinks."""
 
 from pathlib import Path
 
@@ -18,7 +18,7 @@ FORMAT = SinkFormat(1000, ("left", "right"))
 
 
 class Counting:
-    """A mix whose samples are their own positions."""
+    """A mix whose sample values are their positions."""
 
     def __init__(self) -> None:
         self.position = 0
@@ -30,7 +30,7 @@ class Counting:
 
 
 class Device:
-    """A device whose clock is the test."""
+    """A device whose clock the test drives."""
 
     def __init__(self) -> None:
         self.on_event = None
@@ -87,7 +87,7 @@ def test_sink_that_lags_too_far_skips_ahead_with_a_crossfade() -> None:
     rising = np.arange(1, 21) / 20
     np.testing.assert_allclose(b.take(20), (1 - rising) * np.arange(10, 30) + rising * np.arange(150, 170), atol=1e-3)
     np.testing.assert_array_equal(b.take(5), np.arange(170, 175))
-    a.take(2000)  # so far that nothing is left to fade from
+    a.take(2000)  # too far behind for samples to fade from
     np.testing.assert_allclose(b.take(20), rising * np.arange(2150, 2170), atol=1e-3)
     tee.stop()
 

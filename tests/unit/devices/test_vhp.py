@@ -1,4 +1,4 @@
-"""Frames for VHP boards, against bytes worked by hand from docs/serial-protocol.md."""
+"""Frames for VHP boards, against bytes computed by hand from docs/serial-protocol.md."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_sleeve_packets_equal_those_worked_by_hand() -> None:
 
 
 def test_wireless_packet_equals_one_worked_by_hand() -> None:
-    # type 14, no payload: low 1 + 14 = 15, 15 + 0 = 15; high 15, 15 + 15 = 30.
+    # Type 14, no payload: low sum 1 + 14 = 15, 15 + 0 = 15; high sum 15, 15 + 15 = 30.
     assert vhp.wireless(vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS)) == bytes([15, 30, 14, 0])
 
 

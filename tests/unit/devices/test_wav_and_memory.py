@@ -1,4 +1,4 @@
-"""The two sinks without a clock."""
+"""The sinks without a clock: WAV file and memory."""
 
 from pathlib import Path
 

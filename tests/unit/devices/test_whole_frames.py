@@ -1,4 +1,4 @@
-"""A game's time is rendered to the sample, at any frame rate."""
+"""Rendering by time gives the exact number of samples at any frame rate."""
 
 from fractions import Fraction
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Envelopes of signals whose amplitude and frequency are known in closed form."""
+"""Envelope analysis of signals with known amplitude and frequency."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Each format within its limits: a tour of 15 s and clips that are longer than one call, curve or event may be."""
+"""Every export format: a tour of 15 s, and clips longer than the limit of one call, curve or event."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def made(spec: object, track: Track) -> Exported:
 
 
 def hand(duration_s: float, seed: int = 0) -> np.ndarray:
-    """A hand that comes and goes over two sources and a knock."""
+    """The signal of a hand that moves between two sources, with a knock."""
     t = np.arange(round(duration_s * RATE)) / RATE
     rng = np.random.default_rng(seed)
     near = np.interp(t, np.linspace(0, duration_s, 12), rng.random(12))
@@ -111,7 +111,7 @@ def test_wav_and_raw_samples_have_any_rate(tour: Track, rate: int) -> None:
 def test_parts_of_a_long_export_join_without_a_gap(long: Track) -> None:
     exported = made({"kind": "ahap", "tolerance_db": 1.0}, long)
     documents = [json.loads(content) for content in exported.files.values()]
-    assert all(checker.check_ahap(one) == [] for one in documents)  # which looks at every joint
+    assert all(checker.check_ahap(one) == [] for one in documents)  # the checker also checks every joint
     events = [item["Event"] for one in documents for item in one["Pattern"] if "Event" in item]
     assert [one["EventDuration"] for one in events if "EventDuration" in one] == [30.0, 30.0, 10.0]
     played = exported.played[""]
@@ -134,7 +134,7 @@ def test_parts_of_a_long_export_join_without_a_gap(long: Track) -> None:
     times = np.array([point["time_ns"] for point in points]) / 1e9
     joined = np.interp(t, times, [point["value"] for point in points])
     np.testing.assert_allclose(joined, clip.amplitude.at(t), atol=1e-5)
-    # Frame by frame as a runtime gets them: it draws no line to a point of a later frame.
+    # A runtime gets frame by frame, and does not interpolate to a point of a later frame.
     for one, call in pairwise(document["calls"]):
         end = one["amplitude_points"][-1]["time_ns"]
         assert one["frequency_points"][-1]["time_ns"] == end

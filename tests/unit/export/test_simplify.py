@@ -1,4 +1,4 @@
-"""Few points for a curve."""
+"""Simplification of curves to few points within a tolerance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The kernels of `audio`: the compiled one of every pair answers as the plain one does."""
+"""Kernels of `audio`: each compiled kernel gives the results of its plain twin."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from kernels import both, seeds, steady
 @steady
 @given(seed=seeds, n_sections=st.integers(1, 5), n_rows=st.integers(1, 3))
 def test_kernels_filter_cut_sounds_alike(seed: int, n_sections: int, n_rows: int) -> None:
-    """Silence within the sound lets the memory of a filter fade away, and each cut carries it on."""
+    """During the silence within the sound the filter's state decays; each cut continues from the state before."""
     rng = np.random.default_rng(seed)
     low, high = np.sort(np.exp(rng.uniform(np.log(20.0), np.log(20_000.0), 2))) * (1.0, 1.05)
     sections = butter(n_sections, [low, min(high, 23_000.0)], "bandpass", fs=48_000, output="sos")
@@ -46,7 +46,7 @@ def test_kernels_follow_the_same_mean_and_maximum(seed: int, n_known: int) -> No
 def test_kernels_find_the_same_onsets_and_lower_the_bed_alike(
     seed: int, n_known: int, spares: bool, rate: float
 ) -> None:
-    """Steps of noise with strokes that last for up to eight of them, cut in two."""
+    """Steps of noise with strokes of up to eight steps, cut in two."""
     rng = np.random.default_rng(seed)
     n, beyond = 300, 8
     strokes = np.convolve(rng.random(n + beyond) * (rng.random(n + beyond) < rate), np.ones(rng.integers(1, 9)))
@@ -99,7 +99,7 @@ def test_kernels_find_the_same_step_energies_and_fade_alike(seed: int, step: int
 @steady
 @given(seed=seeds)
 def test_kernels_modulate_by_a_low_component_alike(seed: int) -> None:
-    """Where the mean is below the least, or below 0 as an overshooting filter makes it, the depth is bounded."""
+    """The depth is bounded if the mean is below its minimum, or below 0, as after an overshooting filter."""
     rng = np.random.default_rng(seed)
     bed, low = rng.standard_normal((2, 500))
     mean = rng.uniform(-0.1, 1.0, 500) * (rng.random(500) < 0.9)

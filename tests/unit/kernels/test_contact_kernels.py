@@ -1,4 +1,4 @@
-"""The kernels of `contact`: the compiled one of every pair answers as the plain one does."""
+"""Kernels of `contact`: each compiled kernel gives the results of its plain twin."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from scene2hap.scene.shapes import Box, TriMesh
 
 
 def turned(rng: np.random.Generator, up_axis: int) -> tuple[float, float, float, float]:
-    """A rotation about the vertical, now and then with a little tilt."""
+    """A rotation about the vertical, sometimes with a small tilt."""
     angle, tilt = rng.uniform(0, 2 * math.pi), rng.choice([0.0, 0.0, 1e-7, 0.3])
     axis = np.where(np.arange(3) == up_axis, 1.0, tilt)
     x, y, z = (axis / np.linalg.norm(axis) * math.sin(angle / 2)).tolist()
@@ -54,7 +54,7 @@ def test_kernels_track_moves_bit_for_bit(up_axis: int, stands: bool) -> None:
 
 
 def mesh(rng: np.random.Generator) -> TriMesh:
-    """A box, a soup of triangles, the same on a coarse grid (level, parallel, in touch or without area), a floor."""
+    """A box, random triangles, such triangles on a coarse grid (many parallel, touching or degenerate), or a floor."""
     kind, n = rng.integers(4), int(rng.integers(1, 60))
     if kind == 0:
         return Box(tuple(rng.choice([0.1, 0.2, 0.3], 3).tolist())).mesh
@@ -89,7 +89,7 @@ def test_kernels_find_mesh_distances_bit_for_bit(seed: int) -> None:
         with np.errstate(invalid="ignore", divide="ignore"):
             plain, twin = both("contact.mesh_distance.closest_points")
             told, compiled = plain(*given, within_m), twin(*given, within_m)
-            # Where surfaces cut each other any pair may be given.
+            # For surfaces that cut each other, any pair of points is valid.
             assert compiled == told or (told[0] <= ROUNDING_M and compiled[0] <= ROUNDING_M)
             plain, twin = both("contact.mesh_distance.contact_points")
             way = tuple(rng.uniform(-0.05, 0.05, 3).tolist()) if rng.random() < 0.5 else (0.0, 0.0, 0.0)
@@ -129,7 +129,7 @@ def test_kernels_find_the_same_triangles_in_a_box(seed: int) -> None:
         high = low + rng.choice([0.0, 0.1, 0.5])
         every = plain(tree, tuple(low.tolist()), tuple(high.tolist()), 1000)
         np.testing.assert_array_equal(twin(tree, tuple(low.tolist()), tuple(high.tolist()), 1000), every)
-        # Which are left out where there are more is open.
+        # With more triangles than the limit, any subset is valid.
         some = twin(tree, tuple(low.tolist()), tuple(high.tolist()), 2)
         assert len(some) == min(2, len(every))
         assert set(some) <= set(every)
@@ -179,7 +179,7 @@ def test_kernels_find_outline_gaps_bit_for_bit(seed: int) -> None:
         angles = np.sort(rng.uniform(0, 2 * math.pi, n))
         ring = np.stack([np.cos(angles), np.sin(angles)], axis=1) + rng.choice([0.0, 1.0, 2.0, 2.001], 2)
         if rng.random() < 0.5:
-            # Squares side by side, as things on a grid are: several ways are equally short.
+            # Squares side by side, as on a grid: several vectors are equally short.
             ring = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) + rng.choice([0.0, 1.0, 1.25], 2)
         outlines.append([(u, v) for u, v in ring.tolist()])
     plain, twin = both("contact.geometry.polygons.polygon_gap")
@@ -191,7 +191,7 @@ def test_kernels_find_outline_gaps_bit_for_bit(seed: int) -> None:
 @steady
 @given(seed=seeds, n=st.integers(1, 20), n_axes=st.integers(2, 3))
 def test_kernels_select_the_same_contact_points(seed: int, n: int, n_axes: int) -> None:
-    # On a grid many are equally far; some are nearer to each other than is told apart, or a rounding error away.
+    # On a grid many distances are equal; some points are closer than the resolution, or differ by a rounding error.
     rng = np.random.default_rng(seed)
     places = rng.integers(0, 3, (n, n_axes)) * rng.choice([0.1, 0.003, 1e-7]) + rng.choice([0.0, 1e-12, 0.01], (n, 1))
     points = [tuple(place) for place in places.tolist()]

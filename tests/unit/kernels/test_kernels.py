@@ -1,4 +1,4 @@
-"""That every kernel has a twin, and is held to its contract."""
+"""Every kernel has a compiled twin, and a test that compares both."""
 
 from __future__ import annotations
 

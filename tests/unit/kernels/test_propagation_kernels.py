@@ -1,4 +1,4 @@
-"""The kernels of `propagation`: the compiled one of every pair answers as the plain one does."""
+"""Kernels of `propagation`: each compiled kernel gives the results of its plain twin."""
 
 from __future__ import annotations
 

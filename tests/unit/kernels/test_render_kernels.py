@@ -1,4 +1,4 @@
-"""The kernels of `render`: the compiled one of every pair answers as the plain one does."""
+"""Kernels of `render`: each compiled kernel gives the results of its plain twin."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def test_kernels_mix_alike_under_changing_gains(rate_hz: int, is_skipping: bool)
     bank, incoming, playheads, mixes = LoopBank(clips(rng, 4), Bands.dominant(), 8000), [], [], []
     for mix_kind, kind in zip(both("render.tactile_mix.TactileMix"), both("render.mixer.Playhead"), strict=True):
         upsampler = Upsampler(8000, rate_hz, 2)
-        # Few slots, so that some gains have to wait for one.
+        # Few slots, so that some changes of gain have to wait.
         mixes.append(mix_kind(bank, 2, 12, upsampler.cell, is_skipping=is_skipping))
         incoming.append(deque[Change]())
         playheads.append(kind(mixes[-1], upsampler, incoming[-1], (8000, rate_hz)))

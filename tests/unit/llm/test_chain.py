@@ -1,4 +1,4 @@
-"""The chain against a scripted backend."""
+"""The inference chain with a scripted backend: requests, order, progress and provenance."""
 
 import asyncio
 import json
@@ -16,7 +16,7 @@ from scripted_backend import SCENE, Scripted, run
 def test_chain_sends_only_the_needed_requests() -> None:
     backend = Scripted()
     found = infer_haptics(SCENE, backend)
-    # One scene, three objects, two distinct materials, and a description for each state of what vibrates.
+    # One scene, three objects, two distinct materials, and a description for each state of the source.
     assert Counter(request.component for request in backend.asked) == {
         "scene_analyzer": 1,
         "object_analyzer": 3,

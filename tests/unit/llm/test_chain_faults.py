@@ -1,4 +1,4 @@
-"""Answers that cannot be used, and backends that fail."""
+"""The inference chain with invalid answers and failing backends."""
 
 import asyncio
 import json
@@ -40,7 +40,7 @@ def test_constants_outside_the_material_range_are_replaced_and_flagged() -> None
     material = found.objects["table"].material
     assert material is not None
     assert (material.density_kg_m3, material.youngs_modulus_pa) == (oak.density_kg_m3, oak.youngs_modulus_pa)
-    assert material.loss_factor == pytest.approx(0.04)  # what may be stays the model's
+    assert material.loss_factor == pytest.approx(0.04)  # plausible values of the model are kept
     told = found.report.flags["oak"]
     assert [flag.split(":")[0] for flag in told] == ["density_kg_m3", "youngs_modulus_gpa"]
     assert "7.5 kg/m3" in told[0]
@@ -87,7 +87,7 @@ def test_error_common_to_all_calls_ends_the_run_after_running_calls(refusal: Exc
     backend = Refusing()
     with pytest.raises(type(refusal), match=str(refusal)):
         run(backend, {"concurrency": 2})
-    assert backend.answered == len(backend.asked)  # nobody was cut off
+    assert backend.answered == len(backend.asked)  # running calls were completed
     assert not [request for request in backend.asked if request.component == "vibration_describer"]
 
 

@@ -75,7 +75,7 @@ def test_only_selected_objects_are_inferred_with_user_prompts() -> None:
 
 
 class Camera:
-    """Counts the pictures that are really taken."""
+    """A camera that counts its pictures."""
 
     def __init__(self) -> None:
         self.taken = 0

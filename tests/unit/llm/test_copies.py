@@ -1,4 +1,4 @@
-"""Rooms of equal cubes, as in prototypes of games: real copies, and objects that only look equal."""
+"""Inference in rooms of equal cubes, as in game prototypes: true copies, and objects that only look equal."""
 
 import asyncio
 from collections import Counter
@@ -48,7 +48,7 @@ N_COPIES = 2
 
 
 def cubes() -> SceneSnapshot:
-    """Sixty equal cubes in one key: thirty names, each twice with a running number."""
+    """Sixty equal cubes with one instance key: thirty names, each twice with a running number."""
     names = [f"{name}_{i}" for i in range(1, N_COPIES + 1) for name in (*SOURCES, *SILENT)]
     return scene(
         *(

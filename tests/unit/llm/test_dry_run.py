@@ -1,4 +1,4 @@
-"""Estimated requests and cost of a run."""
+"""Dry run: estimated requests and cost of an inference run."""
 
 import asyncio
 from collections import Counter
@@ -17,9 +17,9 @@ from scripted_backend import SCENE
 @pytest.mark.parametrize(
     ("model", "size_px", "detail", "tokens"),
     [
-        ("gpt-4o", 1024, "high", 765),  # OpenAI's own example: 85 + 4 * 170
+        ("gpt-4o", 1024, "high", 765),  # OpenAI's example: 85 + 4 * 170
         ("gpt-4o", 512, "high", 85 + 170),
-        ("gpt-4o-2024-08-06", 4096, "low", 85),  # its second example
+        ("gpt-4o-2024-08-06", 4096, "low", 85),  # OpenAI's second example
         ("gpt-4o-mini", 512, "high", 2833 + 5667),
         ("gpt-4.1-mini", 1024, "high", 1659),  # 1024 patches * 1.62, rounded up
         ("gpt-4.1-mini", 4096, "high", 2489),  # shrunk to 1536 patches
@@ -37,7 +37,7 @@ def test_dry_run_counts_the_requests_of_a_real_run() -> None:
     scene = load_scene(kitchen_path())
     told = asyncio.run(dry_run(scene, "gpt-4o"))
     done = asyncio.run(infer_scene(scene, LexiconBackend()))
-    # What the lexicon cannot name has a material of its own for a model that sees.
+    # For objects that the lexicon does not know, a vision model may name one more material each.
     nameless = Counter(material_estimator=done.report.skipped["unknown_material"])
     assert told.calls == done.report.calls + nameless
     assert told.images == 0
@@ -62,7 +62,7 @@ def test_cost_is_tokens_times_price() -> None:
     told = asyncio.run(dry_run(SCENE, "mine", prices={"mine": (3.0, 7.0)}))
     expected = (3.0 * told.text_tokens + 7.0 * told.answer_tokens) / 1e6
     assert told.cost_usd == pytest.approx(expected)
-    # Four letters a token, schema included: no prompt of these is below 150 letters.
+    # Four letters a token, including the schema: each of these prompts has at least 150 letters.
     assert told.text_tokens > 150 / 4 * sum(told.calls.values())
 
 

@@ -1,4 +1,4 @@
-"""The one place that speaks HTTP, without a network: replies and errors come from an injected transport."""
+"""The HTTP client of LLM backends, with replies and errors from an injected transport."""
 
 import asyncio
 import json
@@ -81,7 +81,7 @@ def test_body_that_is_not_json_is_not_sent(body: dict[str, Any]) -> None:
 
 
 def test_slow_trickle_of_bytes_is_a_timeout() -> None:
-    """httpx bounds each read; the whole answer is bounded here."""
+    """httpx limits the time of each read; the client limits the time of the whole answer."""
 
     async def trickle(_: httpx.Request) -> httpx.Response:
         for _ in range(100):

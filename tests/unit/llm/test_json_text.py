@@ -1,4 +1,4 @@
-"""JSON within other text of a model."""
+"""Finding JSON within other text of a model's answer."""
 
 import json
 from typing import Any

@@ -66,13 +66,13 @@ def test_lexicon_gives_usual_masses() -> None:
     mass, by, bundle = weighed(room())
     assert mass == 14.0
     assert "lexicon" in by
-    solid = bundle.objects["wooden table"]  # a slab without legs: all of it, and no usual table's 25 kg
+    solid = bundle.objects["wooden table"]  # a slab without legs has its solid mass, not a usual table's 25 kg
     assert solid.material is not None
     assert solid.mass_kg == pytest.approx(1.2 * 0.02 * 0.7 * solid.material.density_kg_m3)
 
 
 def test_masses_of_the_table_are_plausible_for_their_size() -> None:
-    """None weighs more than a cube of granite of its longest usual edge; most everyday sources have one."""
+    """No mass is above that of a granite cube with the longest usual edge; most everyday sources have a mass."""
     for row in table():
         if row.mass_kg is not None:
             assert row.mass_kg >= 0.005
@@ -131,7 +131,7 @@ def test_masses_are_checked_against_the_bounding_box(
 def test_a_usual_mass_is_at_most_that_of_a_solid_box() -> None:
     oak = 700.0
     assert bounded_mass_kg(25.0, (0.2, 0.1, 0.02), oak) == pytest.approx(0.2 * 0.1 * 0.02 * oak)
-    assert bounded_mass_kg(60.0, (1.0, 0.6, 2.0), oak) == 60.0  # a wardrobe is no solid
+    assert bounded_mass_kg(60.0, (1.0, 0.6, 2.0), oak) == 60.0  # a wardrobe is hollow
     assert bounded_mass_kg(5.0, (1.0, 0.0, 2.0), oak) == 5.0
 
 
@@ -160,8 +160,8 @@ def test_invalid_mass_is_refused(wrong: object) -> None:
 
 
 def test_force_of_a_heavy_source_on_a_compliant_table_grows_with_its_mass() -> None:
-    """Below all resonances a source of mass m on a soft spring k, at rest on what hardly moves, gives to it what a free
-    mass on a spring does: v / v_free = Y_receiver / (1/(i w m) + ...), so heavier ones push harder, in the end as m."""
+    """Below all resonances, a source of mass m on a soft spring and a receiver of low mobility obeys
+    v / v_free = Y_receiver / (1/(i w m) + ...). So heavier sources push harder, for small masses in proportion to m."""
 
     def felt(mass_kg: float) -> float:
         scene, bundle = table_with_two_phones()

@@ -1,4 +1,4 @@
-"""Implausible numbers: requested again with all their names, then replaced and reported."""
+"""Implausible numbers in answers: all are named in a repair request, then replaced and reported."""
 
 import asyncio
 import json
@@ -78,7 +78,7 @@ def test_repair_request_states_the_bound_and_second_failure_keeps_the_answer() -
     inner = FunctionBackend(lambda _: LLMReply(wrong, "m"))
     asked = request("material_estimator", facts={"material_category": "steel"})
     reply = asyncio.run(RepairBackend(inner).complete(asked))
-    assert json.loads(reply.text)["density_kg_m3"] == 7.85  # handed on, for the chain to replace
+    assert json.loads(reply.text)["density_kg_m3"] == 7.85  # passed on, so that the chain replaces it
     assert len(inner.requests) == 2
     assert "2610 to 23600 kg/m3" in inner.requests[1].prompt
 
@@ -139,7 +139,7 @@ def test_report_lists_contact_needs_that_no_object_meets() -> None:
 
 
 def test_categories_are_collected_once_per_scene(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The list is made once, not for each object: a scene of thousands would take seconds."""
+    """The list is made once, not for each object, since scenes of thousands would take seconds."""
     given: list[object] = []
     monkeypatch.setattr(chain, "unmet_needs", lambda key, states, categories: given.append(categories) or ())
     asyncio.run(infer_scene(SCENE, Scripted()))

@@ -1,4 +1,4 @@
-"""The prompt templates and their replacements."""
+"""The prompt templates, and their replacement by a user's templates."""
 
 from pathlib import Path
 
@@ -23,7 +23,7 @@ def test_prompts_share_a_long_prefix_for_prompt_caching() -> None:
     template = Prompts.load().templates["object_analyzer"]
     instructions, facts = template.split("Kind of place: ")
     assert not placeholders(instructions)
-    # Some 700 tokens at four characters each, before the schema of the answer, which services count in.
+    # Some 700 tokens at four characters each; services add the schema of the answer to this prefix.
     assert len(instructions) > 2400
     assert "{object_name}" in facts
 

@@ -1,4 +1,4 @@
-"""Values from a scene are data in every prompt: quoted, shortened, rounded."""
+"""Values from a scene in prompts: they are quoted as data, shortened and rounded."""
 
 import asyncio
 import json

@@ -1,4 +1,4 @@
-"""Refusals of every backend are reported as refusals and cost one call."""
+"""Refusals of every backend are reported as refusals, and cost one call."""
 
 import asyncio
 import json
@@ -46,7 +46,7 @@ def test_normal_answers_are_not_taken_for_refusals(text: str) -> None:
 
 
 class Says:
-    """Always the same, counted."""
+    """A backend with a fixed answer that counts its calls."""
 
     def __init__(self, text: str, finish_reason: str = "stop") -> None:
         self.reply = LLMReply(text, "m", finish_reason, {"prompt_tokens": 10})

@@ -1,4 +1,4 @@
-"""Recording and replaying answers."""
+"""Recording and replaying answers: keys, files, and misses."""
 
 import asyncio
 import dataclasses
@@ -28,7 +28,7 @@ REQUEST = LLMRequest(
 
 
 class Echo:
-    """Echo the subject of each request, and count requests."""
+    """A backend that echoes the subject of each request, and counts requests."""
 
     def __init__(self) -> None:
         self.calls = 0
@@ -146,7 +146,7 @@ def test_concurrent_recordings_write_whole_lines(tmp_path: Path) -> None:
 def test_recording_appends_to_an_existing_file(tmp_path: Path) -> None:
     other = dataclasses.replace(REQUEST, prompt="another")
     path = record(tmp_path / "answers.jsonl")
-    path.write_bytes(path.read_bytes().rstrip(b"\n"))  # as an editor may leave it
+    path.write_bytes(path.read_bytes().rstrip(b"\n"))  # as after an edit
     record(path, other)
     replay = ReplayBackend(path)
     assert ask(replay, other).text == ask(replay).text

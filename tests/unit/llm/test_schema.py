@@ -1,4 +1,4 @@
-"""Answer schemas in OpenAI's strict subset and in words."""
+"""Answer schemas: conversion to OpenAI's strict subset, to local servers' subsets, and to words."""
 
 import json
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ SCHEMAS = {component: shape.model_json_schema() for component, shape in ANSWERS.
 
 
 def nodes(schema: Any) -> Iterator[dict[str, Any]]:
-    """Every schema within a schema, itself first; a property is a schema, its name is not."""
+    """Yield every schema within a schema, itself first; values of properties are schemas, their names are not."""
     yield schema
     for key in ("properties", "$defs"):
         for inner in schema.get(key, {}).values():

@@ -1,4 +1,4 @@
-"""The table, and the bounds on a material."""
+"""The table of materials, and the bounds of material constants."""
 
 import csv
 import math

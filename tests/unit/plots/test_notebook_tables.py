@@ -1,4 +1,4 @@
-"""Tables for notebooks: what they show, that every text is escaped, and that they stay small."""
+"""HTML tables for notebooks: content, escaped texts, and limited size."""
 
 import dataclasses
 from html.parser import HTMLParser
@@ -13,7 +13,7 @@ KNOWN = {"div", "strong", "table", "thead", "tbody", "tr", "th", "td"}
 
 
 class Reader(HTMLParser):
-    """Tags must be ours, closed in order, and have a style alone."""
+    """A strict HTML reader: only known tags, closed in order, with only a style attribute."""
 
     def __init__(self, html: str) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Figures of bundles and of what is felt, against the session's own gains, and the view from above that both use."""
+"""Figures of bundles and felt levels, against the session's gains; and the top view that both use."""
 
 import dataclasses
 import io
@@ -34,8 +34,8 @@ def session(model: str = "exponential_plate", **more: object) -> HapticSession:
 
 
 def shown_levels(figure: object) -> tuple[np.ndarray, tuple[float, float, float, float]]:
-    """The image of levels (n_rows, n_columns) [dB], and its edges [m]."""
-    image = figure.axes[0].images[1]  # type: ignore[attr-defined]  # behind it are the surfaces
+    """The image of levels (n_rows, n_columns) [dB] of a figure, and its edges [m]."""
+    image = figure.axes[0].images[1]  # type: ignore[attr-defined]  # the first image shows the surfaces
     return np.ma.filled(image.get_array(), np.nan), image.get_extent()
 
 
@@ -69,8 +69,8 @@ def test_a_hand_has_its_own_level_and_playing_goes_on_unchanged() -> None:
     assert s.stats == stats
     assert s.position == 0
     after = s.update(touches=[touch])
-    assert after is before  # nothing had to be computed again
-    s.add_hand("third")  # of which the profile says nothing
+    assert after is before  # nothing was computed again
+    s.add_hand("third")  # the profile has no values for this hand
     third = s.would_feel([dataclasses.replace(touch, hand=hand) for hand in ("left", "third")])
     np.testing.assert_allclose(20 * np.log10(third[1] / third[0]), 6.0, atol=0.01)
     assert s.explain("left").touches == ("table",)
@@ -154,7 +154,7 @@ def test_a_bundle_without_sources_and_one_with_many_are_drawn() -> None:
 
 
 def test_names_are_drawn_as_plain_text() -> None:
-    """One bundle of sources with such names, in a scene, a state and a hand of such names."""
+    """The names of the scene, its sources, their states and the hand are hostile texts."""
     quarter_turn = (-(0.5**0.5), 0.0, 0.0, 0.5**0.5)
     surface = DominantSurface(Pose((-0.5, 0.0, 0.5), quarter_turn), 1.0, 1.0, 0.02)
     top = SceneObject("top", pose=Pose((0, 0, 0)), geometry=Box((1.0, 0.02, 1.0)), surface=surface)
@@ -172,7 +172,7 @@ def test_names_are_drawn_as_plain_text() -> None:
     first = [s.plot_felt(name, cells=8).axes[0].get_legend().get_texts()[0].get_text() for name in HOSTILE]
     felt, whole = s.plot_felt(HOSTILE[0], cells=8), bundle.plot()
     for figure in (felt, whole):
-        figure.savefig(io.BytesIO(), format="png", dpi=20)  # formulas are read when they are drawn
+        figure.savefig(io.BytesIO(), format="png", dpi=20)  # formulas would be parsed when drawn
     listed = [text.get_text() for text in whole.axes[1].get_legend().get_texts()]
     assert [name.split("  ", 1)[1] for name in listed[:3]] == list(HOSTILE[:3]) == first[:3]
     titles = [axes.get_title() for axes in (*whole.axes, *felt.axes)]
@@ -185,7 +185,7 @@ def view_of(*objects: SceneObject, up_to_m: float | None = None, up_axis: str = 
 
 
 def test_view_from_above_shows_the_uppermost_surface() -> None:
-    """Against boxes of which it is known."""
+    """Compared with boxes, for which the uppermost surface is known."""
     rng = np.random.default_rng(3)
     sizes, places = rng.uniform(0.2, 1.0, (12, 3)), rng.uniform(-1.0, 1.0, (12, 3))
     boxes = [

@@ -1,4 +1,4 @@
-"""Figures of sounds and loops: units, the threshold of touch, odd sounds, hostile titles."""
+"""Figures of sounds and loops: units, the threshold of touch, unusual sounds, hostile titles."""
 
 import io
 import sys
@@ -93,7 +93,7 @@ def test_titles_are_plain_text() -> None:
         assert not set(shown) & set("\u202e\x1b\n")
         if title.isascii() and title.isprintable() and len(title) <= 40:
             assert shown == title
-    drawn(figure)  # formulas are read when they are drawn
+    drawn(figure)  # formulas would be parsed when drawn
     assert tone(100.0, seconds=0.05, title=HOSTILE[0]).plot().axes[0].get_title() == HOSTILE[0]
 
 

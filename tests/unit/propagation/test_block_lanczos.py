@@ -1,4 +1,4 @@
-"""Lanczos' method in blocks against dense solutions."""
+"""Block Lanczos eigensolver, against dense solutions."""
 
 import numpy as np
 import pytest
@@ -12,13 +12,13 @@ Floats = np.ndarray
 
 
 def chain(n: int) -> csr_array:
-    """Springs along a row of masses, held at its ends."""
+    """Stiffness of a row of masses joined by springs, fixed at both ends."""
     return csr_array(diags_array([-np.ones(n - 1), 2 * np.ones(n), -np.ones(n - 1)], offsets=(-1, 0, 1)))
 
 
 def problem(kind: str) -> tuple[csr_array, csr_array]:
-    """Stiffness and masses."""
-    if kind == "square":  # each value twice, but for those on the diagonal
+    """Stiffness and mass matrices of a problem."""
+    if kind == "square":  # each eigenvalue twice, except those on the diagonal
         one = chain(17)
         eye = diags_array(np.ones(17))
         n = 17 * 17
@@ -33,7 +33,7 @@ def problem(kind: str) -> tuple[csr_array, csr_array]:
 @pytest.mark.parametrize(("kind", "count"), [("row", 5), ("row", 47), ("square", 24), ("few", 4), ("few", 9)])
 @pytest.mark.parametrize("guess", [0.3, 1.0, 3.0])
 def test_block_lanczos_finds_all_that_a_dense_solver_finds(kind: str, count: int, guess: float) -> None:
-    """However wrong the expected number is."""
+    """The result does not depend on the guessed number of modes."""
     stiffness, masses = problem(kind)
     solve = splu(stiffness.tocsc()).solve
     exact = eigh(stiffness.toarray(), masses.toarray())[0]
@@ -54,7 +54,7 @@ def test_block_lanczos_is_deterministic() -> None:
 
 
 def test_close_eigenvalues_are_separated() -> None:
-    """A stiff ground under a soft row: the values are alike to a millionth, and still told apart."""
+    """A soft row on a stiff ground: eigenvalues that differ by about a millionth are separated."""
     stiffness, masses = problem("row")
     shift = 1e6
     solve = splu((stiffness + shift * masses).tocsc()).solve

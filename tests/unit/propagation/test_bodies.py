@@ -1,4 +1,4 @@
-"""Which bodies are what, and where points of the world lie on them."""
+"""Bodies: rigid or elastic classification, points of the world on a body, and caches of responses."""
 
 import gc
 import math
@@ -48,7 +48,7 @@ OAK, STEEL, CERAMIC = (materials.lookup(name) for name in ("oak", "steel", "cera
         (Plate(0.09, 0.08, 0.012, CERAMIC, object_mass_kg=0.1), True),  # hollow: the plate would weigh 0.2 kg
         (Plate(0.04, 0.03, 0.005, CERAMIC), True),  # first mode above 10 kHz
         (Plate(0.3, 0.3, 0.002, STEEL), False),
-        (Plate(0.04, 0.03, 0.005, CERAMIC, "CFFF"), False),  # held: it would not move at all
+        (Plate(0.04, 0.03, 0.005, CERAMIC, "CFFF"), False),  # clamped: as a rigid body it could not move
     ],
 )
 def test_compact_bodies(plate: Plate, compact: bool) -> None:
@@ -104,7 +104,7 @@ def test_a_rug_has_edges_only_where_waves_come_back() -> None:
     at = np.array([[1.0, 0.75]])
     below, above = body.receptance(at, at, f)[:, 0, 0]
     assert above == pytest.approx(InfinitePlate().plate_receptance(rug, at[0], at, f[1:])[0, 0], rel=1e-3)
-    # So much loss that the middle hardly knows of the edges: no step where one body takes over from the other.
+    # The loss is so large that the edges hardly affect the middle: no step where one body takes over from the other.
     assert abs(20 * math.log10(abs(below / above) * f[0] / f[1])) < 1.0
     assert isinstance(ModalPlate().elastic_body(Plate(1.2, 0.7, 0.025, OAK), 1000.0), ModalBody)
 
@@ -143,16 +143,16 @@ def test_caches_share_one_limit_of_bytes(monkeypatch: pytest.MonkeyPatch) -> Non
     for which, value in ((one, 1.0), (other, 2.0), (one, 3.0), (one, 1.0), (other, 4.0), (one, 1.0), (other, 2.0)):
         assert which(np.array([value]))[0] == value
         assert ByteBoundedLru._held_bytes == 8000 * len(ByteBoundedLru._shelf) <= 3 * 8000
-    # The fourth took the place of the second, which was asked for longest ago.
+    # The fourth value replaced the second, the least recently used.
     assert asked == [1.0, 2.0, 3.0, 4.0, 2.0]
-    # What is too large by itself is remembered alone.
+    # A value larger than the limit is cached alone.
     large = ByteBoundedLru(lambda array: np.empty(9000))
     assert large(np.array([1.0])) is large(np.array([1.0]))
     assert len(ByteBoundedLru._shelf) == 1
 
 
 def test_cached_values_are_released_with_their_body(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A value may refer to all that its body is made of, as a plate under forces does to its modes."""
+    """A cached value may refer to its body's data, as a plate under forces refers to its modes."""
     monkeypatch.setattr(ByteBoundedLru, "_shelf", OrderedDict())
     monkeypatch.setattr(ByteBoundedLru, "_held_bytes", 0)
     body = ModalBody(Plate(0.6, 0.4, 0.01, OAK), 500.0, 0.01)

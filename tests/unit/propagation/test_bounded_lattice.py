@@ -1,4 +1,4 @@
-"""No plate keeps masses and springs busy for minutes: a budget of nodes and modes, not a clock."""
+"""The mass-spring-damper model bounds its work on any plate by a budget of nodes and modes, not by a clock."""
 
 import dataclasses
 import math

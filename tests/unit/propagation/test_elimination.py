@@ -1,4 +1,4 @@
-"""Factors of the system of all joints, against LAPACK on the dense matrix."""
+"""Sparse elimination of the system of all joints, against LAPACK on the dense matrix."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ N_F = 40
 
 
 def room(rng: np.random.Generator, pairs: list[tuple[int, int]]) -> list[Element]:
-    """One row per pair of bodies; symmetric matrices of no other structure."""
+    """Elements with one row per pair of bodies and random symmetric matrices."""
     elements = []
     for body in range(1 + max(max(pair) for pair in pairs)):
         rows = np.array([row for row, pair in enumerate(pairs) if body in pair], dtype=np.intp)
@@ -58,7 +58,7 @@ def test_elimination_equals_lapack(shape: str) -> None:
 def test_the_inverse_among_the_joints_of_a_body(
     shape: str, worst_growth: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Also where many frequencies are solved again, since their factors are large."""
+    """Also with a low growth limit, by which many frequencies are solved again."""
     monkeypatch.setattr(elimination, "WORST_GROWTH", worst_growth)
     rng = np.random.default_rng(12)
     elements = room(rng, PAIRS[shape])
@@ -94,7 +94,7 @@ def test_pivots_that_vanish_at_some_frequencies(slack: float, monkeypatch: pytes
 
 
 def test_every_joint_is_eliminated_once_and_fronts_stay_narrow() -> None:
-    """Forty objects with four feet each, on eight shelves that stand on a floor: no front is wider than two shelves."""
+    """Forty objects with four feet each stand on eight shelves on a floor: no front is wider than 32 rows."""
     pairs = [(1 + i // 5, 9 + i) for i in range(40) for _ in range(4)] + [
         (0, 1 + i) for i in range(8) for _ in range(4)
     ]
@@ -131,7 +131,7 @@ def test_sources_that_move_some_rows_only(shape: str) -> None:
     pairs = PAIRS[shape]
     elements, n = room(rng, pairs), len(pairs)
     compliance = 4 + rng.normal(size=(n, N_F)) + 1j * rng.normal(size=(n, N_F))
-    free = np.zeros((n, 4))  # the last moves nothing
+    free = np.zeros((n, 4))  # the last source moves nothing
     for column, body in enumerate((0, pairs[-1][1], pairs[n // 2][0])):
         free[elements[body].rows, column] = elements[body].signs
     expected = whole(elements, compliance, free)

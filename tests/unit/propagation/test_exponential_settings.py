@@ -1,4 +1,4 @@
-"""What the paper's law may be asked beyond the paper: a loss at contacts, a floor, and a word about thick plates."""
+"""Options of the exponential law beyond the paper: loss at contacts, floor, and warnings of thick plates."""
 
 import math
 
@@ -25,7 +25,7 @@ def test_loss_of_contacts_is_stated_at_250_hz_and_grows_like_distance() -> None:
     lossy = ExponentialPlate(interface_loss_db=6.0)
     assert 20 * math.log10(gain(lossy, "a", 0.2) / gain(ExponentialPlate(), "a", 0.2)) == pytest.approx(-6.0)
     assert 20 * math.log10(gain(lossy, "b", 0.5) / gain(ExponentialPlate(), "b", 0.5)) == pytest.approx(-12.0)
-    # Four times the frequency doubles the wavenumber, hence the decibels.
+    # Four times the frequency doubles the wavenumber, and so the loss in decibels.
     at_1000 = gain(lossy, "a", 0.2, 1000.0) / gain(ExponentialPlate(), "a", 0.2, 1000.0)
     assert 20 * math.log10(at_1000) == pytest.approx(-12.0)
 

@@ -1,4 +1,4 @@
-"""What an impact makes of a plate, against closed forms worked out here."""
+"""Response of a plate to an impact, against closed forms computed here."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ def test_modes_are_those_of_a_supported_plate_and_die_with_their_loss() -> None:
     expected = [
         math.pi / 2 * math.sqrt(d / per_area) * ((m / 1.2) ** 2 + (n / 0.8) ** 2)
         for m in (1, 3, 5)
-        for n in (1, 3, 5)  # the middle is a node of every even mode
+        for n in (1, 3, 5)  # even modes have a node in the middle
     ]
     modes = burst.frequencies_hz[1:]
-    assert len(modes) == 2  # 77, 265 and, of (3, 1) and others, none above 400 Hz
+    assert len(modes) == 2  # 77 and 265 Hz; modes above 400 Hz are left out
     assert all(min(abs(f / x - 1) for x in expected) < 1e-9 for f in modes.tolist())
     np.testing.assert_allclose(burst.decays_s[1:], np.clip(1 / (math.pi * modes * 0.03), SHORTEST_S, LONGEST_S))
     assert modes.max() <= HIGHEST_MODE_HZ
@@ -36,7 +36,7 @@ def test_the_lowest_mode_moves_by_the_momentum_over_its_mass() -> None:
     burst = burst_of(TABLE, None, impulse_n_s=0.1)
     lowest = int(np.argmin(np.where(burst.frequencies_hz > 70, burst.frequencies_hz, np.inf)))
     f, table_kg = burst.frequencies_hz[lowest], 1.2 * 0.8 * 0.018 * 700.0
-    # Of a half sine so much shorter than a period, nearly all is left.
+    # The half sine is much shorter than a period, so that nearly all of its impulse acts.
     assert burst.accelerations_m_s2[lowest] == pytest.approx(2 * math.pi * f * 0.1 * 4 / table_kg, rel=0.05)
 
 

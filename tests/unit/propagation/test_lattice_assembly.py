@@ -1,4 +1,4 @@
-"""Splines, sums of pieces and factors of a lattice, each against scipy's own."""
+"""Splines, assembled sums and factors of a lattice, each against scipy."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_strains_are_the_derivatives_of_the_deflection() -> None:
 
 
 def test_sums_count_copies_at_one_place_apart() -> None:
-    """Three pieces of two by two nodes in a grid of three columns; the last two are cut from each other."""
+    """Three pieces of two by two nodes in a grid of three columns; a cut separates the last two."""
     number = np.array([[0, 1, 4, 5], [1, 2, 5, 6], [1, 3, 5, 7]])
     place = np.array([0, 1, 2, 2, 7, 8, 9, 9])
     values = np.random.default_rng(3).standard_normal((3, 2, 2, 2, 2))

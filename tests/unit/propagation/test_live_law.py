@@ -1,4 +1,4 @@
-"""Ways asked one by one over a graph that moves, against the search of the whole scene."""
+"""Single path queries on a changing contact graph, against a search of the whole scene."""
 
 import math
 from itertools import pairwise
@@ -50,7 +50,7 @@ def test_live_law_equals_a_search_of_the_whole_scene(max_hops: int | None) -> No
         costs = [crossing(contact.weight) for contact in graph.contacts]
         arrivals = cheapest_arrivals(PRICES, graph.contacts, costs, SOURCES, max_hops)
         for touched in graph.poses:
-            for _ in range(2):  # the second time from what was gathered the first
+            for _ in range(2):  # the second query uses results cached by the first
                 point = tuple(rng.uniform(-1, 1, 3).tolist())
                 found = paths.costs(touched, point)
                 if touched in PRICES:
@@ -104,7 +104,7 @@ def test_path_costs_do_not_depend_on_query_frequency(rigid: dict[str, float]) ->
     rng = np.random.default_rng(8)
     names = [f"x{i}" for i in range(12)]
     graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
-    # One is made of nothing that anybody knows.
+    # The last object has no known material.
     prices = {name: float(rng.uniform(0.05, 1.0)) for name in names[:-1]} | rigid
     sources = ("x0", "x4", "x11")
     paths, limited = (LivePaths(graph, prices, crossing, sources, None) for _ in range(2))
@@ -135,7 +135,7 @@ def test_path_costs_are_exact_up_to_the_cut_off(max_hops: int | None) -> None:
     for step in range(6):
         graph.update({"phone": Pose((0.2 + 0.01 * step, 0.705, 0.1)), "radio": Pose((-0.3, 0.75, 0.02 * step))})
         limits = rng.uniform(0.0, 0.5, len(SOURCES)).tolist()
-        # Often enough that what is around each source is put together, too.
+        # Often enough that the distances around each source are cached, too.
         for _ in range(12):
             for touched in PRICES:
                 point = tuple(rng.uniform(-1, 1, 3).tolist())
@@ -166,7 +166,7 @@ PlainPaths, _ = KERNELS["scene2hap.propagation.paths.contact_paths.ContactPaths"
 
 
 class Noted(PlainPaths):  # type: ignore[misc, valid-type]
-    """The plain search, which notes the objects that it goes on from."""
+    """The plain search; records the objects that it leaves."""
 
     left: tuple[str, ...] = ()
 
@@ -176,7 +176,7 @@ class Noted(PlainPaths):  # type: ignore[misc, valid-type]
 
 
 def floor_with_cups() -> tuple[ContactGraph, dict[str, float]]:
-    """A radio 1 m from the middle of a floor on one side, cups that carry far better on the other, and a lone fan."""
+    """A floor with a radio 1 m from its middle on one side, cups of low cost on the other; a fan on a separate mat."""
     cups = [f"cup{i}" for i in range(9)]
     names = ["floor", "radio", "fan", "mat", *cups]
     graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
@@ -198,7 +198,7 @@ def test_search_skips_objects_too_far_from_any_source() -> None:
     paths = noted(graph, prices)
     assert paths.cheapest([("floor", (0, 0, 0))], None, {0})[0] == pytest.approx(0.3)
     assert set(paths.left) == {"floor"}
-    # For the radio, too, a limit may be too short, even if that of another source is not.
+    # The limit of one source may be too low even if the limit of another is not.
     paths.left = ()
     assert paths.cheapest([("floor", (0, 0, 0))], [0.05, 0.3]) == [math.inf, math.inf]
     assert set(paths.left) <= {"floor"}
@@ -255,7 +255,7 @@ def test_a_detour_over_more_contacts_does_not_hide_a_dearer_path_over_fewer() ->
 
 @pytest.mark.parametrize("max_hops", [2, 3, None])
 def test_a_network_that_is_updated_answers_as_a_new_one_bit_for_bit(max_hops: int | None) -> None:
-    """Random contacts of an engine, told to one search that lives on and to a new one each time."""
+    """Random contacts from an engine, given to one search that is kept and to a new search each time."""
     rng = np.random.default_rng(5)
     names = [f"x{i}" for i in range(12)]
     graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (i, 0, 0)) for i, name in enumerate(names))))
@@ -275,7 +275,7 @@ def test_a_network_that_is_updated_answers_as_a_new_one_bit_for_bit(max_hops: in
                     Contact(*pair, tuple(place), weight=float(rng.choice([0.5, 1.0]))) for place in places
                 ]
         graph.update({}, contacts=[one for several in contacts.values() for one in several])
-        if step % 7 < 5 or 100 < step < 130:  # several changes pass unasked, once more than the log holds
+        if step % 7 < 5 or 100 < step < 130:  # several changes without a query, once more than the log holds
             continue
         fresh = LivePaths(graph, prices, crossing, sources, max_hops)
         for touched in names[:10]:

@@ -1,4 +1,4 @@
-"""Masses and springs of a plate: what must hold for every lattice."""
+"""Lattices of the mass-spring-damper model: properties that hold for every plate."""
 
 import itertools
 from collections.abc import Callable
@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 
 def nodes_of(lattice: Lattice, w: Callable[[Floats, Floats], Floats]) -> Floats:
-    """What the nodes say of a deflection that is cubic along x and along y, or near it (n_nodes,)."""
+    """Node values (n_nodes,) of a deflection that is cubic, or nearly cubic, along x and along y."""
     x, y = (np.linspace(0, side, 80) for side in (lattice.plate.length_m, lattice.plate.width_m))
     at = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     found = np.linalg.lstsq(lattice.interpolation(at).toarray(), w(*at.T), rcond=None)[0]
@@ -52,13 +52,13 @@ def test_free_lattices_hold_the_mass_and_do_not_resist_planes() -> None:
 
 
 def test_springs_keep_the_digits_that_rounding_of_the_stiffness_takes() -> None:
-    """The longest wave along a strip of 1000 to 1; a table needs no springs."""
+    """The longest wave along a strip of 1000 to 1; a table does not need this precision."""
     table, strip = (bending_lattice(Plate(1.0, width_m, 0.01, MATERIAL), 8) for width_m in (0.5, 0.001))
     assert table.is_clear
     assert not strip.is_clear
     assert table.rounding_k4 < 1e-9 * strip.rounding_k4
     knots = np.pad(lines_of(strip.plate, 8)[0], 3, mode="edge")
-    along = (knots[1:-3] + knots[2:-2] + knots[3:-1]) / 3  # what nodes say of x
+    along = (knots[1:-3] + knots[2:-2] + knots[3:-1]) / 3  # node values of the deflection w = x
     w = np.repeat(along, strip.n_nodes // len(along))
     area = strip.plate.area_m2
     by_springs, by_stiffness = abs(w @ strip.restoring(w)) / area, abs(w @ (strip.stiffness @ w)) / area
@@ -76,7 +76,7 @@ def test_twist_stores_exactly_its_energy(nu: float) -> None:
 
 
 def test_clamps_hold_the_slope() -> None:
-    """w = x^2 (1 - x)^2 between clamps, the same all along a free width, nu = 0: U = 1/2 integral w''^2 = 2/5."""
+    """w = x^2 (1 - x)^2 between clamps, constant along the free width, nu = 0: U = 1/2 integral w''^2 = 2/5."""
     errors = []
     for resolution in (4, 8, 16):
         lattice = bending_lattice(Plate(1.0, 1.0, 0.01, Material("t", 2500.0, 70e9, 0.0), "CCFF"), resolution)
@@ -108,7 +108,7 @@ def test_slender_plates_get_longer_cells() -> None:
 
 @pytest.mark.parametrize("size", [(1.0, 1.0), (1.0, 0.02)])
 def test_lattice_finds_every_mode(size: tuple[float, float]) -> None:
-    """Squares have equal modes in pairs; a dense eigensolver finds them all."""
+    """Compared with a dense eigensolver; squares have pairs of equal modes."""
     plate = Plate(*size, 0.01, MATERIAL)
     resolution = 25 if size[1] == 1.0 else 5
     lattice = bending_lattice(plate, resolution)
@@ -138,7 +138,7 @@ def test_no_mode_of_a_symmetric_plate_is_missed(side_m: float, thickness_m: floa
 
 
 def test_plates_of_one_shape_share_their_modes() -> None:
-    """Two discs of other sizes, thicknesses and materials: solved once, each with its own frequencies and shapes."""
+    """Two discs of different sizes, thicknesses and materials are solved once, and have different frequencies."""
     turn = np.linspace(0.0, 2 * np.pi, 48, endpoint=False)
     circle = np.column_stack([np.cos(turn), np.sin(turn)])
     small, large = (

@@ -1,4 +1,4 @@
-"""A plate's map: where it is loud, what is marked, and what is refused."""
+"""`plot_field`: levels on a plate, marks of contacts and touches, and refused arguments."""
 
 import sys
 
@@ -19,7 +19,7 @@ def test_the_map_is_the_field() -> None:
     pytest.importorskip("matplotlib", reason="matplotlib is not installed; run: pip install 'scene2hap[plots]'")
     figure = plot_field(FIELD, NETWORK, "top", band=1, touch_m=[1.5, 2.3, 0.5])
     axes = figure.axes[0]
-    shown = np.asarray(axes.images[0].get_array())  # (n_y, n_x), from the corner
+    shown = np.asarray(axes.images[0].get_array())  # (n_y, n_x), from the plate's corner
     n_y, n_x = shown.shape
     assert (n_x, n_y) == (64, 32)
     at = PLACE.to_world([[(10 + 0.5) / n_x * 0.8, (20 + 0.5) / n_y * 0.4, 0.0]])

@@ -1,4 +1,4 @@
-"""Points that callers hand in."""
+"""Validation of points given by callers."""
 
 import numpy as np
 import pytest

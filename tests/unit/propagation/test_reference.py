@@ -1,4 +1,4 @@
-"""The level near a source is the law's, whichever model spreads it."""
+"""Reference `felt_near`: the level near a source is that of the paper's law for every model."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ AT = {"phone": (0.4, 0.3), "pump": (1.0, 0.5)}
 
 
 def network() -> ContactNetwork:
-    """Two sources on a table that is turned and elsewhere; a box in the air."""
+    """Two sources on a rotated and shifted table."""
     stands = [
         Contact("table", source, tuple(TURN.to_world([[x, y, 0.0]])[0].tolist())) for source, (x, y) in AT.items()
     ]
@@ -44,7 +44,7 @@ def network() -> ContactNetwork:
 
 
 def around(source: str) -> Any:
-    """Points 0.1 m from where a source stands, by hand."""
+    """Points 0.1 m around a source, listed by hand."""
     x, y = AT[source]
     s = 0.1 * 0.5**0.5
     offsets = [(0.1, 0.0), (s, s), (0.0, 0.1), (-s, s), (-0.1, 0.0), (-s, -s), (0.0, -0.1), (s, -s)]
@@ -62,7 +62,7 @@ def test_source_near_its_place_has_the_gain_of_the_law(model: PropagationModel, 
             np.sqrt(np.mean(one.attenuation("table", around(source))[:, column] ** 2)) for one in (field, law)
         )
         assert found == pytest.approx(expected, rel=1e-9)
-        # How it spreads is the model's own: the same ratio everywhere and in all bands.
+        # The model's distribution is unchanged: the ratio is equal in all bands.
         ratio = (
             field.attenuation("table", [[0.5, 1.0, 0.9]])[0, column]
             / (plain.attenuation("table", [[0.5, 1.0, 0.9]])[0, column])

@@ -1,4 +1,4 @@
-"""What a touch sums once and for all, against the sum over contacts and modes that it stands for."""
+"""Precomputed sums of a touched body, against direct sums over contacts and modes."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_folded_forces_are_the_sum_over_contacts(name: str) -> None:
     if name == "rug":
         assert isinstance(body, SplitBody)
     rng = np.random.default_rng(5)
-    f = rng.uniform(10.0, 1000.0, 6)  # in no order, as sources have them
+    f = rng.uniform(10.0, 1000.0, 6)  # unordered, like the frequencies of sources
     at, points = rng.uniform(0.0, 0.4, (9, 2)), rng.uniform(0.0, 0.42, (5, 2))
     forces = rng.normal(size=(9, 6)) + 1j * rng.normal(size=(9, 6))
     expected = np.einsum("fpc,cf->pf", body.receptance(points, at, f), forces)
@@ -57,7 +57,7 @@ def test_shapes_of_bands_are_the_rms_over_frequencies(name: str) -> None:
     rng = np.random.default_rng(6)
     sampling = Sampling.of(Bands.third_octaves(), (), 0.02)
     at, points = rng.uniform(0.0, 0.4, (9, 2)), rng.uniform(0.0, 0.42, (60, 2))
-    # Forces as of bodies that resonate themselves; one source is weak, and one does not reach.
+    # Forces of resonant bodies; one source is weak, and one has no force.
     resonances = 1 / (sampling.frequencies_hz[:, None] ** 2 - (1 + 0.02j) * np.array([50.0, 210.0, 700.0]) ** 2)
     forces = np.einsum("fr,rcs->fcs", resonances, rng.normal(size=(3, 9, 4))) * np.array([1.0, 3.0, 1e-9, 0.0])
     response = np.einsum("fpc,fcs->fps", body.receptance(points, at, sampling.frequencies_hz), forces)
@@ -102,7 +102,7 @@ def test_sums_by_octaves_are_sums_over_all_modes(
     loss: float, n_modes: int, n_f: int, is_rising: bool, seed: int
 ) -> None:
     rng = np.random.default_rng(seed)
-    k4 = np.sort(rng.uniform(0.0, 15.0, n_modes)) ** 4  # modal density as of plates: k^2 grows with their number
+    k4 = np.sort(rng.uniform(0.0, 15.0, n_modes)) ** 4  # modal density of plates: k^2 grows with the mode number
     f = np.sort(10 ** rng.uniform(-2.0, 0.0, n_f)) if is_rising else 10 ** rng.uniform(-2.0, 0.0, n_f)
     q = (10 * np.sqrt(f)) ** 4 / complex(1.0, loss)
     others = rng.normal(size=(3, n_f)) + 1j * rng.normal(size=(3, n_f))

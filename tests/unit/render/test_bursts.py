@@ -1,4 +1,4 @@
-"""One-shot vibration in a mix: whole, once, and without a click."""
+"""One-shot bursts in a mix are played completely, once, and without a click."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def test_the_peak_is_that_of_all_samples(seed: int) -> None:
 
 
 def test_a_beat_may_peak_late() -> None:
-    """Two sines that cancel at first are loudest long after the first cycles."""
+    """Two sines that cancel at first have their peak long after the first cycles."""
     waves = [wave_of(100.0, 0.1, RATE), -wave_of(104.0, 0.1, RATE)]
     every = float(np.abs(summed(waves, [1.0, 1.0])).max())
     assert peak_of(waves, np.ones(2), np.full(2, 0.1), RATE) == every

@@ -1,4 +1,4 @@
-"""Loops at the tactile rate: their sound, their period and their rows."""
+"""Loop bank: loops at the tactile rate keep their sound and period; bands of a loop are rows."""
 
 import math
 from fractions import Fraction
@@ -19,7 +19,7 @@ def tone(cycles: int, n: int, rate: int) -> AudioClip:
 
 
 def read(bank: LoopBank, loop: int, begin: int, n: int) -> NDArray[np.float32]:
-    """Cells from a position on."""
+    """Read n samples of a loop from a position, cell by cell."""
     cells = [np.zeros((bank.n_bands, CELL), dtype=np.float32) for _ in range(-(-n // CELL))]
     for i, cell in enumerate(cells):
         bank.read([loop], begin + i * CELL, cell)
@@ -64,7 +64,7 @@ def test_tactile_position_stays_within_a_sample_of_the_audible_loop(n: int, rate
 
 @pytest.mark.parametrize(("n", "rate"), ODD)
 def test_position_correction_causes_no_click(n: int, rate: int) -> None:
-    """Energy above 1 kHz, where the tone has none, over four seconds with all their slips."""
+    """Energy above 1 kHz, where the tone has none, over four seconds with all position corrections."""
     from scipy.signal import butter, sosfiltfilt
 
     cycles = max(1, round(100 * n / rate))

@@ -1,4 +1,4 @@
-"""The mixer against a slow one written out sample by sample, and what its threads may rely on."""
+"""The mixer against a slow reference that works sample by sample, and its guarantees to threads."""
 
 import gc
 import threading
@@ -49,7 +49,7 @@ def stamped(changes: list[tuple[int, list[float]]]) -> Changes:
     return [(start, np.array(gains, dtype=np.float32).reshape(2, -1)) for start, gains in sorted(changes)]
 
 
-# Gains of 0 are drawn often, so that loops come into use and go out of it.
+# Gains of 0 are frequent, so that loops often start and stop.
 GAIN = st.one_of(st.just(0.0), st.floats(0.0, 4.0, width=32))
 CHANGES = st.lists(
     st.tuples(st.integers(0, 5000), st.lists(GAIN, min_size=2 * len(TONES), max_size=2 * len(TONES))), max_size=6
@@ -135,11 +135,11 @@ def test_skipped_silent_loops_are_counted_and_change_nothing_felt() -> None:
         return mixer
 
     skipping, full = run(True), run(False)
-    # Other rows stand beside it in the sum, so that a BLAS may add them in another order.
+    # The sum has other rows, so that a BLAS may add in another order.
     np.testing.assert_allclose(skipping.render(20000), full.render(20000), atol=1e-7)
     assert full.stats.rows_skipped == 0
     assert skipping.stats.rows_mixed + skipping.stats.rows_skipped == full.stats.rows_mixed
-    # One loop of five at a time, and two while one fades into the other.
+    # One of five loops plays at a time, two during a cross-fade.
     assert skipping.stats.rows_skipped > 0.7 * full.stats.rows_mixed
 
 
@@ -212,8 +212,10 @@ def test_loud_mixes_stay_within_full_scale_at_every_rate() -> None:
 
 
 def test_loud_tones_keep_their_shape() -> None:
-    """Three tones that add up to twice what passes: what is felt are these tones, 1 % of anything else at most odd
-    multiples of them, where a curve without memory made 14 %."""
+    """Three tones that add up to twice the limit keep their shape: odd multiples have at most 1 % of their amplitude.
+
+    A limiter curve without memory gave 14 %.
+    """
     mixer = new_mixer(48000, 1)
     loud = np.zeros((1, len(TONES)), dtype=np.float32)
     loud[0, [0, 1, 3]] = 1.7  # 100, 250 and 125 Hz of 0.3 each
@@ -223,7 +225,7 @@ def test_loud_tones_keep_their_shape() -> None:
     own = [4 * f for f in (100, 250, 125)]
     odd = [4 * k * f for f in (100, 250, 125) for k in (3, 5, 7) if k * f not in (100, 250, 125)]
     assert np.sqrt(np.square(spectrum[odd]).sum() / np.square(spectrum[own]).sum()) < 0.01
-    # All three by the same factor: none is swallowed by the others.
+    # All three are reduced by the same factor: none is masked by the others.
     assert spectrum[own] == pytest.approx([spectrum[own[0]]] * 3, rel=0.01)
 
 
@@ -237,7 +239,7 @@ def test_a_quiet_mix_after_a_loud_one_comes_back_slowly() -> None:
     mixer.render(8000)
     mixer.set_gains(gains[1], 8000)
     seconds = [np.abs(mixer.render(8000)).max() for _ in range(5)]
-    assert np.diff(seconds[1:]).min() > 0  # the first holds the ramp down
+    assert np.diff(seconds[1:]).min() > 0  # the first second includes the ramp down
     assert seconds[4] == pytest.approx(np.abs(quiet.render(8000)).max(), rel=0.02)
 
 
@@ -332,14 +334,14 @@ def test_rendering_allocates_little_and_keeps_nothing() -> None:
             worst = max(worst, tracemalloc.get_traced_memory()[1] - before)
         return worst
 
-    # A full collection empties Python's lists of small objects to use again, so that they would count as allocated.
+    # A full collection empties Python's free lists, so that reused small objects would count as allocated.
     gc.collect()
     gc.disable()
     tracemalloc.start()
     try:
         run(200)
         held = tracemalloc.get_traced_memory()[0]
-        # Small objects of plain Python; another buffer of one cell and all slots is more than the rest.
+        # Enough for small objects of plain Python, but not for another buffer of one cell and all slots.
         assert run(200) <= 5120
         assert tracemalloc.get_traced_memory()[0] - held < 2048
     finally:
@@ -362,12 +364,12 @@ def test_setting_gains_while_rendering() -> None:
     thread = threading.Thread(target=game)
     thread.start()
     blocks = [mixer.render(128) for _ in range(2000)]
-    while n_set <= 10:  # A block is over before Python lets the other thread in.
+    while n_set <= 10:  # a block may end before Python runs the other thread
         blocks.append(mixer.render(128))
     done.set()
     thread.join()
     out = np.concatenate(blocks)
     assert np.isfinite(out).all()
-    # Twice the steepest that the loops can be at the loudest gain: no step, however the threads meet.
+    # Twice the steepest slope of the loops at the largest gain: no step, whatever the timing of the threads.
     steepest = 0.9 * 0.3 * 2 * np.pi * sum(frequency for frequency, _ in TONES) / 48000
     assert np.abs(np.diff(out[:, 0])).max() < 2 * steepest

@@ -1,4 +1,4 @@
-"""A loop on its way up and down: in step, as fast and as strong as it says, and without a click."""
+"""Passages (starts and stops of a loop): position, speed and level are as stated, without a click."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def played(one: LoopBank, begin: int, n: int) -> np.ndarray:
 def passage(
     *, goes_up: bool = True, spins: bool = True, curve: RunCurve | None = None, since: Running | None = None
 ) -> Passage:
-    """One of a second; it begins at rest or in steady running unless told otherwise."""
+    """A passage of one second. By default it begins at rest, or in steady running for a stop."""
     course = Course(goes_up, spins, curve)
     return Passage(bank(), 12_345, 1.0, course, since or (STILL if goes_up else STEADY))
 

@@ -1,4 +1,4 @@
-"""What the safety layer lets through, and what it never does."""
+"""The safety layer: signals that pass unchanged, and limits that no output exceeds."""
 
 import math
 
@@ -128,7 +128,7 @@ def test_any_blocks_give_the_same_bits(seed: int, blocks: list[int], budget: Bud
 def test_a_full_scale_sine_passes(frequency_hz: float, phase: float) -> None:
     layer = SafetyLayer(ActuatorProfile(), RATE, 1)
     y = layer.process(sine(frequency_hz, 2.0, phase=phase))[RATE:, 0].astype(np.float64)
-    # A whole second holds whole half cycles, where the root mean square is that of the tone.
+    # A second holds a whole number of half cycles, over which the RMS is that of the tone.
     level_db = 20 * math.log10(math.sqrt(2 * np.mean(y**2)))
     assert abs(level_db) < 0.5
     s = layer.stats
@@ -154,7 +154,7 @@ def test_a_square_leaves_little_above_the_band() -> None:
 def test_constant_input_decays_to_zero() -> None:
     y = SafetyLayer(ActuatorProfile(), RATE, 1).process(np.ones((2 * RATE, 1), dtype=np.float32))
     assert np.abs(y[round(0.2 * RATE) :]).max() < 10 ** (-40 / 20)
-    # Once steady, as well: a tone that turns into a constant.
+    # The same after steady running: a tone that turns into a constant.
     layer = SafetyLayer(ActuatorProfile(), RATE, 1)
     layer.process(sine(100.0, 1.0))
     y = layer.process(np.ones((RATE, 1), dtype=np.float32))
@@ -180,7 +180,7 @@ def test_power_guard_settles_and_passes_power_within_the_budget() -> None:
     layer = SafetyLayer(budget, RATE, 1)
     y = layer.process(sine(100.0, 6.0))[-RATE:, 0].astype(np.float64)
     rms = math.sqrt(np.mean(y**2))
-    # tau / T = 1/4 and the knee cost at most 1.3 dB of the budget.
+    # tau / T = 1/4 and the knee use at most 1.3 dB of the budget.
     assert 0.2 * 10 ** (-1.3 / 20) < rms <= 0.2
     assert layer.stats.power_limited > 0
     quiet = SafetyLayer(budget, RATE, 1)
@@ -200,7 +200,7 @@ class Clock:
 
 
 def play(layer: SafetyLayer, clock: Clock, seconds: float, alive_at: list[float] | None = None) -> NDArray[np.float32]:
-    """A tone in blocks of 5 ms; updates come at the given times, None for with every block."""
+    """Process a tone in blocks of 5 ms; updates come at the given times, or with every block if None."""
     parts, begin = [], clock.now
     waiting = None if alive_at is None else sorted(alive_at)
     tone = sine(125.0, seconds)
@@ -223,7 +223,7 @@ def test_output_fades_out_when_updates_stop() -> None:
         before = play(layer, clock, 0.5)
         y = play(layer, clock, 2.0, alive_at=[0.0])
         last = int(np.flatnonzero(y)[-1]) + 1
-        # The gate moves at the start of a block, here of 5 ms.
+        # The gate changes only at the start of a block of 5 ms.
         assert watchdog_s <= last / RATE <= watchdog_s + FADE_OUT_S + 0.005 + 1e-9
         assert layer.stats.watchdog_trips == 1
         assert_safe(np.concatenate([before, y]), Budget())

@@ -1,4 +1,4 @@
-"""The safety layer where it stands: between a session and its sink."""
+"""The safety layer between a session and its sink."""
 
 import math
 import time
@@ -19,7 +19,7 @@ TAIL = round(FADE_OUT_S * RATE)
 
 
 class ClockedSink:
-    """A sink with a clock, whose time is told by the test."""
+    """A sink with a clock that the test drives."""
 
     def __init__(self) -> None:
         self.fill: Fill | None = None
@@ -92,7 +92,7 @@ def test_a_sink_with_a_clock_falls_silent_without_updates(monkeypatch: pytest.Mo
     assert session.safety_stats.watchdog_trips == 1
     session.update(touches=TOUCHES)
     assert np.abs(sink.take(1600)).max() > 0.25
-    # Nobody takes the fade: stop does not wait for ever.
+    # No block is taken during the fade: stop does not wait for ever.
     session.stop()
     assert sink.fill is None
 

@@ -1,4 +1,4 @@
-"""The upsampler's response, delay and images, measured on tones and impulses."""
+"""Response, delay and images of the upsampler, measured with tones and impulses."""
 
 import numpy as np
 import pytest

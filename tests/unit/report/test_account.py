@@ -1,4 +1,4 @@
-"""What a bake took and what it left out, as a report tells it."""
+"""The account of a bake in a report: calls, cost, and skipped objects."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def test_skipped_calls_state_a_reason() -> None:
         "material unknown": ["cup"],
         "muted until a game unmutes it": ["phone"],
         "locked": ["phone"],
-        "out of reach": ["table", "phone", "cup"],  # of a source that is muted
+        "out of reach": ["table", "phone", "cup"],  # since the source is muted
         "silent": ["table"],
     }
     reached = {row["why"].partition(":")[0]: row["objects"] for row in document(plain, most_points=50)["left_out"]}

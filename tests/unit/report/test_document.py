@@ -1,4 +1,4 @@
-"""What a report is made of: levels as a session has them, points on surfaces, sounds that play."""
+"""The data of a report: levels as in a session, points on surfaces, and playable sounds."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def kitchen() -> HapticBundle:
 
 
 def test_band_levels_sum_to_the_total_level(kitchen: HapticBundle) -> None:
-    """On the source itself every gain is 1, so that the bands add up to the whole."""
+    """On the source itself every gain is 1, so that the energies of the bands add up to the total."""
     felt = felt_map(kitchen, most_points=300)
     start = 0
     for patch in felt.patches:

@@ -29,11 +29,11 @@ from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, FeltMap, felt_map
 N_POINTS = 200
 MODEL = "exponential_plate"
 LEAST_FELT_DB = -20.0
-"""Of the page, which does not tell lower levels apart."""
+"""The lowest level of the page's scale."""
 
 
 def _of_oak(bundle: HapticBundle) -> HapticBundle:
-    """Nobody can tell what `Object_12` is: here the table hums, and all is of oak."""
+    """Make all unknown objects oak, and let the table `Object_12` hum."""
     for object_id in bundle.objects:
         bundle = bundle.override(object_id, material="oak")
     return rebake(bundle.override("Object_12", vibrates=True))
@@ -50,13 +50,13 @@ CASES: dict[str, tuple[Path, float | None, Callable[[HapticBundle], HapticBundle
     ),
     "messy_japanese_room": (SCENES / "messy_japanese_room" / "room.glb", 0.1, _of_oak, 20),
 }
-"""By scene: its file, metres per unit, what is done to the bundle, and how many levels must be above -20 dB."""
+"""By scene: its file, metres per unit, a change of the bundle, and the least number of levels above -20 dB."""
 
 
-@pytest.mark.filterwarnings("ignore")  # of scenes by others, and of points a step off coarse meshes
+@pytest.mark.filterwarnings("ignore")  # scenes by others, and points slightly off coarse meshes, cause warnings
 @pytest.mark.parametrize("name", CASES)
 def test_the_felt_map_has_the_gains_and_paths_of_a_session(name: str) -> None:
-    """At 200 points, of every source; 0.1 dB on the page, which stores levels in steps of 1 mdB."""
+    """At 200 points for every source, within 0.1 dB on the page, which stores levels in steps of 1 mdB."""
     path, unit_m, done, least = CASES[name]
     bundle = done(bake(load_scene(needed(path) if name != "demo_kitchen" else path, unit_m=unit_m)))
     felt = felt_map(bundle)
@@ -85,7 +85,7 @@ def test_the_felt_map_has_the_gains_and_paths_of_a_session(name: str) -> None:
 
 
 def _assert_path(felt: FeltMap, source: str, place: int, object_id: str, bundle: HapticBundle) -> None:
-    """A path leads from the source to the object, over each object once, and over known materials alone."""
+    """Check that a path leads from the source to the object, over each object once, and only over known materials."""
     path = _path(felt, source, place)
     assert (path[0], path[-1]) == (source, object_id)
     assert len(set(path)) == len(path)
@@ -99,7 +99,7 @@ def _path(felt: FeltMap, source: str, place: int) -> tuple[str, ...]:
 
 
 def test_paths_are_those_that_a_session_explains() -> None:
-    """The kitchen has no two paths of equal loss at these points."""
+    """Paths are unique here: the kitchen has no two paths of equal loss at these points."""
     bundle = bake(load_scene(kitchen_path()))
     for model in (
         {"kind": MODEL},
@@ -123,7 +123,7 @@ def test_paths_are_those_that_a_session_explains() -> None:
 
 
 def _table(**names: str) -> SceneSnapshot:
-    """A phone on a table, a plate on it too, and a cup that stands apart."""
+    """A phone and a plate on a table, and a separate cup."""
     things = {
         "table": ((0.0, 0.4, 0.0), (1.2, 0.8, 0.7)),
         "phone": ((-0.4, 0.81, 0.0), (0.15, 0.02, 0.08)),
@@ -163,7 +163,7 @@ def test_resonant_models_have_no_single_path() -> None:
 
 
 def test_a_source_may_be_called_all() -> None:
-    """Its levels are its own, and those of all sources stand beside them."""
+    """The levels of a source with the id "all" are kept apart from the levels of all sources."""
     felt = felt_map(bake(_table(phone="all")), most_points=200)
     assert felt.sources == (ALL_SOURCES, "all")
     own = felt.levels_db[MODEL]["all"][ALL_BANDS]

@@ -1,4 +1,4 @@
-"""The server of a report page: one page, corrections of its own page, and nothing for anybody else."""
+"""The server of a report page: it serves one page, accepts corrections from it, and refuses other requests."""
 
 from __future__ import annotations
 

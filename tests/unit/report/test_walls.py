@@ -1,4 +1,4 @@
-"""Walls that hide a room: found where a person would call them walls, and nowhere else."""
+"""Detection of walls that hide a room, without false detections."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Things = dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 def room(things: Things, yaw: float = 0.0, up_axis: str = "y") -> SceneSnapshot:
-    """Boxes by centre and size, y up, the whole turned about the vertical."""
+    """A scene of boxes by centre and size (y up), rotated about the vertical."""
     turn = Pose.from_yaw((0.0, 0.0, 0.0), yaw)
     objects = []
     for name, (centre, size) in things.items():
@@ -67,7 +67,7 @@ def test_wall_pieces_are_joined() -> None:
 
 
 def test_a_ceiling_needs_walls() -> None:
-    """A table top in a scene of a table is no ceiling."""
+    """A table top in a scene of a single table is not a ceiling."""
     ceiling = {**FLOOR, **CEILING, **FURNITURE}
     assert "ceiling" in shells(room(ceiling))  # as wide and as deep as the scene
     panels: Things = {f"panel_{i}": ((-1.5 + i, HEIGHT + 0.02, 0.0), (1.0, 0.04, SIDE)) for i in range(4)}

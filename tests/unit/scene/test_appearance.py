@@ -1,4 +1,4 @@
-"""Appearances: their names, and how appearances of parts are joined."""
+"""Appearances: materials, textures, names, and joining the appearances of parts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Broken glTF: every fault ends in an error of our own that says where, and in time."""
+"""Broken glTF: every fault raises an error of the library that names the place, within limits of size."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from scene2hap.errors import ConfigError, MissingExtra, Scene2HapError, SceneErr
 from scene2hap.scene import limits
 from scene2hap.scene.load import UnitWarning, load_scene
 
-# One value, for the vertex that the third buffer view of `broken` names.
+# A sparse accessor with one value, for the vertex number in the third buffer view of `broken`.
 SPARSE = {
     "count": 1,
     "indices": {"bufferView": 2, "componentType": 5123},
@@ -28,7 +28,7 @@ SPARSE = {
 
 
 def broken(tmp_path: Path, change: Callable[[Json], object], gltf: Gltf | None = None) -> Path:
-    """A cube's file whose header was changed."""
+    """Write the file of a cube with a changed header."""
     gltf = gltf or one_cube()
     gltf.view([65535], "<u2")
     change(gltf.header)
@@ -36,7 +36,7 @@ def broken(tmp_path: Path, change: Callable[[Json], object], gltf: Gltf | None =
 
 
 def setting(*path: str | int, to: Any) -> Callable[[Json], object]:
-    """A change that puts a value into the header."""
+    """A change that sets a value in the header."""
 
     def change(header: Json) -> None:
         place: Any = header
@@ -274,7 +274,7 @@ def compressed_cube() -> Gltf:
 
 def test_draco_is_decoded(tmp_path: Path) -> None:
     item = load_scene(compressed_cube().write(tmp_path / "scene.glb")).object("cube")
-    # 14 bits: half a step of 1 / (2^14 - 1).
+    # Quantisation to 14 bits: errors up to half a step of 1 / (2^14 - 1).
     np.testing.assert_allclose(item.bounds_m, [[0.0] * 3, [1.0] * 3], atol=3.1e-5)
     assert len(item.geometry.mesh.faces) == 12
 
@@ -300,7 +300,7 @@ def test_broken_draco_is_refused(tmp_path: Path) -> None:
 
 
 def small_room() -> Gltf:
-    """Three nodes, two meshes, a material: enough of a file to break."""
+    """A file of three nodes, two meshes and a material, to be damaged."""
     gltf = Gltf()
     gltf.header["materials"] = [{"name": "oak"}]
     leaf = gltf.node("door", mesh=gltf.cube(), translation=[0.0, 0.0, 1.0])
@@ -310,7 +310,7 @@ def small_room() -> Gltf:
 
 
 def outcome(path: Path) -> str:
-    """The word "ok" or the name of our own error; anything else passes through and fails the test."""
+    """Load a file. Returns "ok" or the name of the library's error; any other error fails the test."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnitWarning)
         try:
@@ -337,7 +337,7 @@ def test_changed_bytes_raise_only_scene_errors(tmp_path: Path) -> None:
     for _ in range(150):
         mutated = np.frombuffer(data, np.uint8).copy()
         at = rng.integers(20, len(mutated), size=rng.integers(1, 4))
-        # Digits and brackets keep the header readable and change what it says.
+        # Digits and brackets often keep the header readable, with changed values.
         mutated[at] = rng.choice(np.frombuffer(b'0123456789-,.[]{}":e', np.uint8), size=len(at))
         path.write_bytes(mutated.tobytes())
         outcomes.add(outcome(path))

@@ -50,7 +50,7 @@ def test_surface_faces_up_with_z_up() -> None:
     assert np.abs(cube.surface.pose.rotation[1, 2]) == pytest.approx(1.0)
     scene = SceneSnapshot.build([cube], up_axis="z")
     assert np.abs(scene.objects[0].surface.pose.rotation[2, 2]) == pytest.approx(1.0)
-    # What was given is kept.
+    # A given surface is kept.
     given = DominantSurface(Pose(), 0.3, 0.2, 0.01)
     kept = SceneSnapshot.build([SceneObject("cube", geometry=Box((0.5, 0.5, 0.5)), surface=given)], up_axis="z")
     assert kept.objects[0].surface == given
@@ -84,7 +84,7 @@ def test_invalid_scenes_are_refused(make: object, words: str) -> None:
 
 def test_check_finds_nothing_in_a_valid_room() -> None:
     assert SceneSnapshot.build(ROOM).check() == ()
-    # A table top alone is taken for a table 20 mm high.
+    # A single table top is treated as a table 20 mm high.
     expected = {"no_contact": ["floating"], "one_silent_object": ["units"]}
     for name, made in EDGE_SCENES.items():
         snapshot, _ = made()
@@ -143,7 +143,7 @@ def test_check_finds_each_kind_of_mistake(
     ],
 )
 def test_check_finds_a_room_above_or_below_its_floor(up_m: float, kind: str | None, words: str) -> None:
-    """As after an export with two origins: everything but the floor is elsewhere."""
+    """As after an export with two origins: all objects except the floor are shifted."""
     crates = [moved(ROOM[4], id=f"crate {k}", pose=Pose((1.2 - 0.6 * k, 0.2, -1.0))) for k in range(4)]
     things = crates if kind == "sunk" else ROOM[1:]
     lifted = [

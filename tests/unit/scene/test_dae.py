@@ -1,4 +1,4 @@
-"""COLLADA: its node tree, axis and unit; skipped where pycollada is not installed."""
+"""COLLADA files: node tree, axis, unit and materials; skipped where pycollada is not installed."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def test_missing_pycollada_error_names_the_install_command(tmp_path: Path, monke
 
 
 def textured(folder: Path, diffuse: str, *, more: str = "", image: str = "wood%20floor.png", bound: str = "1") -> Path:
-    """A square drawn with and without a material; of its two sets of coordinates, set 1 lays the image upright."""
+    """Write a square with and without a material; of its two coordinate sets, set 1 shows the image upright."""
     phong = f"<phong>{diffuse and f'<diffuse>{diffuse}</diffuse>'}{more}</phong>"
     link = f"""<bind_material><technique_common><instance_material symbol="m" target="#wood">
         <bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="{bound}"/>

@@ -15,7 +15,7 @@ Size = tuple[float, float, float]
 
 
 def boxes(*parts: tuple[Size, Size]) -> TriMesh:
-    """Cuboids of that size and middle as one mesh."""
+    """One mesh of cuboids, each (size, centre)."""
     meshes = [(Box(size).mesh.vertices_m + middle, Box(size).mesh.faces) for size, middle in parts]
     vertices = np.concatenate([points for points, _ in meshes])
     return TriMesh(vertices, np.concatenate([faces + 8 * i for i, (_, faces) in enumerate(meshes)]))
@@ -30,14 +30,14 @@ def size(surface: DominantSurface) -> list[float]:
 
 
 def middle(surface: DominantSurface) -> NDArray[np.float64]:
-    """The middle of the plate, in the own frame."""
+    """The centre of the surface, in the mesh's frame."""
     centre: NDArray[np.float64] = surface.pose.to_world([[surface.length_m / 2, surface.width_m / 2, 0.0]])[0]
     return centre
 
 
 LEGS = tuple(((0.05, 0.05, 0.7), (x, y, 0.35)) for x in (-0.7, 0.7) for y in (-0.35, 0.35))
 TABLE = boxes(((1.6, 0.8, 0.04), (0.0, 0.0, 0.72)), *LEGS)
-# Inward faces make a wall of what lies between two cuboids.
+# The inner cuboid faces inwards, so that the space between both cuboids is a wall.
 _inner = Box((0.56, 0.46, 1.76)).mesh
 _outer = Box((0.6, 0.5, 1.8)).mesh
 HOLLOW = TriMesh(
@@ -83,7 +83,7 @@ def test_surface_pose_gives_plate_coordinates() -> None:
 
 
 def test_up_direction_decides_which_board_is_measured() -> None:
-    """A rack of two boards is measured from above, whichever way that is."""
+    """A rack of two boards is measured from above, for any up direction."""
     rack = boxes(((1.0, 0.4, 0.02), (0, 0, 1.5)), ((1.0, 0.4, 0.05), (0, 0, 0.5)))
     assert dominant_surface(rack, up=(0, 0, 1)).thickness_m == pytest.approx(0.02)
     assert dominant_surface(rack, up=(0, 0, -1)).thickness_m == pytest.approx(0.05)
@@ -146,8 +146,8 @@ def test_size_of_a_disc_is_its_median_chord() -> None:
 
 
 def test_size_of_a_bowl_is_its_rim_chord_and_wall_thickness() -> None:
-    """Half a sphere of radius R with a wall of R - r, seen from above: thickness is the median over the disc of the
-    vertical length of wall, computed here from evenly spread points."""
+    """Half a sphere of radius R with a wall of R - r, seen from above. The thickness is the median over the disc of the
+    vertical wall length, computed here from evenly spread points."""
     big, small = 0.10, 0.09
     angle = np.linspace(0, np.pi / 2, 40)
     profile = np.vstack(
@@ -186,7 +186,7 @@ def test_flags_mark_doubtful_surfaces(mesh: TriMesh, flags: tuple[str, ...]) -> 
 
 
 def test_box_without_a_bottom_has_its_height_as_thickness() -> None:
-    """Five faces of a worktop: no ray from above meets it twice."""
+    """A worktop of five faces: no ray from above meets the mesh twice."""
     outer = Box((3.0, 0.6, 0.04)).mesh
     faces = [face for face in outer.faces if not np.allclose(outer.vertices_m[face, 2], -0.02)]
     surface = dominant_surface(TriMesh(outer.vertices_m, faces))
@@ -233,7 +233,7 @@ def test_a_lintel_over_windows_is_level_with_its_wall_and_belongs_to_it() -> Non
 
 
 def hob(*on_it: tuple[Size, Size]) -> TriMesh:
-    """A sheet 0.5 m wide with a rim 40 mm down, open below, and objects on it."""
+    """A sheet 0.5 m wide with a rim of 40 mm, open below, and objects on it."""
     tray = Box((0.5, 0.45, 0.04)).mesh
     closed = tray.vertices_m[tray.faces].mean(axis=1)[:, 2] > -0.019
     tray = TriMesh(tray.vertices_m, tray.faces[closed])

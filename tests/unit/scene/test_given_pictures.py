@@ -1,4 +1,4 @@
-"""Pictures that others rendered: given as bytes or in a folder, checked, and shown to a model."""
+"""Pictures rendered elsewhere: given as bytes or in a folder, checked, and sent to a model."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def pixels(picture: bytes) -> np.ndarray:
 
 
 def shown(given: bytes) -> np.ndarray:
-    """The only picture of the phone, as a model gets it."""
+    """The pixels of the only picture of the phone, as a model gets it."""
     scene = GivenPictures({("phone", "isolated", "front"): given}).attach_to(SCENE)
     images = scene.object("phone").images
     assert images is not None
@@ -51,7 +51,7 @@ def shown(given: bytes) -> np.ndarray:
 
 
 class Looking:
-    """The lexicon, with eyes that note which colour each picture has in its middle."""
+    """The lexicon as a vision backend that records the colour in the middle of each picture."""
 
     def __init__(self) -> None:
         self.lexicon = LexiconBackend()

@@ -23,7 +23,7 @@ def read(gltf: Gltf, folder: Path, name: str = "scene.glb") -> AuthoredNode:
 
 
 def triangles(item: SceneObject) -> set[tuple[tuple[float, ...], ...]]:
-    """World triangles, each from its smallest corner on, so that only their turning is left to compare."""
+    """World triangles, each beginning with its smallest corner, so that only the winding is left to compare."""
     mesh = item.geometry.mesh
     corners = np.round(item.pose.to_world(mesh.vertices_m), 9)[mesh.faces].tolist()
     turned = []
@@ -150,7 +150,7 @@ def test_a_primitive_without_positions_draws_nothing(tmp_path: Path) -> None:
 
 
 def test_unused_vertices_are_left_out(tmp_path: Path) -> None:
-    """Exporters give every primitive of a mesh the vertices of all; one NaN among the others' must not matter."""
+    """Exporters give each primitive the vertices of the whole mesh; a NaN in an unused vertex must not matter."""
     gltf = Gltf()
     crowded = np.vstack((CUBE, [[np.nan, 900.0, 900.0]]))
     positions = gltf.accessor(crowded, "f4", "VEC3")
@@ -161,7 +161,7 @@ def test_unused_vertices_are_left_out(tmp_path: Path) -> None:
 
 
 def test_transforms_chain_from_the_root_down(tmp_path: Path) -> None:
-    """Half a turn about y, then 2 m along x, then twice the size: worked out by hand for one corner."""
+    """Half a turn about y, then 2 m along x, then twice the size; bounds computed by hand."""
     gltf = Gltf()
     leaf = gltf.node("cube", mesh=gltf.cube(), translation=[2.0, 0.0, 0.0], scale=[2.0, 2.0, 2.0])
     gltf.node("turned", children=[leaf], rotation=[0.0, 1.0, 0.0, 0.0], root=True)

@@ -1,4 +1,4 @@
-"""glTF appearances: the colour at each corner of a face, compared with pixels written by hand."""
+"""glTF appearances: the colour at each corner of a face, compared with hand-written pixels."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def test_sibling_folder_is_read_with_a_common_assets_root(tmp_path: Path) -> Non
 
 
 def test_colour_factors_are_linear_light() -> None:
-    """0.2140 of linear light is the middle of sRGB (IEC 61966-2-1), 0.002 lies on its straight part, 12.92 x."""
+    """Linear light 0.2140 is sRGB 0.5 (IEC 61966-2-1); 0.002 lies on the linear part, 12.92 x."""
     np.testing.assert_allclose(srgb([0.0, 0.002, 0.21404114, 1.0, 7.0]), [0.0, 0.02584, 0.5, 1.0, 1.0], atol=1e-6)
 
 
@@ -130,7 +130,7 @@ def test_white_vertex_colours_keep_the_material(tmp_path: Path) -> None:
     assert shown(item) == UPRIGHT
 
 
-# -- where the image lies --------------------------------------------------------------------------------------------
+# -- texture coordinates ---------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("scale", [[-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [-1.0, -1.0, -1.0]])
@@ -214,7 +214,7 @@ def test_instances_share_looks_and_key(tmp_path: Path) -> None:
 
 
 def two_squares(first: dict[str, Any], second: dict[str, Any], *images: bytes) -> Gltf:
-    """The same square twice, each in its own material; image i is texture i."""
+    """Two equal squares with two materials; image i is texture i."""
     gltf = quad(first)
     gltf.header["materials"].append(second)
     primitive = {**gltf.header["meshes"][0]["primitives"][0], "material": 1}
@@ -247,7 +247,7 @@ def test_duplicate_images_become_one_texture(tmp_path: Path) -> None:
 
 
 def test_instance_keys_differ_by_texture_coordinates(tmp_path: Path) -> None:
-    """Kits paint everything from one image: equal crates differ by coordinates alone."""
+    """Asset kits use one image for all models: equal crates differ only by their coordinates."""
     gltf = two_squares(pbr(), pbr(), image_file())
     elsewhere = gltf.accessor(QUAD_UV + 0.5, "f4", "VEC2")
     primitive = gltf.header["meshes"][1]["primitives"][0]

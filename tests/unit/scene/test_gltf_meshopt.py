@@ -1,4 +1,4 @@
-"""glTF packed with meshopt is the scene that was packed; broken data ends in our errors."""
+"""glTF compressed with meshopt gives the uncompressed scene; broken data raises errors of the library."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def decoded(row: dict[str, Any], data: bytes) -> bytes:
 def test_decoded_data_equals_that_of_the_reference_decoder(row: dict[str, Any]) -> None:
     ours, theirs = decoded(row, base64.b64decode(row["data"])), base64.b64decode(row["decoded"])
     if row["filter"] == "OCTAHEDRAL" and row["stride"] == 8:
-        # Theirs rounds in single precision.
+        # The reference decoder rounds in single precision.
         a, b = np.frombuffer(ours, "<i2").astype(int), np.frombuffer(theirs, "<i2").astype(int)
         assert np.abs(a - b).max() <= 1
     else:
@@ -55,13 +55,13 @@ def test_decoded_data_equals_that_of_the_reference_decoder(row: dict[str, Any]) 
 def test_data_cut_short_anywhere_is_refused(row: dict[str, Any]) -> None:
     data = base64.b64decode(row["data"])
     for length in range(len(data)):
-        # Indices have no length of their own: they end where four bytes are left.
+        # Indices state no length: they end four bytes before the end of the data.
         with pytest.raises(ValueError, match=r"begin|cut short|end at|of data|in data"):
             decoded(row, data[:length])
 
 
 def packed(values: NDArray[Any]) -> bytes:
-    """Attributes (n, stride) of bytes, each group of 16 stored in full."""
+    """Encode attributes (n, stride) of bytes, with every group of 16 stored uncompressed."""
     n, stride = values.shape
     before = np.concatenate((values[:1], values[:-1]))
     steps = (values - before).astype(np.uint8)
@@ -83,13 +83,13 @@ def test_attributes_of_several_blocks_are_decoded(n: int, stride: int) -> None:
 
 
 def test_vertex_counter_continues_across_triangle_batches() -> None:
-    """More than are decoded at once: a strip whose every third vertex is new."""
+    """A strip with more triangles than one batch decodes; the third vertex of each triangle is new."""
     n = 70_000
     codes = bytes([0xF0]) + bytes([0x00]) * (n - 1)
     data = b"\xe1" + codes + bytes(16)
     rows = meshopt_codec.triangles(data, 3 * n).reshape(n, 3)
     np.testing.assert_array_equal(rows[:, 2], np.arange(2, n + 2))
-    # Each hangs on the newest edge of the one before it.
+    # Each triangle shares the newest edge of its predecessor.
     np.testing.assert_array_equal(rows[1:, 0], rows[:-1, 0])
     np.testing.assert_array_equal(rows[1:, 1], rows[:-1, 2])
 
@@ -127,7 +127,7 @@ def test_compressed_scene_keeps_its_appearance(name: str) -> None:
         old, new = before.object(key).appearance, after.object(key).appearance
         assert old is not None
         assert new is not None
-        if key != "ball":  # painted: a colour for each face, in another order
+        if key != "ball":  # has a colour for each face, in another order
             assert {material.digest for material in new.materials} == {material.digest for material in old.materials}
         assert (new.uv is None) == (old.uv is None)
         if old.uv is not None and new.uv is not None:
@@ -158,7 +158,7 @@ def test_external_buffers_are_read_from_files(tmp_path: Path) -> None:
 
 
 def quantised_cupboard(**node: Any) -> Gltf:
-    """A cupboard of whole numbers below a node of its own, as gltfpack writes it, and its door."""
+    """A cupboard and its door with integer vertices, each mesh below a scaling node, as gltfpack writes them."""
     gltf = Gltf()
     points = gltf.accessor(CUBE * 100, "u2", "VEC3")
     order = gltf.accessor(CUBE_FACES.reshape(-1), "u2", "SCALAR")
@@ -246,7 +246,7 @@ def test_broken_compression_raises_a_scene_error(
     tmp_path: Path, change: Callable[[dict[str, Any]], None], sentence: str
 ) -> None:
     header, binary = header_of("quantised")
-    # gltfpack puts the picture first.
+    # gltfpack stores the picture first; swap views, so that view 1 is compressed.
     view = next(i for i, row in enumerate(header["bufferViews"]) if EXT in row.get("extensions", {}))
     header["bufferViews"][1], header["bufferViews"][view] = header["bufferViews"][view], header["bufferViews"][1]
     for row in header["accessors"]:
@@ -258,7 +258,7 @@ def test_broken_compression_raises_a_scene_error(
 
 
 def packed_cubes(n_views: int, count: int) -> bytes:
-    """A cube whose points stand behind as many zeros as each view promises."""
+    """A file of cubes whose points are zeros, `count` from each of `n_views` compressed views."""
     stride, gltf = 16, Gltf()
     n_blocks = -(-count // 256)
     # A block of zeros: four bytes of headers for each of 16 channels.

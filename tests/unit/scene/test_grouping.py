@@ -1,4 +1,4 @@
-"""Which nodes are objects: the rule by its clauses, the other groupings, names and ids."""
+"""Grouping of nodes into objects: the rules of "authored", the other groupings, names and ids."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from scene2hap.scene.tree import AuthoredNode, Piece
 
 
 def mesh(name: str, *children: AuthoredNode, at: float = 0.0) -> AuthoredNode:
-    """A node with a mesh that is marked by its name."""
+    """A node with one piece, whose key is the node's name."""
     return AuthoredNode(name, _along_x(at), (Piece(name, CUBE, CUBE_FACES.astype(np.int32)),), children)
 
 
 def group(name: str, *children: AuthoredNode, at: float = 0.0) -> AuthoredNode:
-    """A node without one."""
+    """A node without a mesh."""
     return AuthoredNode(name, _along_x(at), (), children)
 
 
@@ -32,7 +32,7 @@ def _along_x(at: float) -> Any:
 
 
 def objects(*roots: AuthoredNode, how: Any = "authored") -> dict[str, list[object]]:
-    """Object names, each with the marks of its pieces."""
+    """Object names, each with the keys of its pieces."""
     return {item.name: [piece.key for _, piece in item.parts] for item in group_objects(roots, how)}
 
 
@@ -283,7 +283,7 @@ def test_every_piece_of_a_collection_belongs_to_one_object() -> None:
 
 
 def test_mass_is_assigned_only_when_the_node_is_a_whole_object() -> None:
-    """Not where others hang below the node, or where the node is one of several parts."""
+    """A mass is dropped if the node contains other objects, or if it is one of several parts of the object."""
 
     def masses(*roots: AuthoredNode, how: Any = "authored") -> dict[str, float | None]:
         return {item.name: item.mass_kg for item in group_objects(roots, how)}

@@ -26,7 +26,7 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
 QUARTER = [0.5**0.5, 0.0, 0.5**0.5, 0.0]
-"""A quarter turn about Y; w comes first."""
+"""A quarter turn about Y, as a quaternion with w first."""
 
 
 @pytest.fixture
@@ -81,7 +81,7 @@ def test_instances_share_a_mesh_and_scale_counts(dataset: Dataset) -> None:
 
 
 def test_equal_piece_numbers_of_two_models_are_distinguished(dataset: Dataset) -> None:
-    """Both are mesh 0, primitive 0 of their files."""
+    """Both meshes are mesh 0, primitive 0 of their files."""
     scene = loaded(dataset.scene(instance(), instance(HASH, [3, 0, 0])))
     chair, washer = scene.objects[-2:]
     assert chair.size_m != washer.size_m
@@ -116,7 +116,7 @@ def test_hidden_instances_are_left_out(dataset: Dataset) -> None:
 
 
 def test_scene_equals_the_same_scene_in_one_glb(dataset: Dataset) -> None:
-    """Sizes, poses and names are those of a file that trimesh writes with the same transforms."""
+    """Sizes, poses and names equal those of a file that trimesh writes with the same transforms."""
     rng = np.random.default_rng(5)
     together = trimesh.Scene()
     rows = []
@@ -177,7 +177,7 @@ def test_a_given_centre_of_mass_is_scaled(dataset: Dataset) -> None:
 
 
 def test_the_box_of_a_turned_node_is_that_of_its_turned_box(dataset: Dataset) -> None:
-    """As Habitat joins boxes: an L of two bars, turned by 45 degrees, has another middle than its vertices."""
+    """As Habitat joins boxes: for a node rotated by 45 degrees, the box's middle is not that of the vertices."""
     gltf = Gltf()
     cube = gltf.cube()
     eighth = [0.0, np.sin(np.pi / 8), 0.0, np.cos(np.pi / 8)]
@@ -203,7 +203,7 @@ def test_up_and_front_turn_the_model(dataset: Dataset) -> None:
         f"objects/f/{CHAIR}.object_config.json", {"render_asset": f"{CHAIR}.glb", "up": [0, 0, 1], "front": [0, 1, 0]}
     )
     chair = loaded(dataset.scene(instance())).object(CHAIR)
-    # Z becomes Y, and Y becomes -Z: the model is 0.5 x 1 x 0.5, and lies on its back.
+    # Z becomes Y, and Y becomes -Z: the model of 0.5 x 1 x 0.5 lies on its back.
     assert low_and_high(chair) == [[0.0, 0.0, -1.0], [0.5, 0.5, 0.0]]
 
 
@@ -217,7 +217,7 @@ def test_non_orthogonal_up_and_front_are_ignored(dataset: Dataset) -> None:
 def test_scales_of_configuration_and_instance_multiply(dataset: Dataset) -> None:
     dataset.write(f"objects/f/{CHAIR}.object_config.json", {"render_asset": f"{CHAIR}.glb", "scale": [2, 1, 1]})
     row = instance(rotation=QUARTER, uniform_scale=2.0, non_uniform_scale=[1, 1, 3])
-    # Scaled in the model's own axes, then turned.
+    # Scaled along the model's axes, then rotated.
     assert low_and_high(loaded(dataset.scene(row)).object(CHAIR)) == [[0.0, 0.0, -2.0], [3.0, 2.0, 0.0]]
 
 
@@ -233,7 +233,7 @@ def test_the_stage_is_scaled_and_not_moved(dataset: Dataset) -> None:
 
 
 def test_dataset_1_of_habitat_sim_is_read(tmp_path: Path) -> None:
-    """dataset_tests/dataset_1 of habitat-sim: names that are parts of handles, and templates made of others."""
+    """dataset_tests/dataset_1 of habitat-sim: names that are parts of handles, and templates based on others."""
     folder = tmp_path / "dataset_1"
     for name in ("objects/object_0", "objects/object_1", "stages/stage_0", "scenes/scene_0"):
         (folder / name).mkdir(parents=True)
@@ -432,7 +432,7 @@ def test_default_mass_of_the_dataset_is_ignored(dataset: Dataset) -> None:
     assert loaded(dataset.scene(instance(HASH))).object(HASH).mass_kg is None
 
 
-# -- what is left out ------------------------------------------------------------------------------------------------
+# -- articulated objects, and instances that are left out ------------------------------------------------------------
 
 
 FRIDGE = """<robot name="fridge">
@@ -451,13 +451,13 @@ def test_an_articulated_object_is_one_object(dataset: Dataset, listed: Json) -> 
     dataset.write("urdf/fridge/fridge.urdf", FRIDGE)
     if ".json" in listed:
         dataset.write("urdf/fridge/fridge.ao_config.json", {"urdf_filepath": "fridge.urdf", "uniform_scale": 1.0})
-    # A model of the same name is another template.
+    # A model with the same name is another template.
     corner_box().write(dataset.folder / "urdf/fridge/fridge.glb")
     row = {"template_name": "fridge", "translation": [3, 0, 0], "rotation": QUARTER, "fixed_base": True}
     path = dataset.scene(instance(), articulated_object_instances=[row], translation_origin="com")
     fridge = loaded(path).object("fridge")
     assert fridge.mass_kg == 45.0
-    # The door sticks out to Z, which is turned to X.
+    # The door sticks out towards Z, which the instance rotates to X.
     assert low_and_high(fridge) == [[2.7, 0.0, -0.3], [3.32, 1.8, 0.3]]
     assert {"fridge.urdf", "body.glb"} <= {file.name for file in referenced_files(path, None)}
 
@@ -580,7 +580,7 @@ def test_invalid_configuration_is_refused(dataset: Dataset, config: Any, sentenc
 )
 def test_invalid_dataset_file_is_refused(dataset: Dataset, document: Any, sentence: str | None) -> None:
     dataset.write("home.scene_dataset_config.json", document)
-    if sentence is None:  # what it lists is not there, and the template is found below the dataset
+    if sentence is None:  # the listed files do not exist, and the template is found below the dataset
         loaded(dataset.scene(instance()))
         return
     with pytest.raises(
@@ -635,7 +635,7 @@ def test_symbolic_links_out_of_the_root_are_refused(dataset: Dataset, tmp_path: 
 
 
 def test_files_above_assets_root_are_not_used(dataset: Dataset) -> None:
-    """The dataset file lies above `assets_root`, and so do the objects."""
+    """The dataset file and the objects lie outside `assets_root`."""
     with pytest.raises(SceneError, match="names the template 'stages/home'"):
         loaded(dataset.scene(instance()), assets_root=dataset.folder / "scenes")
 
@@ -670,7 +670,7 @@ def test_repeated_pattern_matches_are_bounded(dataset: Dataset, monkeypatch: pyt
 
 
 def test_broken_datasets_raise_only_scene_errors(tmp_path: Path) -> None:
-    """A sample of the files of `stress/fuzz_scenes.py`."""
+    """A sample of the mutated datasets of `stress/fuzz_scenes.py`."""
     outcomes = set()
     for number in range(60):
         path = mutated_dataset(tmp_path / str(number), random.Random(number))
@@ -686,7 +686,7 @@ def test_broken_datasets_raise_only_scene_errors(tmp_path: Path) -> None:
     assert outcomes >= {"read", "SceneFormatError"}
 
 
-# -- the whole -------------------------------------------------------------------------------------------------------
+# -- whole scenes ----------------------------------------------------------------------------------------------------
 
 
 def test_referenced_files_of_a_scene_are_listed(dataset: Dataset) -> None:
@@ -699,7 +699,7 @@ def test_referenced_files_of_a_scene_are_listed(dataset: Dataset) -> None:
 
 
 def test_real_models_have_the_stated_place(tmp_path: Path) -> None:
-    """The Kenney furniture kit as a dataset without a file, as HSSD's models are kept."""
+    """The Kenney furniture kit as a dataset without a dataset file, in the folders of HSSD's models."""
     kit = needed(SCENES / "lib_kenney_furniture")
     names = ["washer", "kitchenFridge", "radio"]
     dataset = Dataset(tmp_path / "kit", document=None)

@@ -29,7 +29,7 @@ meshes = st.builds(
     st.permutations([0, 1, 2]),
 )
 geometries = st.one_of(st.builds(Box, st.tuples(lengths, lengths, lengths)), meshes)
-# No thicker than what holds for any geometry: a statement is held against the mesh.
+# Thin enough for any geometry, since the reader compares a given thickness with the mesh.
 surfaces = st.builds(
     lambda pose, length, width, share, flags: DominantSurface(
         pose, length, width, min(0.5, share * min(length, width)), flags
@@ -99,7 +99,7 @@ def test_object_can_contain_its_geometry() -> None:
 
 
 def test_optional_fields_have_defaults() -> None:
-    """The least that an engine must write: name, axis, and objects with pose, geometry and surface."""
+    """The minimum that an engine must write: name, axis, and objects with pose, geometry and surface."""
     surface = {"pose": {}, "length_m": 1, "width_m": 1, "thickness_m": 0.1}
     row = {"id": "a", "name": "a", "pose": {}, "geometry": {"kind": "box", "size_m": [1, 1, 1]}, "surface": surface}
     text = json.dumps({"format": "scene2hap/scene", "version": 1, "name": "s", "up_axis": "y", "objects": [row]})

@@ -1,4 +1,4 @@
-"""Scenes in JSON without values that can be measured."""
+"""JSON scenes without surfaces and heights, which the reader then measures."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ def test_missing_surface_is_measured() -> None:
     surface = scene.object("slab").surface
     assert (surface.length_m, surface.width_m, surface.thickness_m) == pytest.approx((2.0, 1.0, 0.1))
     assert surface.flags == ()
-    # The corner frame's z points up, and its origin lies in the middle of the thickness.
+    # The z axis of the corner frame points up, and its origin is in the middle of the thickness.
     assert surface.pose.rotation[:, 2] == pytest.approx((0, 1, 0))
     assert surface.pose.position_m[1] == pytest.approx(0.05)
 
 
 def test_measured_surface_faces_up_for_any_up_axis() -> None:
     board = {"kind": "box", "size_m": [1, 0.1, 0.6]}
-    lying = {"rotation_xyzw": [0.5**0.5, 0, 0, 0.5**0.5]}  # a quarter turn about x: own y becomes world z
+    lying = {"rotation_xyzw": [0.5**0.5, 0, 0, 0.5**0.5]}  # a quarter turn about x: y becomes world z
     scene = read({"id": "a", "name": "a", "pose": lying, "geometry": board}, up_axis="z")
     item = scene.object("a")
     assert item.pose.compose(item.surface.pose).rotation[:, 2] == pytest.approx((0, 0, 1))

@@ -1,4 +1,4 @@
-"""OBJ material libraries: colours, textures and how they lie, held against pixels written by hand."""
+"""OBJ material libraries: colours, textures and their coordinates, compared with hand-written pixels."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from looks import BLUE, GREEN, PIXELS, RED, UPRIGHT, WHITE, image_file, looks, r
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
 
-# The image upright on a square; in OBJ, v runs up.
+# A square with upright texture coordinates; in OBJ, v runs up.
 SQUARE = """v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0
 vt 0.25 0.25\nvt 0.75 0.25\nvt 0.75 0.75\nvt 0.25 0.75
 """

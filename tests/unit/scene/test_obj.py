@@ -1,4 +1,4 @@
-"""OBJ: objects, groups, materials and faces as the text says."""
+"""OBJ files: objects, groups, materials and faces, and errors that name the line."""
 
 from __future__ import annotations
 

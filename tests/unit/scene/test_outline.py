@@ -33,7 +33,7 @@ def test_outline_excludes_its_hole() -> None:
 @settings(max_examples=50)
 @given(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=12), st.integers(1, 40), st.integers(1, 40), st.booleans())
 def test_pixel_coverage_sums_to_the_area(radii: list[float], nx: int, ny: int, backwards: bool) -> None:
-    """For any star, by the shoelace formula, for any grid of pixels and either direction of the outline."""
+    """Any star, grid of pixels and direction of the outline, against the shoelace formula."""
     turn = np.arange(len(radii)) * 2 * math.pi / len(radii)
     star = np.array(radii)[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
     outline = Outline(((star[::-1] if backwards else star).tolist(),))
@@ -83,7 +83,7 @@ def test_notches_are_corners_that_point_inwards() -> None:
     assert len(Outline((SQUARE, HOLE)).notches_m) == 4
     turn = np.arange(64) * 2 * math.pi / 64
     ring = np.column_stack([np.cos(turn), np.sin(turn)])
-    assert len(Outline((ring.tolist(), (0.5 * ring).tolist())).notches_m) == 0  # a curve has none
+    assert len(Outline((ring.tolist(), (0.5 * ring).tolist())).notches_m) == 0  # curves have no notches
 
 
 @pytest.mark.parametrize(
@@ -123,7 +123,7 @@ def test_round_table_top_has_a_round_outline() -> None:
 def test_l_shape_keeps_its_outline_in_any_pose() -> None:
     slabs = [trimesh.creation.box((1.6, 0.6, 0.03)), trimesh.creation.box((0.6, 1.0, 0.03))]
     slabs[1].apply_translation((-0.5, 0.8, 0.0))
-    # Two slabs that share a face inside are no closed ring; one L is.
+    # Two slabs that share an inner face have no closed outline ring, so a single L is built.
     ring = np.array([(-0.8, -0.3), (0.8, -0.3), (0.8, 0.3), (-0.2, 0.3), (-0.2, 1.3), (-0.8, 1.3)])
     faces = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)]
     vertices = np.concatenate([np.column_stack([ring, np.full(6, z)]) for z in (-0.015, 0.015)])
@@ -142,7 +142,7 @@ def test_l_shape_keeps_its_outline_in_any_pose() -> None:
 
 
 def test_outline_contains_holes_but_not_inner_hollows() -> None:
-    """Two slabs of one outline, a rounded square: one pierced, one hollow within, which looks whole from above."""
+    """Two slabs with equal outer outlines: one has a hole, the other an inner hollow that is not visible from above."""
     turn = np.arange(24) * 2 * math.pi / 24
     outer = 0.5 * np.column_stack([np.cos(turn), np.sin(turn)])
 

@@ -1,4 +1,4 @@
-"""Poses against rotations worked out by hand and against scipy's."""
+"""Poses, against rotations computed by hand and by scipy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Poses from the forms that engines and users have: quaternions with w first, angles, matrices, targets."""
+"""Constructors of poses: quaternions with w first, angles, and targets."""
 
 import math
 
@@ -24,7 +24,7 @@ def test_from_wxyz_takes_w_first() -> None:
 
 @pytest.mark.parametrize(("up_axis", "front"), [("y", (1.0, 0.0, 0.0)), ("z", (0.0, 1.0, 0.0))])
 def test_a_quarter_turn_about_the_vertical(up_axis: str, front: tuple[float, float, float]) -> None:
-    """Counter-clockwise from above: z goes to x where y is up, x to y where z is up."""
+    """Counter-clockwise from above: z turns to x if y is up, and x turns to y if z is up."""
     pose = Pose.from_yaw(AT, math.pi / 2, up_axis=up_axis)  # type: ignore[arg-type]  # a parameter of the test
     own = (0.0, 0.0, 1.0) if up_axis == "y" else (1.0, 0.0, 0.0)
     np.testing.assert_allclose(pose.rotation @ own, front, atol=1e-12)

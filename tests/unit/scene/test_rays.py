@@ -1,4 +1,4 @@
-"""Rays against triangles whose crossings are known by hand, and against a brute-force caster."""
+"""Rays against triangles, with crossings computed by hand and by a brute-force caster."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 
 
 def soup(*boxes: tuple[tuple[float, float, float], tuple[float, float, float]]) -> Floats:
-    """Triangles (3, 3, m) of cuboids of that size and middle."""
+    """Triangles (3, 3, m) of cuboids, each (size, centre)."""
     parts = []
     for size, middle in boxes:
         mesh = Box(size).mesh
@@ -44,11 +44,11 @@ def test_edge_on_triangles_have_no_hits() -> None:
 
 
 def test_hits_equal_those_of_a_brute_force_caster() -> None:
-    """Each ray against each triangle by signed volumes; rays taken from where the grid's own hits are single-valued."""
+    """The brute-force caster tests each ray with each triangle by signed areas."""
     rng = np.random.default_rng(4)
     triangles = rng.uniform(-1, 1, size=(3, 3, 60))
     n = 12
-    # A plane of known slopes over the same rectangle tells at which u and v each ray stands.
+    # The heights of planes with known slopes over the same rectangle give u and v of each ray.
     low, high = triangles[:2].reshape(2, -1).min(axis=1), triangles[:2].reshape(2, -1).max(axis=1)
     stand = [_heights(low, high, slope, n) for slope in ((1.0, 0.0), (0.0, 1.0))]
     expected = set()
@@ -117,7 +117,7 @@ def test_first_solids_returns_the_first_closed_interval_of_each_ray(
 
 
 def test_first_solids_separates_consecutive_rays() -> None:
-    """An open ray before a closed one, and a closed one that starts where the other ended."""
+    """Open rays before and after a closed one; each begins at the height where its predecessor ended."""
     hits = Hits(np.array([3, 7, 7, 9]), np.array([0.0, 0.0, -1.0, -1.0]), np.array([1, 1, -1, 1]))
     solids = first_solids(hits, 1e-6)
     np.testing.assert_array_equal(solids.top, [0.0, 0.0, -1.0])
@@ -161,7 +161,7 @@ def test_median_span_of_crumbs_between_rays_is_none() -> None:
 
 
 def test_large_triangles_are_cast_in_batches() -> None:
-    """More pairs than are tested at once give the hits that fewer give."""
+    """The hits are right for more pairs of rays and triangles than one batch tests."""
     sheet = soup(*(((1.0, 1.0, 0.01), (0.0, 0.0, 0.05 * i)) for i in range(70)))
     hits = cast_grid(sheet, 64)
     assert len(hits.ray) == 70 * 2 * 64 * 64

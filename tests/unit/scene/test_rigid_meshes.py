@@ -1,4 +1,4 @@
-"""Baking: rigid poses from any transform, and one mesh for all copies."""
+"""Meshes with rigid poses: a rigid pose from any transform, and one mesh for all copies."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def test_the_rigid_part_is_the_polar_rotation(seed: int) -> None:
     rotation = rigid_part(affine(linear))[:3, :3]
     orthogonal, _ = polar(linear)
     if np.linalg.det(orthogonal) < 0:
-        # A mirror is told as a mirrored x axis: z and y stay where the transform puts them.
+        # A mirror becomes a mirrored x axis; the y and z axes are those of the transform.
         orthogonal = orthogonal * [-1.0, 1.0, 1.0]
     np.testing.assert_allclose(rotation, orthogonal, atol=1e-8)
     assert np.linalg.det(rotation) == pytest.approx(1.0)
@@ -122,7 +122,7 @@ def test_copy_is_found_among_many_sizes() -> None:
 
 
 def test_copies_stored_separately_at_any_rotation_share_a_mesh() -> None:
-    """Turning to and fro leaves some 1e-14 m, which must not show in the key."""
+    """A rotation and its inverse leave errors of about 1e-14 m, which must not change the key."""
     pool = MeshPool(1.0)
     points = np.random.default_rng(7).normal(size=(4000, 3))
     faces = np.arange(3999).reshape(-1, 3).astype(np.int32)
@@ -152,7 +152,7 @@ def painted(color: float, key: str = "cube") -> Piece:
 
 
 def test_mesh_in_two_colours_is_shared_with_two_keys() -> None:
-    """The same piece drawn in two materials, as COLLADA and engines do."""
+    """The same piece with two materials, as in COLLADA and engines."""
     pool = MeshPool(1.0)
     red, dark, again = (pool.place(group(np.eye(4), painted(color))) for color in (1.0, 0.5, 1.0))
     assert red.mesh is dark.mesh

@@ -1,4 +1,4 @@
-"""The published JSON schema: current, true to real scenes, and as strict as the reader."""
+"""The published JSON schema: current, valid for written scenes, and no stricter than the reader."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ def test_a_box_has_twelve_triangles_that_enclose_its_volume() -> None:
     mesh = Box((2.0, 3.0, 4.0)).mesh
     a, b, c = (mesh.vertices_m[mesh.faces[:, k]] for k in range(3))
     assert len(mesh.faces) == 12
-    # The divergence theorem: outward faces make the volume positive.
+    # By the divergence theorem, outward faces give a positive volume.
     assert np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6 == pytest.approx(24.0)
     np.testing.assert_array_equal(mesh.bounds_m, [[-1.0, -1.5, -2.0], [1.0, 1.5, 2.0]])
 

@@ -1,4 +1,4 @@
-"""STL and PLY: one object named after the file, or an error; trimesh says nothing by itself."""
+"""STL and PLY files: one object named after the file, or an error; no output of trimesh."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from scene2hap.scene.load import load_scene
 
 
 def binary_stl() -> bytes:
-    """The unit cube."""
+    """The unit cube as binary STL."""
     rows = [struct.pack("<12fH", 0, 0, 0, *CUBE[face].ravel(), 0) for face in CUBE_FACES]
     return b"cube".ljust(80) + struct.pack("<I", len(rows)) + b"".join(rows)
 
 
 def ascii_stl(*names: str) -> bytes:
-    """A cube for each name, one beside the other."""
+    """A text STL with a cube for each name, side by side."""
     lines = []
     for i, name in enumerate(names):
         lines.append(f"solid {name}")
@@ -34,7 +34,7 @@ def ascii_stl(*names: str) -> bytes:
 
 
 def ascii_ply(faces: bool = True) -> bytes:
-    """The unit cube, or its corners alone."""
+    """The unit cube as a text PLY, or only its corners."""
     header = "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
     body = "".join(f"{x} {y} {z}\n" for x, y, z in CUBE)
     if faces:
@@ -100,7 +100,7 @@ def test_trimesh_logs_nothing_and_keeps_its_logger(
     log = logging.getLogger("trimesh")
     before = (log.propagate, list(log.handlers))
     with caplog.at_level(logging.DEBUG):
-        # trimesh 5.2 warns of the broken normal and goes on.
+        # trimesh 5.2 warns of the broken normal and continues.
         assert len(load_scene(path).objects) == 1
     assert caplog.records == []
     assert capsys.readouterr() == ("", "")
@@ -108,7 +108,7 @@ def test_trimesh_logs_nothing_and_keeps_its_logger(
 
 
 def colored_ply(*, of_faces: bool) -> bytes:
-    """Two triangles of a square: one red and one half clear blue, or a vertex each of red, green, blue and black."""
+    """A square of a red and a half transparent blue triangle, or with a red, a green, a blue and a black vertex."""
     rgba = "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
     vertex, face = ("", rgba) if of_faces else (rgba, "")
     colors = ["255 0 0 255", "0 255 0 255", "0 0 255 255", "0 0 0 255"]

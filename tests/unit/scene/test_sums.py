@@ -1,4 +1,4 @@
-"""Totals of many small rows are bounded, shared work is done once, and valid files are read."""
+"""Limits on totals of many small items; shared work is done once, and valid files are read."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ FACET = "facet normal 0 0 1\nouter loop\nvertex 0 0 {}\nvertex 1 0 0\nvertex 0 1
 TETRAHEDRON = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 
 
-# -- boxes, and what measuring costs ---------------------------------------------------------------------------------
+# -- boxes, and the cost of measuring --------------------------------------------------------------------------------
 
 
 def shuffled(mesh: TriMesh, seed: int) -> TriMesh:
-    """The same triangles in another order, each with corners of its own."""
+    """The same triangles in another order, without shared corners."""
     rng = np.random.default_rng(seed)
     faces = np.array([np.roll(face, rng.integers(3)) for face in rng.permutation(mesh.faces)])
     return TriMesh(mesh.vertices_m[faces].reshape(-1, 3), np.arange(36).reshape(-1, 3))
@@ -73,7 +73,7 @@ def test_only_complete_cuboids_are_recognised() -> None:
 
 
 def tetrahedra(folder: Path, n: int) -> Path:
-    """An OBJ of n tetrahedra, no two of one shape, and as many boxes."""
+    """An OBJ of n tetrahedra of distinct shapes."""
     rows: list[str] = []
     for i in range(n):
         points = [(0, 0, 0), (1 + i, 0, 0), (0, 1, 0), (0, 0, 1)]
@@ -237,7 +237,7 @@ def test_repeated_draco_primitives_are_limited(tmp_path: Path) -> None:
     [
         b"DRACO\2\2\1\1\0\0\0" + b"\xff\xff\xff\xff\x0f" * 2,
         b"DRACO\2\2\1\0\0\0" + b"\xff\xff\xff\xff\x0f" * 2,
-        # Metadata of one attribute (number 5): one value, one element within; then that of the file.
+        # Metadata of one attribute (number 5) with one value and one nested element; then metadata of the file.
         b"DRACO\2\2\1\0\0\x80" + b"\1\5" + b"\1\2ab\3xyz" + b"\1\1c\0\0" + b"\0\0" + b"\xff\xff\xff\xff\x0f" * 2,
     ],
 )
@@ -341,7 +341,7 @@ def test_triangles_are_counted_before_geoms_are_drawn(
 
 
 def test_generated_shapes_do_not_raise_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Else a few bytes of MJCF would bring a budget along with each sphere."""
+    """Otherwise each sphere, a few bytes of MJCF, would raise the budget."""
     pytest.importorskip("mujoco")
     monkeypatch.setattr(surfaces, "_FREE", 100_000)
     balls = "".join(f'<body pos="{9 * i} 0 0"><geom size="{1 + i / 10}"/></body>' for i in range(10))

@@ -1,4 +1,4 @@
-"""Textures of scene files: read lazily, from allowed places, and never the reason why a scene is not read."""
+"""Textures of scene files: read lazily, only from allowed folders, and no failure of the load because of them."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def test_many_bad_textures_give_one_warning(tmp_path: Path) -> None:
 
 
 def huge_png(width: int, height: int) -> bytes:
-    """A PNG that promises a size and holds nothing."""
+    """A PNG whose header states a size, without pixel data."""
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -170,7 +170,7 @@ def test_images_of_every_depth_become_colour(tmp_path: Path, kind: str) -> None:
     np.testing.assert_array_equal(texture, np.repeat(grey[..., None], 3, axis=2))
 
 
-# -- what loading costs ----------------------------------------------------------------------------------------------
+# -- cost of loading -------------------------------------------------------------------------------------------------
 
 
 def test_pillow_is_imported_only_for_textures(tmp_path: Path) -> None:

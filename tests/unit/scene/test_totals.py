@@ -1,4 +1,4 @@
-"""Sums are bounded before they are allocated, and honest files of the same kind are read."""
+"""Totals are limited before memory is allocated, and valid files of the same kind are read."""
 
 import json
 import struct
@@ -65,7 +65,7 @@ def test_accessors_that_share_one_buffer_are_limited(tmp_path: Path) -> None:
 
 
 def test_primitives_that_share_an_accessor_are_read(tmp_path: Path) -> None:
-    """As exporters write them: one table of vertices, a list of indices for each material."""
+    """As exporters write primitives: one table of vertices, and a list of indices for each material."""
     n, m = 20_000, 300
     indices = np.arange(3 * m, dtype="<u4").tobytes()
     data = indices + np.random.default_rng(0).normal(size=(n, 3)).astype("<f4").tobytes()

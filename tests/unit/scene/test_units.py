@@ -1,4 +1,4 @@
-"""Warnings about units: none for plausible sizes, else with a factor that corrects them."""
+"""Warnings about units: none for plausible sizes, otherwise with the unit that corrects the sizes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from scene2hap.scene.plausibility.units import warn_if_implausible
 from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene
 
-# (name, width, height) in metres of things that stand on the floor.
+# (name, width, height) in metres of objects on the floor.
 FURNITURE = [("Door_01", 0.9, 2.02), ("ChairA_01_003", 0.45, 0.88), ("kitchen table", 1.4, 0.74), ("Fridge", 0.6, 1.75)]
 
 

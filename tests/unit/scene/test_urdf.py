@@ -1,4 +1,4 @@
-"""URDF: every link is an object at the place of yourdfpy and MuJoCo; files outside and broken files are refused."""
+"""URDF: every link is an object at the pose of yourdfpy and MuJoCo; files outside and broken files are refused."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ BOX = "<visual><geometry><box size='1 1 1'/></geometry></visual>"
 
 @pytest.fixture
 def home(tmp_path: Path) -> Path:
-    """A folder of a scene, `robot`, and another beside it, `other`, each with a mesh."""
+    """The scene folder `robot`, beside a folder `other`; each holds a mesh."""
     for folder in ("robot/meshes", "other/meshes"):
         (tmp_path / folder).mkdir(parents=True)
         (tmp_path / folder / "t.obj").write_text(TETRAHEDRON)
@@ -53,7 +53,7 @@ def hangs(child: str, parent: str, origin: str = "", kind: str = "fixed") -> str
     return f"<joint name='{parent}_{child}' type='{kind}'>{ends}<origin {origin}/></joint>"
 
 
-# -- the same scene elsewhere ----------------------------------------------------------------------------------------
+# -- the same scene in other formats and readers ---------------------------------------------------------------------
 
 
 def laundry() -> SceneSnapshot:
@@ -83,7 +83,7 @@ def test_mujoco_puts_every_link_in_the_same_place() -> None:
     ours = laundry()
     keep = '<mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>'
     text = (LAUNDRY / "laundry.urdf").read_text(encoding="utf-8").replace('name="laundry">', f'name="laundry">{keep}')
-    # MuJoCo reads neither COLLADA nor PLY; where links are does not hang on their meshes.
+    # MuJoCo reads neither COLLADA nor PLY; the poses of links do not depend on their meshes.
     text = re.sub(r"package://laundry/meshes/\w+\.\w+", "door.obj", text)
     model = mujoco.MjModel.from_xml_string(text, {"door.obj": (LAUNDRY / "meshes" / "door.obj").read_bytes()})
     data = mujoco.MjData(model)
@@ -97,7 +97,7 @@ def test_mujoco_puts_every_link_in_the_same_place() -> None:
 
 
 def test_poses_follow_a_running_mujoco_model(home: Path) -> None:
-    """As docs/urdf.md says."""
+    """As described in docs/urdf.md."""
     mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
     keep = "<mujoco><compiler fusestatic='false' discardvisual='false'/></mujoco>"
     mass = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
@@ -253,7 +253,7 @@ def test_collada_without_reader_is_refused_with_the_install_command(
         loaded(home, mesh("d.dae"))
 
 
-# -- what may be read ------------------------------------------------------------------------------------------------
+# -- files that may be read ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""USD: its stage, layers, meshes, materials and masses; skipped where usd-core is not installed."""
+"""USD: stage, layers, meshes, materials and masses; skipped where usd-core is not installed."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ HEADER = "#usda 1.0\n"
 
 @pytest.fixture(autouse=True)
 def _in_process(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Starting Python takes longer than most of these tests; those that ask for `child` start it."""
+    """Read files in this process, except in tests with `child`: starting Python takes longer than most tests."""
     usd("Usd")
     if "child" not in request.fixturenames:
         monkeypatch.setattr(process, "can_start_python", lambda: False)
@@ -35,11 +35,11 @@ def _in_process(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch)
 
 @pytest.fixture
 def child() -> None:
-    """The file is read in a child process, as for users."""
+    """A marker for tests that read in a child process, as users do."""
 
 
 def scene_of(fill: Callable[[Any], object], folder: Path, *, suffix: str = ".usda", **options: Any) -> SceneSnapshot:
-    """The scene in a stage that `fill` fills."""
+    """Save a stage that `fill` fills, and load it."""
     path = folder / f"scene{suffix}"
     stage = new_stage(path)
     fill(stage)
@@ -59,7 +59,7 @@ def ids(scene: SceneSnapshot) -> list[str]:
 
 
 def volume(item: SceneObject) -> float:
-    """The signed volume of a mesh [m3]: above 0 if its faces turn outwards."""
+    """The signed volume of a mesh [m3]: above 0 if its faces point outwards."""
     corners = item.geometry.mesh.vertices_m[item.geometry.mesh.faces]
     return float(np.linalg.det(corners).sum() / 6)
 
@@ -185,7 +185,7 @@ def test_native_instances_share_their_mesh(tmp_path: Path) -> None:
 
 
 def instancer(stage: Any, *, n: int = 3) -> Any:
-    """A point instancer of cubes at x = 0, 2, 4, ... and of one prototype that lies below it."""
+    """A point instancer of cubes at x = 0, 2, 4, ...; its only prototype is a prim below it."""
     made = usd("UsdGeom").PointInstancer.Define(stage, "/World/cups")
     mesh(stage, "/World/cups/prototypes/cup")
     made.CreatePrototypesRel().AddTarget("/World/cups/prototypes/cup")
@@ -283,7 +283,7 @@ def area_of_outline(points: Any) -> float:
 @pytest.mark.parametrize("first", range(8))
 @pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -1), (1, 2, 3)])
 def test_concave_faces_are_covered_once(outline: list[Any], first: int, normal: tuple[float, ...]) -> None:
-    """All triangles turn as their face does, and their areas sum to its area."""
+    """All triangles have the winding of their face, and their areas sum to its area."""
     from scene2hap.scene.formats.usd.polygons import triangulated
 
     n, up = len(outline), np.array(normal, float) / np.linalg.norm(normal)
@@ -350,11 +350,11 @@ def test_a_cone_has_its_tip_along_its_axis(tmp_path: Path) -> None:
     assert np.hypot(*points[points[:, 1] == points[:, 1].max()][:, [0, 2]].T).max() == 0.0
 
 
-# -- looks -----------------------------------------------------------------------------------------------------------
+# -- appearances -----------------------------------------------------------------------------------------------------
 
 
 def painted_square(stage: Any, file: str = "./floor.png", interpolation: str = "vertex") -> None:
-    """A square whose texture stands upright; st runs upwards."""
+    """A square with an upright texture; in USD, t runs up."""
     square = mesh(stage, "/square", QUAD, [0, 1, 2, 3], [4])
     st = (
         usd("UsdGeom")
@@ -499,7 +499,7 @@ def test_masses_are_read(tmp_path: Path) -> None:
 
 
 def test_masses_are_in_the_units_of_the_stage(tmp_path: Path) -> None:
-    """A cube of 100 cm at 0.001 mass units (of 2 kg) per cubic centimetre; the density follows no other unit_m."""
+    """A cube of 100 cm has 0.001 mass units (of 2 kg) per cubic centimetre; a given unit_m changes no mass."""
     path = tmp_path / "a.usda"
     stage = new_stage(path, unit_m=0.01)
     usd("UsdPhysics").SetStageKilogramsPerUnit(stage, 2.0)
@@ -707,7 +707,7 @@ def test_broken_archives_are_refused(tmp_path: Path) -> None:
         load_scene(path)
     zipped(path, {"a.usda": HEADER + CUBE + " " * 5000})
     data = path.read_bytes()
-    # The size in the entry at the end, of both kinds.
+    # Both sizes, packed and unpacked, in the file's entry of the central directory.
     at = data.rindex(b"PK\x01\x02")
     path.write_bytes(data[: at + 20] + b"\xff\xff\xff\x0f" * 2 + data[at + 28 :])
     with pytest.raises(SceneFormatError, match="promises 1 files of 268,435,455 bytes"):
@@ -756,7 +756,7 @@ def test_broken_text_is_refused(tmp_path: Path, text: str, sentence: str) -> Non
 
 @pytest.mark.usefixtures("child")
 def test_a_crash_of_the_reader_is_an_error(tmp_path: Path) -> None:
-    """Text that is nested so deeply overflows usd-core's stack."""
+    """Deeply nested text overflows usd-core's stack."""
     text = 'def "a" (\n customData = {' + "dictionary a = {" * 100_000 + "}" * 100_000 + "}\n) {\n}\n"
     with pytest.raises(SceneFormatError, match="usd-core ended with status"):
         load_scene(text_file(tmp_path, text))
@@ -777,7 +777,7 @@ def test_missing_file_is_refused(tmp_path: Path) -> None:
 
 
 def doubling(*, arc: str) -> str:
-    """Thirty prims, each of which draws the next one twice."""
+    """Thirty prims, each of which contains the next prim twice."""
     rows = [
         f'def Xform "a{i}" {{\n def "x" ({arc} = </a{i + 1}>) {{\n }}\n def "y" ({arc} = </a{i + 1}>) {{\n }}\n}}\n'
         for i in range(30)

@@ -1,4 +1,4 @@
-"""A session on another actuator than the bundle's says so, once and in one sentence."""
+"""A session on another actuator than the bundle's warns once, in one sentence."""
 
 import warnings
 from dataclasses import dataclass, replace
@@ -15,7 +15,7 @@ from scenes import RATE, table_with_two_phones
 
 @dataclass(frozen=True)
 class Made:
-    """What a bundle was made with, as far as it matters here."""
+    """The part of a bundle's metadata that holds its actuator."""
 
     actuator: ActuatorProfile | None
 

@@ -1,4 +1,4 @@
-"""Objects, sources and hands that come and go while a session plays; pauses."""
+"""Adding and removing objects, sources and hands while a session plays; pauses."""
 
 import gc
 
@@ -23,7 +23,7 @@ def fan() -> tuple[object, object, object]:
 
 
 def steepest(*frequencies_hz: float, amplitude: float = 0.3) -> float:
-    """Largest step per sample of tones at full gain together, with a tenth to spare for their ramps."""
+    """Largest step per sample of the sum of tones at full gain, with 10 % margin for their ramps."""
     return 1.1 * sum(2 * np.pi * f * amplitude / RATE for f in frequencies_hz)
 
 
@@ -64,7 +64,7 @@ def test_the_others_play_on_without_a_click_as_sources_come_and_go() -> None:
             s.update(touches=on_alarm)
         parts.append((changing.render(777), still.render(777)))
     gained, expected = (np.concatenate(part) for part in zip(*parts, strict=True))
-    # The fan reaches the alarm over the table, but faintly; all else is the same to the sample.
+    # The alarm gets only a weak vibration of the fan through the table; all other samples are equal.
     assert np.abs(np.diff(gained[:, 0])).max() < steepest(160) + steepest(130, amplitude=0.03)
     assert np.abs(gained[-777:] - expected[-777:]).max() < 0.03
     assert changing.position_s("alarm") == still.position_s("alarm")
@@ -78,7 +78,7 @@ def test_a_removed_source_fades_instead_of_stopping() -> None:
     s.remove("phone")
     after = np.append(before, s.render(RATE)[:, 0])
     assert np.abs(np.diff(after)).max() < steepest(100)
-    # 20 ms, and the sample at which it begins.
+    # The fade lasts 20 ms from its first sample.
     assert np.abs(after[2:60]).max() > 0.05
     assert not after[round(0.025 * RATE) :].any()
     frame = s.update(touches=[ON_TABLE])
@@ -99,7 +99,7 @@ def test_readded_object_has_its_state_in_the_bundle() -> None:
     assert s.source_ids == ("alarm", "phone")
     again = s.update(touches=[ON_TABLE])
     assert dict(zip(again.sources, again.gains[0], strict=True)) == gains
-    # All loops run on the session's clock, so that a game may start the sound where position_s says.
+    # All loops run on the session's clock, so that a game can start its sound at position_s.
     assert s.position_s("phone") == pytest.approx((RATE // 3) / RATE % 0.5)
 
 
@@ -193,7 +193,7 @@ def test_hands_keep_to_the_channels_of_a_sink_that_runs() -> None:
 
 
 class Device(MemorySink):
-    """A sink with a clock, as far as a session can see, whose device takes a block now and then."""
+    """A sink that looks to a session like a device with its own clock; tests decide when it takes a block."""
 
     pull = property()  # type: ignore[assignment]
 
@@ -240,7 +240,7 @@ def test_pause_fades_out_and_resumes_at_the_same_position() -> None:
     assert s.update(touches=on_phone).gain("left", "phone") == 1.0
     s.render(1000)
     assert s.position_s("phone") == pytest.approx((place + 1000 / RATE) % 0.5)
-    # From here on it is in step with one that was never paused, at the same place of the clock.
+    # From here on the output equals that of a session without a pause at the same clock position.
     never.render(s.position - never.position)
     np.testing.assert_allclose(s.render(500), never.render(500), atol=1e-6)
 

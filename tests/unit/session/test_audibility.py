@@ -1,4 +1,4 @@
-"""Where a source ceases to be worth mixing, told by price before anything is worked out."""
+"""The path cost above which a source cannot be felt, known before its gains are computed."""
 
 import math
 from typing import Any
@@ -22,7 +22,7 @@ LEVELS = np.array([1.0, 0.01])
 
 
 def ears(bands: Bands, **settings: Any) -> tuple[Any, Audibility, CutoffCost]:
-    """A live field of two phones, what of them can be felt, and how far."""
+    """A live field of two phones, the audibility of their bands, and their cut-off cost."""
     snapshot, bundle = table_with_two_phones()
     sources = Sources()
     for name, loops in bundle.loops.items():
@@ -46,7 +46,7 @@ def test_sources_are_felt_within_the_audible_distance_only(bands: Bands, levels:
     field, audibility, cutoff = ears(bands)
     edge = cutoff.felt(levels)
     assert (felt_at(field, audibility, edge, levels) < 1).all()
-    # The table's steps are 6 %.
+    # The cost table has steps of 6 %.
     assert (felt_at(field, audibility, [0.94 * price for price in edge], levels) >= 1).all()
 
 
@@ -62,7 +62,7 @@ def test_reported_gains_beyond_the_audible_distance_end_at_zero(bands: Bands) ->
 
 @pytest.mark.parametrize("bands", ALL_BANDS, ids=["dominant", "octaves"])
 def test_copies_have_the_cut_off_distance_of_their_original(bands: Bands) -> None:
-    """Three copies of each phone, in any order, against each phone alone."""
+    """Compare three copies of each phone, in mixed order, with each phone alone."""
     snapshot, bundle = table_with_two_phones()
     sources, originals = Sources(), list(bundle.loops)
     order = [0, 1, 1, 0, 0, 1]
@@ -112,7 +112,7 @@ def test_frame_reports_all_gains_until_contacts_change_and_felt_gains_later() ->
 
 
 class Shown:
-    """A sink without a device that keeps the frames it is shown."""
+    """A sink without a device that stores all frames that it gets."""
 
     def __init__(self) -> None:
         self.frames: list[HapticFrame] = []

@@ -13,7 +13,7 @@ from scenes import RATE, table_with_two_phones
 
 
 class Clock:
-    """A clock of which each reader of `later` takes two seconds."""
+    """A clock that each call of `later` advances by two seconds."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now_s, self.left_s = 100.0, list[float | None]()

@@ -1,4 +1,4 @@
-"""Sessions of scenes with nothing in them, or next to nothing."""
+"""Sessions of scenes that are empty of sources or contacts, or nearly so."""
 
 import dataclasses
 
@@ -11,7 +11,7 @@ from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation import MODELS
 from scenes import RATE, box, haptics, tone_loop
 
-# Two seconds are enough on a free processor; where other tests have the right of way it may take minutes.
+# Two seconds are enough on an idle processor; on a busy one it may take minutes.
 PATIENCE_S = 600.0
 
 pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
@@ -22,7 +22,7 @@ def session_of(name: str, **config: object) -> HapticSession:
 
 
 def live(session: HapticSession) -> None:
-    """Everything that a game may do, once."""
+    """Call once everything that a game may call."""
     scene = session.snapshot
     first, last = scene.objects[0], scene.objects[-1]
     touches = [Touch("left", first.id, on_top_of(first)), Touch("right", last.id, on_top_of(last))]

@@ -1,4 +1,4 @@
-"""Every propagation model drives the same session; which one is a line of configuration."""
+"""Every propagation model works in the same session; one line of configuration selects it."""
 
 import math
 import warnings
@@ -75,7 +75,7 @@ def test_resonant_models_use_a_band_around_each_source() -> None:
     assert SessionConfig().bands == Bands.dominant()
     given = SessionConfig(propagation="modal_plate")
     assert given.bands == around
-    # What was not said follows the model, also from settings to settings.
+    # Bands that were not given follow the model, also when settings are parsed from other settings.
     assert SessionConfig.parse(given, propagation="exponential_plate").bands == Bands.dominant()
     assert SessionConfig.parse(given, sample_rate_hz=8000).bands == around
     said = SessionConfig(propagation="modal_plate", bands="dominant")
@@ -98,7 +98,7 @@ def test_band_width_is_refused_with_fixed_edges() -> None:
 @pytest.mark.parametrize("wrong", [math.nan, -12.0])
 def test_gains_that_are_no_factors_are_played_as_zero_with_one_warning(wrong: float) -> None:
     class Decibels:
-        """A field that answers in dB, or not at all."""
+        """A field whose gains are wrong: in dB, or NaN."""
 
         source_ids = ("phone", "alarm")
 

@@ -1,4 +1,4 @@
-"""Why a hand feels what it feels, against the paper's law written out."""
+"""`explain`: the sources, paths and losses of a hand's vibration, against the paper's law written out."""
 
 import dataclasses
 import json
@@ -15,7 +15,7 @@ from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
 
 
 def fall_db(material: str, thickness_m: float, frequency_hz: float, length_m: float) -> float:
-    """-20 lg exp(-k d), from the constants."""
+    """The change in level along a length, 20 lg exp(-k d) [dB], from the material constants."""
     m = materials.lookup(material)
     D = m.youngs_modulus_pa * thickness_m**3 / (12 * (1 - m.poisson_ratio**2))
     k = (m.density_kg_m3 * thickness_m * (2 * math.pi * frequency_hz) ** 2 / D) ** 0.25
@@ -23,7 +23,7 @@ def fall_db(material: str, thickness_m: float, frequency_hz: float, length_m: fl
 
 
 def shelf_on_table(weight: float = 1.0) -> tuple[SceneSnapshot, HapticBundle]:
-    """A phone on a steel shelf that stands on an oak table, by two legs of which one is nearer."""
+    """A phone on a steel shelf, which has two contacts with an oak table, one nearer to the phone."""
     plain = scene(
         box("table", (1.6, 0.02, 0.8), (0.8, 0.71, 0.4)),
         box("shelf", (0.6, 0.02, 0.3), (0.5, 0.73, 0.4)),
@@ -85,7 +85,7 @@ def test_loss_of_a_weak_contact_is_added_to_the_path_behind_it() -> None:
     for s in (whole, weak):
         s.update(touches=[ON_TABLE])
     changes = [[step.change_db for step in s.explain("left").felt[0].steps] for s in (whole, weak)]
-    # A weight is the loss at 250 Hz and follows the law from there.
+    # A weight is the gain at 250 Hz; the law scales it to other frequencies.
     lost = 20 * math.log10(0.5 ** math.sqrt(180 / 250))
     assert changes[1] == pytest.approx([changes[0][0], changes[0][1] + lost, changes[0][2]], abs=1e-6)
 
@@ -171,7 +171,7 @@ def test_contact_of_low_weight_has_a_low_share(weak: int) -> None:
 
 
 def bar_on_a_rug() -> tuple[SceneSnapshot, HapticBundle]:
-    """A phone on a long rubber mat, over which a steel bar makes a short cut."""
+    """A phone on a long rubber mat; a steel bar on the mat is a path of less loss."""
     plain = scene(
         box("mat", (2.0, 0.01, 0.8), (1.0, 0.005, 0.4)),
         box("bar", (1.8, 0.02, 0.1), (1.0, 0.02, 0.4)),

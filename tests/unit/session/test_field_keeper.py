@@ -1,4 +1,4 @@
-"""Fields that a worker prepares while the last one plays on."""
+"""Fields prepared on a worker while the last field stays in use."""
 
 import subprocess
 import sys
@@ -20,7 +20,7 @@ SECONDS = 10.0
 
 
 class Field:
-    """Says of every touch how many contacts there were, over ten; and notes where it was asked."""
+    """A field whose gain is the number of contacts over ten for every touch; records the touched points."""
 
     def __init__(self, source_ids: tuple[str, ...], n_contacts: int) -> None:
         self.source_ids, self.n_contacts = source_ids, n_contacts
@@ -32,7 +32,7 @@ class Field:
 
 
 class SlowField(Field):
-    """Takes its time, and notes what is going on elsewhere by then."""
+    """A field whose queries take 50 ms; after this time it records the result of `look`."""
 
     def __init__(self, source_ids: tuple[str, ...], look: Callable[[], int]) -> None:
         super().__init__(source_ids, 1)
@@ -45,7 +45,7 @@ class SlowField(Field):
 
 
 class Gated:
-    """A model whose every field after the first waits at a gate."""
+    """A model that prepares its first field at once, and each later field only when `gate` is open."""
 
     def __init__(self) -> None:
         self.gate, self.entered = threading.Event(), threading.Semaphore(0)
@@ -83,7 +83,7 @@ def test_update_does_not_block_and_uses_the_last_field() -> None:
     first = s.update(touches=[ON_TABLE]).gains
     s.update(shifted(0.2), [ON_TABLE])
     assert model.entered.acquire(timeout=SECONDS)
-    # The worker is inside the model now, and updates go on.
+    # The worker is inside the model now; updates are not blocked.
     np.testing.assert_array_equal(s.update(touches=[ON_TABLE]).gains, first)
     assert s.stats.fields_prepared == 1
     assert s.stats.field_age_s > 0
@@ -158,14 +158,14 @@ def test_touched_objects_are_prepared_before_all_others() -> None:
     s.update(shifted(0.2), [ON_TABLE])
     assert s.wait_prepared(SECONDS)
     assert model.told[n_before:] == [everything - {"shelf", "fan"}, everything]
-    # It was asked, in the worker's thread, what hands would ask.
+    # The worker has already computed the gains at the touched point.
     assert [0.8, 0.72, 0.4] in model.fields[-1].asked
     assert s.stats.fields_prepared > n_fields
     assert s.update(touches=[ON_TABLE, on_shelf]).gain("right", "fan") > 0.0
 
 
 class Expectant(Field):
-    """A field that notes what it is told to expect, and in which thread."""
+    """A field that records each call of `expect` and its thread."""
 
     def __init__(self, source_ids: tuple[str, ...], n_contacts: int) -> None:
         super().__init__(source_ids, n_contacts)
@@ -212,10 +212,10 @@ def test_expect_is_called_once_and_not_on_the_game_thread() -> None:
     assert field.has_been_told.acquire(timeout=SECONDS)
     assert field.has_been_told.acquire(timeout=SECONDS)
     s.update(touches=[ON_TABLE])
-    # All that is touched is told anew when something is touched that was not; whatever is known takes no time.
+    # All touched objects are announced again when a newly touched one is added; known ones cost no time.
     assert [object_id for object_id, _ in field.expected] == ["table", "table", "phone"]
     assert threading.get_ident() not in {thread for _, thread in field.expected}
-    # The field of another situation is told before it is used.
+    # A new field gets `expect` before it is used.
     s.update(shifted(0.2), [ON_TABLE])
     assert field.has_been_told.acquire(timeout=SECONDS)
 
@@ -247,7 +247,7 @@ def test_gains_over_a_lost_contact_fade_out_in_20_ms() -> None:
     out = s.render(RATE)[:, 0]
     assert np.abs(out[:40]).max() > 0.01
     assert not out[round(0.021 * RATE) :].any()
-    # Its own gain stays, and where it is put down it is felt again once the worker is through.
+    # The lifted phone keeps its gain at the hand. Put down, it is felt through the table when the worker is done.
     held = s.update(touches=[Touch("left", "phone", (0.1, 1.205, 0.4))])
     assert held.gain("left", "phone") == 1.0
     model.gate.set()
@@ -369,7 +369,7 @@ print("the game ends", flush=True)
 
 
 def test_interpreter_exit_waits_for_the_worker() -> None:
-    """Cut off within a solver, it would leave errors that nobody raised."""
+    """A worker stopped within a solver would print unrelated errors."""
     tests = Path(__file__).parents[2]
     game = [sys.executable, "-W", "ignore", "-c", A_GAME_THAT_ENDS]
     run = subprocess.run(game, capture_output=True, text=True, check=True, cwd=tests)

@@ -1,4 +1,4 @@
-"""Impacts in a session: who feels them, how strongly, when, and what keeps them in bounds."""
+"""Impacts in a session: which hands feel them, how strongly and when, and their limits."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def session(**settings: Any) -> HapticSession:
     made = HapticSession(scene, bundle, settings)
     made.update()
     made.wait_prepared()
-    # Sources are of no interest here.
+    # These tests are about impacts, so sources are off.
     for source_id in made.source_ids:
         made.set_source(source_id, on=False)
     return made
@@ -58,7 +58,7 @@ def rendered(made: HapticSession, seconds: float = 0.6) -> np.ndarray:
 
 
 def amplitudes(samples: np.ndarray, burst: Any) -> np.ndarray:
-    """What of each decaying sine is in some samples, by least squares (n_hands, n)."""
+    """Amplitudes of a burst's decaying sines in some samples, by least squares (n_hands, n)."""
     waves = [wave_of(f, t, RATE) for f, t in zip(burst.frequencies_hz.tolist(), burst.decays_s.tolist(), strict=True)]
     columns = np.zeros((len(samples), len(waves)))
     for k, wave in enumerate(waves):
@@ -89,7 +89,7 @@ def test_impact_gain_falls_with_distance_by_the_papers_law() -> None:
 def test_impact_gain_follows_the_physical_model(model: ModalPlate | InfinitePlate) -> None:
     scene, bundle = table_with_two_phones()
     alone = HapticSession(scene, bundle, {"propagation": model, "prepare": "blocking"})
-    # On a table that nothing touches, the model's own answer for a plate is what arrives.
+    # On a table without contacts, the gain is the model's response of a single plate.
     away = {x: Pose((10.0 + i, 10.0, 10.0)) for i, x in enumerate(("phone", "alarm", "block"))}
     alone.update(away, touches())
     burst, hands = burst_at(alone, STRUCK), [[("table", NEAR)], [("table", FAR)]]
@@ -99,7 +99,7 @@ def test_impact_gain_follows_the_physical_model(model: ModalPlate | InfinitePlat
     at, near, far = (np.array(alone._state.on_plate("table", point)) for point in (STRUCK, NEAR, FAR))
     for k, f in enumerate(burst.frequencies_hz):
         band = np.linspace(f * 2**-0.25, f * 2**0.25, 400)
-        # As acceleration, for a force that is equal at all frequencies of the band.
+        # The acceleration for a force that is equal at all frequencies of the band.
         itself, *others = (
             np.sqrt((np.abs(model.plate_receptance(plate, at, [to], band) * band**2) ** 2).mean())
             for to in (at, near, far)
@@ -135,7 +135,7 @@ def test_prepared_touched_object_feels_an_impact_with_the_next_block(
 
 
 def test_prepared_impact_equals_the_field_of_the_impact_alone() -> None:
-    """On a table on a block, with two phones on it."""
+    """The scene is a table on a block, with two phones on the table."""
     for model in PHYSICAL:
         scene, bundle = table_with_two_phones()
         made = HapticSession(scene, bundle, {"propagation": model})
@@ -150,7 +150,7 @@ def test_prepared_impact_equals_the_field_of_the_impact_alone() -> None:
         assert list(answer.among) == [0, 1]
         found = answer.gains
         assert np.abs(20 * np.log10(found / expected)).max() < 0.5
-        assert (found[1] > 0.999).all()  # this hand is where it is struck
+        assert (found[1] > 0.999).all()  # this hand touches the struck point
 
 
 def test_last_prepared_impact_is_used_until_a_new_one_is_ready() -> None:
@@ -174,7 +174,7 @@ def test_last_prepared_impact_is_used_until_a_new_one_is_ready() -> None:
 def test_a_hand_on_another_object_feels_an_impact_with_the_next_block_as_the_model_says(
     model: Any, touched: str, struck: str
 ) -> None:
-    """On a table on which a phone lies and a cup stands, as heavy as a box."""
+    """The scene is a table with a phone and a cup, which has the mass of a box."""
     scene, bundle = table_with_two_phones()
     made = HapticSession(scene, bundle, {"propagation": model, "gain_limit_db": None}, hands=("hand",))
     for source_id in made.source_ids:

@@ -1,4 +1,4 @@
-"""What lands, and what does not."""
+"""Detection of landings: which motions count as a landing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from scene2hap.session.landings import Landing, Landings
 PERIOD_S = 1 / 90
 Path = Iterator[tuple[float, float, float]]
 RESTS_M = 0.76
-"""Height of the cup's middle on the table."""
+"""Height of the cup's centre on the table."""
 
 
 def room() -> ContactGraph:
@@ -36,7 +36,7 @@ def _middle(object_id: str) -> tuple[float, float, float]:
 
 
 def landings_of(path: Path, *, moved: str = "cup", period_s: float = PERIOD_S, clock: bool = True) -> list[Landing]:
-    """What lands as an object goes along a path, and for half a second more."""
+    """The landings while an object moves along a path, and for half a second afterwards."""
     graph = room()
     landings, found, time_s, last = Landings(graph, _middle, period_s), list[Landing](), 0.0, None
     at = [*path]
@@ -51,7 +51,7 @@ def landings_of(path: Path, *, moved: str = "cup", period_s: float = PERIOD_S, c
 
 
 def fall(height_m: float, period_s: float, onto_m: float = RESTS_M) -> Path:
-    """A free fall from above the table, which ends at rest."""
+    """A free fall from above the table that ends at rest."""
     step = 0
     while (y := height_m - 9.81 * (step * period_s) ** 2 / 2) > 0:
         yield 0.0, onto_m + y, 0.0
@@ -119,7 +119,7 @@ def test_object_thrown_at_a_wall_lands_on_the_wall() -> None:
 
 
 def test_object_put_down_gently_does_not_land() -> None:
-    def lowered() -> Path:  # as hands move: least jerk over 0.6 s (Flash and Hogan 1985)
+    def lowered() -> Path:  # minimum jerk over 0.6 s, like a hand (Flash and Hogan 1985)
         for step in range(60):
             s = min(1.0, step * PERIOD_S / 0.6)
             yield 0.0, RESTS_M + 0.25 * (1 - s**3 * (10 - 15 * s + 6 * s * s)), 0.0
@@ -138,7 +138,7 @@ def jitters(rng: np.random.Generator) -> Path:
 
 
 def slides(rng: np.random.Generator) -> Path:
-    """At up to 2 m/s this way and that, with sudden stops, and never to the wall or the book."""
+    """Sliding at up to 2 m/s in changing directions with sudden stops, never to the wall or the book."""
     at = np.array([0.0, 0.0])
     for _ in range(4):
         speed = rng.uniform(-2.0, 2.0, 2)

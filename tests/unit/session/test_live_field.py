@@ -1,4 +1,4 @@
-"""Models whose fields follow the contacts by themselves: the session asks them of now, and prepares nothing."""
+"""Models with a live field, which follows contacts by itself: the session prepares no fields for them."""
 
 import math
 from collections.abc import Sequence
@@ -64,7 +64,7 @@ def test_live_field_gives_the_gains_of_a_prepared_field(settings: dict[str, Any]
     ours, theirs = (s.stats for s in both)
     assert ours.fields_prepared == theirs.fields_prepared
     assert worst < 0.01
-    # By price, what cannot be felt is left out whether or not it would have come to anything.
+    # By cost, sources that cannot be felt are skipped even if their gain would have been 0 anyway.
     assert ours.skipped.below_threshold > 0
     by_price = ("below_threshold", "silent_bands", "rows_not_mixed")
     others = {name: value for name, value in vars(theirs.skipped).items() if name in by_price}
@@ -81,7 +81,7 @@ def test_object_added_without_contact_carries_after_its_first_contact() -> None:
 
 
 class Guest:
-    """A live model of somebody else's, whose field says whatever it is told to."""
+    """A plugin model with a live field that returns a fixed gain."""
 
     def __init__(self, answer: float) -> None:
         self.answer, self.n_fields = answer, 0
@@ -111,7 +111,7 @@ def test_plugin_can_provide_a_live_field() -> None:
     assert frame.gain("left", "alarm") == 1.0
     assert frame.gain("right", "phone") == 0.0
     assert ("phone", "table") in model.graph.junctions
-    # A change of contacts asks for no other field, other sources do.
+    # A change of contacts needs no new field; a change of sources does.
     assert model.n_fields == 1
     s.remove("alarm")
     assert s.update(touches=[ON_TABLE]).sources == ("phone",)
@@ -128,7 +128,7 @@ def test_invalid_gains_of_a_plugin_are_not_rendered(answer: float, told: float) 
 
 
 class Priced(Guest):
-    """The same, with a price of 0 for everything; tells more than it is asked for, in one or the other answer."""
+    """The same with a cost of 0 for everything; returns too many or too few costs or bands."""
 
     def __init__(self, prices_more: int, bands_more: int) -> None:
         super().__init__(0.5)

@@ -1,4 +1,4 @@
-"""One minute of stress/session.py: a game at 1 kHz to which everything happens, in simulated time."""
+"""One simulated minute of stress/session.py: a game at 1 kHz that calls everything a session offers."""
 
 import importlib.util
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A pan that needs a stove, on what may be one."""
+"""Sources that need contact: a pan that needs a stove, on objects of different categories."""
 
 from dataclasses import replace
 
@@ -11,7 +11,7 @@ ON_PAN = [Touch("left", "pan", (0.0, 0.93, 0.0))]
 
 
 def kitchen(category: str, needs: str | None, *, hob_is_source: bool = False) -> HapticSession:
-    """A pan on a thing of that category, which hums by itself if it is a source."""
+    """A pan on an object of a category; with `hob_is_source`, this object hums."""
     snapshot = scene(box("thing", (0.6, 0.9, 0.6), (0.0, 0.45, 0.0)), box("pan", (0.2, 0.03, 0.2), (0.0, 0.915, 0.0)))
     thing = haptics("steel", (0.6, 0.6, 0.9), *(("on",) if hob_is_source else ()))
     objects = {

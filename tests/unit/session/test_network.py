@@ -1,4 +1,4 @@
-"""The loss of assembled furniture: what a table loses in physical models, and in the paper's law."""
+"""The joint loss of assembled furniture: physical models include it, the paper's law does not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Surfaces that are no rectangles, in a session: who follows them, and where they lie."""
+"""Surfaces with an outline other than a rectangle in a session: which models use it, and where it lies."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from scenes import table_with_two_phones
 
 
 def round_table() -> tuple[SceneSnapshot, HapticBundle]:
-    """The table with two phones, its top an ellipse that reaches a little beyond the rectangle like it."""
+    """The table with two phones; its top is an ellipse that extends a little beyond its rectangle."""
     scene, bundle = table_with_two_phones()
     table = scene.object("table")
     length, width = table.surface.length_m, table.surface.width_m
@@ -48,7 +48,7 @@ def test_models_that_follow_outlines_get_them(propagation: str, follows: bool) -
 
 
 def test_outline_has_the_place_at_which_it_was_measured() -> None:
-    """Its middle is that of the surface, also where a person corrected the size."""
+    """The centre of the outline is the centre of the surface, even if a person corrected the size."""
     scene, bundle = round_table()
     table = scene.object("table")
     middle = table.pose.compose(table.surface.pose).to_world(

@@ -1,4 +1,4 @@
-"""Two fields as one: the newest, which knows some objects, and the last that knows all."""
+"""A field in two parts: the newest, which covers some objects, and the last that covers all."""
 
 from collections.abc import Collection, Sequence
 
@@ -17,7 +17,7 @@ SOURCES = ("a", "b")
 
 
 class Constant:
-    """Says the same of every hand that touches anything."""
+    """A field with the same gain for every hand that touches anything."""
 
     source_ids, bands, most = SOURCES, Bands.dominant(), 1.0
 

@@ -1,4 +1,4 @@
-"""Who prepares loops, and how often: told by threads and counts, not by clocks."""
+"""Preparation of loops: on which thread, and how often; judged by threads and counts, not by clocks."""
 
 import threading
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ SECONDS = 10.0
 
 
 class Notes:
-    """What was prepared: its samples, and by which thread. A closed gate holds the worker, not the main thread."""
+    """A record of samples and thread of each prepared loop. A closed gate blocks the worker, not the main thread."""
 
     def __init__(self) -> None:
         self.threads: list[int] = []
@@ -36,7 +36,7 @@ MADE = prepared_loops._made
 
 @pytest.fixture
 def notes(monkeypatch: pytest.MonkeyPatch) -> Iterator[Notes]:
-    # Loops that earlier tests ordered and did not wait for are not to be counted here.
+    # Wait for loops that earlier tests requested, so that they are not counted here.
     prepared_loops._worker().submit(lambda: None).result(SECONDS)
     noted = Notes()
     monkeypatch.setattr(prepared_loops, "_made", noted.made)
@@ -67,7 +67,7 @@ def test_loops_are_prepared_on_the_worker_and_played_later(notes: Notes, bands: 
     assert frame.gain("left", "fan") == 1.0
     assert s.position_s("fan") == 0.0
     assert str(s.explain("left"))
-    assert np.abs(s.render(RATE // 4)[:, 0]).max() < 0.05  # the phones, faintly
+    assert np.abs(s.render(RATE // 4)[:, 0]).max() < 0.05  # only the phones, weakly
     s.set_source("fan", gain_db=-1.0)
     s.pause()
     s.resume()
@@ -91,7 +91,7 @@ def test_blocking_mode_prepares_loops_in_update(notes: Notes) -> None:
 def test_loops_of_equal_content_are_prepared_once(notes: Notes) -> None:
     s = session()
     for n in range(5):
-        add_fan(s, 137.0, f"fan {n}", 0.3 + 0.2 * n)  # copies, each with samples of its own
+        add_fan(s, 137.0, f"fan {n}", 0.3 + 0.2 * n)  # copies, each with its own samples
         assert s.wait_prepared(SECONDS)
     s.remove("fan 0")
     add_fan(s, 137.0, "fan 0", 0.3)
@@ -101,7 +101,7 @@ def test_loops_of_equal_content_are_prepared_once(notes: Notes) -> None:
     assert notes.contents.count(tone_loop(137.0).tactile.samples.tobytes()) == 1
     assert len(set(notes.contents)) == len(notes.contents)
     add_fan(s, 137.0, "slower", 0.5)
-    session(tactile_rate_hz=4000)  # another rate is another loop
+    session(tactile_rate_hz=4000)  # another rate needs another loop
     assert len(notes.contents) > len(set(notes.contents))
 
 
@@ -145,7 +145,7 @@ def test_late_loop_starts_without_a_click(notes: Notes) -> None:
         parts.append(s.render(161)[:, 0])
     x = np.concatenate(parts)
     assert np.abs(x[-RATE // 4 :]).max() > 0.25
-    # No step is longer than the tones' own, with a fifth for their ramps.
+    # No step is larger than the tone's steepest step, with 20 % margin for the ramps.
     assert np.abs(np.diff(x)).max() <= 1.2 * 2 * np.pi * 0.3 * 151.0 / RATE + 0.01
 
 

@@ -1,4 +1,4 @@
-"""What hangs together, kept as contacts come and go, against networkx."""
+"""Connected groups of objects, updated as contacts change, against networkx."""
 
 import networkx as nx
 import numpy as np
@@ -9,7 +9,7 @@ from scene2hap.session.reach import Reach, reach_over
 
 NAMES = [f"x{i:02d}" for i in range(24)]
 SOURCES = ("x00", "x07", "x13", "elsewhere")
-# Two do not pass vibration on.
+# Two objects do not transmit vibration.
 CARRIERS = {*NAMES, "elsewhere"} - {"x05", "x11"}
 
 

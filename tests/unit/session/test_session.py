@@ -179,7 +179,7 @@ def test_true_bands_give_one_gain_per_band(bands: object) -> None:
 
 def test_gain_limit_caps_and_counts() -> None:
     class Loud:
-        """A guest model that answers three times too much, or nonsense."""
+        """A plugin model whose gains are a given wrong value."""
 
         def __init__(self, value: float) -> None:
             self.value = value

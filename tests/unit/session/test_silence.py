@@ -1,4 +1,4 @@
-"""What will not be felt is told in one sentence, and what carries or vibrates is not complained of."""
+"""Warnings of silent objects: one sentence for those that cannot be felt, none for carriers and sources."""
 
 import warnings
 from dataclasses import replace

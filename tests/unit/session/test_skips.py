@@ -1,4 +1,4 @@
-"""Work that is left out: each skip counts what it saved, can be switched off, and loses no more than it says."""
+"""Skipped work: each skip counts its savings, can be switched off, and stays within its stated error."""
 
 from typing import Any
 
@@ -15,7 +15,7 @@ ON_CUP = Touch("right", "cup", (5.0, 0.1, 5.0))
 
 
 class Watched:
-    """The paper's law, that notes what it is told of and asked about."""
+    """The paper's law; records the objects that it gets and each query."""
 
     def __init__(self) -> None:
         from scene2hap import ExponentialPlate
@@ -67,7 +67,7 @@ def test_objects_that_no_source_reaches_are_skipped(skip: Any) -> None:
 @pytest.mark.parametrize("skip", [False, only("unreachable")])
 def test_contact_changes_that_no_source_reaches_prepare_nothing(skip: Any) -> None:
     s = session(skip)
-    # The block goes to the cup, where it stands on it, and then the cup is shifted below it.
+    # The block moves onto the cup; then the cup is shifted below it.
     s.update({"block": Pose((5.0, 0.45, 5.0))})
     before = s.stats
     s.update({"cup": Pose((5.01, 0.05, 5.0))})
@@ -81,7 +81,7 @@ def test_contact_changes_that_no_source_reaches_prepare_nothing(skip: Any) -> No
 )
 def test_sources_that_are_not_felt_are_not_mixed(skip: Any) -> None:
     s = session(skip)
-    # 10 dB below the threshold, shared by two sources, with a decibel to either side.
+    # The limit is 10 dB below the threshold, shared by two sources; tested 1 dB below and above.
     peak, edge = 0.3, 10 ** (-10 / 20) / 2 * 10 ** (float(threshold_db(100)) / 20)
     on_phone = [Touch("left", "phone", (0.1, 0.73, 0.4))]
     s.set_source("alarm", mute=True)
@@ -107,7 +107,7 @@ def test_silent_bands_are_not_mixed(skip: Any) -> None:
     whole.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))])
     np.testing.assert_allclose(out, whole.render(RATE), atol=40e-7)
     counts = s.stats.skipped
-    # A tone of 100 Hz is on the edge of two bands, and its neighbours reach over by less than rounding.
+    # A tone of 100 Hz lies on the edge of two bands; in all other bands it is below rounding.
     assert (counts.silent_bands > 15) == bool(skip)
     assert (counts.rows_not_mixed > 0) == bool(skip)
 
@@ -129,7 +129,7 @@ def test_unchanged_frames_are_not_computed_again(skip: Any) -> None:
     assert len(model.asked) == (1 if skip else 5)
     assert s.stats.skipped.unchanged_frames == (4 if skip else 0)
     assert s.stats.updates == 5
-    # Everything that a frame depends on makes it another one.
+    # Every input of a frame causes a new computation.
     s.set_source("phone", gain_db=-6.0)
     assert s.update(touches=[ON_TABLE]).gain("left", "phone") < 1
     quiet = s.update(touches=[ON_TABLE]).gain("left", "phone")
@@ -151,7 +151,7 @@ def test_gains_are_kept_when_contacts_change_that_no_source_reaches() -> None:
     assert s.stats.skipped.unchanged_frames == before.unchanged_frames + 1
     assert len(model.asked) == n_asked
     np.testing.assert_array_equal(frame.gains, gains)
-    # The cup comes to the table and carries the vibration.
+    # The cup moves to the table and transmits the vibration.
     on_cup = Touch("right", "cup", (0.8, 0.82, 0.4))
     assert s.update({"cup": Pose((0.8, 0.77, 0.4))}, [ON_TABLE, on_cup]).gains[1].any()
 

@@ -1,4 +1,4 @@
-"""Copies of a prefab: a bundle of one object, which sessions add many times."""
+"""Copies of a prefab: a bundle of one object that a session adds many times."""
 
 import gc
 import weakref
@@ -92,7 +92,7 @@ def test_used_id_and_invalid_prefab_are_refused_without_change() -> None:
 
 @pytest.mark.parametrize("n_between", [1, 7])
 def test_session_after_many_copies_equals_a_new_session(n_between: int) -> None:
-    """What many changes leave is what a session is that begins with it, to the last bit, passive objects included."""
+    """After many changes, the gains are bit-identical to those of a new session with the same objects."""
     s, prefabs = session(), (fan(), fan(171.0), bake_object(box("oak tray", (0.2, 0.02, 0.2), (0.0, 0.0, 0.0))))
     rng = np.random.default_rng(3)
     alive: dict[str, HapticBundle] = {}

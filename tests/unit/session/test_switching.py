@@ -1,4 +1,4 @@
-"""Sources that come up, die away, and switch themselves, in a session."""
+"""Start-up, wind-down and duty cycles of sources in a session."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TOUCH = [Touch("left", "phone", (0.1, 0.73, 0.4))]
 
 
 def session(first: dict[str, Any] | None = None, **settings: Any) -> HapticSession:
-    """The room of two phones, of which one starts and stops as told."""
+    """The room of two phones, one of which has the switching times in `first`."""
     scene, bundle = table_with_two_phones()
     phone = bundle.objects["phone"]
     states = tuple(replace(state, **(first or {})) for state in phone.states)
@@ -26,7 +26,7 @@ def session(first: dict[str, Any] | None = None, **settings: Any) -> HapticSessi
 
 
 def envelope(made: HapticSession, seconds: float, step_s: float = 0.05) -> np.ndarray:
-    """Rms of the left hand by steps, with an update before each tenth of a second's fifth."""
+    """RMS of the left hand by steps of `step_s`, with an update every 20 ms."""
     blocks = []
     for _ in range(round(seconds * 50)):
         made.update(touches=TOUCH)

@@ -1,4 +1,4 @@
-"""Touches far from the box around what they touch are counted, and told once per hand."""
+"""Touches more than 5 cm off the bounding box of their object are counted, with one warning per hand."""
 
 import warnings
 
@@ -28,10 +28,10 @@ def session(bundle: object) -> HapticSession:
         ((0.3, 0.72, 0.1), False),
         ((0.3, 0.769, 0.1), False),
         ((0.3, 0.7711, 0.1), True),
-        ((0.3, 0.7, 0.1), False),  # within, 2 cm from both faces
-        ((0.86, 0.7, 0.1), True),  # beside it
-        ((300.0, 720.0, 100.0), True),  # millimetres
-        ((0.3, 0.02, 0.1), True),  # the object's own frame
+        ((0.3, 0.7, 0.1), False),  # inside, 2 cm from both faces
+        ((0.86, 0.7, 0.1), True),  # beside the table
+        ((300.0, 720.0, 100.0), True),  # given in millimetres
+        ((0.3, 0.02, 0.1), True),  # given in the object's frame
     ],
 )
 def test_a_touch_more_than_5_cm_off_the_box_is_counted(

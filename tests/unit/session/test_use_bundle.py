@@ -1,4 +1,4 @@
-"""A corrected bundle in a running session, from Python and from the disk."""
+"""Replacing the bundle of a running session, from Python and from disk."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Levels and limits of a person: expected values are worked out from decibels by hand."""
+"""Levels and limits of a user profile; expected values are computed by hand from decibels."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def test_profile_curve_is_read_at_the_felt_frequency(bundle: HapticBundle) -> No
     source = next(iter(bundle.loops))
     loop = next(iter(bundle.loops[source].values()))
     felt_hz = loop.frequency_tactile_hz
-    curve = [(felt_hz / 2, -12.0), (felt_hz * 2, 0.0)]  # half way over the logarithm: -6 dB
+    curve = [(felt_hz / 2, -12.0), (felt_hz * 2, 0.0)]  # half way on a logarithmic axis: -6 dB
     plain, ours = gains(bundle, None), gains(bundle, {"curve_db": curve})
     assert ours[:, 0] == pytest.approx(plain[:, 0] * db(-6.0), rel=1e-5)
 
@@ -68,7 +68,7 @@ def test_the_curve_acts_band_by_band(bundle: HapticBundle) -> None:
 
 
 def test_sources_amplified_by_a_profile_are_mixed(bundle: HapticBundle) -> None:
-    """A source 10 dB below what is felt is left out of the mix; for someone 40 dB up it is mixed."""
+    """A source below the threshold is not mixed; with a profile of +40 dB it is."""
     source, other = bundle.loops
     bundle = bundle.override(other, muted=True)
     faint = bundle.override(source, gain_db=-60.0)
@@ -165,7 +165,7 @@ def test_invalid_profile_is_refused(bundle: HapticBundle, wrong: object, says: s
     session = HapticSession(bundle)
     with pytest.raises(ConfigError):
         session.set_user(gain_db=-3.0, profile=wrong)  # type: ignore[arg-type]
-    assert session._sources.user.factor == 1.0  # nothing of a refused call counts
+    assert session._sources.user.factor == 1.0  # a refused call changes nothing
 
 
 def test_profile_for_other_hands_is_refused(bundle: HapticBundle) -> None:

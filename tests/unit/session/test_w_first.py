@@ -1,4 +1,4 @@
-"""First poses whose quaternions begin with w are told once, and turns of other kinds are not."""
+"""First poses whose quaternions have w first cause one warning; other first poses cause none."""
 
 import math
 import warnings

@@ -1,4 +1,4 @@
-"""How strongly a whole file is felt, against the closed form of a tone: the square of its amplitude times its share."""
+"""Felt level of a whole file, against the closed form of a tone: squared amplitude times its share of the file."""
 
 import numpy as np
 import pytest

@@ -38,7 +38,7 @@ def write(path: Path, samples: np.ndarray, **options: str) -> Path:
 
 @dataclass
 class Held:
-    """A converter that returns `gain` times what it was given, `held` samples late, and loses `lost` of them."""
+    """A converter that returns its input times `gain`, `held` samples late, and loses `lost` samples."""
 
     held: int = 0
     lost: int = 0
@@ -67,7 +67,7 @@ def test_stream_converts_each_channel_for_any_block_size(tmp_path: Path, monkeyp
         made = audio.convert(source, tmp_path / f"{block}.wav", converter="svf_bandpass", raw=True)
         felt, rate = soundfile.read(made.output, dtype="float32")
         assert rate == RATE
-        # Written as 24-bit steps: half of one is all that may differ.
+        # Written in 24-bit steps, so that samples may differ by half a step.
         np.testing.assert_allclose(felt, np.stack(whole, axis=1), rtol=0, atol=0.51 / 2**23)
 
 
@@ -80,7 +80,7 @@ def test_conversion_reports_peaks_frequencies_and_length(tmp_path: Path) -> None
     assert made.peak_in == pytest.approx(0.9, abs=1e-6)
     assert made.peak_out == pytest.approx(np.abs(soundfile.read(made.output)[0]).max(), abs=1e-6)
     assert made.frequency_in_hz == pytest.approx(93.7, abs=0.02)
-    # |H(93.7)| = 0.53 and |H(310.2)| = 0.96: half as loud before, nearly equal after; the first stays ahead.
+    # |H(93.7)| = 0.53 and |H(310.2)| = 0.96: the second is half as loud before and nearly equal after conversion.
     assert made.frequency_out_hz == pytest.approx(93.7, abs=0.02)
     narrow = audio.convert(made.source, tmp_path / "c.wav", converter={"kind": "svf_bandpass", "q": 4.0}, raw=True)
     assert narrow.frequency_out_hz == pytest.approx(310.2, abs=0.02)
@@ -122,7 +122,7 @@ def test_mono_is_the_mean_of_the_channels(tmp_path: Path) -> None:
 
 
 def test_conversion_counts_samples_clipped_inside_the_converter(tmp_path: Path) -> None:
-    """A tone of amplitude 2 through a low-pass that lets it pass, against scipy's own filter."""
+    """A tone of amplitude 2 in the pass-band of a low-pass, against scipy's filter."""
     t = np.arange(2 * RATE) / RATE
     loud = (2.0 * np.sin(2 * np.pi * 93.7 * t)).astype(np.float32)
     source = write(tmp_path / "a.wav", loud, subtype="FLOAT")
@@ -244,7 +244,7 @@ def test_the_picture_shows_both_sounds(tmp_path: Path) -> None:
 
 
 def test_picture_shows_the_threshold_of_touch(tmp_path: Path) -> None:
-    """A line where the least drive lies that is felt at the touch's frequency, and both sounds on one scale."""
+    """The picture has a line at the threshold for the felt frequency, and one scale for both sounds."""
     source = write(tmp_path / "a.wav", sound(2.0, 1, 150.0), subtype="FLOAT")
     made = audio.convert(source, tmp_path / "b.wav", intensity=0.1, picture=tmp_path / "b.png")
     assert made.picture is not None
@@ -252,7 +252,7 @@ def test_picture_shows_the_threshold_of_touch(tmp_path: Path) -> None:
         pixels = np.asarray(image.convert("RGB")).astype(int)
     line = (np.abs(pixels - [0, 160, 160]).sum(axis=2) < 20)[:, 90:900].all(axis=1)
     (row, *_) = np.flatnonzero(line)
-    # The second envelope is 110 rows high, of which 102 stand for 80 dB, and begins below two lanes of 240.
+    # The second envelope is 110 rows high, of which 102 show 80 dB, and begins below two spectrograms of 240 rows.
     top = 44 + (240 + 110 + 46) + 18 + 240 + 6 + 4
     assert -(row + 0.5 - top) / 102 * 80 == pytest.approx(float(threshold_db(150.0)), abs=1.5)
     brightest = [pixels[62 + lane : 62 + lane + 240, 200:960].sum(axis=2).max() for lane in (0, 396)]
@@ -286,7 +286,7 @@ def test_long_recording_is_converted(tmp_path: Path, monkeypatch: pytest.MonkeyP
 def felt_of(
     tmp_path: Path, samples: np.ndarray, name: str = "felt.wav", **settings: object
 ) -> tuple[np.ndarray, float]:
-    """Convert a file. Returns its samples, and the level of its loop over the threshold on the actuator [dB]."""
+    """Convert a file. Returns its samples, and its felt level over the threshold on the actuator [dB]."""
     source = write(tmp_path / "a.wav", samples, subtype="FLOAT")
     made = audio.convert(source, tmp_path / name, overwrite=True, **settings)  # type: ignore[arg-type]
     felt, rate = soundfile.read(made.output)
@@ -298,7 +298,7 @@ def felt_of(
 @pytest.mark.parametrize("converter", sorted(CONVERTERS.builtins))
 @pytest.mark.parametrize("actuator", ["flat", "voice_coil"])
 def test_a_file_is_felt_at_the_level_of_its_source(tmp_path: Path, converter: str, actuator: str) -> None:
-    """By the levels of loops, which know nothing of streams; where peaks allow, 17 dB less for a tenth of it."""
+    """The felt level equals that of loops: 17 dB less at a tenth of the intensity, unless the peak limit lowers it."""
     source = write(tmp_path / "a.wav", sound(12.0, 1, 150.0), subtype="FLOAT")
     reached = {}
     for intensity in (0.5, 0.05):
@@ -307,7 +307,7 @@ def test_a_file_is_felt_at_the_level_of_its_source(tmp_path: Path, converter: st
         )
         felt, rate = soundfile.read(made.output)
         reached[intensity] = felt_level_db(felt, rate, actuator_profile(actuator))
-        if reached[intensity] > 10.0:  # what is hardly felt at all, loops and pieces of a second tell apart
+        if reached[intensity] > 10.0:  # weaker levels differ between loops and pieces of a second
             assert made.level_db == pytest.approx(reached[intensity], abs=1.0)
         is_bounded = made.level_db < sensation_level_db(intensity) - 0.01
         assert made.peak_out == pytest.approx(0.501, abs=1e-3) if is_bounded else made.peak_out < 0.502
@@ -317,7 +317,7 @@ def test_a_file_is_felt_at_the_level_of_its_source(tmp_path: Path, converter: st
 
 
 def test_conversion_compensates_the_actuator_response(tmp_path: Path) -> None:
-    """Two tones, one at the resonance and one where it answers 10 dB less: as far apart on the actuator as before."""
+    """Two tones, at the resonance and where the response is 10 dB lower, keep their level ratio on the actuator."""
     t = np.arange(10 * RATE) / RATE
     tones = (0.2 * (np.sin(2 * np.pi * 175.0 * t) + np.sin(2 * np.pi * 200.0 * t))).astype(np.float32)
     ratios = {}
@@ -344,7 +344,7 @@ def test_equalized_output_does_not_depend_on_block_size(tmp_path: Path, monkeypa
 
 
 def test_constant_offset_causes_no_thump_at_the_start(tmp_path: Path) -> None:
-    """A recording with an offset of 0.5 begins as calmly as one without."""
+    """A recording with an offset of 0.5 gives the output of the same recording without offset."""
     hum = sound(6.0, 1, 150.0)[:, 0] * 0.3
     levelled = [felt_of(tmp_path, hum + offset, converter="svf_bandpass")[0] for offset in (0.0, 0.5)]
     assert np.abs(levelled[1]).max() == pytest.approx(np.abs(levelled[0]).max(), rel=0.02)
@@ -380,7 +380,7 @@ def test_noise_floor_of_a_recording_is_not_amplified(tmp_path: Path, peak_db: fl
 
 @pytest.mark.parametrize("kind", ["lowpass", "envelope", "auto"])
 def test_remainder_of_a_filtered_whine_is_not_amplified(tmp_path: Path, kind: str) -> None:
-    """Noise at -80 dB re full scale became -21."""
+    """In an earlier version noise at -80 dB re full scale became -21 dB."""
     t, rng = np.arange(2 * 32_000) / 32_000, np.random.default_rng(0)
     source = tmp_path / "a.wav"
     whine = np.minimum(1.0, 10.0 * t) * np.sin(2 * np.pi * 9000 * t)
@@ -389,5 +389,5 @@ def test_remainder_of_a_filtered_whine_is_not_amplified(tmp_path: Path, kind: st
     if kind == "lowpass":
         assert made.level_db is None
         assert made.peak_out < 1e-3
-    else:  # a carrier has its level
+    else:  # the carrier has the requested level
         assert made.level_db == pytest.approx(sensation_level_db(0.3), abs=0.1)

@@ -65,7 +65,7 @@ def test_chain_skips_a_failing_source_with_a_warning(error: Exception, caplog: p
     caplog.set_level(logging.INFO)
     with pytest.warns(SourceWarning, match=f"fan_01: no sound from Broken: .*{error}"):
         assert titles(Broken(error), Shelf(clip("a"))) == ["a"]
-    # Not at WARNING, or an unconfigured logger would print what the warning has said.
+    # Logged below WARNING: an unconfigured logger would print the text of the warning again.
     assert [record.levelno for record in caplog.records] == [logging.INFO]
 
 

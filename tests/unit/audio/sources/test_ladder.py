@@ -19,7 +19,7 @@ def rungs(category: str, keywords: str) -> tuple[str, ...]:
             "electric toothbrush buzzing",
             ("electric toothbrush buzzing", "electric toothbrush", "toothbrush buzzing", "toothbrush"),
         ),
-        # A washing machine without its washing is nothing in particular.
+        # "machine" alone is too general.
         ("washing machine", "washing machine spinning", ("washing machine spinning", "washing machine")),
         (
             "old Coffee Maker on a counter",

@@ -27,7 +27,7 @@ def test_rate_limit_holds_for_any_minute(gaps: list[float], per_minute: int) -> 
         time.now_s += gap
         limit.take()
         sent.append(time.now_s)
-    # Of any n + 1 in a row the last comes a minute or more after the first; a nanosecond for rounding.
+    # The last of any n + 1 requests in a row comes a minute or more after the first; 1 ns is for rounding.
     assert all(later - earlier >= 60.0 - 1e-9 for earlier, later in zip(sent, sent[per_minute:], strict=False))
 
 

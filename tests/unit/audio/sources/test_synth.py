@@ -24,7 +24,7 @@ from scene2hap.errors import AudioError, ConfigError
 from scene2hap.haptics import VibrationDescription
 
 EVERYDAY = {
-    # category and keywords -> bounds of what is felt most [Hz], from real machines
+    # category and keywords -> bounds of the strongest frequency [Hz], from real machines
     ("refrigerator", "refrigerator humming"): (48, 50),
     ("microwave oven", "microwave oven heating"): (99.5, 100.5),
     ("transformer", "transformer humming"): (99.5, 100.5),
@@ -51,7 +51,7 @@ def make(category: str, keywords: str, **changes: object) -> AudioClip:
 
 
 def strongest_hz(y: Signal, above_hz: float = 10.0) -> float:
-    """The largest bin of a Hann-windowed spectrum, to the nearest 0.2 Hz."""
+    """The frequency of the largest bin of a Hann-windowed spectrum, to the nearest 0.2 Hz."""
     magnitude = np.abs(np.fft.rfft(y * np.hanning(len(y))))
     frequencies = np.fft.rfftfreq(len(y), 1 / SAMPLE_RATE_HZ)
     return float(frequencies[np.argmax(np.where(frequencies > above_hz, magnitude, 0))])
@@ -140,7 +140,7 @@ def test_larger_machines_are_slower_within_bounds() -> None:
     sizes_m = (0.01, 0.3, 0.4, 0.6, 50.0)
     pitches = [strongest_hz(make("fan", "fan", size_m=(size, 0.1, 0.1)).samples) for size in sizes_m]
     assert all(small > large for small, large in pairwise(pitches))
-    # One and the same machine but for its size: speeds in the ratio of the roots, and never beyond 3/4 and 4/3.
+    # Speeds of equal machines go with the square root of the inverse size, within 3/4 and 4/3.
     expected = [4 / 3, (0.4 / 0.3) ** 0.5, 1, (0.4 / 0.6) ** 0.5, 3 / 4]
     np.testing.assert_allclose(np.array(pitches) / pitches[2], expected, rtol=0.01)
 
@@ -244,11 +244,11 @@ def test_unknown_category_gets_the_motor_voice() -> None:
     assert patch_for("frobnicator", "frobnicator frobbing") is MOTOR
 
 
-# what things do that others of their family do not
+# differences within a family of machines
 
 
 def onsets_per_s(y: Signal) -> float:
-    """Rises of the level of 5 ms by a factor of four, at least 50 ms apart."""
+    """Onsets per second: rises of the level of 5 ms by a factor of four, at least 50 ms apart."""
     n = round(0.005 * SAMPLE_RATE_HZ)
     level = np.sqrt(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n)), axis=1))
     rises = np.flatnonzero((level[1:] > 0.2 * level.max()) & (level[1:] > 4 * level[:-1]))
@@ -261,7 +261,7 @@ def test_a_kitchen_timer_ticks_four_or_five_times_a_second_and_a_clock_once() ->
 
 
 def test_states_of_a_washing_machine_have_different_pitches() -> None:
-    """Spin by its motor, rinse and wash by a hum at twice the mains, drain by its pump's vanes."""
+    """Strongest lines: spinning the motor, rinsing and washing a hum at twice the mains, draining the pump's vanes."""
     heard = {
         verb: strongest_hz(make("washing machine", f"washing machine {verb}").samples.astype(float))
         for verb in ("washing", "rinsing", "spinning", "draining")
@@ -280,7 +280,7 @@ def test_blender_and_dough_mixer_have_different_pitches() -> None:
 
 
 def test_compressor_level_fluctuates_with_its_load() -> None:
-    """Its level wavers by some 5-20 % between half a hertz and five; it was a tenth of that."""
+    """The level fluctuates by some 5-20 % between 0.5 and 5 Hz; in an earlier version by a tenth of that."""
     y = make("refrigerator", "refrigerator humming", intensity=0.1).samples.astype(float)
     n = SAMPLE_RATE_HZ // 20
     level = np.sqrt(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n)), axis=1))

@@ -1,7 +1,7 @@
 """Physics of the synthesized voices, measured from their samples by spectrum and envelope.
 
-Expectations come from the mechanics (orders of shaft speed, blade passing, mains, time constants); nothing here looks
-at how a voice is made.
+Expected values come from mechanics (orders of shaft speed, blade passing, mains, time constants), independently of how
+a voice is made.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ def take(drive: float = 0.5, size_factor: float = 1.0, mains_hz: float = 50.0, s
 
 
 def spectrum(y: Signal) -> tuple[Signal, Signal]:
-    """Frequencies and magnitudes, a Hann window, bins of 0.1 Hz."""
+    """Frequencies and magnitudes with a Hann window, in bins of 0.1 Hz."""
     n = 2 * len(y)
     return np.fft.rfftfreq(n, 1 / SAMPLE_RATE_HZ), np.abs(np.fft.rfft((y - y.mean()) * np.hanning(len(y)), n))
 
 
 def line_hz(y: Signal, low_hz: float, high_hz: float) -> float:
-    """The strongest line between two frequencies."""
+    """Frequency of the strongest line between two frequencies."""
     f, magnitude = spectrum(y)
     return float(f[np.argmax(np.where((f >= low_hz) & (f <= high_hz), magnitude, 0.0))])
 
@@ -55,7 +55,7 @@ def prominence_db(y: Signal, at_hz: float, half_width_hz: float = 1.0) -> float:
     return float(20 * np.log10(near / around))
 
 
-# machines that turn
+# rotating machines
 
 
 @pytest.mark.parametrize(("shaft_hz", "blades"), [(22.0, 5), (26.0, 7), (80.0, 3), (42.0, 7)])
@@ -73,7 +73,7 @@ def test_induction_compressor_runs_below_mains_frequency() -> None:
         y = compressor(take(mains_hz=mains_hz))
         shaft = line_hz(y, 0.9 * mains_hz, 1.1 * mains_hz)
         assert 0.95 * mains_hz < shaft < 0.995 * mains_hz, "slip of half to five per cent"
-        # The second order and the magnetic pull are two lines, twice the slip apart.
+        # The second order of the shaft and the magnetic force are two lines, twice the slip apart.
         assert line_hz(y, 1.99 * mains_hz, 2.01 * mains_hz) == pytest.approx(2 * mains_hz, abs=0.15)
         assert prominence_db(y, 2 * shaft, 0.3) > 15.0
 
@@ -124,7 +124,7 @@ def test_a_helicopter_slaps_at_blades_times_rotor_speed() -> None:
     envelope = np.abs(hilbert(y))
     passing = line_hz(envelope, 15.0, 40.0)
     assert passing == pytest.approx(25.6, rel=0.04)
-    # One blade out of track marks every turn.
+    # One blade out of track gives a line at the rotor speed.
     assert line_hz(envelope, 4.0, 10.0) == pytest.approx(passing / 4, rel=0.02)
 
 
@@ -139,13 +139,13 @@ def test_wheels_pass_sleepers_at_speed_over_spacing() -> None:
     assert line_hz(rolling(take(), passing_hz=30.0 / 0.6), 40.0, 60.0) == pytest.approx(50.0, rel=0.05)
 
 
-# things that start, strike and play
+# sounds with starts, strokes and beats
 
 
 @pytest.mark.parametrize(("spin_up_s", "spin_down_s"), [(0.05, 0.08), (0.12, 0.2)])
 def test_phone_motor_force_grows_with_the_square_of_its_speed(spin_up_s: float, spin_down_s: float) -> None:
     y = ringing_motor(take(), spin_up_s=spin_up_s, spin_down_s=spin_down_s)[: round(1.5 * SAMPLE_RATE_HZ)]
-    # Two cycles at the speed of half force: any other width would let the envelope flutter there.
+    # Two cycles at the speed of half force: with any other width the envelope would fluctuate there.
     width = round(2 * SAMPLE_RATE_HZ / (182.0 / 2**0.5))
     envelope = np.sqrt(np.convolve(y**2, np.ones(width) / width, mode="same"))
     t = np.arange(len(y)) / SAMPLE_RATE_HZ
@@ -206,7 +206,7 @@ def test_a_stepper_s_pitch_stays_within_its_speeds() -> None:
     assert 85.0 < min(pitches) < 0.8 * max(pitches) < max(pitches) < 265.0
 
 
-# what shapes them
+# parameters of the voices
 
 
 @pytest.mark.parametrize(
@@ -271,7 +271,7 @@ def test_every_state_has_a_voice_of_its_own() -> None:
 
 @pytest.mark.parametrize("noun", ["fan", "kettle"])
 def test_takes_of_a_machine_are_felt_at_one_frequency(noun: str) -> None:
-    """Some takes of a fan were felt at twice its blades' frequency, some of a kettle an octave higher."""
+    """In an earlier version some takes of a fan were felt at twice the blade frequency, of a kettle an octave up."""
     name, intensity = next((name, intensity) for one, name, intensity in STATES if one == noun)
     level_db, actuator = sensation_level_db(intensity), actuator_profile("flat")
     keywords = describe(noun, name).keywords
@@ -287,7 +287,7 @@ def test_takes_of_a_machine_are_felt_at_one_frequency(noun: str) -> None:
 
 @pytest.mark.parametrize("number", range(0, len(STATES), 24))
 def test_states_give_finite_unclipped_and_repeatable_clips(number: int) -> None:
-    """Every twenty-fourth; voices themselves are each tested in test_synth."""
+    """Tests every twenty-fourth state; test_synth tests each voice."""
     clip = made(*STATES[number])
     y = clip.samples.astype(float)
     assert np.isfinite(y).all()

@@ -1,4 +1,4 @@
-"""Voices beside recordings of the same kind of thing: the numbers of docs/figures/audio.md."""
+"""Synthetic voices compared with recordings of the same kind of machine: the numbers of docs/figures/audio.md."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ RATE_HZ = 4000
 
 
 def measured(clip: AudioClip) -> tuple[float, float, float]:
-    """Strongest frequency [Hz], centroid [Hz] and share of power in lines, from 20 to 1000 Hz.
+    """Measure strongest frequency [Hz], centroid [Hz] and share of power in lines, from 20 to 1000 Hz.
 
     A line is a bin 10 dB above the median of the 20 Hz around it.
     """
@@ -47,7 +47,7 @@ def voice(thing: str, verb: str, intensity: float, size_m: float, mains_hz: floa
     [
         ("fridge_hum_kitchen.wav", ("refrigerator", "humming", 0.1, 0.7, 60.0), 0.02, 0.15, 0.1),
         ("oven_hum.wav", ("oven", "humming", 0.12, 0.6, 50.0), 0.005, 0.05, 0.1),
-        # The voices of fan and saw are steadier and darker on purpose; only their order is held.
+        # The voices of fan and saw are steadier and darker on purpose; only their order of brightness is the same.
         ("computer_fan_hum.wav", ("computer fan", "humming", 0.1, 0.12, 50.0), 4.0, 0.5, 0.4),
         ("chainsaw_1-116765-A.ogg", ("chainsaw", "sawing", 0.75, 0.8, 50.0), 0.05, 0.55, 0.6),
     ],
@@ -68,7 +68,7 @@ def test_voice_has_the_pitch_and_spectrum_of_its_recording(
 
 
 def test_voices_have_the_same_brightness_order_as_recordings(sound: Callable[[str], AudioClip]) -> None:
-    """From the fridge's hum to the saw: darker to brighter, and the fan is noisier than the hums."""
+    """From fridge to saw the centroid rises, and the fan is noisier than the hums."""
     things = {
         "fridge_hum_kitchen.wav": ("refrigerator", "humming", 0.1, 0.7, 60.0),
         "oven_hum.wav": ("oven", "humming", 0.12, 0.6, 50.0),

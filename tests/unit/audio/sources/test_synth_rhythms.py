@@ -31,7 +31,7 @@ def made(kind: str, verb: str, seed: int, intensity: float = 0.5) -> AudioClip:
     ],
 )
 def test_tactile_loop_keeps_the_rhythm_of_its_machine(kind: str, verb: str, rate_hz: float, seed: int) -> None:
-    """In an earlier version their loops had no rhythm, or the band did not keep it."""
+    """In an earlier version these loops had no rhythm, or the converter's band did not keep it."""
     clip, converter = made(kind, verb, seed, 0.2), CONVERTERS.build("auto")
     (plan,) = plan_scene([SourceClip(clip, 0.2)], converter, ActuatorProfile())
     loop = felt_loop(clip, converter, plan).tactile
@@ -44,7 +44,7 @@ def levels_db(clip: AudioClip) -> np.ndarray:
 
 
 def pitches_hz(clip: AudioClip) -> np.ndarray:
-    """The strongest frequency in 80 to 220 Hz, of each quarter of a second."""
+    """The strongest frequency within 80 to 220 Hz in each quarter of a second."""
     found = []
     for part in clip.samples[: len(clip.samples) // 12_000 * 12_000].reshape(-1, 12_000).astype(float):
         power = np.abs(np.fft.rfft(part * np.hanning(12_000), 48_000)) ** 2
@@ -54,7 +54,7 @@ def pitches_hz(clip: AudioClip) -> np.ndarray:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_chainsaw_changes_speed_and_loudness_together(seed: int) -> None:
-    """Louder while it is faster; at work by a little, at the throttle by a third of its speed."""
+    """The saw is louder while it is faster. Its speed varies a little in sawing and much more in revving."""
     for verb, at_least in (("sawing", 1.04), ("revving", 1.4)):
         clip = made("chainsaw", verb, seed)
         assert np.isfinite(clip.samples).all()

@@ -20,7 +20,7 @@ def tones(seconds: float, **amplitudes: float) -> np.ndarray:
 
 
 def amplitude(y: np.ndarray, frequency_hz: float) -> float:
-    """Of the component at a whole number of hertz, over the last second."""
+    """Amplitude of the component at a whole number of hertz, over the last second."""
     last = y[-RATE:].astype(float)
     return float(2 * abs(np.mean(last * np.exp(-2j * np.pi * frequency_hz * np.arange(RATE) / RATE))))
 
@@ -28,11 +28,11 @@ def amplitude(y: np.ndarray, frequency_hz: float) -> float:
 def test_adaptive_converter_finds_the_pitch_and_filters_around_it() -> None:
     y = Adaptive().stream(RATE, ConversionContext(intensity=0.5)).process(tones(4, f187=0.3, f500=0.3, f40=0.5))
     own = amplitude(y, 187)
-    # |H|^2 of one band-pass of Q = 2 is 1 / (1 + 4 (r - 1 / r)^2), which two in series have as |H|.
+    # |H|^2 of one band-pass of Q = 2 is 1 / (1 + 4 (r - 1 / r)^2), which is |H| of two in series.
     r = 500 / 187
     assert amplitude(y, 500) == pytest.approx(own / (1 + 4 * (r - 1 / r) ** 2), rel=0.05)
     assert amplitude(y, 40) < 0.03 * own
-    # As much of the sound as the paper's band-pass would let through, which stood in until the source was found.
+    # The level equals that of the paper's band-pass, which is used until the source is found.
     wide = [SvfBandpass().stream(RATE, ConversionContext()).process(tones(4, f187=0.3, f500=0.3, f40=0.5))]
     assert np.std(y[-RATE:]) == pytest.approx(np.std(wide[0][-RATE:]), rel=0.05)
 
@@ -96,7 +96,7 @@ def test_bad_settings_are_refused() -> None:
 
 
 def steps_db(y: np.ndarray, window_s: float = 0.25) -> np.ndarray:
-    """Levels of windows, one after the other [dB]."""
+    """Levels of successive windows [dB]."""
     n = round(window_s * RATE)
     return 10 * np.log10(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n).astype(float)), axis=1) + 1e-12)
 
@@ -109,7 +109,7 @@ def test_level_does_not_jump_when_the_tracked_band_takes_over() -> None:
 
 
 def test_tracked_pitch_does_not_alternate_between_equal_harmonics() -> None:
-    """Either is the stronger in turn, by 2 dB, as a refrigerator has them."""
+    """Two harmonics alternate as the stronger one, by 2 dB, as in a refrigerator."""
     t = np.arange(40 * RATE) / RATE
     turn = 10 ** (np.sign(np.sin(2 * np.pi * t / 7.0)) / 20)
     x = (0.1 * turn * np.sin(2 * np.pi * 150 * t) + 0.1 / turn * np.sin(2 * np.pi * 240 * t)).astype(np.float32)

@@ -1,4 +1,4 @@
-"""The default converter: roughness at its own rate, and nothing else than `adaptive` where there is none."""
+"""The default converter `auto`: roughness is kept at its rate; without roughness it equals `adaptive`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def felt(context: ConversionContext, kind: str = "auto") -> np.ndarray:
 
 
 def line(samples: np.ndarray, frequency_hz: float) -> float:
-    """Amplitude of one frequency."""
+    """Amplitude at one frequency."""
     t = np.arange(len(samples)) / RATE
     return float(2 * abs((samples * np.exp(-2j * np.pi * frequency_hz * t)).mean()))
 

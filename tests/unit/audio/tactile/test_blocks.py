@@ -1,4 +1,4 @@
-"""Blocks of any size, drawn, through every converter; its other promises are in `scene2hap.testing`."""
+"""Every converter with blocks of random sizes; its other contract tests are in `scene2hap.testing`."""
 
 from __future__ import annotations
 

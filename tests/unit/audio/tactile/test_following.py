@@ -1,4 +1,4 @@
-"""A bed rises and falls as the sound that it is made of."""
+"""The bed of a converted sound follows the level changes of the sound."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def through(x: np.ndarray, own_hz: float = 120.0, *, block: int = 3001) -> np.nd
 
 
 def levels_db(x: np.ndarray) -> np.ndarray:
-    """Of each 100 ms, without the first second, in which filters settle."""
+    """Level of each 100 ms [dB], without the first second, in which filters settle."""
     return 10 * np.log10((x[RATE:].reshape(-1, RATE // 10) ** 2).mean(axis=1) + 1e-12)
 
 
@@ -35,7 +35,7 @@ def range_db(x: np.ndarray) -> float:
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("slope", [0.0, 1.0])
 def test_a_steady_noise_stays_steady(slope: float, seed: int) -> None:
-    """A narrow band of it surges by 5 to 9 dB by itself."""
+    """A narrow band of noise fluctuates by 5 to 9 dB by itself."""
     x = coloured_noise(np.random.default_rng(seed), len(T), slope)
     assert range_db(through(x)) <= range_db(x) + 3.0
 
@@ -54,7 +54,7 @@ def test_level_changes_outside_the_band_are_felt() -> None:
 
 
 class _Bed:
-    """A bed with a gain of its own."""
+    """A bed that applies a given gain to each sample."""
 
     def __init__(self, gain: np.ndarray) -> None:
         self._gain, self._n = gain, 0
@@ -112,7 +112,7 @@ def test_blocks_of_any_size_give_the_same_bits_with_onsets_over_it() -> None:
 
 
 def test_a_slow_change_outside_the_band_is_felt() -> None:
-    """The usual level of the bed was its mean over two seconds, so that it gave way to the change (r = 0.78)."""
+    """In an earlier version the reference level was a mean over two seconds, which followed the change (r = 0.78)."""
     rng = np.random.default_rng(4)
     swell = 10 ** (-1.0 + 2.0 * np.minimum(T, 6.0 - T) / 6.0)
     x = np.sin(2 * np.pi * 150.0 * T) + 3.0 * swell * band_noise(rng, len(T), RATE, 500.0, 3500.0)

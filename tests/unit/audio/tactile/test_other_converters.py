@@ -26,7 +26,7 @@ def tone(frequency_hz: float, seconds: float = 3.0, a: float = 0.5) -> np.ndarra
 
 
 def rough(t: np.ndarray) -> np.ndarray:
-    """A buzz: 24 partials 44 Hz apart, which beat with one another."""
+    """A buzz: 24 partials 44 Hz apart, which beat with each other."""
     return 0.04 * sum(np.sin(2 * np.pi * 44 * k * t + k * k) for k in range(5, 29))
 
 
@@ -131,13 +131,13 @@ def test_perception_level_amplitudes_solve_the_published_equations() -> None:
     low, high = amplitudes(frame, 44_100)
     total, share = low + high, high / (low + high)
     assert 0 < share < 1
-    # Both fits of the paper must name the same roughness, and intensity must follow from it.
+    # Both fits of the paper must give the same roughness, from which the intensity follows.
     felt = 3.98 * math.sqrt(total) - 25.8 * share**2 + 25.5 * share + 0.203
     intensity = (felt + 28.15 * share**2 - 28.3 * share - 0.479) / 0.529
     magnitude = np.abs(np.fft.rfft(frame))
     assert intensity > 0
     loudness = ((intensity + 0.4) / (0.035 * felt**2)) ** 2
-    plain = 0.065 * np.sum(20 * np.log10(1.37 * magnitude[3:595]) / 62.0)  # a flat contour, right within a fifth
+    plain = 0.065 * np.sum(20 * np.log10(1.37 * magnitude[3:595]) / 62.0)  # with a flat contour, accurate within 20 %
     assert loudness == pytest.approx(plain, rel=0.3)
 
 

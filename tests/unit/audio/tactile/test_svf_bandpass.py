@@ -17,7 +17,7 @@ CONTEXT = ConversionContext()
 def tpt(x: np.ndarray, tunings: list[tuple[int, float, float]], rate: float) -> np.ndarray:
     """Simper's recurrence, sample by sample: two trapezoidal integrators in a loop, band-pass output times 1/Q.
 
-    `tunings` are (first sample, centre, Q), so that the filter may be retuned while it rings.
+    `tunings` are (first sample, centre, Q): each retunes the filter while it rings.
     """
     s1 = s2 = 0.0
     y = np.empty(len(x))

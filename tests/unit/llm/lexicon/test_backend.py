@@ -110,7 +110,7 @@ def test_unknown_names_get_category_unknown() -> None:
         ("mini_fridge", (0.5, 0.5, 0.5), "refrigerator"),
         ("toy_car", (4.0, 1.8, 1.4), "toy car"),
         ("phone", (0.15, 0.07, 0.008), "smartphone"),
-        ("fridge", (0.0, 0.0, 0.0), "refrigerator"),  # no size is no small size
+        ("fridge", (0.0, 0.0, 0.0), "refrigerator"),  # an unknown size does not mean a small one
     ],
 )
 def test_miniatures_are_silent(name: str, size_m: tuple[float, float, float], category: str) -> None:
@@ -140,7 +140,7 @@ def test_pan_sizzles_on_a_heater(heater: str) -> None:
     answer = analyse("pan", neighbour_names=["wall_back", heater])
     assert answer.vibrates
     (state,) = answer.states
-    # The word that the heater itself is categorised by, since that is what a session compares.
+    # The word is the heater's category, which a session compares with the need.
     assert state.needs_contact == analyse(heater, (0.6, 0.6, 0.6)).object_category
 
 
@@ -170,7 +170,7 @@ def test_object_shaken_by_a_neighbour_is_no_source() -> None:
         ("MetalBench", "metal"),
         ("crate_lid", "wood"),
         ("pot_lid", "stainless steel"),
-        ("wood_chipper", "steel"),  # it chips wood
+        ("wood_chipper", "steel"),  # a machine that chips wood
         ("toy_truck", "plastic"),
         ("wooden_toy_truck", "wood"),
     ],
@@ -197,9 +197,9 @@ def test_floors_of_wet_rooms_are_tiled(name: str, place: str, material: str) -> 
     [
         ("chair", ["M_Metal_Brushed"], "metal"),
         ("chair", ["wood_oak", "Oak.001"], "oak"),
-        ("chair", ["wood_oak", "fabric_red"], "wood"),  # two materials: the table decides
-        ("glass_table", ["wood"], "glass"),  # the object's own name goes first
-        ("fridge", ["wood"], "steel"),  # a machine keeps its own
+        ("chair", ["wood_oak", "fabric_red"], "wood"),  # two materials: the lexicon's table decides
+        ("glass_table", ["wood"], "glass"),  # the object's name has priority
+        ("fridge", ["wood"], "steel"),  # a machine keeps its usual material
         ("Object_7", ["Marble_White"], "marble"),
         ("Object_7", ["Material.001", "lambert1"], "unknown"),
     ],

@@ -1,11 +1,11 @@
-"""The sentences of the lexicon's reasons."""
+"""Sentences of the lexicon's reasons: articles, and names of any length."""
 
 import re
 
 from scene2hap.llm.lexicon.categories import Measured, judge
 from scene2hap.llm.lexicon.table import table
 
-# How they are spoken decides: a you-niform, an em-ar-eye scanner, an our-glass.
+# The pronunciation decides: a you-niform, an em-ar-eye scanner, an our-glass.
 SPOKEN_WITH_A_CONSONANT = {"ufo", "ukulele", "uniform", "urinal", "usb stick", "utensil rack"}
 SPOKEN_WITH_A_VOWEL = {"hourglass", "led strip", "mri scanner", "x-ray machine"}
 

@@ -1,4 +1,4 @@
-"""Names that height, size and neighbours speak against."""
+"""Confidence of names that contradict height, size or neighbours."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Authored names and the noun that a person would read in them."""
+"""Nouns that the lexicon reads in authored names."""
 
 import pytest
 
@@ -88,7 +88,7 @@ NAMES = {
     "curtain_light_blue": "curtain",
     "sofa_orange": "sofa",
     "phone_ringing": "smartphone",
-    # the object first
+    # the object comes first
     "crate_tomatoes": "crate",
     "crate_cheese": "crate",
     "dishrack_plates": "dish rack",
@@ -118,12 +118,12 @@ NAMES = {
     "config": None,
     "content": None,
     "certain": None,
-    # slips of the keyboard
+    # typing errors
     "refridgerator": "refrigerator",
     "diswasher": "dishwasher",
     "Dumbell": "dumbbell",
     "refrigirator": "refrigerator",
-    # no object, or none that can be told
+    # no recognisable object
     "Object_7": None,
     "Circle.021_0": None,
     "Plane": None,
@@ -155,7 +155,7 @@ def test_authored_names_are_read_as_the_right_noun(name: str, noun: str | None) 
 
 
 def test_single_letters_are_not_part_of_a_noun() -> None:
-    # Together they would spell tablet, panel, cart and bowl.
+    # Joined to the word, the letters would spell tablet, panel, cart and bowl.
     for name, noun in {"Table_T": "table", "Pan_E_L": "pan", "CarT": "car", "bow_L": None}.items():
         row = read_name(name).row
         assert (row.noun if row else None) == noun

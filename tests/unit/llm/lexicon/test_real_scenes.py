@@ -1,4 +1,4 @@
-"""The names that scenes carry, of own rooms and of scenes by others, read from the files' JSON by hand."""
+"""The lexicon on names of whole scenes: the rooms of the tests, and scenes by others, read from their JSON."""
 
 import json
 import struct

@@ -1,4 +1,4 @@
-"""The table of objects: whole, unambiguous, and speaking of materials that exist."""
+"""The lexicon's table of objects: complete, unambiguous, plausible, and with known materials."""
 
 import csv
 from collections import Counter
@@ -12,7 +12,7 @@ from scene2hap.llm.lexicon import similar_materials, words
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.table import PLACES, ObjectRow, table
 
-# From the paper's scenes and studies, and what any household hears.
+# From the paper's scenes and studies, and from usual households.
 VIBRATING = """
     refrigerator freezer extractor microwave oven dishwasher washer dryer kettle blender mixer fan shaver smartphone
     tablet laptop computer printer copier shredder projector television radio speaker subwoofer stereo heater
@@ -83,7 +83,7 @@ def test_table_covers_every_kind_of_place() -> None:
 
 
 def test_names_are_unique_in_the_table() -> None:
-    # Written together, since "dish washer" and "dishwasher" are read alike.
+    # Compared without spaces, since "dish washer" and "dishwasher" are read equally.
     joined = [name.replace(" ", "").replace("-", "") for row in table() for name in names_of(row)]
     assert [name for name, count in Counter(joined).items() if count > 1] == []
     assert all(name == name.lower().strip() and name for row in table() for name in names_of(row))

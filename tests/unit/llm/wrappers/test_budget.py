@@ -1,4 +1,4 @@
-"""BudgetBackend: limits hold before the call, and unknown is not zero."""
+"""BudgetBackend: limits are checked before each call, and unknown costs do not count as zero."""
 
 import asyncio
 from pathlib import Path
@@ -31,7 +31,7 @@ def spend(backend: BudgetBackend, calls: int) -> None:
         ({"max_calls": 0}, 0),
         ({"max_tokens": 2400}, 2),
         ({"max_tokens": 2401}, 3),
-        # 1000 tokens in at 2 and 200 out at 5 per million: 0.003 per call
+        # 1000 tokens in at 2 and 200 out at 5 dollars per million: 0.003 per call
         ({"max_cost": 0.0029}, 1),
         ({"max_cost": 0.0031}, 2),
     ],
@@ -124,7 +124,7 @@ def test_given_prices_precede_listed_prices() -> None:
 
 
 def test_bad_answers_count_towards_the_cost() -> None:
-    """Cut short, refused or empty: the service bills them."""
+    """The service also bills truncated, refused and empty answers."""
 
     def cut(_: LLMRequest) -> LLMReply:
         raise UnusableAnswer("cut", "{", model="gpt-4o", usage=USAGE)

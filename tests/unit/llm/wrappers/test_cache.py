@@ -1,4 +1,4 @@
-"""CacheBackend: equality of requests, and its files."""
+"""CacheBackend: equality of requests, files and locks."""
 
 import asyncio
 import dataclasses
@@ -29,7 +29,7 @@ ANSWER = LLMReply(json.dumps(GOOD["scene_analyzer"]), "m", usage={"prompt_tokens
 
 
 def plain(reply: LLMReply) -> LLMReply:
-    """The reply without the name under which it is kept."""
+    """The reply without its cache key."""
     return dataclasses.replace(reply, key="")
 
 
@@ -42,7 +42,7 @@ def ask(backend: CacheBackend, asked: LLMRequest | None = None) -> LLMReply:
 
 
 def files(folder: Path) -> list[Path]:
-    """Stored entries; empty lock files remain."""
+    """The stored entries, without the empty lock files."""
     return sorted(path for path in folder.rglob("*") if path.is_file() and path.parent.name != "locks")
 
 
@@ -122,7 +122,7 @@ def test_identity_includes_model_address_and_deciding_settings(other: OpenAIBack
 def test_identity_of_a_local_backend_includes_all_deciding_settings(settings: dict[str, Any]) -> None:
     one, other = LocalBackend("m", base_url="http://a"), LocalBackend("m", base_url="http://a", **settings)
     assert one.identity != other.identity
-    json.dumps(other.identity)  # a cache writes it
+    json.dumps(other.identity)  # the cache writes it as JSON
 
 
 def test_identity_excludes_settings_that_do_not_affect_answers() -> None:
@@ -136,7 +136,7 @@ def test_reply_key_is_the_file_name_from_the_first_request(tmp_path: Path) -> No
 
 
 def test_cache_reads_the_identity_after_the_backend_is_ready(tmp_path: Path) -> None:
-    """A local backend learns its model from the server, which may serve another one tomorrow."""
+    """A local backend gets its model from the server, which may serve another model later."""
 
     class Learning(FunctionBackend):
         name = "first"
@@ -154,7 +154,7 @@ def test_cache_reads_the_identity_after_the_backend_is_ready(tmp_path: Path) -> 
 
 
 def test_cache_key_includes_identity_learnt_while_answering(tmp_path: Path) -> None:
-    """A guest's wrapper may hand `identity` on but not `ready`."""
+    """A plugin's wrapper may pass on `identity` but not `ready`."""
 
     def answer(_: LLMRequest) -> LLMReply:
         inner.model = "learnt"
@@ -226,7 +226,7 @@ def test_file_that_cannot_be_read_back_is_written_again(tmp_path: Path, damage: 
 
 
 def test_stored_answer_that_violates_a_newer_rule_is_requested_again(tmp_path: Path) -> None:
-    """Rules that are not in the schema, as for words, may change without changing the key."""
+    """Rules outside the schema, such as those on words, may change without a change of the key."""
     inner = answering()
     backend = CacheBackend(inner, tmp_path)
     ask(backend)
@@ -304,7 +304,7 @@ with lock:
 
 
 def other_run(folder: Path, answer: str = "") -> subprocess.Popen[str]:
-    """A process that holds the lock of the one answer in the folder, which it writes after a while, or never."""
+    """Start a process that holds the lock of the only entry in a folder, and writes the entry later or never."""
     (entry,) = files(folder)
     entry.unlink()
     lock = folder / "locks" / f"{entry.stem}.lock"

@@ -1,4 +1,4 @@
-"""The dated list of prices."""
+"""The dated list of model prices."""
 
 from datetime import date
 
@@ -19,7 +19,7 @@ def test_price_list_states_date_and_source() -> None:
     [
         ("gpt-4o", Price(2.5, 10.0, 1.25)),
         ("gpt-4o-2024-08-06", Price(2.5, 10.0, 1.25)),
-        ("gpt-4o-2024-05-13", Price(5.0, 15.0)),  # the one snapshot that is dearer than its model
+        ("gpt-4o-2024-05-13", Price(5.0, 15.0)),  # the only snapshot with a higher price than its model
         ("gpt-4o-mini-2024-07-18", Price(0.15, 0.6, 0.075)),
         ("gpt-4", None),
         ("llava", None),

@@ -1,4 +1,4 @@
-"""RetryBackend, with waiting written down instead of done."""
+"""RetryBackend: which errors are retried, and the waits, which a stub records instead of waiting."""
 
 import asyncio
 import random
@@ -13,7 +13,7 @@ AWAY = BackendUnavailable("away", retryable=True)
 
 
 class Failing:
-    """Fails with each of these errors, then answers; keeps the waits between."""
+    """A backend that fails with each of the given errors, then answers; records the waits between retries."""
 
     def __init__(self, *errors: Exception) -> None:
         self.errors = list(errors)

@@ -1,4 +1,4 @@
-"""Wrappers around wrappers, by hand and from a configuration."""
+"""Stacks of backend wrappers, built by hand and from a configuration."""
 
 import asyncio
 import itertools
@@ -87,7 +87,7 @@ ORDERS = [
 
 @pytest.mark.parametrize("order", ORDERS, ids="-".join)
 def test_wrappers_compose_in_every_sensible_order(order: tuple[str, ...], tmp_path: Path) -> None:
-    """With retries next to the model, others in any order: a valid answer is kept, recorded and requested once."""
+    """With retries next to the model, others in any order: a valid answer is cached, recorded and requested once."""
     answers = iter([json.dumps(GOOD["scene_analyzer"])])
     inner = FunctionBackend(lambda _: next(answers))
     wrap = {
@@ -162,7 +162,7 @@ def test_chain_through_the_whole_stack_is_paid_once(tmp_path: Path) -> None:
     ]
     assert found[0] == found[1]
     bare = infer_haptics(kitchen, inner)
-    # Provenance names the cache's file where there is one; all else is the same.
+    # Provenance names the cache file if there is one; all other fields are equal.
     assert {name: replace(haptics, provenance=bare[name].provenance) for name, haptics in found[0].items()} == bare
-    # The second run with a cache asked nothing, the one without asked all of it again.
+    # The second run with a cache sent no request; the run without a cache sent all requests again.
     assert len(inner.requests) == 2 * len({asked.prompt for asked in inner.requests})

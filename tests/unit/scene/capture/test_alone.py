@@ -1,4 +1,4 @@
-"""Pictures of objects by themselves: equal for equal objects, wherever they stand."""
+"""Isolated pictures are equal for equal objects at any place and with any neighbours."""
 
 import math
 
@@ -16,7 +16,7 @@ SMALL = {"size_px": 48}
 
 def lamp(object_id: str, pose: Pose) -> SceneObject:
     cone = trimesh.creation.cone(0.2, 0.5)
-    # Without any symmetry.
+    # A mesh without symmetry.
     vertices = np.asarray(cone.vertices) @ np.array([[1.0, 0.2, 0.3], [0.0, 1.5, 0.4], [0.0, 0.0, 1.0]])
     mesh = TriMesh(vertices, np.asarray(cone.faces, np.int32))
     return SceneObject(object_id, pose=pose, geometry=mesh)

@@ -1,4 +1,4 @@
-"""Colours: materials in one table, textures by their nearest texel, glass, holes, and light."""
+"""Colour table of the renderers: materials, nearest texels of textures, glass, cut-outs, and light."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def test_a_texture_with_holes_is_a_cutout_and_a_faint_one_is_not() -> None:
 def test_light_depends_on_the_side_seen_and_not_on_the_winding() -> None:
     forward, up = np.array([0.0, -1.0, 0.0]), np.array([0.0, 1.0, 0.0])
     faces = np.array([(0, 1, 0), (0, -1, 0), (1, 0, 0)], np.float32)
-    # Seen from above, both windings of a level face show their upper side.
+    # Seen from above, a level face shows its upper side for both windings.
     expected = [AMBIENT + HEADLIGHT + SKYLIGHT] * 2 + [AMBIENT]
     np.testing.assert_allclose(light(faces, forward, up), expected, rtol=1e-6)
     from_below = AMBIENT + HEADLIGHT - SKYLIGHT

@@ -1,4 +1,4 @@
-"""What stands in the way, on small scenes whose answers are plain to see."""
+"""Culling of objects that hide the target, on small scenes with obvious answers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ embree = pytest.importorskip(
     "scene2hap.scene.capture.embree", reason="needs the extra `pictures`", exc_type=ImportError
 )
 
-# Azimuth 0 looks from +z; the room is open to none of its four sides.
+# Azimuth 0 looks from +z; the room is closed on all four sides.
 ROOM = (
     box("floor", (6, 0.1, 6), (0, -0.05, 0)),
     box("ceiling", (6, 0.1, 6), (0, 2.55, 0)),
@@ -100,7 +100,7 @@ def test_a_closed_room_is_opened_towards_the_camera_alone(azimuth: float) -> Non
     ids = man.renderer.identify(camera, selection)
     seen = {man.stage.actors[k].id for k in np.unique(ids[ids >= 0])}
     assert {"floor", "table", "north", "west"} <= seen
-    # The ceiling shows at most its far rim.
+    # At most the far rim of the ceiling is visible.
     assert (ids == man.stage.index["ceiling"]).mean() < 0.02
     assert (ids == man.stage.index["floor"]).mean() > 0.1
 

@@ -1,4 +1,4 @@
-"""Ray-cast pictures: ids, colours, holes, smooth edges, and the same bytes in every process."""
+"""Ray-cast pictures: ids, colours, cut-outs, antialiased edges, and equal bytes in every process."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ embree = pytest.importorskip(
 
 
 def painted(color: tuple[float, float, float, float], texture: np.ndarray | None = None) -> Appearance:
-    """Twelve faces of a box in one material; the texture lies once over each triangle's half of a square."""
+    """The appearance of a box of twelve faces in one material; each triangle shows half of the texture."""
     uv = np.tile(np.array([(0, 0), (0, 1), (1, 1)], np.float32), (12, 1, 1))
     return Appearance((FaceMaterial(color, texture),), np.zeros(12, np.int32), uv)
 
@@ -69,7 +69,7 @@ def test_textures_lie_where_uv_says() -> None:
     picture, ids = draw(scene(cube), antialias=False)
     red, green = picture[ids == 0][:, 0] > 0, picture[ids == 0][:, 1] > 0
     assert (red != green).all()
-    # On the triangle (0,0), (0,1), (1,1), three quarters of the area have u < 1/2; perspective moves that a little.
+    # On the triangle (0,0), (0,1), (1,1), 3/4 of the area have u < 1/2; perspective changes this a little.
     assert red.mean() == pytest.approx(0.75, abs=0.04)
 
 
@@ -90,7 +90,7 @@ def test_hidden_object_leaves_no_hole_in_touching_objects() -> None:
     lonely = scene(*snapshot.objects[:1], replace(snapshot.objects[1], pose=box("x", (1, 1, 1), (0, 0.75, 0)).pose))
     ids = draw(lonely, {0}, antialias=False)[1]
     other = draw(snapshot, {0, 1}, antialias=False)[1]
-    # Under the cup the table's top is met and not what lies below it.
+    # Under the hidden cup, rays meet the table's top and not objects below it.
     assert set(np.unique(ids)) == {-1, 0}
     assert ((ids >= 0) >= (other == 0)).all()
     top = with_cup[ids == 0]

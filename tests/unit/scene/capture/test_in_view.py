@@ -1,4 +1,4 @@
-"""Which triangles can colour a pixel: what is left out must not, whatever the camera, by the rasteriser's own word."""
+"""Culling of triangles: no culled triangle covers a pixel for any camera, checked with the rasteriser."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def visible(triangles: np.ndarray, camera: Camera) -> np.ndarray:
 
 
 def placed(camera: Camera, *corners: tuple[float, float, float]) -> np.ndarray:
-    """A triangle (1, 3, 3) with corners at pixels and depths."""
+    """A triangle (1, 3, 3) whose corners have the given pixels and depths."""
     points = []
     for column, row, depth in corners:
         x = camera.centre[0] + (column / camera.size_px - 0.5) * 2 * camera.half

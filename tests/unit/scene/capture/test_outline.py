@@ -1,4 +1,4 @@
-"""Outlines against a dilation by distance, computed apart."""
+"""Outlines, against an independent dilation by distance."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def test_outline_covers_pixels_within_its_width(width: int, seed: int) -> None:
     is_target = rng.random((60, 60)) < 0.01
     is_target[20:30, 55:] = True
     distance = distance_transform_edt(~is_target)
-    # Half a pixel of grace, as pixels have a size.
+    # A tolerance of half a pixel, since pixels have a size.
     np.testing.assert_array_equal(outline_of(is_target, width), (distance > 0) & (distance <= width + 0.5))
 
 

@@ -1,4 +1,4 @@
-"""The software rasteriser draws what ray casting does, up to the rims of things."""
+"""The software rasteriser gives the pictures of ray casting, except at the rims of objects."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_panda3d_renderer_is_chosen_by_name() -> None:
 
 
 def leaves(holed: bool) -> SceneSnapshot:
-    """A crate whose texture has holes, with a core inside and a floor below."""
+    """A crate, whose texture may have holes, with a core inside and a floor below."""
     texels = np.full((8, 8, 4), (30, 160, 40, 255), np.uint8)
     if holed:
         texels[:, :4, 3] = 0
@@ -83,7 +83,7 @@ def leaves(holed: bool) -> SceneSnapshot:
 
 
 def seen_by(renderer: Any, stage: Stage, size_px: int = 200) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Picture, its ids, and the ids of an id pass."""
+    """The picture of a scene, its ids, and the ids of a separate id pass."""
     points = np.concatenate([actor.points_m for actor in stage.actors])
     camera = frame(points, 30.0, 40.0, "y", 0.8, size_px)
     drawn: tuple[np.ndarray, np.ndarray] = renderer.draw(camera, Selection(stage.everyone))
@@ -119,7 +119,7 @@ def test_object_ids_are_distinct_in_a_large_scene(n_objects: int, is_textured: b
     _, expected, _ = seen_by(embree.EmbreeRenderer(stage), stage, 400)
     np.testing.assert_array_equal(ids, identified)
     assert set(np.unique(ids)) == {-1, *range(n_objects)}
-    # Corners are rounded to whole pixels, so that rims of these small tiles differ.
+    # Corners are rounded to whole pixels, so that the rims of small tiles differ.
     inner = minimum_filter(expected, 5) == maximum_filter(expected, 5)
     np.testing.assert_array_equal(ids[inner], expected[inner])
 

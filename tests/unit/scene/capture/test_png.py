@@ -1,4 +1,4 @@
-"""Our PNG files, read by Pillow."""
+"""The library's PNG files, read by Pillow."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pictures of own rooms and of scenes made by others: framing, outlines against an independent id pass, visibility."""
+"""Pictures of the tests' rooms and of other real scenes: framing, outlines against a separate id pass, visibility."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def names() -> list[str]:
 
 
 def studio_of(name: str) -> Studio:
-    """The scene captured without its looks, whose textures may have holes that an id pass does not know."""
+    """The scene captured without appearances, whose textures may have holes that an id pass does not know."""
     if name not in _loaded:
         snapshot = load_scene(file_of(name), unit_m=FILES[name][1] if name in FILES else None)
         bare = tuple(replace(item, appearance=None) for item in snapshot.objects)
@@ -70,7 +70,7 @@ def rays_at(camera: Camera, rows: np.ndarray, columns: np.ndarray) -> np.ndarray
 
 
 def first_objects(studio: Studio, camera: Camera, selection: Selection, directions: np.ndarray) -> np.ndarray:
-    """Which object each ray meets first, by Moeller and Trumbore's test of every ray with every triangle."""
+    """The first object on each ray, by Moeller and Trumbore's test of every ray with every triangle."""
     origin = np.asarray(studio.stage.origin_m)
     best, owner = np.full(len(directions), np.inf), np.full(len(directions), -1)
     focus = np.asarray(selection.focus_m)
@@ -84,7 +84,7 @@ def first_objects(studio: Studio, camera: Camera, selection: Selection, directio
             normal = np.cross(edge1, edge2)
             side = [np.sign(((point - a) * normal).sum(axis=1)) for point in (camera.eye_m, focus)]
             keep = side[0] * side[1] >= 0
-        # Triangles wholly to one side of all rays are left out; those around the eye stay.
+        # Triangles wholly on one side of all rays are left out; those around the eye are kept.
         placed = (triangles - camera.eye_m) @ camera.axes.T
         ahead = (placed[:, :, 2] > 1e-9).all(axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):

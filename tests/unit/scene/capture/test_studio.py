@@ -1,4 +1,4 @@
-"""Captured scenes with a renderer that only counts: laziness, sharing, caches, errors."""
+"""Captured scenes with a counting renderer: lazy rendering, sharing, caches, errors."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from scenes import box, scene
 
 
 class CountingRenderer:
-    """Paints a square of the first actor shown; tells how often it was asked."""
+    """A renderer that paints a square of the first shown actor, and counts its calls."""
 
     made = 0
     drawn = 0
@@ -53,7 +53,7 @@ def _fresh() -> Iterator[None]:
 
 
 def cups_on_tables() -> SceneSnapshot:
-    """Two tables of one kind on a floor, two cups on tables and one on the floor, all of one kind."""
+    """Two equal tables on a floor, and three equal cups: two on tables and one on the floor."""
     keys = {"floor": "f", "table": "t", "table#2": "t", "cup": "c", "cup#2": "c", "cup#3": "c"}
     objects = [
         box("floor", (8, 0.1, 8), (0, -0.05, 0)),
@@ -95,7 +95,7 @@ def test_pictures_are_rendered_at_first_access() -> None:
 def test_copies_share_images_and_statistics_count_them() -> None:
     shot = captured()
     stats = render_all(shot)
-    # Kinds: floor, table, cup. Classes: floor on nothing, table on floor, cup on table, cup on floor.
+    # Distinct objects: floor, table, cup. Distinct contexts: floor, table on floor, cup on table, cup on floor.
     assert stats.rendered == CountingRenderer.drawn == 4 + 8 * 3 + 8 * 4
     cups = [shot.object(key).images for key in ("cup", "cup#2", "cup#3")]
     assert cups[0] is not None and cups[1] is not None and cups[2] is not None  # noqa: PT018
@@ -107,7 +107,7 @@ def test_copies_share_images_and_statistics_count_them() -> None:
 def test_sharing_can_be_turned_off() -> None:
     stats = render_all(captured(share_copies=False))
     assert stats.rendered + stats.from_memory == 4 + 8 * 6 + 8 * 6
-    # The same mesh turned the same way is the same isolated picture even so.
+    # Equal meshes at equal rotations still have equal isolated pictures.
     assert stats.from_memory == 8 * 3
 
 

@@ -1,4 +1,4 @@
-"""How objects lie to each other: support, nearness, shells, containers, and who stands for whom."""
+"""Relations of objects for pictures: support, nearness, shells, containers, and copies that share pictures."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_support_is_the_first_object_below() -> None:
     room = stage(*ROOM)
     below = {actor.id: under for actor, under in zip(room.actors, supports(room), strict=True)}
     found = {key: None if under is None else room.actors[under].id for key, under in below.items()}
-    # The saucer is sunk into the table to half its height, and the cup hovers a millimetre over the saucer.
+    # The saucer is sunk into the table by half its height, and the cup hovers 1 mm above the saucer.
     assert found == {
         "floor": None,
         "wall": "floor",

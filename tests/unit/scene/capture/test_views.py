@@ -1,4 +1,4 @@
-"""Cameras: where they stand, what they frame, and that rays and projection agree."""
+"""Cameras: their position, their framing, and agreement of rays and projection."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""MJCF files: what they may read, what they may cost, and that MuJoCo stays quiet."""
+"""MJCF files: limits on the files they may read, limits on their size, and no output of MuJoCo."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def write(path: Path, text: str) -> Path:
 
 @pytest.fixture
 def home(tmp_path: Path) -> Path:
-    """A folder with a scene's own folder, `scene`, and another beside it, `other`, with a mesh in each."""
+    """The folder `scene`, beside a folder `other`; each holds a mesh."""
     write(tmp_path / "scene" / "meshes" / "t.obj", TETRAHEDRON)
     write(tmp_path / "other" / "t.obj", TETRAHEDRON)
     write(tmp_path / "other" / "part.xml", f"<mujocoinclude>{BALL}</mujocoinclude>")
@@ -42,7 +42,7 @@ def mjcf(folder: Path, inside: str, name: str = "main.xml") -> Path:
     return write(folder / name, f"<mujoco>{inside}</mujoco>")
 
 
-# -- what may be read ------------------------------------------------------------------------------------------------
+# -- files that may be read ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -147,7 +147,7 @@ def test_a_missing_file_is_named(home: Path) -> None:
         load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{"x" * 5000}"/></asset>{WORLD}'))
 
 
-# -- what it may cost ------------------------------------------------------------------------------------------------
+# -- limits on size --------------------------------------------------------------------------------------------------
 
 
 def test_a_document_type_is_refused_before_any_entity_grows(home: Path) -> None:
@@ -207,7 +207,7 @@ def test_large_files_are_refused(home: Path, monkeypatch: pytest.MonkeyPatch) ->
         load_mjcf(mjcf(home, BALL))
 
 
-# -- what MuJoCo says ------------------------------------------------------------------------------------------------
+# -- errors and warnings of MuJoCo -----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -288,13 +288,13 @@ KITCHENS = [name for name in REAL if name.startswith("kitchen/")]
 
 @pytest.fixture(scope="module")
 def furniture(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The root of the furniture that the tests build."""
+    """The root folder of the furniture that the tests build."""
     return write_furniture(tmp_path_factory.mktemp("furniture"))
 
 
 @pytest.mark.parametrize("name", [*(f"own {name}" for name in IDS), *there(REAL, SIM.joinpath)])
 def test_kitchens_are_loaded_by_their_bodies(furniture: Path, name: str) -> None:
-    """The numbers of real ones are counted in the XML: bodies with visual geoms."""
+    """The expected numbers of real kitchens are counted in the XML: bodies with visual geoms."""
     if name.startswith("own "):
         root, name = furniture, name.removeprefix("own ")
         n_objects, some = len(IDS[name]), {key: "kettle" if key == "kettleroot" else key for key in IDS[name]}
@@ -325,13 +325,13 @@ def test_furniture_is_measured_from_its_visual_geoms(furniture: Path) -> None:
 def test_a_real_kitchen_is_measured_from_its_visual_geoms() -> None:
     model, data = open_mjcf(needed(SIM / "kitchen" / "kitchen1.xml"), assets_root=SIM)
     scene = snapshot(model, data, unit_m=0.5)
-    # box_counter_body.xml: a top of half size 0.463 x 1.08 x 0.03 at z = 1.57 on a base that stands on the floor.
+    # box_counter_body.xml: a top of half size 0.463 x 1.08 x 0.03 at z = 1.57, on a base on the floor.
     np.testing.assert_allclose(
         scene.object("box_counter").bounds_m,
         np.array([[-0.855 - 0.465, -0.508 - 1.08, 0.003], [-0.855 + 0.463, -0.508 + 1.08, 1.60]]) / 2,
         atol=1e-6,
     )
-    # Four knobs of one make are copies.
+    # The four equal knobs are copies.
     assert len({scene.object(f"knob {i}").instance_key for i in range(1, 5)}) == 1
 
 

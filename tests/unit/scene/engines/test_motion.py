@@ -1,4 +1,4 @@
-"""Which objects really move."""
+"""Detection of moved objects, without jitter."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ HOME = Pose((1, 2, 3), (0, 0, math.sin(0.1), math.cos(0.1)))
 
 
 def turned(angle_rad: float) -> Pose:
-    """Home, turned about z by so much more."""
+    """HOME, rotated further about z by an angle."""
     half = 0.1 + angle_rad / 2
     return Pose((1, 2, 3), (0, 0, math.sin(half), math.cos(half)))
 

@@ -1,4 +1,4 @@
-"""MuJoCo models as snapshots, held against MuJoCo's own numbers: places, planes and contacts."""
+"""MuJoCo models as snapshots, against MuJoCo's values: places, planes and contacts."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ ALL_SHAPES = """
 
 
 def geom_bounds(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
-    """Lowest and highest corner (2, 3) in the world from MuJoCo's pose of the geom, by the support of each shape."""
+    """World bounds (2, 3) of a geom, from MuJoCo's pose and the support function of its shape."""
     kind, size = mujoco.mjtGeom(int(model.geom_type[geom])), model.geom_size[geom]
     at, turn = data.geom_xpos[geom], data.geom_xmat[geom].reshape(3, 3)
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
@@ -100,7 +100,7 @@ def test_flat_shapes_are_exact(name: str) -> None:
 def test_meshes_face_outwards_even_if_their_scale_mirrors_them() -> None:
     mesh = snapshot(*load(ALL_SHAPES)).object("mesh").geometry.mesh
     a, b, c = np.moveaxis(mesh.vertices_m[mesh.faces], 1, 0)
-    # 1 x 2 x 3 / 6 for the tetrahedron of the file.
+    # The file has a tetrahedron of 1 x 2 x 3 / 6 = 1; the scales give 0.1^3 and 0.1 x 0.1 x 0.2.
     assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(0.001 + 0.002, rel=1e-6)
 
 
@@ -113,7 +113,7 @@ def test_poses_equal_those_of_bodies_and_world_geoms() -> None:
         assert item.pose.position_m == tuple(data.body(item.id).xpos)
         w, x, y, z = data.body(item.id).xquat
         np.testing.assert_allclose(item.pose.rotation_xyzw, (x, y, z, w), atol=1e-9)
-    # Compiling moves a mesh into its frame of inertia, but the file says pos="2 1 0"; refpos, to scale, stays.
+    # Compiling moves a mesh into its frame of inertia, but the pose is pos="2 1 0" of the file; scaled refpos is kept.
     assert scene.object("pillar").pose.position_m == pytest.approx((2, 1, 0), abs=1e-6)
     corner = scene.object("pillar").geometry.mesh.bounds_m[0]
     assert corner == pytest.approx((-0.03, 0, 0), abs=1e-6)
@@ -147,7 +147,7 @@ def test_a_height_field_is_a_terrain() -> None:
     scene = scene_of(f'{asset}<worldbody><geom name="hill" type="hfield" hfield="hill" pos="1 1 1"/></worldbody>')
     np.testing.assert_allclose(scene.object("hill").bounds_m, [[-2, -1, 1], [4, 3, 6]], atol=1e-9)
     vertices = scene.object("hill").geometry.mesh.vertices_m
-    # The elevations of a file begin at its upper row, which MuJoCo puts at the far end of y.
+    # The elevations of a file begin with the upper row, which MuJoCo puts at the largest y.
     model, _ = load(f'<mujoco>{asset}<worldbody><geom type="hfield" hfield="hill"/></worldbody></mujoco>')
     peak = divmod(int(model.hfield_data.argmax()), 3)
     expected = [-3.0 + 3.0 * peak[1], -2.0 + 4.0 * peak[0], 5.0]
@@ -183,7 +183,7 @@ def test_objects_on_a_plane_touch_it() -> None:
 def test_engine_contacts_are_used_on_request() -> None:
     scene = snapshot(*load(RESTING), contacts="engine")
     assert scene.contacts is not None
-    (contact,) = scene.contacts  # none of the body that cannot move
+    (contact,) = scene.contacts  # none for the body that cannot move
     assert (contact.a, contact.b) == ("floor", "ball")
     assert contact.point_m == pytest.approx((0.5, 0, 0), abs=1e-3)
     assert contact.normal == pytest.approx((0, 0, 1))

@@ -31,7 +31,7 @@ def test_body_without_geoms_gives_its_name_to_its_only_child() -> None:
         '<body name="kitchen"><body name="table"><geom size="1"/></body></body>'
         '<body name="rail"><body name="slider"><joint/><geom size="1"/></body></body></worldbody>'
     )
-    # Not of places, and not if the thing moves in its wrapper.
+    # Names of places are not passed on, nor names of wrappers in which the child moves.
     assert names(scene) == {
         "microroot": "microwave", "microdoor": "microdoor", "table": "table", "slider": "slider"
     }  # fmt: skip

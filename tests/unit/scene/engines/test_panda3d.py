@@ -1,4 +1,4 @@
-"""Panda3D scene graphs as snapshots, held against Panda3D's own bounds and transforms."""
+"""Panda3D scene graphs as snapshots, against Panda3D's bounds and transforms."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CORNERS = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)
 def geom(
     vertices: Sequence[Sequence[float]] = CORNERS, primitive: Any = None, layout: Any = None, **columns: Any
 ) -> Any:
-    """A geom of vertices and other columns (`texcoord=[...]`), a unit cube if nothing else is said."""
+    """A geom with vertices and other columns (`texcoord=[...]`); by default a unit cube."""
     names = {"texcoord": "v3t2", "color": "v3c4"}
     layout = layout or getattr(core.GeomVertexFormat, f"get_{names[next(iter(columns))] if columns else 'v3'}")()
     data = core.GeomVertexData("data", layout, core.Geom.UH_static)
@@ -50,7 +50,7 @@ def attach(parent: Any, name: str, *geoms: Any) -> Any:
 
 
 def graph() -> Any:
-    """A table of two pieces in centimetres, its mirror image, and two instances of a cup of uneven scale."""
+    """A table of two pieces in centimetres, its mirror image, and two instances of a non-uniformly scaled cup."""
     render = core.NodePath("render")
     table = render.attach_new_node("table")
     table.set_pos_hpr_scale((1, 2, 0.1), (30, 0, 0), 0.01)
@@ -215,7 +215,7 @@ def test_poses_follow_the_nodes(moved: str) -> None:
     path.set_pos(path.get_pos() + core.LVector3(0.5, -1, 2))
     path.set_hpr(path.get_hpr() + core.LVector3(70, 10, -20))
     now = poses(moving, scene)
-    # The node of the cup also hangs below the holder, in its own frame.
+    # The cup's node is also a child of the holder, in its frame.
     followers = {"cup": {"cup", "holder"}}.get(moved, {moved})
     assert {key for key in now if now[key] != scene.object(key).pose} == followers
     for key in followers:
@@ -243,7 +243,7 @@ def test_removed_node_has_no_pose() -> None:
 
 
 def picture() -> Any:
-    """Red and green above, blue and white below."""
+    """A texture: red and green above, blue and white below."""
     image = core.PNMImage(2, 2)
     for x, y, colour in [(0, 0, (1, 0, 0)), (1, 0, (0, 1, 0)), (0, 1, (0, 0, 1)), (1, 1, (1, 1, 1))]:
         image.set_xel(x, y, *colour)
@@ -298,7 +298,7 @@ def test_colours_come_from_states_materials_and_vertices() -> None:
         np.testing.assert_allclose(colour, expected[key], atol=2 / 255)
 
 
-# -- what cannot be read ---------------------------------------------------------------------------------------------
+# -- errors ----------------------------------------------------------------------------------------------------------
 
 
 def test_missing_panda3d_error_names_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""Primitives as triangles: closed, facing outwards, as large as the shapes they stand for."""
+"""Primitives as triangle meshes: closed, facing outwards, and of the right size."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ SHAPES = {
 def test_solids_are_closed_and_face_outwards(name: str) -> None:
     (vertices, faces), volume, half = SHAPES[name]
     edges = [(int(a), int(b)) for face in faces for a, b in zip(face, np.roll(face, -1), strict=True)]
-    # Every edge is walked once each way, so that there is no hole and no face is turned.
+    # Every edge occurs once in each direction: there is no hole and no inverted face.
     assert len(set(edges)) == len(edges)
     assert {(b, a) for a, b in edges} == set(edges)
     a, b, c = np.moveaxis(vertices[faces], 1, 0)
     found = np.einsum("ij,ij->", a, np.cross(b, c)) / 6
-    # A 32-gon covers sin(2 pi / 32) / (2 pi / 32) = 0.9936 of its circle; a sphere loses twice that or so.
+    # A 32-gon covers sin(2 pi / 32) / (2 pi / 32) = 0.9936 of its circle; a sphere loses about twice as much.
     assert 0.98 * volume < found <= volume * (1 + 1e-9)
     np.testing.assert_allclose(np.abs(vertices).max(axis=0), half, rtol=1e-12)
     np.testing.assert_allclose(vertices.min(axis=0), -np.array(half), rtol=1e-12)
