@@ -83,10 +83,11 @@ def test_batch_gives_the_bundles_of_live_requests_without_repeats(
     report = run.collect()
     assert (report.n_ready, report.n_to_send, report.n_under_way) == (3, 0, 0)
     assert report.n_answers == sum(server.answered.values())
-    # 1000 tokens in and 20 out (tests/llm_server.py), at half of 1.25 and 10 dollars per million.
+    # The server answers as gpt-4o with 1000 tokens in and 20 out, at half of 2.5 and 10 dollars per million
+    # (OpenAI's price list).
     usage = said().body["usage"]
-    each = (usage["prompt_tokens"] * 1.25 + usage["completion_tokens"] * 10) / 2e6
-    assert report.cost_usd is not None
+    each = (usage["prompt_tokens"] * 2.5 + usage["completion_tokens"] * 10) / 2e6
+    assert report.cost_usd == pytest.approx(report.n_answers * each)
     made = bake_many(scenes, run.folder, config=run.config)
     assert made.count("baked") == 3, [one.error for one in made.failed]
     assert not server.live
@@ -94,8 +95,6 @@ def test_batch_gives_the_bundles_of_live_requests_without_repeats(
     assert bake_many(scenes, tmp_path / "live", config=fresh).count("baked") == 3
     assert len(server.live) == report.n_answers
     assert digests(tmp_path / "live") == digests(run.folder)
-    if said().body["model"].startswith("gpt-5"):
-        assert report.cost_usd == pytest.approx(report.n_answers * each)
 
 
 def test_only_failed_requests_are_sent_again(run: Run, server: BatchServer) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import random
-import time
 import warnings
 from pathlib import Path
 from typing import Any
@@ -674,7 +673,6 @@ def test_broken_datasets_raise_only_scene_errors(tmp_path: Path) -> None:
     outcomes = set()
     for number in range(60):
         path = mutated_dataset(tmp_path / str(number), random.Random(number))
-        begun = time.perf_counter()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
@@ -682,7 +680,6 @@ def test_broken_datasets_raise_only_scene_errors(tmp_path: Path) -> None:
                 outcomes.add("read")
             except Scene2HapError as error:
                 outcomes.add(type(error).__name__)
-        assert time.perf_counter() - begun < 10
     assert outcomes >= {"read", "SceneFormatError"}
 
 
