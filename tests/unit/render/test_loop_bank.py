@@ -64,12 +64,12 @@ def test_tactile_position_stays_within_a_sample_of_the_audible_loop(n: int, rate
 
 
 def played(bank: LoopBank) -> NDArray[np.float32]:
-    return read(bank, 0, 0, 32_000)[0]
+    return read(bank, 0, 0, 120_000)[0]
 
 
 def taken(bank: LoopBank) -> NDArray[np.float32]:
     """As a start or a stop of a source takes it."""
-    return bank.taken(0, 0, 32_000)[:, 0]
+    return bank.taken(0, 0, 120_000)[:, 0]
 
 
 @pytest.mark.parametrize("reading", [played, taken])
@@ -77,10 +77,10 @@ def taken(bank: LoopBank) -> NDArray[np.float32]:
 def test_position_correction_causes_no_click(
     n: int, rate: int, reading: Callable[[LoopBank], NDArray[np.float32]]
 ) -> None:
-    """Energy above 1 kHz, where the tone has none, over four seconds with all their slips."""
+    """Energy above 1 kHz, where the tone has none, over 15 seconds with all their slips."""
     from scipy.signal import butter, sosfiltfilt
 
-    cycles = max(1, round(100 * n / rate))
+    cycles = max(1, round(400 * n / rate))
     bank = LoopBank([tone(cycles, n, rate)], Bands.dominant(), TACTILE)
     x = reading(bank).astype(np.float64)
     high = sosfiltfilt(butter(8, 1000, "highpass", fs=TACTILE, output="sos"), x)[800:-800]
