@@ -64,10 +64,10 @@ class Landing(NamedTuple):
 class _Track:
     """A moving object: its latest steps, the start of its present motion in one direction, and its last step.
 
-    pose, middle_m : the latest pose, and the middle of its box there [m], world; steps : number of the update, time [s]
-    and pose, for every moved object in every frame; gap : updates from one step to the next, the longest lately;
-    stopped_m : its last step before it landed without a further step; goes_on : such a landing was a pause; near : what
-    it touched before the present update, while it falls.
+    pose : the latest; own_m, middle_m : the middle of its box in its own frame, and at the latest pose in the world
+    [m]; steps : number of the update, time [s] and pose, for every moved object in every frame; gap : updates from one
+    step to the next, the longest lately; stopped_m : its last step before it landed without a further step; goes_on :
+    such a landing was a pause; near : what it touched before the present update, while it falls.
     """
 
     __slots__ = (
@@ -77,6 +77,7 @@ class _Track:
         "n_steps",
         "near",
         "origin_m",
+        "own_m",
         "pose",
         "since",
         "step_m",
@@ -84,8 +85,9 @@ class _Track:
         "stopped_m",
     )
 
-    def __init__(self, update: int, time_s: float, pose: Pose, middle_m: Vector) -> None:
-        self.steps, self.pose, self.middle_m = [(update, time_s, pose)], pose, middle_m
+    def __init__(self, update: int, time_s: float, pose: Pose, own_m: Vector) -> None:
+        self.steps, self.pose = [(update, time_s, pose)], pose
+        self.own_m, self.middle_m = own_m, _turned(own_m, pose)
         self.gap, self.goes_on, self.stopped_m = 1.0, False, NOWHERE
         self.near: Mapping[str, Junction] = NOTHING
         self.turn(update)
@@ -184,8 +186,8 @@ class Landings:
                 track.near = dict(near) if near and track.is_falling else NOTHING
             elif len(tracks) < MOST_MOVING and object_id in self._graph:
                 pose = self._graph.pose(object_id)
-                middle_m = _turned(self._middle_m(object_id), pose)
-                tracks[object_id] = _Track(self._n_updates, time_s - self._period_s, pose, middle_m)
+                own_m = self._middle_m(object_id)
+                tracks[object_id] = _Track(self._n_updates, time_s - self._period_s, pose, own_m)
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """Find the objects that landed in this update. Call it after the graph moved."""
@@ -207,7 +209,7 @@ class Landings:
                     onward = (x - u, y - v, z - w)
                     middle_m = (a + onward[0], b + onward[1], c + onward[2])
                 else:
-                    x, y, z = middle_m = _turned(self._middle_m(object_id), pose)
+                    x, y, z = middle_m = _turned(track.own_m, pose)
                     onward = (x - a, y - b, z - c)
                 moving.append((track, pose, onward, middle_m))
                 if track.is_sudden(onward) and (beside.get(object_id) or (track.near and track.turns(onward))):
@@ -277,8 +279,7 @@ class Landings:
         begin, end = track.pose_at(track.run()[0][0]), self._graph.pose(object_id)
         if begin.rotation_xyzw == end.rotation_xyzw:
             return False
-        own = self._middle_m(object_id)
-        (x, y, z), (u, v, w) = _turned(own, end), _turned(own, begin)
+        (x, y, z), (u, v, w) = _turned(track.own_m, end), _turned(track.own_m, begin)
         return _dot((x - u, y - v, z - w), normal) < ROLLS * closing_m
 
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
