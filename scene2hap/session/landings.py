@@ -179,15 +179,17 @@ class Landings:
     def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
         """Keep the poses of the objects that are about to move. Call it before the graph moves."""
         tracks, beside = self._tracks, self._graph.beside
-        for object_id in moved:
+        for object_id, moves_to in moved.items():
             track = tracks.get(object_id)
             if track is not None:
                 near = beside.get(object_id)
                 track.near = dict(near) if near and track.is_falling else NOTHING
             elif len(tracks) < MOST_MOVING and object_id in self._graph:
                 pose = self._graph.pose(object_id)
-                own_m = self._middle_m(object_id)
-                tracks[object_id] = _Track(self._n_updates, time_s - self._period_s, pose, own_m)
+                # Some games give the poses of all objects in every frame.
+                if pose is not moves_to and pose != moves_to:
+                    own_m = self._middle_m(object_id)
+                    tracks[object_id] = _Track(self._n_updates, time_s - self._period_s, pose, own_m)
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """Find the objects that landed in this update. Call it after the graph moved."""

@@ -303,3 +303,14 @@ def test_rolling_object_that_stops_does_not_land(speed_m_s: float) -> None:
         pose = Pose((-0.3 + rolled_m, 0.75, -0.25), about_z(-rolled_m / 0.05))
         frames.append((step * PERIOD_S, {"can": pose}))
     assert landings_in(room(thing("can", can, Pose((-0.3, 0.75, -0.25)))), frames) == []
+
+
+def test_object_lands_among_many_that_rest_and_are_given_in_every_frame() -> None:
+    standing = [
+        box(f"brick {i:03}", (0.1, 0.06, 0.06), (-1.9 + 0.12 * (i % 30), 0.03, 1.0 + 0.1 * (i // 30)))
+        for i in range(200)
+    ]
+    graph = room(*standing)
+    resting = {one.id: one.pose for one in standing}
+    frames = [(i * PERIOD_S, {**resting, "cup": Pose(at)}) for i, at in enumerate(fall(0.4, PERIOD_S))]
+    assert [(one.object_id, one.onto) for one in landings_in(graph, frames)] == [("cup", "table")]
