@@ -186,8 +186,8 @@ class Landings:
                 track.near = dict(near) if near and track.is_falling else NOTHING
             elif len(tracks) < MOST_MOVING and object_id in self._graph:
                 pose = self._graph.pose(object_id)
-                # Some games give the poses of all objects in every frame.
-                if pose is not moves_to and pose != moves_to:
+                # Some games give the poses of all objects in every frame. The graph refuses what is no pose.
+                if isinstance(moves_to, Pose) and pose != moves_to:
                     own_m = self._middle_m(object_id)
                     tracks[object_id] = _Track(self._n_updates, time_s - self._period_s, pose, own_m)
 
