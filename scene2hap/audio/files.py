@@ -33,13 +33,19 @@ silence at 655 kHz."""
 MAX_CHANNELS = 64
 """Most channels: those of seventh-order ambisonics; each has a conversion stream of its own, which takes memory."""
 
+CANCELLED = 0.1
+"""Share of the power of unrelated channels' mean below which channels cancel each other (-10 dB; assumed)."""
+
 _BLOCK_FRAMES = 1 << 18
+
+Float64s = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
 _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
 
 
 def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
-    """Read a WAV, FLAC, Ogg or MP3 file as a mono clip at its own rate; several channels are mixed by their mean.
+    """Read a WAV, FLAC, Ogg or MP3 file as a mono clip at its own rate. Several channels are mixed by their mean; if they
+    cancel each other, the strongest is taken (`Mixdown`).
 
     Without a `credit` the file's stem becomes the title, author and licence are "unknown".
     Raises: AudioError: the file is absent, is not audio, has no samples, a sample that is not finite, or more than
@@ -54,14 +60,53 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
                 "Cut out the part you want."
             )
         blocks: list[np.ndarray[tuple[int, ...], np.dtype[np.float32]]] = []
-        n_read = 0
+        n_read, mixdown = 0, Mixdown()
         while len(block := file.read(_BLOCK_FRAMES, dtype="float32", always_2d=True)):
             require_finite(path, block, n_read)
             n_read += len(block)
-            blocks.append(block.mean(axis=1, dtype=np.float64).astype(np.float32))
+            blocks.append(mixdown.mean(block).astype(np.float32))
+        strongest = mixdown.strongest
+        if strongest is not None:
+            file.seek(0)
+            blocks = [
+                block[:, strongest].copy() for block in file.blocks(_BLOCK_FRAMES, dtype="float32", always_2d=True)
+            ]
     if not blocks:
         raise AudioError(f"{path} has no samples. Use a sound that is longer than 0 s.")
     return AudioClip(np.concatenate(blocks), rate, credit or Credit(path.stem, "unknown", "unknown"))
+
+
+class Mixdown:
+    """Mixes blocks of channels by their mean, and tells whether the channels cancel each other.
+
+    A microphone with its wires exchanged, or a widened stereo image, has the same sound in both channels with opposite
+    signs, so that their mean is nearly silent.
+    """
+
+    def __init__(self) -> None:
+        self._n = 0
+        self._sums: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = np.zeros((2, 1))  # of samples and squares
+
+    def mean(self, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]]) -> Float64s:
+        """Return the mean of samples (n, n_channels), as (n,)."""
+        heard = channels.astype(np.float64)
+        mean: Float64s = heard.mean(axis=1)
+        if heard.shape[1] > 1:
+            everything = np.column_stack([heard, mean])
+            self._sums = self._sums + np.stack([everything.sum(axis=0), np.square(everything).sum(axis=0)])
+        self._n += len(heard)
+        return mean
+
+    @property
+    def strongest(self) -> int | None:
+        """The strongest channel, if the channels cancel each other; None if their mean is as good."""
+        sums, squares = self._sums
+        if len(sums) < 3:
+            return None
+        with np.errstate(invalid="ignore"):  # samples that are not finite are refused elsewhere
+            *powers, mixed = squares - sums**2 / max(self._n, 1)
+        # Of channels that have nothing in common, the mean has their mean power over their number.
+        return int(np.argmax(powers)) if mixed < CANCELLED * np.mean(powers) / len(powers) else None
 
 
 def _require_bounded(path: Path, file: soundfile.SoundFile) -> None:

@@ -111,8 +111,14 @@ class LoopBank:
         one = self._stored[loop]
         first = begin * 2 * one.numerator + one.denominator
         turn = 2 * one.denominator * one.length
-        at = (first % turn + np.arange(n_samples) * 2 * one.numerator) // (2 * one.denominator) % one.length
-        return one.samples[at]
+        unwrapped = (first % turn + np.arange(n_samples) * 2 * one.numerator) // (2 * one.denominator)
+        found: Block = one.samples[unwrapped % one.length]
+        # Where a sample is left out or repeated, one reading fades into the other, as in `StoredLoop.fill`.
+        for i in (np.flatnonzero(np.diff(unwrapped) != 1) + 1).tolist():
+            fade = _FADE[: n_samples - i, None]
+            before = one.samples[(unwrapped[i - 1] + 1 + np.arange(len(fade))) % one.length]
+            found[i : i + CELL] = before + fade * (found[i : i + CELL] - before)
+        return found
 
     def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
         """Write CELL samples of some loops into (n_loops * n_bands, CELL), from a tactile sample of the common clock

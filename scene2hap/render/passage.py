@@ -103,8 +103,8 @@ class Passage(LoopBank):
         # A start is in phase with the loop at its end, a stop at its beginning.
         at = played - played[n] + n if course.goes_up else played
         low = math.floor(at.min())
-        source = steady.taken(0, begin + low, math.ceil(at.max()) - low + 2)
-        samples = _between(source, at - low) * amplitude[:, None].astype(np.float32)
+        source = steady.taken(0, begin + low - 1, math.ceil(at.max()) - low + 4)
+        samples = _between(source, at - low + 1) * amplitude[:, None].astype(np.float32)
         self._samples = samples
         self.loops: list[StoredLoop] = [stored_once(samples, begin)]
 
@@ -132,8 +132,16 @@ class Passage(LoopBank):
 
 
 def _between(samples: Block, at: NDArray[np.float64]) -> Block:
-    """Return samples (n, n_bands) at fractional positions, interpolated: at 8 kHz within 0.5 % up to 250 Hz."""
+    """Return samples (n, n_bands) at fractional positions, one or more behind the first and two before the last.
+
+    Interpolated by Lagrange's cubic. A straight line between two samples had images above 1 kHz, of -52 dB for 380 Hz.
+    """
     below = np.floor(at).astype(np.intp)
-    share = (at - below).astype(np.float32)[:, None]
-    found: Block = samples[below] * (1 - share) + samples[below + 1] * share
+    x: Block = (at - below).astype(np.float32)[:, None]
+    before, after, later = x + 1, x - 1, x - 2
+    sixth, half = np.float32(1 / 6), np.float32(0.5)
+    found: Block = samples[below - 1] * (x * after * later * -sixth)
+    found += samples[below] * (before * after * later * half)
+    found += samples[below + 1] * (before * x * later * -half)
+    found += samples[below + 2] * (before * x * after * sixth)
     return found

@@ -26,7 +26,7 @@ from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
-from scene2hap.audio.files import opened_sound, require_finite, written_whole
+from scene2hap.audio.files import Mixdown, opened_sound, require_finite, written_whole
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import (
@@ -167,8 +167,11 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
     so that the converter tracks the frequency."""
     n = round(_LOOK_S * file.samplerate)
     file.seek(max(0, int(file.frames) - n) // 2)
-    heard = file.read(n, dtype="float32", always_2d=True).mean(axis=1, dtype=np.float64)
+    channels, mixdown = file.read(n, dtype="float32", always_2d=True), Mixdown()
     file.seek(0)
+    heard, strongest = mixdown.mean(channels), mixdown.strongest
+    if strongest is not None:
+        heard = channels[:, strongest].astype(np.float64)
     if len(heard) < 2 or not np.isfinite(heard).all():  # the conversion raises an error for this
         return context
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)

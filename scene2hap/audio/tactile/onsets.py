@@ -137,10 +137,18 @@ class WithOnsets:
             energy = max(due.height, due.energy * self._step / (n * _MEAN_SQUARE))
             amplitude = max(least, math.sqrt(2.0 * self._share * energy))
         if bed > NO_BED * amplitude:
-            amplitude = min(amplitude, ABOVE_BED * bed)
+            amplitude = _limited(amplitude, bed)
         shape = 0.5 - 0.5 * np.cos(2.0 * np.pi / n * np.arange(n))
         burst: Signal = amplitude * shape * self._carrier[:n]
         return burst
+
+
+def _limited(amplitude: float, bed: float) -> float:
+    """Return the amplitude of a burst, limited by the bed around it; the limit gives way to a bed as weak as none."""
+    excess = math.log(amplitude / (ABOVE_BED * bed)) if amplitude > 0.0 else 0.0
+    if excess <= 0.0:
+        return amplitude
+    return ABOVE_BED * bed * math.exp(excess**2 / -math.log(NO_BED * ABOVE_BED))
 
 
 class _Due(NamedTuple):

@@ -11,6 +11,7 @@ from scene2hap.llm.lexicon.materials import make, painted_with
 from scene2hap.llm.lexicon.name_checks import fit, owner_of_part
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
+from scene2hap.llm.lexicon.words import SOUNDING
 from scene2hap.scene.surface import plate_sizes
 
 UNKNOWN = "unknown"
@@ -103,7 +104,7 @@ def _as_real(
         confidence *= _GIANT_TRUST
         size_reason += f" A real {row.noun} is at most {row.max_size_m:g} m long: check the scene's unit."
     fitting = fit(reading, row, item.size_m, item.flags, item.height_m, neighbour_names)
-    states, vibration_reason = _states(row, neighbour_names)
+    states, vibration_reason = _states(row, neighbour_names, reading)
     if fitting.part_of:
         states, vibration_reason = [], f"it is shaken by the {fitting.part_of} that it is a part of."
     return ObjectAnswer(
@@ -180,7 +181,7 @@ def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float
     )
 
 
-def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateAnswer], str]:
+def _states(row: ObjectRow, neighbour_names: Sequence[str], reading: NameReading) -> tuple[list[StateAnswer], str]:
     """Return the states of an object, and the reason. A pan that touches objects has states only if one is a heater.
 
     A pan that touches nothing (held in the air, or analysed alone) may be put on a heater later. Its states then name
@@ -205,6 +206,11 @@ def _states(row: ObjectRow, neighbour_names: Sequence[str]) -> tuple[list[StateA
     if row.states:
         heaters = ", ".join(row.states[0].needs_contact)
         return [], f"{_a(row.noun)} is still by itself; it would be heard only on one of: {heaters}; it touches none."
+    for word in reading.words:
+        if word in SOUNDING and word not in reading.head.split():
+            name, intensity = SOUNDING[word]
+            said = StateAnswer(name=name, intensity=intensity, needs_contact=None)
+            return [said], f"the name says that it is {word}."
     return [], f"{_a(row.noun)} has no mechanism, sound or heated content of its own; being shaken does not count."
 
 

@@ -165,6 +165,7 @@ def side_words() -> frozenset[str]:
         | words.MODIFIERS
         | words.COLOURS
         | words.TOY_WORDS
+        | frozenset(words.SOUNDING)
         | words.PREPOSITIONS
         | frozenset(words.PLACE_WORDS)
     )

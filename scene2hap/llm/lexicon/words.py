@@ -42,6 +42,27 @@ MODIFIERS = _set("""
 """)
 """Words for position, size, colour, state or owner. The object is the noun beside them."""
 
+SOUNDING = {
+    "purring": ("purring", 0.15),
+    "ticking": ("ticking", 0.1),
+    "dripping": ("dripping", 0.08),
+    "flowing": ("flowing", 0.15),
+    "flushing": ("flushing", 0.2),
+    "humming": ("humming", 0.1),
+    "buzzing": ("buzzing", 0.2),
+    "hissing": ("hissing", 0.15),
+    "crackling": ("crackling", 0.1),
+    "bubbling": ("bubbling", 0.2),
+    "rattling": ("rattling", 0.3),
+    "rumbling": ("rumbling", 0.3),
+    "throbbing": ("throbbing", 0.3),
+    "shaking": ("shaking", 0.4),
+    "trembling": ("shaking", 0.3),
+    "vibrating": ("shaking", 0.4),
+}
+"""Words that say what an object does that is silent by itself, as in "purring cat" -> its state, and the intensity of
+that (assumed). Not those that also name a kind of object, as rolling pins, rocking chairs and running shoes do."""
+
 COLOURS = _set("""
     red green blue yellow orange white black gray grey brown pink purple beige cream golden gold silver turquoise
 """)

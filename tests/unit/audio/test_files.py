@@ -55,6 +55,22 @@ def test_read_clip_reads_common_formats_and_averages_channels(tmp_path: Path, su
     assert np.sqrt(2 * np.mean(middle**2)) == pytest.approx(0.4, rel=0.03)
 
 
+def test_channels_that_cancel_each_other_are_not_mixed(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    hum, room = tone(amplitude=0.5), 0.005 * rng.standard_normal(len(tone())).astype(np.float32)
+    write_wav(tmp_path / "wired.wav", 0.1 + np.stack([0.8 * hum, room - hum], axis=1), RATE)
+    heard = read_clip(tmp_path / "wired.wav").samples
+    np.testing.assert_allclose(heard, 0.1 + room - hum, atol=1e-6)
+
+
+@pytest.mark.parametrize("n_channels", [2, 6, 64])
+def test_channels_without_anything_in_common_are_mixed(tmp_path: Path, n_channels: int) -> None:
+    noises = 0.1 * np.random.default_rng(2).standard_normal((4000, n_channels)).clip(-5, 5)
+    noises[:, 1] = 0.0
+    write_wav(tmp_path / "noises.wav", noises, RATE)
+    np.testing.assert_allclose(read_clip(tmp_path / "noises.wav").samples, noises.mean(axis=1), atol=1e-6)
+
+
 def test_read_clip_keeps_the_given_credit(tmp_path: Path) -> None:
     write_wav(tmp_path / "a.wav", tone(), RATE)
     credit = Credit("hum", "someone", "CC0-1.0")

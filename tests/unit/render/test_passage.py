@@ -144,6 +144,16 @@ def test_passage_causes_no_click(goes_up: bool, spins: bool, curve: RunCurve | N
     assert 10 * np.log10(power[f > 1000].sum() / power.sum()) < -60.0
 
 
+@pytest.mark.parametrize("goes_up", [True, False])
+def test_passage_of_a_high_tone_has_no_images(goes_up: bool) -> None:
+    """A blender's 380 Hz gets slower or faster; nothing arises above 1 kHz."""
+    one = Passage(bank(380.0), 12_345, 1.0, Course(goes_up, True), STILL if goes_up else STEADY)
+    x = played(one, 12_345, RATE)[:, 0].astype(np.float64)
+    power = np.abs(np.fft.rfft(x * np.hanning(len(x)))) ** 2
+    above = np.fft.rfftfreq(len(x), 1 / RATE) > 1000
+    assert 10 * np.log10(power[above].sum() / power.sum()) < -70
+
+
 def test_passage_plays_all_bands() -> None:
     one = Passage(bank(100.0, Bands((50.0, 150.0, 400.0))), 0, 0.5, Course(True, True), STILL)
     assert one.n_bands == 2

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 import numpy as np
 import pytest
 
-from contact_scenes import box, scene
+from contact_scenes import Triple, box, boxes, scene, thing
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import TriMesh
 from scene2hap.session.landings import Landing, Landings
 
 PERIOD_S = 1 / 90
@@ -19,16 +21,15 @@ RESTS_M = 0.76
 """Height of the cup's centre on the table."""
 
 
-def room() -> ContactGraph:
-    return ContactGraph(
-        scene(
-            box("floor", (4.0, 0.1, 4.0), (0, -0.05, 0)),
-            box("table", (1.2, 0.7, 0.8), (0, 0.35, 0)),
-            box("wall", (0.1, 3.0, 4.0), (0.71, 1.5, 0)),
-            box("cup", (0.08, 0.12, 0.08), (0.0, RESTS_M, 0.0)),
-            box("book", (0.2, 0.03, 0.15), (-0.4, 0.715, 0.2)),
-        )
+def room(*more: SceneObject, without: str | None = None) -> ContactGraph:
+    usual = (
+        box("floor", (4.0, 0.1, 4.0), (0, -0.05, 0)),
+        box("table", (1.2, 0.7, 0.8), (0, 0.35, 0)),
+        box("wall", (0.1, 3.0, 4.0), (0.71, 1.5, 0)),
+        box("cup", (0.08, 0.12, 0.08), (0.0, RESTS_M, 0.0)),
+        box("book", (0.2, 0.03, 0.15), (-0.4, 0.715, 0.2)),
     )
+    return ContactGraph(scene(*(one for one in usual if one.id != without), *more))
 
 
 def _middle(object_id: str) -> tuple[float, float, float]:
@@ -47,6 +48,22 @@ def landings_of(path: Path, *, moved: str = "cup", period_s: float = PERIOD_S, c
         graph.update(poses)
         found += landings.look(poses, time_s)
         time_s += period_s if clock else 0.0
+    return found
+
+
+def landings_in(
+    graph: ContactGraph,
+    frames: Iterable[tuple[float, Mapping[str, Pose]]],
+    *,
+    middle_m: Callable[[str], Triple] = _middle,
+) -> list[Landing]:
+    """What lands in frames of a time [s] and poses, and in half a second more."""
+    landings, found, time_s = Landings(graph, middle_m, PERIOD_S), list[Landing](), 0.0
+    given = [*frames]
+    for time_s, poses in [*given, *((given[-1][0] + (i + 1) * PERIOD_S, {}) for i in range(45))]:
+        landings.begin(poses, time_s)
+        graph.update(poses)
+        found += landings.look(poses, time_s)
     return found
 
 
@@ -193,3 +210,107 @@ def test_object_removed_while_falling_does_not_land() -> None:
     graph.update({}, removed=["cup"])
     landings.begin({}, 3 * PERIOD_S)
     assert landings.look({}, 3 * PERIOD_S) == []
+
+
+@pytest.mark.parametrize("height_m", [0.05, 0.1, 0.2, 0.8])
+@pytest.mark.parametrize(("physics_hz", "frames_hz"), [(50, 60), (50, 72), (60, 90), (30, 90), (20, 60), (60, 144)])
+def test_physics_slower_than_the_frames_gives_one_landing(height_m: float, physics_hz: int, frames_hz: int) -> None:
+    steps = [*fall(height_m, 1 / physics_hz)]
+    for begins in (0.1, 0.4, 0.8):
+        at = [int(i * physics_hz / frames_hz + begins) for i in range(len(steps) * frames_hz // physics_hz)]
+        found = landings_of((steps[i] for i in at if i < len(steps)), period_s=1 / frames_hz)
+        assert [one.onto for one in found] == ["table"]
+
+
+def lowered_m(time_s: float) -> float:
+    """Height over the table of what a hand puts down in 0.6 s: least jerk (Flash and Hogan 1985)."""
+    s = min(1.0, time_s / 0.6)
+    return 0.25 * (1 - s**3 * (10 - 15 * s + 6 * s * s))
+
+
+@pytest.mark.parametrize("frames_hz", [60, 72, 90, 120])
+def test_object_put_down_gently_by_slower_physics_does_not_land(frames_hz: int) -> None:
+    times = [math.floor(i / frames_hz * 50) / 50 for i in range(frames_hz)]
+    assert landings_of(((0.0, RESTS_M + lowered_m(t), 0.0) for t in times), period_s=1 / frames_hz) == []
+
+
+def test_object_put_down_gently_does_not_land_after_a_long_frame() -> None:
+    rng = np.random.default_rng(3)
+    for _ in range(40):
+        lasts_s = np.where(rng.random(120) < 0.15, rng.uniform(3.0, 6.0, 120), 1.0) * PERIOD_S
+        times = np.cumsum(lasts_s)
+        frames = [(t, {"cup": Pose((0.0, RESTS_M + lowered_m(t), 0.0))}) for t in times[times < 1.0].tolist()]
+        assert landings_in(room(), frames) == []
+
+
+@pytest.mark.parametrize("frames_hz", [60, 90, 120])
+def test_object_that_a_hand_moves_up_and_down_over_a_table_does_not_land(frames_hz: int) -> None:
+    times = np.arange(0.0, 3.0, 1 / frames_hz).tolist()
+    shaken = ((0.0, RESTS_M + 0.024 + 0.02 * math.sin(2 * math.pi * 3 * t), 0.0) for t in times)
+    assert landings_of(shaken, period_s=1 / frames_hz) == []
+
+
+@pytest.mark.parametrize("begins", [0.0, 0.2, 0.4, 0.6, 0.8])
+def test_fast_bounce_lands(begins: float) -> None:
+    # At 60 Hz, it is 73 mm above the table before it bounces, or 51 mm after it.
+    fast, meets_s = 4.4, 0.3
+    times = [(i + begins) / 60 - meets_s for i in range(30)]
+    path = [(0.0, RESTS_M + (-fast * t if t < 0 else 0.7 * fast * t), 0.0) for t in times]
+    assert [one.onto for one in landings_of(iter(path), period_s=1 / 60)] == ["table"]
+
+
+def test_two_objects_that_meet_land_once() -> None:
+    frames = []
+    for step in range(40):
+        x = max(0.05, 0.25 - 0.01 * step)
+        frames.append(
+            (step * PERIOD_S, {"cup": Pose((0.1 - x, RESTS_M, 0.3)), "mug": Pose((0.1 + x - 0.01, RESTS_M, 0.3))})
+        )
+    graph = room(box("mug", (0.1, 0.12, 0.08), (0.4, RESTS_M, 0.3)))
+    (landing,) = landings_in(graph, frames)
+    assert {landing.object_id, landing.onto} == {"cup", "mug"}
+
+
+def about_z(angle_rad: float) -> tuple[float, float, float, float]:
+    return 0.0, 0.0, math.sin(angle_rad / 2), math.cos(angle_rad / 2)
+
+
+def test_lid_whose_origin_is_its_hinge_lands() -> None:
+    lid = boxes("lid", ((0.4, 0.02, 0.3), (0.2, 0.0, 0.0)), at_m=(-0.2, 0.71, 0.0))
+    angles = [max(0.0, 1.2 - 15 * (step * PERIOD_S) ** 2 / 2) for step in range(60)]
+    frames = [(step * PERIOD_S, {"lid": Pose((-0.2, 0.71, 0.0), about_z(angle))}) for step, angle in enumerate(angles)]
+    found = landings_in(
+        room(lid, without="cup"), frames, middle_m=lambda x: (0.2, 0.0, 0.0) if x == "lid" else _middle(x)
+    )
+    assert [(one.object_id, one.onto) for one in found] == [("lid", "table")]
+
+
+@pytest.mark.parametrize("speed_m_s", [0.2, 0.8, 2.0])
+def test_rolling_object_that_stops_does_not_land(speed_m_s: float) -> None:
+    around = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    ring = np.stack([0.05 * np.cos(around), 0.05 * np.sin(around), np.full(24, 0.06)], axis=1)
+    i, j = np.arange(24), (np.arange(24) + 1) % 24
+    sides = np.concatenate([np.stack([i, j, 24 + j], 1), np.stack([i, 24 + j, 24 + i], 1)])
+    ends = [
+        np.stack([np.full(22, k), k + i[1:23], k + i[2:24]], 1)[:, order]
+        for k, order in ((0, [0, 2, 1]), (24, [0, 1, 2]))
+    ]
+    can = TriMesh(np.concatenate([ring * (1, 1, -1), ring]), np.concatenate([sides, *ends]))
+    steps = range(int(0.6 / speed_m_s / PERIOD_S))
+    frames = []
+    for step in steps:
+        rolled_m = speed_m_s * step * PERIOD_S
+        pose = Pose((-0.3 + rolled_m, 0.75, -0.25), about_z(-rolled_m / 0.05))
+        frames.append((step * PERIOD_S, {"can": pose}))
+    assert landings_in(room(thing("can", can, Pose((-0.3, 0.75, -0.25)))), frames) == []
+
+
+def test_object_lands_among_many_that_rest_and_are_given_in_every_frame() -> None:
+    standing = [
+        box(f"brick {i:03}", (0.1, 0.06, 0.06), (-1.9 + 0.12 * (i % 30), 0.03, 1.0 + 0.1 * (i // 30)))
+        for i in range(200)
+    ]
+    graph = room(*standing)
+    resting = {one.id: one.pose for one in standing}
+    frames = [(i * PERIOD_S, {**resting, "cup": Pose(at)}) for i, at in enumerate(fall(0.4, PERIOD_S))]
+    assert [(one.object_id, one.onto) for one in landings_in(graph, frames)] == [("cup", "table")]

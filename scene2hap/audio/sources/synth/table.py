@@ -105,6 +105,9 @@ _ALARM = Patch(partial(buzzer, pitch_hz=240.0, on_s=0.25, off_s=0.25), (235.0, 2
 _HORN = Patch(partial(buzzer, pitch_hz=220.0), (215.0, 225.0))
 _BUZZER = Patch(partial(buzzer, pitch_hz=100.0), (98.0, 102.0))
 _CHIME = _strokes(1.0, 260.0, 0.35, click=0.1)
+# Cats purr at 26.3 Hz, give or take 2, breathing in and out (Frazer Sissom, Rice and Peters, J Zool 223, 1991).
+_PURR = replace(_strokes(26.3, 79.0, 0.012, click=0.05), rhythm=Rhythm(1.4, 0.28, 0.03))
+_DRIP = _strokes(1.3, 300.0, 0.02)
 _JACKHAMMER = Patch(partial(blows, per_second=25.0, body_hz=125.0, decay_s=0.03), (95.0, 155.0))
 _CLATTER = _strokes(30.0, 120.0, 0.015)
 _CAR = _engine(28.0, 2, 4.5)
@@ -214,6 +217,9 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("printer, copier, scanner, fax, plotter, cnc machine", "", _STEPPER),
     ("pump, fountain, aquarium, boiler", "", _PUMP),
     ("toilet, tap, faucet, shower, pipe, bathtub, river, waterfall, stream", "", _WATER),
+    ("tap, faucet, shower, pipe", "drip", _DRIP),
+    # Metal that slips as it warms.
+    ("radiator, heater, pipe", "tick", _TICK),
     ("drone, quadcopter", "", _fan(90.0, 2, 0.3, rotor=0.4, blade=1.0)),
     ("robot", "", _geared(95.0, 3.0, 0.5)),
     ("sewing machine", "", _CLATTER),
@@ -261,7 +267,9 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("", "chime, toll, tinkle", _CHIME),
     ("", "buzz", _BUZZER),
     ("", "hum", _HUM),
-    ("", "vibrate", _VIBRATION),
+    ("", "vibrate, shake", _VIBRATION),
+    ("", "purr", _PURR),
+    ("", "drip", _DRIP),
     ("", "blow, whir, ventilate", _BREEZE),
     ("", "drill", _DRILL),
     ("", "grind, sand, saw", _GRINDER),
@@ -277,7 +285,7 @@ TABLE: tuple[tuple[str, str, Patch], ...] = (
     ("", "rumble, roll", _ROLLING),
     ("", "print, scan", _STEPPER),
     ("", "pump", _PUMP),
-    ("", "flow, gurgle, drain, trickle, swish", _WATER),
+    ("", "flow, flush, gurgle, drain, trickle, swish", _WATER),
     ("", "idle, rev", _CAR),
     ("", "play, boom", _MUSIC),
     ("", "cool, chill", _COMPRESSOR),

@@ -343,6 +343,19 @@ def test_equalized_output_does_not_depend_on_block_size(tmp_path: Path, monkeypa
     np.testing.assert_allclose(made[777], made[65_536], atol=2**-22)
 
 
+def test_channels_of_opposite_sign_are_felt_as_one_alone_would_be(tmp_path: Path) -> None:
+    """Their mean is silent, so that no frequency was found, and 18 dB were missing on a resonant actuator."""
+    hum = 0.3 * np.sin(2 * np.pi * 100 * np.arange(2 * 44_100) / 44_100)
+    for name, channels in (("one", hum[:, None]), ("both", np.stack([hum, -hum], axis=1))):
+        soundfile.write(tmp_path / f"{name}.wav", channels, 44_100)
+    one, both = (
+        audio.convert(tmp_path / f"{name}.wav", tmp_path / f"felt_{name}.wav", actuator="lra", intensity=0.3)
+        for name in ("one", "both")
+    )
+    assert one.level_db is not None
+    assert both.level_db == pytest.approx(one.level_db, abs=0.1)
+
+
 def test_constant_offset_causes_no_thump_at_the_start(tmp_path: Path) -> None:
     """A recording with an offset of 0.5 gives the output of the same recording without offset."""
     hum = sound(6.0, 1, 150.0)[:, 0] * 0.3

@@ -224,6 +224,10 @@ def voice_of(category: str, *phrases: str) -> str:
         ("gizmo", "gizmo vibrating", "vibration_motor"),
         ("gizmo", "gizmo humming", "mains_hum"),
         ("gizmo", "gizmo existing", "motor"),
+        ("radiator", "radiator ticking", "blows"),
+        ("tap", "tap dripping", "blows"),
+        ("tap", "tap flowing", "jet"),
+        ("bed", "bed shaking", "vibration_motor"),
         ("", "", "motor"),
     ],
 )
@@ -253,6 +257,13 @@ def onsets_per_s(y: Signal) -> float:
     level = np.sqrt(np.mean(np.square(y[: len(y) // n * n].reshape(-1, n)), axis=1))
     rises = np.flatnonzero((level[1:] > 0.2 * level.max()) & (level[1:] > 4 * level[:-1]))
     return (1 + np.count_nonzero(np.diff(rises) > 10)) / (len(y) / SAMPLE_RATE_HZ)
+
+
+def test_a_cat_purrs_at_the_rate_of_cats() -> None:
+    """26.3 Hz, give or take 2 (Frazer Sissom, Rice and Peters 1991)."""
+    power = make("cat", "cat purring").samples.astype(float) ** 2
+    rate_hz = strongest_hz(power, above_hz=5.0)
+    assert 24.0 < rate_hz < 28.5
 
 
 def test_a_kitchen_timer_ticks_four_or_five_times_a_second_and_a_clock_once() -> None:

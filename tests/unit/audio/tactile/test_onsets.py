@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.signal import butter, sosfilt
@@ -151,6 +153,36 @@ def test_strokes_keep_their_strengths_and_their_relation_to_the_bed() -> None:
     felt = auto(sound, rate, 200.0, 10 * np.log10(kept))
     envelopes = [np.sqrt((y[rate:].reshape(-1, rate // 10) ** 2).mean(axis=1)) for y in (sound, felt)]
     assert np.corrcoef(*envelopes)[0, 1] > 0.95
+
+
+class Murmur:
+    """A weak bed that is 8 dB stronger in every other second."""
+
+    def __init__(self, weakest: float) -> None:
+        self._weakest, self._n = weakest, 0
+
+    def run(self, x: Signal) -> Signal:
+        t = (self._n + np.arange(len(x))) / RATE
+        self._n += len(x)
+        return self._weakest * np.where(t % 2 < 1, 1.0, 2.5) * np.sin(2 * np.pi * 150 * t)
+
+    def rest(self) -> Signal:
+        return np.empty(0)
+
+
+def test_equal_strokes_over_a_weak_bed_are_about_equally_strong() -> None:
+    """They were 22 dB apart, where the bed was below 1 % of them or above."""
+    times = np.arange(0.5, 9.5, 0.25)
+    sound, strengths = ticks(times, 0.0, 0.4), []
+    for weakest in (0.0003, 0.001, 0.002, 0.004):
+        stage = WithOnsets(Murmur(weakest), 200.0, RATE, bed_follows=True, bed_db=0.0)
+        felt = np.concatenate([stage.run(sound), stage.rest()])
+        peaks = [np.abs(felt[round(at * RATE) : round((at + 0.03) * RATE)]).max() for at in times]
+        strengths.append(20 * np.log10(peaks))
+    assert all(np.ptp(one) < 10.0 for one in strengths)
+    # The stronger the bed, the weaker the bursts beside it, without a leap.
+    middle = [float(np.median(one)) for one in strengths]
+    assert all(abs(a - b) < 6.0 for a, b in pairwise(middle))
 
 
 def test_a_tick_that_a_rumble_hides_from_the_energy_is_felt_all_the_same() -> None:

@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 from scene2hap.llm.lexicon.categories import Measured, judge
 from scene2hap.llm.lexicon.table import table
 
@@ -29,6 +31,36 @@ def test_reasons_use_the_right_article() -> None:
     umbrella = judge(Measured("umbrella", (0.5, 0.5, 0.0)))
     assert "assumed for an umbrella." in umbrella.size_reason
     assert umbrella.vibration_reason.startswith("an umbrella has no mechanism")
+
+
+@pytest.mark.parametrize(
+    ("name", "state"),
+    [
+        ("purring cat", "purring"),
+        ("Radiator_ticking", "ticking"),
+        ("dripping_faucet", "dripping"),
+        ("flushing toilet", "flushing"),
+        ("vibrating bed", "shaking"),
+    ],
+)
+def test_name_that_says_what_a_silent_thing_does_makes_it_vibrate(name: str, state: str) -> None:
+    answer = judge(Measured(name, (0.5, 0.5, 0.4)))
+    assert [one.name for one in answer.states] == [state]
+    assert answer.vibrates
+    assert answer.vibration_reason.startswith("the name says that it is ")
+    assert "Not understood" not in answer.category_reason
+
+
+@pytest.mark.parametrize(
+    "name", ["cat", "rocking chair", "rolling pin", "running shoes", "toy cat purring", "spinning top"]
+)
+def test_silent_things_stay_silent(name: str) -> None:
+    assert not judge(Measured(name, (0.4, 0.3, 0.1))).vibrates
+
+
+def test_what_a_machine_does_by_itself_goes_before_its_name() -> None:
+    (state,) = judge(Measured("humming refrigerator", (1.8, 0.6, 0.6))).states
+    assert state.name == "on"
 
 
 def test_names_of_any_length_are_answered() -> None:
