@@ -44,8 +44,9 @@ _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
 
 
 def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
-    """Read a WAV, FLAC, Ogg or MP3 file as a mono clip at its own rate. Several channels are mixed by their mean; if they
-    cancel each other, the strongest is taken (`Mixdown`).
+    """Read a WAV, FLAC, Ogg or MP3 file as a mono clip at its own rate.
+
+    Several channels are mixed by their mean; if they cancel each other, the strongest is taken (`Mixdown`).
 
     Without a `credit` the file's stem becomes the title, author and licence are "unknown".
     Raises: AudioError: the file is absent, is not audio, has no samples, a sample that is not finite, or more than

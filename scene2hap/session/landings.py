@@ -1,10 +1,12 @@
 """Find landings: a moved object stops suddenly while it touches the object that it moved towards.
 
 A new contact alone is no landing: contacts reach across gaps of centimetres, since resting objects hover in real
-scenes. A hand that puts something down gently makes none, since it slows over many frames. An object has landed if it
-approached another one for some millimetres, and moves on by less than a third as far and as fast from one frame to the
-next. Where physics runs more slowly than the frames, a frame without a step is no stop: the longest of the latest gaps
-between steps has to pass. A motion is that of an object's middle, since its origin may lie on a hinge.
+scenes. An object has landed if it approached another one for some millimetres, and its next step is less than a third
+of the step before, in length and in speed. These motions are no landings:
+
+- an object that a hand puts down or shakes over a table: it slows down as fast as a hand can;
+- an object that slides: most of its travel is across the contact's normal;
+- an object that rolls: its rim comes down on the floor, while its middle keeps its distance.
 """
 
 from __future__ import annotations
@@ -12,7 +14,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from itertools import pairwise
-from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -20,36 +21,23 @@ import numpy as np
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.scene.pose import Pose
+from scene2hap.session.motion_track import LEAST_TRAVEL_M, LEFT, NOTHING, MotionTrack, Vector, dot, in_world
 
-WINDOW_S, MOST_STEPS = 0.05, 8
-"""Time and number of updates over which a speed is measured."""
-LEAST_TRAVEL_M = 0.004
-"""Shortest fall in one direction: an object that jitters by a millimetre along three axes never moves so far."""
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
 FASTEST_M_S = 10.0
 """A faster motion is no fall (5 m): the game has moved the object elsewhere."""
-LEFT = 0.3
-"""Largest share of its speed that an object keeps after it landed."""
 HEAD_ON = 0.5
-"""Smallest share of its travel along the normal of a contact: an object that slides along does not land."""
+"""Smallest share of the travel that is along the contact normal: an object that slides does not land."""
 BRAKES_M_S2, BRAKES_M_S = 10.0, 0.2
-"""Largest deceleration of an object that a hand carries, lowers or shakes, and the largest loss of speed from one step
-to the next that is taken for one; assumed. Below 50 Hz the latter counts, since a short fall lasts for few frames."""
+"""Largest deceleration by a hand that carries, lowers or shakes an object, and largest loss of speed by a hand from one
+step to the next; assumed. Below 50 Hz the latter is the smaller bound, since a short fall lasts for few frames."""
 ROLLS = 0.25
-"""Share of the closing of a turning object's part that its middle takes part in: that of one that rolls keeps its
-distance, while each part of its rim comes down."""
-LONGEST_GAP_S, MOST_GAP = 0.12, 12
-"""Longest time, and number of updates, from one step of a motion to the next: physics at 10 Hz; assumed."""
-GAP_DECAYS = 0.1
-"""By how many updates a remembered gap shrinks with each step: 50 Hz in 60 Hz leaves a frame out in every sixth."""
-_SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
+"""Smallest share of an object's middle in the approach of its part at the contact: the middle of a rolling object does
+not approach the floor."""
 MOST_MOVING = 100
 """Objects followed at once; among so many moving objects a single landing is not noticed."""
-
-Vector = tuple[float, float, float]
-NOWHERE = (0.0, 0.0, 0.0)
-NOTHING: Mapping[str, Junction] = MappingProxyType({})
+_SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
 
 
 class Landing(NamedTuple):
@@ -61,114 +49,16 @@ class Landing(NamedTuple):
     speed_m_s: float
 
 
-class _Track:
-    """A moving object: its latest steps, the start of its present motion in one direction, and its last step.
-
-    pose : the latest; own_m, middle_m : the middle of its box in its own frame, and at the latest pose in the world
-    [m]; steps : number of the update, time [s] and pose, for every moved object in every frame; gap : updates from one
-    step to the next, the longest lately; stopped_m : its last step before it landed without a further step; goes_on :
-    such a landing was a pause; near : what it touched before the present update, while it falls.
-    """
-
-    __slots__ = (
-        "gap",
-        "goes_on",
-        "middle_m",
-        "n_steps",
-        "near",
-        "origin_m",
-        "own_m",
-        "pose",
-        "since",
-        "step_m",
-        "steps",
-        "stopped_m",
-    )
-
-    def __init__(self, update: int, time_s: float, pose: Pose, own_m: Vector) -> None:
-        self.steps, self.pose = [(update, time_s, pose)], pose
-        self.own_m, self.middle_m = own_m, _turned(own_m, pose)
-        self.gap, self.goes_on, self.stopped_m = 1.0, False, NOWHERE
-        self.near: Mapping[str, Junction] = NOTHING
-        self.turn(update)
-
-    def turn(self, update: int) -> None:
-        """Begin a motion in another direction."""
-        self.since, self.n_steps, self.origin_m, self.step_m = update, 0, self.middle_m, NOWHERE
-
-    def stop(self, update: int) -> None:
-        """Begin again after a landing without a further step."""
-        stopped_m = self.step_m
-        self.turn(update)
-        self.stopped_m = stopped_m
-
-    @property
-    def is_falling(self) -> bool:
-        """Whether it moved far enough in one direction; in a single step the game has moved it elsewhere."""
-        return self.n_steps > 1 and not self.goes_on and math.dist(self.origin_m, self.middle_m) >= LEAST_TRAVEL_M
-
-    def has_stopped(self, update: int) -> bool:
-        """Whether a step is missing since exactly this update."""
-        return self.steps[-1][0] + math.ceil(self.gap) == update
-
-    def is_at_rest(self, update: int) -> bool:
-        """Whether no further step of this motion is to be expected."""
-        return update - self.steps[-1][0] > MOST_GAP
-
-    def turns(self, onward: Vector) -> bool:
-        """Whether an object bounces off: a fast one has left what it met by the next frame."""
-        return _dot(onward, self.step_m) < 0
-
-    def is_sudden(self, onward: Vector) -> bool:
-        """Whether an object's motion changed abruptly since the last frame. Runs for every moved object."""
-        (x, y, z), (u, v, w) = onward, self.step_m
-        x, y, z = x - u, y - v, z - w
-        return x * x + y * y + z * z >= _SUDDEN * (u * u + v * v + w * w) and self.is_falling
-
-    def follow(self, update: int, time_s: float, pose: Pose, onward: Vector, middle_m: Vector) -> None:
-        """Add a step."""
-        steps = self.steps
-        last, last_s, _ = steps[-1]
-        (x, y, z), (u, v, w) = onward, self.step_m
-        waited = update - last
-        if waited > 1 and time_s - last_s > LONGEST_GAP_S:
-            self.turn(last)
-            self.gap, self.goes_on = 1.0, False
-        else:
-            self.gap = max(1.0, waited, self.gap - GAP_DECAYS)
-            if x * u + y * v + z * w <= 0:
-                stopped = self.stopped_m
-                self.turn(last)
-                self.goes_on = stopped is not NOWHERE and _dot(onward, stopped) > LEFT * _dot(stopped, stopped)
-        self.stopped_m = NOWHERE
-        self.pose, self.middle_m, self.step_m = pose, middle_m, onward
-        self.n_steps += 1
-        steps.append((update, time_s, pose))
-        if len(steps) > 4 * MOST_STEPS:
-            del steps[:-MOST_STEPS]
-
-    def run(self) -> list[tuple[int, float]]:
-        """Numbers and times [s] of the latest steps in one direction."""
-        latest = [(update, time_s) for update, time_s, _ in self.steps[-MOST_STEPS:]]
-        end_s = latest[-1][1]
-        kept = [(update, time_s) for update, time_s in latest if update >= self.since and end_s - time_s <= WINDOW_S]
-        return kept if len(kept) > 1 else latest[-2:]
-
-    def pose_at(self, update: int) -> Pose:
-        """Pose of the object after an update, or the first known one after it."""
-        return next((pose for later, _, pose in self.steps if later >= update), self.steps[-1][2])
-
-
 class Landings:
     """Follows moving objects, and finds those that land.
 
-    Parameters: graph : the contacts, read at each `look`; middle_m : of an object's box, in its own frame [m];
-    period_s : usual time between updates, for a clock that stands still.
+    Parameters: graph : the contacts, read at each `look`; middle_m : the middle of an object's box, in its own frame
+    [m]; period_s : usual time between updates, for a clock that stands still.
     """
 
     def __init__(self, graph: ContactGraph, middle_m: Callable[[str], Vector], period_s: float) -> None:
         self._graph, self._middle_m, self._period_s = graph, middle_m, period_s
-        self._tracks: dict[str, _Track] = {}
+        self._tracks: dict[str, MotionTrack] = {}
         self._n_updates = 0
 
     @property
@@ -177,7 +67,7 @@ class Landings:
         return bool(self._tracks)
 
     def begin(self, moved: Mapping[str, Pose], time_s: float) -> None:
-        """Keep the poses of the objects that are about to move. Call it before the graph moves."""
+        """Store poses and contacts of the objects that are about to move. Call it before the graph is updated."""
         tracks, beside = self._tracks, self._graph.beside
         for object_id, moves_to in moved.items():
             track = tracks.get(object_id)
@@ -186,75 +76,59 @@ class Landings:
                 track.near = dict(near) if near and track.is_falling else NOTHING
             elif len(tracks) < MOST_MOVING and object_id in self._graph:
                 pose = self._graph.pose(object_id)
-                # Some games give the poses of all objects in every frame. The graph refuses what is no pose.
+                # Some games give the poses of all objects in every frame. The graph refuses other types than poses.
                 if isinstance(moves_to, Pose) and pose != moves_to:
                     own_m = self._middle_m(object_id)
-                    tracks[object_id] = _Track(self._n_updates, time_s - self._period_s, pose, own_m)
+                    tracks[object_id] = MotionTrack(self._n_updates, time_s - self._period_s, pose, own_m)
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
-        """Find the objects that landed in this update. Call it after the graph moved."""
+        """Find the objects that landed in this update. Call it after the graph is updated."""
         self._n_updates = now = self._n_updates + 1
-        moving: list[tuple[_Track, Pose, Vector, Vector]] = []
+        moving: list[tuple[MotionTrack, Pose, Vector, Vector]] = []
         stopped: list[str] = []
-        found: list[Landing] = []
-        rests: list[str] = []
-        beside = self._graph.beside  # what touches nothing has not landed
+        at_rest: list[str] = []
+        beside = self._graph.beside  # an object without contacts has not landed
         for object_id, track in self._tracks.items():
             pose = moved.get(object_id)
-            before = track.pose
-            if pose is not None and (
-                pose.position_m != before.position_m or pose.rotation_xyzw != before.rotation_xyzw
-            ):
-                (a, b, c) = track.middle_m
-                if pose.rotation_xyzw == before.rotation_xyzw:
-                    (x, y, z), (u, v, w) = pose.position_m, before.position_m
-                    onward = (x - u, y - v, z - w)
-                    middle_m = (a + onward[0], b + onward[1], c + onward[2])
-                else:
-                    x, y, z = middle_m = _turned(track.own_m, pose)
-                    onward = (x - a, y - b, z - c)
-                moving.append((track, pose, onward, middle_m))
-                if track.is_sudden(onward) and (beside.get(object_id) or (track.near and track.turns(onward))):
+            step = track.step_to(pose)
+            if pose is not None and step is not None:
+                moving.append((track, pose, *step))
+                if _is_sudden(track, step[0]) and (beside.get(object_id) or (track.near and _bounces(track, step[0]))):
                     stopped.append(object_id)
             elif track.has_stopped(now) and beside.get(object_id) and track.is_falling:
                 stopped.append(object_id)
             elif track.is_at_rest(now):
-                rests.append(object_id)
-        for object_id in stopped:
-            found += self._landing(object_id, self._tracks[object_id], time_s)
-        for track, pose, onward, middle_m in moving:
-            track.follow(now, time_s, pose, onward, middle_m)
+                at_rest.append(object_id)
+        found = [one for object_id in stopped for one in self._landing(object_id, self._tracks[object_id], time_s)]
+        for track, pose, step_m, middle_m in moving:
+            track.follow(now, time_s, pose, step_m, middle_m)
         for landing in found:
-            track = self._tracks[landing.object_id]
-            if track.steps[-1][0] == now:
-                track.turn(now)
-            else:
-                track.stop(now)
-        for object_id in rests:
+            self._tracks[landing.object_id].land(now)
+        for object_id in at_rest:
             del self._tracks[object_id]
-        met = {(one.object_id, one.onto) for one in found}
         # Two objects that met each other landed once.
-        return [x for x in found if (x.onto, x.object_id) not in met or x.object_id < x.onto]
+        met = {(one.object_id, one.onto) for one in found}
+        return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
-    def _landing(self, object_id: str, track: _Track, time_s: float) -> list[Landing]:
-        """The landing on the object that was approached the fastest, of all that it touches; empty if there is none."""
+    def _landing(self, object_id: str, track: MotionTrack, time_s: float) -> list[Landing]:
+        """The landing on the touched object that was approached the fastest; empty if there is none."""
         run = track.run()
-        (first, begin_s), (before, _), (last, end_s) = run[0], run[-2], run[-1]
+        (first, begin_s), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
         best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates
-        # After a long frame the next step is short, without being slow. A clock that stands still tells nothing.
-        lasted_s, lasts_s = end_s - run[-2][1], time_s - end_s
-        slower = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
+        # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
+        lasted_s, lasts_s = end_s - before_s, time_s - end_s
+        shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         for other, junction in (self._graph.beside.get(object_id) or track.near).items():
             point = _middle(junction)
             normal = self._normal(object_id, other, point, junction)
             came = self._nearing(object_id, other, point, first, last)
-            closing = _dot(came, normal)
+            closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
-                step = _dot(self._nearing(object_id, other, point, before, last), normal)
-                onward = _dot(self._nearing(object_id, other, point, last, now), normal)
-                if onward > LEFT * step * slower or self._rolls(object_id, track, normal, closing):
+                step = dot(self._nearing(object_id, other, point, before, last), normal)
+                onward = dot(self._nearing(object_id, other, point, last, now), normal)
+                if onward > LEFT * step * shorter or self._rolls(object_id, track, normal, closing):
                     continue
-                if self._is_stopped(object_id, other, point, normal, [*run, (now, time_s)]):
+                if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
         if best is None:
             return []
@@ -263,34 +137,35 @@ class Landings:
         speed = most_m / (n_updates * self._period_s if stands_still else elapsed_s)
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
 
-    def _is_stopped(
+    def _stops_suddenly(
         self, object_id: str, other: str, point_m: Vector, normal: Vector, run: list[tuple[int, float]]
     ) -> bool:
-        """Whether an object lost more speed towards another than a hand takes off, from one step to the next."""
+        """Whether an object lost more speed towards another, from one step to the next, than by a hand."""
         speed, lasted_s = -math.inf, 0.0
         for (since, begin_s), (until, end_s) in pairwise(run):
             lasts_s = end_s - begin_s if end_s > begin_s else (until - since) * self._period_s
-            now = _dot(self._nearing(object_id, other, point_m, since, until), normal) / lasts_s
+            now = dot(self._nearing(object_id, other, point_m, since, until), normal) / lasts_s
             if speed - now > min(BRAKES_M_S2 * (lasted_s + lasts_s) / 2, BRAKES_M_S):
                 return True
             speed, lasted_s = now, lasts_s
         return False
 
-    def _rolls(self, object_id: str, track: _Track, normal: Vector, closing_m: float) -> bool:
-        """Whether an object turned without its middle coming nearer. The others' motion is left out."""
+    def _rolls(self, object_id: str, track: MotionTrack, normal: Vector, closing_m: float) -> bool:
+        """Whether an object turned while its middle hardly approached. The motion of the other object is ignored."""
         begin, end = track.pose_at(track.run()[0][0]), self._graph.pose(object_id)
         if begin.rotation_xyzw == end.rotation_xyzw:
             return False
-        (x, y, z), (u, v, w) = _turned(track.own_m, end), _turned(track.own_m, begin)
-        return _dot((x - u, y - v, z - w), normal) < ROLLS * closing_m
+        (x, y, z), (u, v, w) = in_world(track.own_m, end), in_world(track.own_m, begin)
+        return dot((x - u, y - v, z - w), normal) < ROLLS * closing_m
 
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
         """Travel of a point of an object between two updates, relative to another object [m]."""
-        x, y, z = self._went(object_id, point_m, since, until)
-        a, b, c = self._went(other, point_m, since, until)
+        x, y, z = self._travel(object_id, point_m, since, until)
+        a, b, c = self._travel(other, point_m, since, until)
         return x - a, y - b, z - c
 
-    def _went(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+    def _travel(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+        """Travel between two updates [m] of the part of an object that is now at a point."""
         track, pose = self._tracks.get(object_id), self._graph.pose(object_id)
         if track is None:
             return 0.0, 0.0, 0.0
@@ -314,20 +189,18 @@ class Landings:
         return (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 0.0)
 
 
+def _is_sudden(track: MotionTrack, step_m: Vector) -> bool:
+    """Whether a fall changes abruptly with this step. Runs for every moved object in every frame."""
+    (x, y, z), (u, v, w) = step_m, track.step_m
+    x, y, z = x - u, y - v, z - w
+    return x * x + y * y + z * z >= _SUDDEN * (u * u + v * v + w * w) and track.is_falling
+
+
+def _bounces(track: MotionTrack, step_m: Vector) -> bool:
+    """Whether an object turns back: a fast one may be out of reach of the other object by the next frame."""
+    return dot(step_m, track.step_m) < 0
+
+
 def _middle(junction: Junction) -> Vector:
     x, y, z = (sum(axis) / len(junction.points_m) for axis in zip(*junction.points_m, strict=True))
     return x, y, z
-
-
-def _turned(own_m: Vector, pose: Pose) -> Vector:
-    """A point in the world, from an object's own frame, as `Pose.to_world`; runs for every object that turns."""
-    (a, b, c), (u, v, w) = own_m, pose.position_m
-    if not (a or b or c):
-        return u, v, w
-    x, y, z, s = pose.rotation_xyzw
-    d, e, f = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
-    return u + a + s * d + y * f - z * e, v + b + s * e + z * d - x * f, w + c + s * f + x * e - y * d
-
-
-def _dot(one: Vector, other: Vector) -> float:
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]

@@ -1,0 +1,144 @@
+"""The motion of one object, as steps between the frames of a game.
+
+The motion is that of the middle of the object's box, since its origin may be on a hinge. Physics may run more slowly
+than the frames, so that some frames have no step. A motion has stopped only if the longest of its latest gaps between
+two steps has passed without a further step.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from scene2hap.contact.junction import Junction
+from scene2hap.scene.pose import Pose
+
+WINDOW_S, MOST_STEPS = 0.05, 8
+"""Time and number of steps over which a speed is measured."""
+LEAST_TRAVEL_M = 0.004
+"""Shortest fall in one direction: an object that jitters by a millimetre along three axes never moves so far."""
+LEFT = 0.3
+"""Largest share of its speed that an object keeps after it landed."""
+LONGEST_GAP_S, MOST_GAP = 0.12, 12
+"""Longest time, and number of updates, from one step of a motion to the next: physics at 10 Hz; assumed."""
+GAP_DECAYS = 0.1
+"""Decrease of the remembered gap with each step [updates]: at 60 Hz, physics at 50 Hz misses every sixth frame."""
+
+Vector = tuple[float, float, float]
+_ZERO = (0.0, 0.0, 0.0)
+NOTHING: Mapping[str, Junction] = MappingProxyType({})
+
+
+class MotionTrack:
+    """The latest steps of an object, its last step, and the start of its present motion in one direction.
+
+    pose : the latest; middle_m : the middle of the box at this pose, in the world [m]; own_m : the same in the object's
+    own frame [m]; steps : number of the update, time [s] and pose of each step; gap : updates from one step to the
+    next, the longest of late; stopped_m : the last step before a landing that no further step confirmed; goes_on : the
+    object did not land then, but paused; near : the contacts before the present update, while the object falls.
+    """
+
+    __slots__ = (
+        "gap",
+        "goes_on",
+        "middle_m",
+        "n_steps",
+        "near",
+        "origin_m",
+        "own_m",
+        "pose",
+        "since",
+        "step_m",
+        "steps",
+        "stopped_m",
+    )
+
+    def __init__(self, update: int, time_s: float, pose: Pose, own_m: Vector) -> None:
+        self.steps, self.pose = [(update, time_s, pose)], pose
+        self.own_m, self.middle_m = own_m, in_world(own_m, pose)
+        self.gap, self.goes_on, self.stopped_m = 1.0, False, _ZERO
+        self.near: Mapping[str, Junction] = NOTHING
+        self.turn(update)
+
+    def turn(self, update: int) -> None:
+        """Begin a motion in another direction."""
+        self.since, self.n_steps, self.origin_m, self.step_m = update, 0, self.middle_m, _ZERO
+
+    def land(self, update: int) -> None:
+        """Begin another motion after a landing, which the last step confirms or a missing one."""
+        stopped_m = _ZERO if self.steps[-1][0] == update else self.step_m
+        self.turn(update)
+        self.stopped_m = stopped_m
+
+    @property
+    def is_falling(self) -> bool:
+        """Whether it moved far enough in one direction, in more than one step; a single step may be a teleport."""
+        return self.n_steps > 1 and not self.goes_on and math.dist(self.origin_m, self.middle_m) >= LEAST_TRAVEL_M
+
+    def has_stopped(self, update: int) -> bool:
+        """Whether the next step is missing since exactly this update."""
+        return self.steps[-1][0] + math.ceil(self.gap) == update
+
+    def is_at_rest(self, update: int) -> bool:
+        """Whether the motion has ended: no further step can belong to it."""
+        return update - self.steps[-1][0] > MOST_GAP
+
+    def step_to(self, pose: Pose | None) -> tuple[Vector, Vector] | None:
+        """Return the step to another pose, and the middle there [m]; None without a motion."""
+        before = self.pose
+        if pose is None or (pose.position_m == before.position_m and pose.rotation_xyzw == before.rotation_xyzw):
+            return None
+        a, b, c = self.middle_m
+        if pose.rotation_xyzw == before.rotation_xyzw:
+            (x, y, z), (u, v, w) = pose.position_m, before.position_m
+            step_m = x - u, y - v, z - w
+            return step_m, (a + step_m[0], b + step_m[1], c + step_m[2])
+        x, y, z = middle_m = in_world(self.own_m, pose)
+        return (x - a, y - b, z - c), middle_m
+
+    def follow(self, update: int, time_s: float, pose: Pose, step_m: Vector, middle_m: Vector) -> None:
+        """Add a step of `step_to`."""
+        last, last_s, _ = self.steps[-1]
+        waited = update - last
+        if waited > 1 and time_s - last_s > LONGEST_GAP_S:
+            self.turn(last)
+            self.gap, self.goes_on = 1.0, False
+        else:
+            self.gap = max(1.0, waited, self.gap - GAP_DECAYS)
+            if dot(step_m, self.step_m) <= 0:
+                stopped_m = self.stopped_m
+                self.turn(last)
+                self.goes_on = stopped_m is not _ZERO and dot(step_m, stopped_m) > LEFT * dot(stopped_m, stopped_m)
+        self.stopped_m = _ZERO
+        self.pose, self.middle_m, self.step_m = pose, middle_m, step_m
+        self.n_steps += 1
+        self.steps.append((update, time_s, pose))
+        if len(self.steps) > 4 * MOST_STEPS:
+            del self.steps[:-MOST_STEPS]
+
+    def run(self) -> list[tuple[int, float]]:
+        """Return the numbers and times [s] of the latest steps in one direction, at least two."""
+        latest = [(update, time_s) for update, time_s, _ in self.steps[-MOST_STEPS:]]
+        end_s = latest[-1][1]
+        kept = [(update, time_s) for update, time_s in latest if update >= self.since and end_s - time_s <= WINDOW_S]
+        return kept if len(kept) > 1 else latest[-2:]
+
+    def pose_at(self, update: int) -> Pose:
+        """Return the pose after an update, or the first known pose after it."""
+        return next((pose for later, _, pose in self.steps if later >= update), self.steps[-1][2])
+
+
+def in_world(own_m: Vector, pose: Pose) -> Vector:
+    """Return a point of an object's own frame in the world [m], as `Pose.to_world`, but quickly for a single point."""
+    (a, b, c), (u, v, w) = own_m, pose.position_m
+    if not (a or b or c):
+        return u, v, w
+    x, y, z, s = pose.rotation_xyzw
+    d, e, f = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return u + a + s * d + y * f - z * e, v + b + s * e + z * d - x * f, w + c + s * f + x * e - y * d
+
+
+def dot(one: Vector, other: Vector) -> float:
+    """Return the dot product."""
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
