@@ -99,7 +99,7 @@ class HapticSession:
     for.
     Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
     bundle has an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
-    for another actuator than the configured one.
+    for another actuator than the one that the settings name. Without a name, the bundle's is played on.
     """
 
     def __init__(
@@ -117,7 +117,7 @@ class HapticSession:
         if not (isinstance(scene, SceneSnapshot) and isinstance(bundle, HapticBundle)):
             scene, bundle = given_pair(scene, bundle)
         require_same_scene(scene, bundle)
-        self._config = SessionConfig.parse(config)
+        self._config = SessionConfig.parse(config).on_actuator(bundle.actuator)
         self._hands = checks.names("hands", hands)
         self._bundle = bundle
         warn_if_other_actuator(bundle, self.config.actuator)
