@@ -152,7 +152,7 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def _wishes(bundle: HapticBundle) -> dict[str, Override]:
-    """Return the corrections that correct something: `unmute` of an object that is not muted makes one that does not."""
+    """Return the corrections that correct something, unlike `unmute` of an object that is not muted."""
     return {object_id: wish for object_id, wish in bundle.overrides.items() if wish != Override()}
 
 
