@@ -41,8 +41,8 @@ class PluginGroup:
 
     `name` is the entry-point group (``"scene2hap.llm"``); `builtins` maps a kind to ``"module:attribute"``; `extras`
     maps a kind to the extra that installs its optional dependency; `members` are the required members of its protocol;
-    `wraps_functions` names the class that makes an implementation of a plain function, if there is one; `asked_for` maps
-    other names by which people ask for kinds to these kinds, for suggestions alone.
+    `wraps_functions` names the class that makes an implementation of a plain function, if there is one; `asked_for`
+    maps other names by which people ask for kinds to these kinds, for suggestions alone.
     """
 
     name: str
@@ -160,6 +160,8 @@ def lacking(made: object, members: Members) -> str:
 
     Without this check, such a mistake would raise an AttributeError or a TypeError inside this library.
     """
+    if isinstance(made, type):
+        return f"{represented(made)} is a class; make one of it, {made.__name__}(...)."
     needed = ", ".join(name if takes is None else f"{name}({', '.join(takes)})" for name, takes in members.items())
     for name, takes in members.items():
         member: Any = getattr(made, name, None)
