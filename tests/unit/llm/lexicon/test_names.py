@@ -45,6 +45,8 @@ NAMES = {
     "tablelink": "table",
     "cabinet_door_link": "door",
     "base_link": None,
+    "herb_pot": "flower pot",
+    "spice_jar_1": "spice jar",
     # camel, snake and kebab case, spaces, run-together words
     "kitchenFridge": "refrigerator",
     "RoomWindow": "window",
