@@ -7,13 +7,12 @@ from dataclasses import replace
 from scene2hap.scene.copies import name_words
 from scene2hap.scene.snapshot import SceneSnapshot
 
-_EMPTY = frozenset(
-    """
-    object objects obj body link base root world node mesh geom geometry group default scene model main visual
-    collision part untitled unnamed noname polygon poly surface shape primitive
-    cube sphere icosphere uvsphere cylinder plane circle cone torus capsule
-    """.split()
+_WORDS = (
+    "object objects obj body link base root world node mesh geom geometry group default scene model main visual "
+    "collision part untitled unnamed noname polygon poly surface shape primitive "
+    "cube sphere icosphere uvsphere cylinder plane circle cone torus capsule"
 )
+_EMPTY = frozenset(_WORDS.split())
 """Words without information about an object. "box" is not among them: a box is a thing."""
 
 

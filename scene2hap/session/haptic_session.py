@@ -285,9 +285,11 @@ class HapticSession:
 
         Objects stay where they are, and sources stay in their state if they still have it, on or off; a level or mute
         of `set_source` stays unless the bundle's own has changed. Objects that the session does not have are left out.
-        Raises: BundleError: no bundle, or one of another scene.
+        Raises: BundleError: no bundle, or one of another scene. Warns: OtherActuatorWarning: its loops were made for
+        another actuator than the session's.
         """
         require_correction(bundle, self._bundle)
+        warn_if_other_actuator(bundle, self.config.actuator)
         before, self._bundle = self._bundle, bundle
         for object_id in changed_objects(before, bundle):
             if object_id in self._state.objects:

@@ -64,3 +64,16 @@ def test_session_does_not_warn_of_the_same_or_an_unknown_actuator() -> None:
         HapticSession(scene, made_for(bundle, None), {"sample_rate_hz": RATE, "actuator": "lra"})
         HapticSession(scene, bundle, {"sample_rate_hz": RATE, "actuator": "lra"})
         HapticSession(silent.snapshot, silent, {"sample_rate_hz": RATE})
+
+
+def test_correction_for_another_actuator_brings_a_warning() -> None:
+    scene, bundle = table_with_two_phones()
+    session = HapticSession(scene, made_for(bundle, ACTUATORS["lra"]))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        session.use_bundle(made_for(bundle, ACTUATORS["lra"]))
+    with pytest.warns(
+        OtherActuatorWarning, match="for the actuator .voice_coil., and this session plays on .lra."
+    ) as told:
+        session.use_bundle(made_for(bundle, ACTUATORS["voice_coil"]))
+    assert told[0].filename == __file__
