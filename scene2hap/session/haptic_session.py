@@ -57,7 +57,12 @@ from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts import Impact, Impacts, Strike
 from scene2hap.session.landings import Landings
-from scene2hap.session.likely_mistakes import LikelyMistakes, warn_if_other_actuator, warn_if_other_hands
+from scene2hap.session.likely_mistakes import (
+    LikelyMistakes,
+    warn_if_not_baked,
+    warn_if_other_actuator,
+    warn_if_other_hands,
+)
 from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
@@ -120,6 +125,7 @@ class HapticSession:
         self._config = SessionConfig.parse(config).on_actuator(bundle.actuator)
         self._hands = checks.names("hands", hands)
         self._bundle = bundle
+        warn_if_not_baked(scene, bundle)
         warn_if_other_actuator(bundle, self.config.actuator)
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
