@@ -104,7 +104,8 @@ class HapticSession:
     for.
     Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
     bundle has an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
-    for another actuator than the one that the settings name. Without a name, the bundle's is played on.
+    for another actuator than the one that the settings name. Without a name, the bundle's is played on. SceneWarning:
+    the scene has objects that the bundle does not have.
     """
 
     def __init__(

@@ -9,6 +9,7 @@ import pytest
 from edge_scenes import no_source
 from scene2hap import HapticBundle, HapticSession, MemorySink, SessionConfig, Touch
 from scene2hap.audio.actuators import ACTUATORS
+from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.session.likely_mistakes import OtherActuatorWarning
 from scenes import RATE, table_with_two_phones
@@ -77,3 +78,8 @@ def test_correction_for_another_actuator_brings_a_warning() -> None:
     ) as told:
         session.use_bundle(made_for(bundle, ACTUATORS["voice_coil"]))
     assert told[0].filename == __file__
+
+
+def test_misspelt_actuator_is_refused_by_a_question() -> None:
+    with pytest.raises(ConfigError, match=r"Did you mean 'lra'\?$"):
+        SessionConfig(actuator="lra2")
