@@ -10,6 +10,7 @@ only the playing side.
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -110,9 +111,12 @@ def __getattr__(name: str) -> Any:
 
     if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a submodule that is being imported
         raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
-    from scene2hap.calls import unknown_attribute
+    from scene2hap.calls import unknown_attribute, unknown_import
 
-    raise unknown_attribute("scene2hap", name, [known for known in __dir__() if not known.startswith("_")])
+    known = [one for one in __dir__() if not one.startswith("_")]
+    # `from scene2hap import name` looks the name up first, and replaces an AttributeError by a message of its own.
+    is_import = sys._getframe(1).f_code.co_name == "_handle_fromlist"
+    raise (unknown_import if is_import else unknown_attribute)("scene2hap", name, known)
 
 
 def __dir__() -> list[str]:

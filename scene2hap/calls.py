@@ -15,7 +15,7 @@ from types import FunctionType
 from typing import Any, NamedTuple, NoReturn, ParamSpec, TypeVar
 
 from scene2hap import checks
-from scene2hap.errors import CallError, ReadOnlyAttribute, UnknownAttribute
+from scene2hap.errors import CallError, ReadOnlyAttribute, UnknownAttribute, UnknownImport
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
@@ -41,6 +41,12 @@ def unknown_attribute(owner: str, wanted: str, known: Iterable[str]) -> UnknownA
     """Return the error for an attribute that is not among the known ones."""
     # With obj=None, Python does not keep the instance alive and does not append its own suggestion.
     return UnknownAttribute(Missing(owner, wanted, tuple(sorted(known))), name=wanted, obj=None)
+
+
+def unknown_import(owner: str, wanted: str, known: Iterable[str]) -> UnknownImport:
+    """Return the error for a name that `from owner import wanted` does not find."""
+    near = checks.did_you_mean(wanted, known, "`dir(scene2hap)` lists its names.")
+    return UnknownImport(f"{owner} has no {checks.represented(wanted)} to import. {near}", name=owner)
 
 
 def clear_attributes(cls: Class) -> Class:

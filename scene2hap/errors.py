@@ -6,6 +6,7 @@ that ``except ValueError`` works for callers who do not know the tree::
     Scene2HapError
     ├── CallError (TypeError)                     a call with arguments that do not exist, are missing, or are too many
     ├── UnknownAttribute (AttributeError)         an attribute that does not exist; suggests a similar one
+    ├── UnknownImport (ImportError)               `from scene2hap import` of a missing name; suggests a similar one
     ├── ReadOnlyAttribute (AttributeError)        an attribute that cannot be set
     ├── ConfigError (ValueError)                  a setting that cannot work
     │   ├── UnknownPlugin (LookupError)           a `kind` that is not registered
@@ -54,6 +55,10 @@ class CallError(Scene2HapError, TypeError):
 
 class UnknownAttribute(Scene2HapError, AttributeError):
     """An attribute that the object does not have."""
+
+
+class UnknownImport(Scene2HapError, ImportError):
+    """A name that `from scene2hap import` does not find."""
 
 
 class ReadOnlyAttribute(Scene2HapError, FrozenInstanceError):

@@ -41,7 +41,8 @@ class PluginGroup:
 
     `name` is the entry-point group (``"scene2hap.llm"``); `builtins` maps a kind to ``"module:attribute"``; `extras`
     maps a kind to the extra that installs its optional dependency; `members` are the required members of its protocol;
-    `wraps_functions` names the class that makes an implementation of a plain function, if there is one.
+    `wraps_functions` names the class that makes an implementation of a plain function, if there is one; `asked_for`
+    maps other names by which people ask for kinds to these kinds, for suggestions alone.
     """
 
     name: str
@@ -49,6 +50,7 @@ class PluginGroup:
     extras: Mapping[str, str]
     members: Members = field(default_factory=dict)
     wraps_functions: str = ""
+    asked_for: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def kinds(self) -> tuple[str, ...]:
         """Return every name that `load` accepts, sorted."""
@@ -65,11 +67,16 @@ class PluginGroup:
         for guest in self._guests():
             if guest.name == kind:
                 return self._resolve(guest)
-        near = did_you_mean(kind, self.kinds())
+        near = self._near(kind)
         raise UnknownPlugin(
             f"{self.name} has no kind {kind!r}. {near}{' ' if near else ''}Known: {', '.join(self.kinds())}. "
             f"A package adds one by an entry point in the group {self.name!r}."
         )
+
+    def _near(self, kind: str) -> str:
+        """Return a sentence with the kinds that a wrong name may mean; "" if there are none."""
+        meant = self.asked_for.get(kind.casefold().replace(" ", "").replace("-", "").replace("_", ""))
+        return did_you_mean(kind, self.kinds()) if meant is None else f"Did you mean {' or '.join(map(repr, meant))}?"
 
     def guests(self) -> tuple[Guest, ...]:
         """Return the plug-ins of other packages. Each is loaded, to find those with errors."""
@@ -153,6 +160,8 @@ def lacking(made: object, members: Members) -> str:
 
     Without this check, such a mistake would raise an AttributeError or a TypeError inside this library.
     """
+    if isinstance(made, type):
+        return f"{represented(made)} is a class; make one of it, {made.__name__}(...)."
     needed = ", ".join(name if takes is None else f"{name}({', '.join(takes)})" for name, takes in members.items())
     for name, takes in members.items():
         member: Any = getattr(made, name, None)

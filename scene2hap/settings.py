@@ -84,7 +84,8 @@ class Settings(BaseModel):
             return f"there is no {cls.of_what} setting {problem.location[0]!r}. {near}"
         value = checks.shown(problem.value, problem.location[-1] if problem.location else "")
         got = "" if problem.kind == "value_error" and value in problem.reason else f", got {value}"
-        return f"{cls.of_what} setting {problem.place}: {problem.reason}{got}."
+        said = f"{cls.of_what} setting {problem.place}: {problem.reason}{got}"
+        return said if said.endswith("?") else f"{said}."
 
 
 _SUFFIXES = (".json", ".toml")

@@ -170,7 +170,13 @@ def _place(location: tuple[int | str, ...]) -> str:
 def _from_csv(text: str) -> dict[str, Any]:
     """Parse a CSV file with a row per step. Empty cells are left out. A row with only time_s ends the track."""
     steps: list[dict[str, Any]] = []
-    for row in csv.DictReader(text.splitlines()):
+    rows = csv.DictReader(text.splitlines())
+    named = [name.strip() for name in rows.fieldnames or ()]
+    if "time_s" not in named:
+        near = [f"; rename {name!r}" for name in named if checks.did_you_mean(name, ["time_s"])][:1]
+        has = f"it names {', '.join(map(repr, named))}" if named else "the file is empty"
+        raise ValueError(f"the first row must name the columns, time_s among them; {has}{''.join(near)}")
+    for row in rows:
         cells = {key.strip(): value.strip() for key, value in row.items() if key and value and value.strip()}
         step: dict[str, Any] = {
             key: _TRUTH.get(value.lower(), value) for key, value in cells.items() if key not in _VECTOR_CELLS

@@ -15,6 +15,7 @@ SOME_FIELD = (
 
 MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
     "Names that are not there": (
+        mistake("from scene2hap import HapticSesion", "HapticSesion", "Did you mean 'HapticSession'"),
         mistake("session.udpate({})", "HapticSession", "udpate", "Did you mean 'update'"),
         mistake("bundle.object", "'object'", "'objects'"),
         mistake("scene.objetcs", "objetcs", "'objects'"),

@@ -9,10 +9,11 @@ from __future__ import annotations
 import argparse
 import contextlib
 import warnings
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, NoReturn
 
 from scene2hap import __version__
+from scene2hap.checks import did_you_mean
 from scene2hap.cli import (
     audition,
     bake,
@@ -100,7 +101,25 @@ def _run(arguments: argparse.Namespace, console: Console) -> int:
 
 
 class _Parser(argparse.ArgumentParser):
-    """Escape arguments in messages as `Console` escapes names, since a file name may hold any character."""
+    """Suggest similar words, and list the words of a missing command or verb.
+
+    Arguments in messages are escaped as `Console` escapes names, since a file name may hold any character.
+    """
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            near = did_you_mean(value, map(str, action.choices or ()))
+            error.message = f"{error.message}. {near}" if near else error.message
+            raise
+
+    def error(self, message: str) -> NoReturn:
+        """Print the usage and a message, and exit with status 2."""
+        for action in self._actions:
+            if isinstance(action.choices, Mapping) and message.endswith(str(action.metavar)):
+                message = f"{message}, one of {', '.join(action.choices)}"
+        super().error(message)
 
     def _print_message(self, message: str, file: Any = None) -> None:
         # Some versions of argparse raise this error and others ignore it; `Console.close` reports failed output.

@@ -20,6 +20,7 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import ConfigError
 from scene2hap.llm.dry_run import dry_run
+from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers import identity, innermost, is_remote
 from scene2hap.llm.wrappers.prices import price_list
@@ -161,7 +162,9 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
     scene = read_scene(arguments)
     if pictures:
         scene = capture_images(scene)
-    model = identity(config.llm).get("model", "no model behind an address")
+    model, prices = identity(config.llm).get("model", "no model behind an address"), config.prices
+    if isinstance(innermost(config.llm), LexiconBackend):
+        model, prices = "lexicon", {**(prices or {}), "lexicon": (0.0, 0.0)}
     estimate = asyncio.run(
         dry_run(
             scene,
@@ -169,7 +172,7 @@ def _dry_run(arguments: argparse.Namespace, config: BakeConfig, console: Console
             user_prompt=arguments.prompt,
             config=config,
             detail=identity(config.llm).get("detail", "low"),
-            prices=config.prices,
+            prices=prices,
             service_tier=getattr(innermost(config.llm), "service_tier", ""),
         )
     )

@@ -34,7 +34,7 @@ from typing import Any
 
 from scene2hap.baking import rebake
 from scene2hap.baking.scene import OnRemade
-from scene2hap.bundle import HapticBundle, differences, require_replaceable
+from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable
 from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError, Scene2HapError
 from scene2hap.file_stamp import file_stamp
@@ -127,10 +127,15 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         remade.update({key: {state: list(why) for state, why in states.items()} for key, states in what.items()})
 
     after = arguments.change(before, arguments, note)
+    all_changes = differences(before, after)
+    if not all_changes and not remade and _wishes(after) == _wishes(before):
+        # Saving would replace the kept bundle, so that `undo` could no longer take back the edit before.
+        console.say(f"nothing changed; {arguments.bundle} stays as it was")
+        return {"bundle": str(arguments.bundle), "remade": remade}
     folder = after.save(arguments.bundle)
     before.save(_kept(arguments.bundle))
-    # Loops and the actuator are left out, since the table "loops made again" shows them.
-    changes = [row for row in differences(before, after) if row.what != "actuator" and not row.what.startswith("loop ")]
+    # A table of its own shows loops, and "loops made again" the actuator.
+    changes = [row for row in all_changes if row.what != "actuator" and not row.what.startswith("loop ")]
     for object_id, what, old, new in changes:
         console.say(f"{object_id}, {what}: {old} -> {new}")
     if remade:
@@ -141,9 +146,14 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         ]
         console.table("loops made again", ("object", "state", "what changed"), rows)
     if not changes and not remade:
-        console.say("nothing changed")
+        console.say("the values stay; noted as yours, for later bakes")
     console.say(f"wrote {folder}")
     return {"bundle": str(folder), "remade": remade}
+
+
+def _wishes(bundle: HapticBundle) -> dict[str, Override]:
+    """Return the corrections that correct something, unlike `unmute` of an object that is not muted."""
+    return {object_id: wish for object_id, wish in bundle.overrides.items() if wish != Override()}
 
 
 _IN_WORDS = {"plan": "its place among the sources"}

@@ -51,6 +51,10 @@ class UdpSink(LiveSink):
                 '"float32".'
             )
         checks.text("host", host, error=ConfigError)
+        if "/" in host or host.count(":") == 1:  # an address of IPv6 has several
+            raise ConfigError(
+                f"host is {checks.represented(host)}; give name and port apart: UdpSink('localhost', 9000)."
+            )
         datagrams = Datagrams(host, int(checks.number("port", port, "-", at_least=1, at_most=65535, error=ConfigError)))
         self._osc = OscLine(datagrams, clips or {}) if content == "osc" else None
         line: OscLine | PcmLine = self._osc or PcmLine(datagrams, sample_rate_hz, block_frames, _SAMPLES[samples])

@@ -35,6 +35,19 @@ class Exporter(Protocol):
 
 _KINDS = "scene2hap.export.kinds"
 
+_OPENXR = ("openxr_pcm", "openxr_envelope", "openxr_parametric")
+
+_ASKED_FOR: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("quest", "quest2", "quest3", "metaquest", "meta", "oculus", "unity", "unreal"), ("haptic",)),
+    **dict.fromkeys(("iphone", "ios", "apple", "corehaptics"), ("ahap",)),
+    **dict.fromkeys(("ps5", "playstation", "psvr", "psvr2"), ("dualsense",)),
+    **dict.fromkeys(("openxr", "steamvr", "index", "vive", "pico"), _OPENXR),
+    **dict.fromkeys(("mpeg", "hmpg"), ("hjif",)),
+    **dict.fromkeys(("phone", "phones", "mobile"), ("ahap", "android")),
+    **dict.fromkeys(("sound", "audio", "flac", "mp3"), ("wav", "pcm")),
+}
+"""Devices and programs, without case, blanks and dashes, and the kinds of files that they play."""
+
 EXPORTS = PluginGroup(
     "scene2hap.exports",
     {
@@ -51,6 +64,7 @@ EXPORTS = PluginGroup(
     },
     {},
     {"export": ("track",)},
+    asked_for=_ASKED_FOR,
 )
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Hashable
+
+import numpy as np
 
 from scene2hap.scene.objects import SceneObject
 
@@ -40,9 +41,17 @@ def name_words(name: str) -> tuple[str, ...]:
 
 
 def material_names(item: SceneObject) -> tuple[str, ...]:
-    """Return the authored names of an object's materials, each once. The material of most faces comes first."""
+    """Return the authored names of an object's materials, each once. The material of the largest area comes first.
+
+    Faces are not counted: a round handle has more of them than the cabinet that it is on.
+    """
     looks = item.appearance
     if looks is None:
         return ()
-    by_faces = Counter(looks.face_material.tolist())
-    return tuple(dict.fromkeys(name for index, _ in by_faces.most_common() if (name := looks.materials[index].name)))
+    corners_m = item.geometry.mesh.vertices_m[item.geometry.mesh.faces]
+    sides_m = corners_m[:, 1:] - corners_m[:, :1]
+    areas_m2 = np.linalg.norm(np.cross(sides_m[:, 0], sides_m[:, 1]), axis=1) / 2
+    by_area = np.bincount(looks.face_material, weights=areas_m2, minlength=len(looks.materials))
+    order = np.argsort(-by_area, kind="stable").tolist()
+    used = frozenset(looks.face_material.tolist())
+    return tuple(dict.fromkeys(name for index in order if index in used and (name := looks.materials[index].name)))

@@ -23,6 +23,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX
 from scene2hap.scene.objects import SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.shapes import DominantSurface, Geometry
 from scene2hap.scene.surface import plate_sizes
 
@@ -31,6 +32,11 @@ VERSION = 1
 
 _scene: TypeAdapter[SceneData] = TypeAdapter(SceneData)
 _geometry: TypeAdapter[Geometry] = TypeAdapter(Geometry)
+_SCENE_FIELDS = frozenset({"format", "version", "name", "up_axis", "objects", "contacts", "geometries"})
+_OBJECT_FIELDS = frozenset(
+    {"id", "name", "pose", "geometry", "surface", "relative_height_m", "instance_key", "mass_kg"}
+)
+_POSE_FIELDS = frozenset({"position_m", "rotation_xyzw"})
 # Placeholder for a surface until it is measured.
 _UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0, ("zero-thickness",))
 
@@ -99,8 +105,21 @@ def from_document(document: dict[str, Any]) -> SceneData:
     for item in scene.objects:
         _require_plausible_thickness(item)
     rows = document["objects"]
+    _warn_of_slips("the scene", _SCENE_FIELDS, [document])
+    _warn_of_slips("an object", _OBJECT_FIELDS, rows)
+    _warn_of_slips("a pose", _POSE_FIELDS, [row["pose"] for row in rows if isinstance(row["pose"], dict)])
     is_whole = all(row.get(key) is not None for row in rows for key in ("surface", "relative_height_m"))
     return scene if is_whole else _measured(scene, rows)
+
+
+def _warn_of_slips(owner: str, known: frozenset[str], rows: Sequence[dict[str, Any]]) -> None:
+    """Warn of fields whose names are similar to a missing one: they are ignored, as fields of an exporter's own are."""
+    seen: set[str] = set()
+    for row in rows:
+        for key in sorted(row.keys() - known - seen):
+            seen.add(key)
+            if near := checks.did_you_mean(key, sorted(known - row.keys())):
+                warn_of(f"the field {checks.represented(key)} of {owner} is ignored. {near}")
 
 
 def geometry_key(geometry: Geometry) -> str:

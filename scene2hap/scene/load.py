@@ -14,6 +14,7 @@ from scene2hap.calls import clear_call
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
+from scene2hap.scene.empty_names import named_after_file
 from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
 from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
 from scene2hap.scene.looks.texture_files import TextureFiles
@@ -59,8 +60,9 @@ def load_scene(
         tables are found without this parameter; see `scene2hap.scene.formats.habitat_names`.
 
     Returns: the scene named after the file. An object has the pose of the node that names it, without scale. Copies of
-        one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names; the second and
-        third object of a name, in file order, get `#2`, `#3`, ... Every load gives the same ids.
+        one mesh share one TriMesh, and one instance_key if they look alike. Ids are the authored names. The second and
+        third object of a name, in file order, get `#2`, `#3`, ... Every load gives the same ids. The only object of a
+        file has the file's name if its own says nothing, as "object", "base_link" or "Cube.001"; its id stays.
     Raises: SceneFormatError: the file is broken, or its content does not fit its suffix. SceneError: it is missing, too
     large (`scene2hap.scene.limits`), empty, wants a file outside assets_root, or holds invalid geometry. MissingExtra:
     a decoder, MuJoCo or usd-core is not installed.
@@ -102,6 +104,7 @@ def load_scene(
             warnings.warn(message, TextureWarning, stacklevel=3)
         unit = unit_m or authored.unit_m or 1.0
         snapshot = _snapshot(writable(scene_stem(path)), authored, up_axis or authored.up_axis, unit, group)
+    snapshot = named_after_file(snapshot, writable(scene_stem(path)))
     if unit_m is None:
         warn_if_implausible(snapshot, unit)
     return snapshot

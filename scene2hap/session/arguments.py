@@ -129,6 +129,11 @@ def given_strike(
 ) -> Strike:
     """Return a strike; a knock without speed and impulse. Raises: SessionError: numbers that are out of bounds."""
     x, y, z = checks.vector("point_m", point_m, "m", size=3, error=SessionError)
+    if with_object == object_id:
+        raise SessionError(
+            f"with_object is {checks.represented(with_object)}, the struck object itself; give the object that strikes "
+            "it, or None for a finger."
+        )
     if speed_m_s is not None and impulse_n_s is not None:
         raise SessionError("speed_m_s and impulse_n_s are both given; give one of them.")
     if impulse_n_s is not None:

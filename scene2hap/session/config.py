@@ -83,7 +83,7 @@ class SessionConfig(Settings):
     control_period_s : usual time between updates; gain changes are ramped over it, and over at least 10 ms.
     watchdog_s : time without an update after which a sink with a clock of its own fades to zero.
     actuator : the actuator in use, which gives the safety layer its limits: a name, a CSV file of Hz and dB, fields, or
-        an ActuatorProfile.
+        an ActuatorProfile. A session whose settings name none plays on the actuator that its bundle was made for.
     skip : work to skip: True for all of it, False for none, or a SkipConfig or its settings.
     impacts : True if a moved object is felt when it lands on another; `HapticSession.strike` works in any case.
     """
@@ -119,6 +119,12 @@ class SessionConfig(Settings):
                 f"{2.5 * top_hz:g} Hz. Raise it, or use lower bands"
             )
         return self
+
+    def on_actuator(self, actuator: ActuatorProfile | None) -> Self:
+        """Return these settings with an actuator, if they name none; None changes nothing."""
+        if actuator is None or "actuator" in self.model_fields_set:
+            return self
+        return self.model_copy(update={"actuator": actuator})
 
     @property
     def prepares_impacts(self) -> bool:

@@ -57,7 +57,12 @@ from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts import Impact, Impacts, Strike
 from scene2hap.session.landings import Landings
-from scene2hap.session.likely_mistakes import LikelyMistakes, warn_if_other_actuator, warn_if_other_hands
+from scene2hap.session.likely_mistakes import (
+    LikelyMistakes,
+    warn_if_not_baked,
+    warn_if_other_actuator,
+    warn_if_other_hands,
+)
 from scene2hap.session.output import Output
 from scene2hap.session.playback import Playback
 from scene2hap.session.scene_state import SceneState
@@ -98,7 +103,8 @@ class HapticSession:
     alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked for.
     Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
     bundle has an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
-    for another actuator than the configured one.
+    for another actuator than the one that the settings name. Without a name, the bundle's is played on. SceneWarning:
+    the scene has objects that the bundle does not have.
     """
 
     def __init__(
@@ -116,9 +122,10 @@ class HapticSession:
         if not (isinstance(scene, SceneSnapshot) and isinstance(bundle, HapticBundle)):
             scene, bundle = given_pair(scene, bundle)
         require_same_scene(scene, bundle)
-        self._config = SessionConfig.parse(config)
+        self._config = SessionConfig.parse(config).on_actuator(bundle.actuator)
         self._hands = checks.names("hands", hands)
         self._bundle = bundle
+        warn_if_not_baked(scene, bundle)
         warn_if_other_actuator(bundle, self.config.actuator)
         self._sources = Sources()
         for object_id, loops in bundle.loops.items():
@@ -285,9 +292,11 @@ class HapticSession:
         Objects stay where they are. Sources keep their state if they still have it, and stay on or off. A level or mute
         of `set_source` stays unless the bundle's value has changed. Objects that the session does not have are left
         out.
-        Raises: BundleError: another type, or a bundle of another scene.
+        Raises: BundleError: another type, or a bundle of another scene. Warns: OtherActuatorWarning: its
+        loops were made for another actuator than the session's.
         """
         require_correction(bundle, self._bundle)
+        warn_if_other_actuator(bundle, self.config.actuator)
         before, self._bundle = self._bundle, bundle
         for object_id in changed_objects(before, bundle):
             if object_id in self._state.objects:

@@ -21,6 +21,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
+from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import Touch
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.network import body_of
@@ -157,6 +158,17 @@ def warn_if_other_actuator(bundle: HapticBundle, actuator: ActuatorProfile) -> N
         OtherActuatorWarning,
         stacklevel=4,
     )
+
+
+def warn_if_not_baked(scene: SceneSnapshot, bundle: HapticBundle) -> None:
+    """Warn of objects that the bundle does not have, as after a bake of an earlier scene. Warns: SceneWarning."""
+    new = [item.id for item in scene.objects if item.id not in bundle.objects]
+    if new:
+        warn_of(
+            f"{len(new)} of {len(scene.objects)} objects of the scene are not in the bundle, such as {new[0]!r}: they "
+            "neither vibrate nor carry vibration. Bake the scene again; corrections are kept by bake(scene, "
+            "overrides=bundle.overrides)."
+        )
 
 
 def warn_if_other_hands(named: Sequence[str], own: Sequence[str]) -> None:

@@ -6,9 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
+import numpy as np
+
 from scene2hap.bundle.override import USER
 from scene2hap.haptics import ObjectHaptics
-from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.protocol import Body, Excitation
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
@@ -18,6 +20,12 @@ from scene2hap.session.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
 """Mass of a source without known mass and material."""
+
+UNKNOWN_DENSITY_KG_M3 = 200.0
+"""Mass over volume of the box around a striking object of unknown mass and material: a chair has some 60, a mug 500, a
+phone 2,000; assumed."""
+LEAST_MASS_KG = 1e-3
+"""Mass of a striking sheet, whose box has no volume: a feather or a card; assumed."""
 
 ASSEMBLED_LOSS = 0.04
 """Loss factor of assembled furniture, 0.03 to 0.06; assumed."""
@@ -114,6 +122,18 @@ def _corner(surface: DominantSurface, length_m: float, width_m: float, *, has_ou
         x0, y0, x1, y1 = surface.outline.box_m
         x, y = x0 + x1, y0 + y1
     return surface.pose.compose(Pose(((x - length_m) / 2, (y - width_m) / 2, 0.0)))
+
+
+def striker_of(item: SceneObject, haptics: ObjectHaptics | None) -> RigidBody:
+    """The body of a striking object whose material is unknown: as heavy as it is known to be, or as its box suggests.
+
+    A feather is no hammer, also if nobody says what it is made of.
+    """
+    known_kg = item.mass_kg if haptics is None or haptics.mass_kg is None else haptics.mass_kg
+    if known_kg is not None:
+        return RigidBody(known_kg)
+    low, high = item.geometry.mesh.bounds_m
+    return RigidBody(max(UNKNOWN_DENSITY_KG_M3 * float(np.prod(high - low)), LEAST_MASS_KG))
 
 
 def excitations_of(

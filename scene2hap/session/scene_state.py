@@ -15,7 +15,7 @@ from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.network import Corners, PlatePoses, body_of
+from scene2hap.session.network import Corners, PlatePoses, body_of, striker_of
 from scene2hap.session.reach import Reach, reach_over
 
 Thing = TypeVar("Thing")
@@ -109,6 +109,11 @@ class SceneState:
         corner = PlatePoses(self.objects, self.bodies, {object_id: self.graph.pose(object_id)}, self._corners)
         ((x, y),) = ContactNetwork(self.bodies, (), corner).on_body(object_id, [point_m]).tolist()
         return x, y
+
+    def striker(self, object_id: str) -> Body:
+        """The body with which an object strikes another one, also if its material is unknown."""
+        body = self.bodies.get(object_id)
+        return striker_of(self.objects[object_id], self.haptics.get(object_id)) if body is None else body
 
     def reach(self, source_ids: Sequence[str]) -> Reach:
         """The present groups of connected objects, and the sources in each."""

@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from scene2hap.checks import described
 from scene2hap.devices import SINKS
 from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat, SinkStats
@@ -26,6 +27,10 @@ def check_actuator_sink(
     Parameters: make : returns a new sink, called twice; within_s : longest time until a device requests frames [s].
     Raises: AssertionError: names the broken promise.
     """
+    assert callable(make), (
+        f"make is {described(make)}; it must be the class of the sink, or a function that makes one, since two are "
+        "needed: check_actuator_sink(MySink), or check_actuator_sink(lambda: MySink(port))."
+    )
     _hold_unused(make())
     sink, tone = make(), _Tone(sample_rate_hz, len(channels))
     name = type(sink).__name__

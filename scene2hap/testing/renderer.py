@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from scene2hap.checks import described
 from scene2hap.scene.capture.protocol import RendererFactory, Selection, drawn, made_renderer
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame
@@ -27,6 +28,9 @@ def check_renderer(factory: RendererFactory) -> None:
 
     Raises: AssertionError: names the broken promise; ConfigError: the result is no picture.
     """
+    assert callable(factory), (
+        f"factory is {described(factory)}; it must be the class of the renderer, or a function of a stage and smooth."
+    )
     stage = Stage.of(_ROOM)
     points = np.concatenate([actor.points_m for actor in stage.actors])
     camera = frame(points, 30.0, 35.0, stage.up_axis, 0.8, _SIZE_PX)

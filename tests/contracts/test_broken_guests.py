@@ -301,3 +301,19 @@ def test_a_plain_renderer_passes() -> None:
 def test_broken_renderers_fail_the_contract(factory: Any, words: str) -> None:
     with pytest.raises((AssertionError, Scene2HapError), match=words):
         check_renderer(factory)
+
+
+@pytest.mark.parametrize(
+    ("check", "given", "words"),
+    [
+        (check_propagation_model, FullPropagation, r"is a class; make one of it, FullPropagation\(...\)"),
+        (check_llm_backend, LexiconBackend, r"is a class; make one of it, LexiconBackend\(...\)"),
+        (check_actuator_sink, MemorySink(), "make is a MemorySink; it must be the class"),
+        (check_renderer, None, "factory is None; it must be the class"),
+    ],
+)
+def test_a_class_in_place_of_an_instance_is_named_and_the_other_way_round(
+    check: Callable[[Any], None], given: Any, words: str
+) -> None:
+    with pytest.raises(AssertionError, match=words):
+        check(given)

@@ -155,6 +155,26 @@ def test_bake_counts_further_warnings_of_one_kind(tmp_path: Path, capsys: pytest
     assert f"{len(account['doubts']) - 5} more like this" in lines[-1]
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ((), "required: COMMAND, one of demo, bake, bake-many"),
+        (("bak",), "Did you mean 'bake' or 'bake-many'?"),
+        (("edit", "some.bundle"), "required: VERB, one of gain, intensity, pitch"),
+        (("edit", "some.bundle", "gian", "fan", "3"), "Did you mean 'gain'?"),
+        (("list", "material"), "Did you mean 'materials'?"),
+        (("settings", "sesion"), "Did you mean 'session'?"),
+    ],
+)
+def test_wrong_usage_names_the_words_that_are_meant(
+    words: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(words)
+    assert caught.value.code == 2
+    assert said in capsys.readouterr().err
+
+
 def test_wrong_usage_is_status_2(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as caught:
         main(["bake"])

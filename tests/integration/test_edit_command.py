@@ -159,10 +159,29 @@ def test_an_edit_says_what_changed(tmp_path: Path, capsys: pytest.CaptureFixture
     assert "fan, gain: +0.0 dB -> -6.0 dB" in capsys.readouterr().out
     assert main(["edit", folder, "gain", "fan", "-6"]) == 0
     assert "nothing changed" in capsys.readouterr().out
+    assert main(["edit", folder, "material", "oak table", "oak"]) == 0
+    assert "the values stay; noted as yours" in capsys.readouterr().out
     assert main(["edit", folder, "pitch", "fan", "200"]) == 0
     said = capsys.readouterr().out
     assert "fan, pitch: - -> 200 Hz" in said
     assert "its place among the sources" in said
+
+
+def test_an_edit_without_effect_can_still_be_followed_by_undo(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = str(tmp_path / "kitchen.bundle")
+    assert main(["bake", room(tmp_path), "-o", folder, "-q"]) == 0
+    assert main(["edit", folder, "gain", "fan", "-6", "-q"]) == 0
+    capsys.readouterr()
+    for nothing in (("unmute", "fan"), ("unlock", "radio"), ("gain", "fan", "-6"), ("rebake",)):
+        assert main(["edit", folder, *nothing]) == 0
+        said = capsys.readouterr().out
+        assert "nothing changed" in said
+        assert "wrote" not in said
+    assert main(["edit", folder, "undo"]) == 0
+    assert "fan, gain: -6.0 dB -> +0.0 dB" in capsys.readouterr().out
+    assert HapticBundle.load(folder).gain_db("fan") == 0.0
 
 
 def test_a_silent_object_can_be_made_to_vibrate(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

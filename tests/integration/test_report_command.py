@@ -73,3 +73,10 @@ def test_page_shows_the_account_of_the_bake(tmp_path: Path, capsys: pytest.Captu
     rows = dict(json.loads(page.read_text())["account"]["rows"])
     assert rows["calls"].startswith(f"{sum(told['calls'].values())}: ")
     assert rows["answered from a cache"] == str(told["kept"])
+
+
+def test_dry_run_with_the_lexicon_costs_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bake", str(kitchen_path()), "--dry-run", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["model"] == "lexicon"
+    assert told["cost_usd"] == 0.0

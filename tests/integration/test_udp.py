@@ -17,6 +17,7 @@ from pythonosc.osc_server import OSCUDPServer
 from scene2hap import HapticSession, Touch
 from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.udp import UdpSink
+from scene2hap.errors import ConfigError
 from scene2hap.session import HapticFrame
 from scenes import RATE, table_with_two_phones
 from serial_bench import eventually
@@ -151,3 +152,10 @@ def test_gain_messages_have_the_format_of_the_paper() -> None:
             assert eventually(lambda: (1.0, "loops/phone.wav", 0) in patch.of("/scene2hap/gain"))
         assert eventually(patch.is_silent)
     assert patch.of("/scene2hap/play").count(("loops/phone.wav",)) == 1
+
+
+@pytest.mark.parametrize("host", ["localhost:9000", "udp://localhost", "192.168.0.5:9000"])
+def test_port_within_the_host_is_refused(host: str) -> None:
+    with pytest.raises(ConfigError, match=f"host is '{host}'; give name and port apart"):
+        UdpSink(host)
+    UdpSink("::1").close()

@@ -5,6 +5,8 @@ import sys
 
 import pytest
 
+from scene2hap.errors import UnknownImport
+
 HEAVY = {"numpy", "pydantic", "trimesh", "scipy", "httpx", "networkx"}
 
 
@@ -46,3 +48,15 @@ def test_unknown_name_is_an_attribute_error() -> None:
 
     with pytest.raises(AttributeError, match="no attribute 'Haptic'"):
         _ = scene2hap.Haptic  # type: ignore[attr-defined]
+
+
+def test_misspelt_import_suggests_a_name() -> None:
+    with pytest.raises(ImportError, match=r"scene2hap has no 'HapticSesion' to import. Did you mean 'HapticSession'"):
+        from scene2hap import HapticSesion  # type: ignore[attr-defined]  # noqa: F401
+    with pytest.raises(UnknownImport, match="lists its names"):
+        from scene2hap import Qqqqqq  # type: ignore[attr-defined]  # noqa: F401
+    assert not hasattr(__import__("scene2hap"), "HapticSesion")
+
+
+def test_submodules_are_imported_by_name() -> None:
+    assert "scene2hap.checks" in modules_after("from scene2hap import checks, bundle_watch")

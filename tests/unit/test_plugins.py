@@ -9,6 +9,7 @@ import pytest
 
 from scene2hap import plugins
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
+from scene2hap.export import EXPORTS
 from scene2hap.plugins import PluginGroup
 
 GROUP = PluginGroup(
@@ -104,3 +105,18 @@ def test_error_for_a_missing_member_names_the_class(members: plugins.Members, wo
     with pytest.raises(ConfigError, match=re.escape(f"scene2hap.test: {words}")):
         group.build(Half())
     assert not plugins.lacking(Half(), {"start": (), "__module__": None})
+
+
+@pytest.mark.parametrize(
+    ("asked", "meant"),
+    [
+        ("quest", "Did you mean 'haptic'?"),
+        ("Meta Quest", "Did you mean 'haptic'?"),
+        ("iOS", "Did you mean 'ahap'?"),
+        ("openxr", "Did you mean 'openxr_pcm' or 'openxr_envelope' or 'openxr_parametric'?"),
+        ("haptics", "Did you mean 'haptic'?"),
+    ],
+)
+def test_a_device_in_place_of_an_export_names_the_kind_that_it_plays(asked: str, meant: str) -> None:
+    with pytest.raises(UnknownPlugin, match=re.escape(meant)):
+        EXPORTS.load(asked)

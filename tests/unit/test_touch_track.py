@@ -119,6 +119,21 @@ def test_file_that_is_not_a_track_is_refused(tmp_path: Path, name: str, text: st
         TouchTrack.load(tmp_path / name)
 
 
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("time,hand,touch\n0.5,left,cup\n1.0,,\n", "it names 'time', 'hand', 'touch'; rename 'time'"),
+        ("0.5,left,cup\n1.0,,\n", "must name the columns, time_s among them; it names '0.5', 'left', 'cup'"),
+        ("", "the file is empty"),
+        ("time_s,hand\n1.0,left\n", "the last row must hold time_s alone"),
+    ],
+)
+def test_csv_without_its_columns_or_end_says_so(tmp_path: Path, text: str, sentence: str) -> None:
+    (tmp_path / "t.csv").write_text(text)
+    with pytest.raises(SessionError, match=sentence):
+        TouchTrack.load(tmp_path / "t.csv")
+
+
 def test_missing_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(SessionError, match="cannot be read"):
         TouchTrack.load(tmp_path / "nowhere.json")

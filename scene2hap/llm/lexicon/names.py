@@ -7,7 +7,7 @@
    coffee machine is no coffee. Words for tools, sides, colours and rooms are never the object.
 4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee). A
    container precedes its content (crate_tomatoes), a noun its material (tableGlass), and a wall the opening in it
-   (wall_doorway).
+   (wall_doorway). Links of robots are called by their joints (shoulder_pan_link), which are no objects.
 5. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
 """
 
@@ -75,7 +75,7 @@ def read_name(name: str) -> NameReading:
     unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread)
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
-    nouns = _nouns(tokens)
+    nouns = [noun for noun in _nouns(tokens) if not _is_of_robot(tokens, noun)]
     clause = _before_preposition(tokens, nouns)
     nouns = [noun for noun in nouns if noun.end <= clause]
     if not nouns:
@@ -134,6 +134,12 @@ def _noun_at(tokens: Sequence[str], start: int, end: int) -> _Noun | None:
         if entry is not None and (spelled == entry[1] or min(map(len, spelled)) > 1):
             return _Noun(entry[0], start, end, plural=form != last)
     return None
+
+
+def _is_of_robot(tokens: Sequence[str], noun: _Noun) -> bool:
+    """Return True if a noun names a joint, a hand or the make of a robot, and no object."""
+    beside = words.ROBOT_NOUNS.get(" ".join(tokens[noun.start : noun.end]))
+    return beside is not None and not beside.isdisjoint(tokens)
 
 
 def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:

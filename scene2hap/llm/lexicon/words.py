@@ -16,7 +16,7 @@ TOOL_WORDS = _set("""
     usdz ply asset assets pack kit item items variant var version ver rig rigged skinned skeleton armature bone empty
     null pivot ctrl locator helper dummy xform transform matrix scene level world env environment interior exterior mat
     material materials texture tex uv primitive prim submesh element component entity actor planforge sketchfab unity
-    unreal untitled noname unnamed
+    unreal untitled noname unnamed link joint
     cube cylinder sphere icosphere uvsphere circle plane cone torus capsule quad curve line polygon surface shape bezier
     nurbs text point
 """)
@@ -155,6 +155,13 @@ MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
 LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house", "backsplash", "splashback"})
 """Nouns that are no objects after another noun. Exporters write "Burner_mat_0", designers "ham_trash" and
 "sofa_orange". A "counter_backsplash" is a counter with a backsplash."""
+
+ROBOT_NOUNS = {
+    **dict.fromkeys(("roll", "pan", "lift", "palm"), frozenset({"link", "joint"})),
+    "panda": frozenset({"link", "joint", "hand", "finger", "leftfinger", "rightfinger", "gripper"}),
+}
+"""Nouns that name a robot's joint, hand or make beside one of these words: a "shoulder_pan_link" is no frying pan, a
+"hip_roll_link" no bread, and a "panda_link3" no animal."""
 
 SHELLS = frozenset({"wall", "brick wall", "concrete wall", "dungeon wall", "tile"})
 OPENINGS = frozenset({"window", "door", "doorway", "arch", "gate", "window frame"})

@@ -134,16 +134,16 @@ def _coordinates(rest: str) -> tuple[float, float]:
 
 
 def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
-    """Return the triangles of a convex polygon."""
+    """Return the triangles of a convex polygon; none of an edge, which exporters write as a face of two corners."""
     words = rest.split()
     try:
         vertices = [int(word.partition("/")[0]) for word in words]
     except ValueError as cause:
         raise SceneFormatError(f"line {number}: 'f {rest}' is no face; it must be vertex numbers.") from cause
     vertices = [vertex - 1 if vertex > 0 else n_vertices + vertex for vertex in vertices]
-    if len(vertices) < 3 or not all(0 <= vertex < n_vertices for vertex in vertices):
+    if not vertices or not all(0 <= vertex < n_vertices for vertex in vertices):
         raise SceneFormatError(
-            f"line {number}: 'f {rest}' must name three or more of the {n_vertices} vertices before it (from 1)."
+            f"line {number}: 'f {rest}' must name some of the {n_vertices} vertices before it (from 1)."
         )
     corners = [vertex << _SHIFT for vertex in vertices]
     if n_coordinates:

@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from scene2hap.scene.copies import copy_key, name_words
+from scene2hap.scene.copies import copy_key, material_names, name_words
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import TriMesh
 from scenes import box
 
 CUBE = replace(box("chair_1", (0.4, 0.4, 0.4), (0, 0, 0)), instance_key="cube")
@@ -72,3 +74,17 @@ def test_whole_size_is_invariant_under_yaw() -> None:
     assert turned.whole_size_m("y") == pytest.approx((1.2, 0.6, 1.8))
     fallen = replace(one, pose=Pose((0, 0, 0), (2**-0.5, 0.0, 0.0, 2**-0.5)))
     assert fallen.whole_size_m("y") == pytest.approx((1.8, 0.6, 1.2))
+
+
+def test_material_of_the_largest_area_comes_first() -> None:
+    board = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+    handle = np.array([[0.01 * np.cos(a), 0.01 * np.sin(a), 0.1] for a in np.arange(12)])
+    faces = [[0, 1, 2], [0, 2, 3], *([4, 4 + i, 5 + i] for i in range(1, 11))]
+    looks = Appearance(
+        (FaceMaterial(name="steel"), FaceMaterial(name="lacquer"), FaceMaterial(name="unused")),
+        np.array([1, 1, *[0] * 10], np.int32),
+    )
+    mesh = TriMesh(np.concatenate([board, handle]), np.array(faces))
+    item = SceneObject("wall_cabinet", geometry=mesh, appearance=looks)
+    assert material_names(item) == ("lacquer", "steel")
+    assert material_names(replace(item, appearance=None)) == ()

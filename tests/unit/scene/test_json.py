@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 from scene2hap.errors import SceneError
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.scene_warning import SceneWarning
 from scene2hap.scene.shapes import Box, DominantSurface, TriMesh
 from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene
@@ -155,3 +157,29 @@ def test_error_names_the_missing_field(field: str) -> None:
 def test_text_that_is_not_a_scene_is_refused(text: str) -> None:
     with pytest.raises(SceneError, match="not JSON|not a scene"):
         SceneSnapshot.from_json(text)
+
+
+@pytest.mark.parametrize(
+    ("place", "missing", "written", "near"),
+    [
+        ("object", "mass_kg", "mass", "of an object is ignored. Did you mean 'mass_kg'"),
+        ("pose", "rotation_xyzw", "rotation_xyxw", "of a pose is ignored. Did you mean 'rotation_xyzw'"),
+        ("scene", "contacts", "contact", "of the scene is ignored. Did you mean 'contacts'"),
+    ],
+)
+def test_misspelt_optional_field_brings_a_warning(place: str, missing: str, written: str, near: str) -> None:
+    document = json.loads(scene(box("cup", (0.1, 0.1, 0.1), (0, 0, 0))).to_json())
+    row = {"scene": document, "object": document["objects"][0], "pose": document["objects"][0]["pose"]}[place]
+    row[written] = row.pop(missing, None)
+    with pytest.warns(SceneWarning, match=near) as told:
+        SceneSnapshot.from_json(json.dumps(document))
+    assert len(told) == 1
+    assert told[0].filename == __file__
+
+
+def test_own_fields_bring_no_warning() -> None:
+    document = json.loads(scene(box("cup", (0.1, 0.1, 0.1), (0, 0, 0))).to_json())
+    document["objects"][0] |= {"unity_guid": 7, "layer": "Default", "name_de": "Tasse", "mass_kg": 0.2, "mass": 0.2}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        SceneSnapshot.from_json(json.dumps(document))

@@ -32,6 +32,10 @@ def test_polygons_become_fans() -> None:
     assert corners(SQUARE + "f 1 2 3 4") == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]]
 
 
+def test_edges_written_as_faces_are_left_out() -> None:
+    assert corners(SQUARE + "f 1 2\nf 1 2 3\nf 4\n") == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
+
+
 def test_negative_indices_count_back_from_their_line() -> None:
     text = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\no b\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf -3 -2 -1\n"
     heights = [node.pieces[0].vertices[:, 2].tolist() for node in read_obj(text, "file").roots]
@@ -85,7 +89,8 @@ def test_object_contains_only_its_used_vertices(tmp_path: Path) -> None:
     [
         ("v 0 0\n", "line 1: 'v 0 0' is no vertex"),
         ("v 0 0 zero\n", "line 1: .*three numbers"),
-        (SQUARE + "f 1 2\n", "line 5: 'f 1 2' must name three or more of the 4 vertices"),
+        (SQUARE + "f\n", "line 5: 'f ' must name some of the 4 vertices"),
+        (SQUARE + "f 1 9\n", "line 5: 'f 1 9' must name some of the 4 vertices"),
         (SQUARE + "f 1 2 5\n", "line 5: 'f 1 2 5' must name"),
         (SQUARE + "f 0 1 2\n", "line 5: 'f 0 1 2' must name"),
         (SQUARE + "f -5 1 2\n", "line 5: 'f -5 1 2' must name"),

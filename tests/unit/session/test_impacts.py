@@ -10,12 +10,15 @@ import pytest
 
 from scene2hap import (
     AutoFidelity,
+    Box,
     ExponentialPlate,
     HapticSession,
     InfinitePlate,
     MassSpringDamper,
     ModalPlate,
     Pose,
+    SceneObject,
+    SceneWarning,
     Touch,
     UserProfile,
 )
@@ -310,6 +313,40 @@ def test_struck_object_of_unknown_material_is_felt_on_itself(propagation: str) -
     assert made.strike("block", (0.8, 0.5, 0.6)).felt["left"] > 0.005
 
 
+def _put(made: HapticSession, name: str, size_m: tuple[float, float, float], mass_kg: float | None = None) -> str:
+    """Add an object of unknown material, far from everything. Returns its id."""
+    with pytest.warns(SceneWarning, match="nothing is known"):
+        made.add(SceneObject(name, pose=Pose((9.0, 5.0, 9.0)), geometry=Box(size_m), mass_kg=mass_kg))
+    return name
+
+
+def test_striker_of_unknown_material_strikes_as_hard_as_its_size_or_mass_lets_it() -> None:
+    made = session()
+    feather = _put(made, "feather", (0.1, 0.005, 0.02))
+    crate = _put(made, "crate", (0.5, 0.5, 0.5))
+    weight = _put(made, "weight", (0.1, 0.005, 0.02), mass_kg=5.0)
+    made.update(touches=touches())
+    felt = {}
+    for striker in (feather, crate, weight, "cup"):
+        felt[striker] = made.strike("table", STRUCK, with_object=striker, speed_m_s=1.0).felt["left"]
+    assert felt[feather] < felt["cup"] < felt[crate]
+    assert felt[feather] < 0.2 * felt[weight]
+
+
+def test_landing_of_unknown_material_is_as_a_strike_with_it() -> None:
+    made = session()
+    feather, crate = _put(made, "feather", (0.1, 0.005, 0.02)), _put(made, "crate", (0.1, 0.1, 0.1), mass_kg=3.0)
+    found = {}
+    for name, height_m in ((feather, 0.005), (crate, 0.1)):
+        for above_m in (0.1, 0.08, 0.06, 0.04, 0.02, 0.0, 0.0, 0.0):
+            made.update({name: Pose((0.4, TOP_M + height_m / 2 + above_m, 0.4))}, touches())
+            made.render_s(1 / 90)
+        found[name] = made.explain("left").impacts[0].felt["left"]
+        made.update({name: Pose((9.0, 5.0, 9.0))}, touches())
+        made.render_s(1.1)
+    assert found[feather] < 0.3 * found[crate]
+
+
 @pytest.mark.parametrize("settings", [{"prepare": "blocking"}, {"gain_limit_db": None}], ids=["blocking", "ahead"])
 def test_neighbours_of_unknown_material_do_not_change_an_impact(settings: dict[str, Any]) -> None:
     felt = []
@@ -440,5 +477,7 @@ def test_strike_on_a_missing_object_is_refused() -> None:
         made.strike("tabel", STRUCK)
     with pytest.raises(UnknownObject, match="mug"):
         made.strike("table", STRUCK, with_object="mug")
+    with pytest.raises(SessionError, match="the struck object itself"):
+        made.strike("table", STRUCK, with_object="table")
     with pytest.raises(SessionError, match="point_m"):
         made.strike("table", (0.0, 1.0))  # type: ignore[arg-type]
