@@ -37,6 +37,7 @@ class Plate:
     Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
     "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width;
     object_mass_kg : mass of the whole object, which counts where it moves as a whole, None for that of the plate [kg];
+    mass_is_estimate : True if nobody weighed the object, so that its mass says less about its thickness;
     feet : material on which the object rests on heavier ones, None for its own; outline : of a plate that is no
     rectangle, within length and width, with free edges; None for the rectangle. `MassSpringDamper` and `AutoFidelity`
     follow it, `ModalPlate` refuses it, and to the others a plate has no edges.
@@ -52,6 +53,7 @@ class Plate:
     object_mass_kg: float | None = None
     feet: Material | None = None
     outline: Outline | None = None
+    mass_is_estimate: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.material, str):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 from scene2hap.bundle.override import USER
 from scene2hap.haptics import ObjectHaptics
@@ -30,6 +31,9 @@ _HEAD_NOUNS = (
 HEAD_NOUNS = frozenset(_HEAD_NOUNS.split())
 """The last words of categories that are furniture."""
 
+_WEIGHED = frozenset({USER, "scene"})
+"""Origins of a mass that is no estimate."""
+
 
 def is_assembled(haptics: ObjectHaptics) -> bool:
     """Whether an object is furniture whose material no person chose; a chosen material keeps its own loss."""
@@ -48,12 +52,17 @@ def body_of(haptics: ObjectHaptics | None, surface: DominantSurface | None = Non
     if material.loss_factor < ASSEMBLED_LOSS and is_assembled(haptics):
         material = replace(material, loss_factor=ASSEMBLED_LOSS)
     length_m, width_m, thickness_m = haptics.estimated_size_m
+    others: dict[str, Any] = {
+        "object_mass_kg": haptics.mass_kg,
+        "mass_is_estimate": haptics.provenance.get("mass_kg", USER) not in _WEIGHED,
+        "feet": haptics.feet,
+    }
     if surface is None or surface.outline is None:
-        return Plate(length_m, width_m, thickness_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
+        return Plate(length_m, width_m, thickness_m, material, **others)
     # A correction of the rectangle's size holds for the outline as well.
     scale = length_m / surface.length_m, width_m / surface.width_m
     outline = _scaled(surface.outline, scale)
-    return Plate.of_outline(outline, thickness_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
+    return Plate.of_outline(outline, thickness_m, material, **others)
 
 
 @lru_cache(maxsize=1024)
