@@ -26,7 +26,7 @@ from scene2hap import (
     bake,
     materials,
 )
-from scene2hap.propagation.coupled.hollow import ESTIMATE, no_heavier_than_object
+from scene2hap.propagation.coupled.hollow import ESTIMATE, THINNEST, no_heavier_than_object
 
 OAK = materials.lookup("oak")
 THICK = Plate(1.2, 0.7, 0.12, OAK)
@@ -69,6 +69,10 @@ def test_only_what_weighs_more_than_its_object_becomes_thinner() -> None:
     assert no_heavier_than_object(estimated) is estimated
     light = replace(THICK, object_mass_kg=THICK.mass_kg / 10, mass_is_estimate=True)
     assert no_heavier_than_object(light).mass_kg == pytest.approx(ESTIMATE * THICK.mass_kg / 10)
+    held = replace(THICK, object_mass_kg=1.0, boundary="CFFF")
+    assert no_heavier_than_object(held) is held
+    grams = replace(THICK, object_mass_kg=1e-6)
+    assert no_heavier_than_object(grams).thickness_m == pytest.approx(THINNEST * THICK.thickness_m)
 
 
 def test_infinite_plate_of_a_light_object_answers_by_its_mass_per_area() -> None:
