@@ -254,7 +254,8 @@ def truth(case: Case, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def matching(case: Case, a: str, b: str) -> list[Triple]:
-    return [at for x, y, at in case.touching if {x, y} == {a, b}]
+    """Where two objects may touch: their own contacts, then those of others, by which a layer may be pressed."""
+    return [at for x, y, at in sorted(case.touching, key=lambda one: {one[0], one[1]} != {a, b})]
 
 
 def is_at(network: ContactNetwork, joint: Joint, at: Triple) -> bool:
