@@ -114,6 +114,10 @@ def test_only_what_lies_flat_below_the_pressed_place_is_pressed() -> None:
     assert joints_between(replace(network, contacts=tuple(unknown)), "floor", "layer 0") == 4
     legs = [replace(one, point_m=(*one.point_m[:2], -0.4)) if one.a == "floor" else one for one in network.contacts]
     assert joints_between(replace(network, contacts=tuple(legs)), "floor", "layer 0") == 4
+    wall = replace(network, poses={**network.poses, "floor": Pose((-1.5, -1.0, -0.1), (0.5**0.5, 0.0, 0.0, 0.5**0.5))})
+    assert joints_between(wall, "floor", "layer 0") == 4
+    small = replace(network, bodies={**network.bodies, "floor": Plate(1.6, 1.1, 0.2, CONCRETE)})
+    assert joints_between(small, "floor", "layer 0") == 4
     rigid = replace(network, bodies={**network.bodies, "layer 0": RigidBody(1.0)})
     assert joints_between(rigid, "floor", "layer 0") == 4
 

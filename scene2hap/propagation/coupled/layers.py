@@ -19,7 +19,9 @@ sag; the cone is that of bolted members (Shigley, Mechanical Engineering Design,
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -30,6 +32,7 @@ from scene2hap.propagation.coupled.rigid import is_compact
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork
 from scene2hap.scene.objects import Contact
+from scene2hap.scene.pose import Pose
 
 UNEVEN_M = 1e-3
 """How far from each other two surfaces lie that touch at their highest places. Assumed; flatness tolerances of finished
@@ -57,29 +60,41 @@ def pressed_through(
     for a, b in contacts:
         beside.setdefault(a, []).append(b)
         beside.setdefault(b, []).append(a)
-    layers = {key: body for key in beside if len(beside[key]) > 1 and (body := _layer(network, key)) is not None}
-    waiting = [
-        (other, layer, contact, preloads_n[_sorted(other, layer)])
+    layers: dict[str, Plate] = {}
+    sagging_n: dict[str, float] = {}
+    for key, others in beside.items():
+        plate = _layer(network, key) if len(others) > 1 else None
+        if plate is not None and max(preloads_n[_sorted(key, other)] for other in others) >= (
+            least := _sagging_n(plate)
+        ):
+            layers[key], sagging_n[key] = plate, least
+    beds = {
+        (layer, under): bed
+        for layer in layers
+        for under in beside[layer]
+        if (bed := _Bed.of(network, layer, under, contacts[_sorted(layer, under)])) is not None
+    }
+    waiting = deque(
+        (by, layer, contact, preloads_n[_sorted(by, layer)])
         for layer in sorted(layers)
-        for other in sorted(beside[layer])
-        for contact in contacts[_sorted(other, layer)]
-    ]
+        for by in sorted(beside[layer])
+        if preloads_n[_sorted(by, layer)] >= sagging_n[layer]
+        for contact in contacts[_sorted(by, layer)]
+    )
     found: dict[Pair, list[tuple[Contact, Spring]]] = {}
     seen: set[tuple[Pair, Point]] = set()
     while waiting:
-        by, layer, contact, force_n = waiting.pop(0)
-        if sag_m(layers[layer], force_n) < UNEVEN_M:
-            continue
+        by, layer, contact, force_n = waiting.popleft()
         for under in sorted(beside[layer]):
-            pair = _sorted(layer, under)
-            point_m = _below(network, layer, contact, contacts[pair]) if under != by else None
-            if point_m is None or (pair, point_m) in seen:
+            bed, pair = beds.get((layer, under)), _sorted(layer, under)
+            point_m = bed.below(contact) if bed is not None and under != by else None
+            if bed is None or point_m is None or (pair, point_m) in seen:
                 continue
             seen.add((pair, point_m))
-            normal = contacts[pair][0].normal
-            own = Contact(*pair, point_m, _turned(normal, contacts[pair][0].a != pair[0]), weight=contact.weight)
+            normal = _turned(bed.away, pair[0] != layer)
+            own = Contact(*pair, point_m, normal, weight=contact.weight)
             found.setdefault(pair, []).append((own, through(layers[layer], force_n, law)))
-            if under in layers:
+            if force_n >= sagging_n.get(under, math.inf):
                 waiting.append((layer, under, own, force_n))
     return found
 
@@ -109,26 +124,72 @@ def _layer(network: ContactNetwork, object_id: str) -> Plate | None:
     return no_heavier_than_object(body)
 
 
-def _below(network: ContactNetwork, layer: str, pressing: Contact, contacts: Sequence[Contact]) -> Point | None:
-    """Return where a layer is pressed onto an object, by the contacts with it; None if it is not.
+@lru_cache(maxsize=4096)
+def _sagging_n(plate: Plate) -> float:
+    """Return the force under which a layer sags onto what it lies on [N]; 0 or less if its weight suffices."""
+    by_weight = sag_m(plate, 0.0)
+    return (UNEVEN_M - by_weight) / (sag_m(plate, 1.0) - by_weight)
 
-    The object must be on the layer's other side, close by, and around the pressed point.
+
+@dataclass(frozen=True, eq=False)
+class _Bed:
+    """Where a layer lies on an object: the area between its contacts, in the frame of the layer.
+
+    Parameters: layer_id; pose : of the layer; away : the normal out of the layer; low_m, high_m : corners of the area;
+    height_m : of the contacts; most_m : the farthest that a pressed point may be from the mid-plane; facing : pose and
+    size of a plate that must be there, None for a compact object.
     """
-    body, pose = network.bodies[layer], network.poses[layer]
-    assert isinstance(body, Plate)
-    towards = _outwards(layer, pressing)
-    away = [_outwards(layer, one) for one in contacts]
-    if towards is None or any(one is None or np.dot(one, towards) > -_OPPOSITE for one in away):
-        return None
-    own = pose.to_own([pressing.point_m, *(one.point_m for one in contacts)])
-    if (np.abs(own[:, 2]) > body.thickness_m).any():
-        return None
-    slack = _SLACK * max(body.extent_m)
-    low, high = own[1:, :2].min(axis=0) - slack, own[1:, :2].max(axis=0) + slack
-    if not ((low <= own[0, :2]) & (own[0, :2] <= high)).all():
-        return None
-    x, y, z = pose.to_world([(own[0, 0], own[0, 1], own[1:, 2].mean())])[0].tolist()
-    return (x, y, z)
+
+    layer_id: str
+    pose: Pose
+    away: Point
+    low_m: tuple[float, float]
+    high_m: tuple[float, float]
+    height_m: float
+    most_m: float
+    facing: tuple[Pose, float, float] | None
+
+    @classmethod
+    def of(cls, network: ContactNetwork, layer: str, under: str, contacts: Sequence[Contact]) -> _Bed | None:
+        """Return None if the contacts are not all on one side of the layer, near it, and on a face of the object."""
+        body, pose, other = network.bodies[layer], network.poses[layer], network.bodies.get(under)
+        away = _outwards(layer, contacts[0])
+        if not isinstance(body, Plate) or other is None or away is None:
+            return None
+        for one in contacts:
+            normal = _outwards(layer, one)
+            if normal is None or _dot(normal, away) < _OPPOSITE:
+                return None
+        own = pose.to_own([one.point_m for one in contacts])
+        if (np.abs(own[:, 2]) > body.thickness_m).any():
+            return None
+        facing = None
+        if isinstance(other, Plate) and under in network.poses and not is_compact(other):
+            facing = network.poses[under], other.length_m, other.width_m
+            if abs(_dot(facing[0].rotation[:, 2].tolist(), away)) < _OPPOSITE:
+                return None  # a wall, which carries at its edge alone
+        (x0, y0, _), (x1, y1, _) = own.min(axis=0).tolist(), own.max(axis=0).tolist()
+        slack = _SLACK * max(body.extent_m)
+        low, high = (x0 - slack, y0 - slack), (x1 + slack, y1 + slack)
+        return cls(layer, pose, away, low, high, float(own[:, 2].mean()), body.thickness_m, facing)
+
+    def below(self, pressing: Contact) -> Point | None:
+        """Return where the layer is pressed onto the object; None if it is not."""
+        towards = _outwards(self.layer_id, pressing)
+        if towards is None or _dot(towards, self.away) > -_OPPOSITE:
+            return None
+        x, y, z = self.pose.to_own([pressing.point_m])[0].tolist()
+        is_around = self.low_m[0] <= x <= self.high_m[0] and self.low_m[1] <= y <= self.high_m[1]
+        if abs(z) > self.most_m or not is_around:
+            return None
+        a, b, c = self.pose.to_world([(x, y, self.height_m)])[0].tolist()
+        if self.facing is not None:
+            pose, length, width = self.facing
+            u, v, _ = pose.to_own([(a, b, c)])[0].tolist()
+            slack = _SLACK * max(length, width)
+            if not (-slack <= u <= length + slack and -slack <= v <= width + slack):
+                return None
+        return (a, b, c)
 
 
 def _outwards(object_id: str, contact: Contact) -> Point | None:
@@ -144,3 +205,7 @@ def _turned(normal: Point | None, is_turned: bool) -> Point | None:
 
 def _sorted(a: str, b: str) -> Pair:
     return (a, b) if a < b else (b, a)
+
+
+def _dot(one: Sequence[float], other: Sequence[float]) -> float:
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
