@@ -100,8 +100,9 @@ def cases() -> dict[str, Case]:
                 {"lower": Pose(), "upper": Pose((0.25, 0.15, 0.0))},
             )
     for feet in ("rubber", "felt"):
+        tray = plate(0.5, 0.4, 0.002, "steel", feet)  # its mass lets it rest on its feet
         found[f"steel tray on {feet} feet"] = Case(
-            {"lower": table("oak", 0.02), "tray": replace(plate(0.5, 0.4, 0.002, "steel", feet), object_mass_kg=3.12)},
+            {"lower": table("oak", 0.02), "tray": replace(tray, object_mass_kg=tray.mass_kg)},
             [
                 *(("lower", "tray", at) for at in [(0.3, 0.2, 0.0), (0.7, 0.2, 0.0), (0.3, 0.5, 0.0), (0.7, 0.5, 0.0)]),
                 ("tray", "source", (0.5, 0.35, 0.0)),
@@ -254,7 +255,8 @@ def truth(case: Case, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def matching(case: Case, a: str, b: str) -> list[Triple]:
-    return [at for x, y, at in case.touching if {x, y} == {a, b}]
+    """Where two objects may touch: their own contacts, then those of others, by which a layer may be pressed."""
+    return [at for x, y, at in sorted(case.touching, key=lambda one: {one[0], one[1]} != {a, b})]
 
 
 def is_at(network: ContactNetwork, joint: Joint, at: Triple) -> bool:

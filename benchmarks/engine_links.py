@@ -18,8 +18,7 @@ import numpy as np
 
 from scene2hap import HapticSession, PoseTable, Touch, bake
 from scene2hap.engines import MuJoCoLink, Panda3DLink
-from scene2hap.scene.engines import mujoco as mujoco_scene
-from scene2hap.scene.engines import panda3d as panda3d_scene
+from scene2hap.scene.engines import mujoco as mujoco_scene, panda3d as panda3d_scene
 
 NAMES = [f"{('smartphone', 'wooden_table', 'mug')[i % 3]}_{i}" for i in range(50)]
 PLACES_M = [(i % 10 * 0.3, i // 10 * 0.3, 0.0499) for i in range(50)]

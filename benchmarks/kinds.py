@@ -29,8 +29,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import resample
 
-from scene2hap import AudioClip, BakeConfig, Box, HapticBundle, Pose, SceneObject, SceneSnapshot, VibrationDescription
-from scene2hap import bake as bake_scene
+from scene2hap import (
+    AudioClip,
+    BakeConfig,
+    Box,
+    HapticBundle,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    VibrationDescription,
+    bake as bake_scene,
+)
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.distinctness import distinctness, feel_of
 from scene2hap.audio.felt_loop import Plan, felt_loop

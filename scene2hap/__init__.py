@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
 
-_HOME = {
+_NAMES_IN = {
     "scene2hap.scene.load": ("load_scene",),
     "scene2hap.scene.capture": ("capture_images",),
     "scene2hap.scene.capture.given_pictures": ("GivenPictures",),
@@ -80,8 +80,8 @@ _HOME = {
     "scene2hap.devices.memory": ("MemorySink",),
     "scene2hap.devices.wav": ("WavSink",),
 }
-_MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
-_ROOMS = (
+_MODULE_OF = {name: module for module, names in _NAMES_IN.items() for name in names}
+_PACKAGES = (
     "audio",
     "contact",
     "devices",
@@ -105,7 +105,7 @@ def __getattr__(name: str) -> Any:
         value = getattr(import_module(_MODULE_OF[name]), name)
         globals()[name] = value
         return value
-    if name in _ROOMS:
+    if name in _PACKAGES:
         return import_module(f"scene2hap.{name}")
     from importlib.util import find_spec
 
@@ -120,43 +120,34 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__, *_ROOMS})
+    return sorted({*globals(), *__all__, *_PACKAGES})
 
 
 if TYPE_CHECKING:
-    from scene2hap.audio.clip import AudioClip as AudioClip
-    from scene2hap.audio.clip import Credit as Credit
+    from scene2hap.audio.clip import AudioClip as AudioClip, Credit as Credit
     from scene2hap.audio.haptic_loop import HapticLoop as HapticLoop
     from scene2hap.audio.protocol import (
         AudioSource as AudioSource,
-    )
-    from scene2hap.audio.protocol import (
         ConversionContext as ConversionContext,
-    )
-    from scene2hap.audio.protocol import (
         TactileConverter as TactileConverter,
     )
     from scene2hap.audio.select import select_clip as select_clip
-    from scene2hap.baking import BakeConfig as BakeConfig
-    from scene2hap.baking import abake as abake
-    from scene2hap.baking import arebake as arebake
-    from scene2hap.baking import bake as bake
-    from scene2hap.baking import bake_object as bake_object
-    from scene2hap.baking import rebake as rebake
-    from scene2hap.baking.many import ManyReport as ManyReport
-    from scene2hap.baking.many import abake_many as abake_many
-    from scene2hap.baking.many import bake_many as bake_many
-    from scene2hap.bundle import HapticBundle as HapticBundle
-    from scene2hap.bundle import Override as Override
+    from scene2hap.baking import (
+        BakeConfig as BakeConfig,
+        abake as abake,
+        arebake as arebake,
+        bake as bake,
+        bake_object as bake_object,
+        rebake as rebake,
+    )
+    from scene2hap.baking.many import ManyReport as ManyReport, abake_many as abake_many, bake_many as bake_many
+    from scene2hap.bundle import HapticBundle as HapticBundle, Override as Override
     from scene2hap.bundle_watch import BundleWatch as BundleWatch
     from scene2hap.clips.haptic_clip import HapticClip as HapticClip
     from scene2hap.clips.reading import read_haptic_clip as read_haptic_clip
-    from scene2hap.contact.graph import ContactChange as ContactChange
-    from scene2hap.contact.graph import ContactGraph as ContactGraph
+    from scene2hap.contact.graph import ContactChange as ContactChange, ContactGraph as ContactGraph
     from scene2hap.devices.memory import MemorySink as MemorySink
-    from scene2hap.devices.protocol import ActuatorSink as ActuatorSink
-    from scene2hap.devices.protocol import SinkEvent as SinkEvent
-    from scene2hap.devices.protocol import SinkStats as SinkStats
+    from scene2hap.devices.protocol import ActuatorSink as ActuatorSink, SinkEvent as SinkEvent, SinkStats as SinkStats
     from scene2hap.devices.serial_amp import SerialAmplifierSink as SerialAmplifierSink
     from scene2hap.devices.soundcard import SoundCardSink as SoundCardSink
     from scene2hap.devices.tee import TeeSink as TeeSink
@@ -165,112 +156,66 @@ if TYPE_CHECKING:
     from scene2hap.devices.wav import WavSink as WavSink
     from scene2hap.engines import (
         EngineAdapter as EngineAdapter,
-    )
-    from scene2hap.engines import (
         EngineLink as EngineLink,
-    )
-    from scene2hap.engines import (
         MuJoCoLink as MuJoCoLink,
-    )
-    from scene2hap.engines import (
         Panda3DLink as Panda3DLink,
     )
-    from scene2hap.export import export_bundle as export_bundle
-    from scene2hap.export import export_clip as export_clip
+    from scene2hap.export import export_bundle as export_bundle, export_clip as export_clip
     from scene2hap.haptics import (
         ActuatorProfile as ActuatorProfile,
-    )
-    from scene2hap.haptics import (
         Bands as Bands,
-    )
-    from scene2hap.haptics import (
         ObjectHaptics as ObjectHaptics,
-    )
-    from scene2hap.haptics import (
         SourceState as SourceState,
-    )
-    from scene2hap.haptics import (
         VibrationDescription as VibrationDescription,
     )
     from scene2hap.llm.backends.chat import BackendWarning as BackendWarning
     from scene2hap.llm.backends.function import FunctionBackend as FunctionBackend
     from scene2hap.llm.backends.local import LocalBackend as LocalBackend
     from scene2hap.llm.backends.openai import OpenAIBackend as OpenAIBackend
-    from scene2hap.llm.backends.replay import RecordingBackend as RecordingBackend
-    from scene2hap.llm.backends.replay import ReplayBackend as ReplayBackend
+    from scene2hap.llm.backends.replay import RecordingBackend as RecordingBackend, ReplayBackend as ReplayBackend
     from scene2hap.llm.chain import infer_haptics as infer_haptics
     from scene2hap.llm.lexicon import LexiconBackend as LexiconBackend
-    from scene2hap.llm.protocol import LLMBackend as LLMBackend
-    from scene2hap.llm.protocol import LLMReply as LLMReply
-    from scene2hap.llm.protocol import LLMRequest as LLMRequest
+    from scene2hap.llm.protocol import LLMBackend as LLMBackend, LLMReply as LLMReply, LLMRequest as LLMRequest
     from scene2hap.llm.wrappers import (
         BudgetBackend as BudgetBackend,
-    )
-    from scene2hap.llm.wrappers import (
         CacheBackend as CacheBackend,
-    )
-    from scene2hap.llm.wrappers import (
         Price as Price,
-    )
-    from scene2hap.llm.wrappers import (
         RepairBackend as RepairBackend,
-    )
-    from scene2hap.llm.wrappers import (
         RetryBackend as RetryBackend,
-    )
-    from scene2hap.llm.wrappers import (
         standard_stack as standard_stack,
     )
     from scene2hap.materials import Material as Material
     from scene2hap.propagation.auto import AutoFidelity as AutoFidelity
-    from scene2hap.propagation.controls import FullPropagation as FullPropagation
-    from scene2hap.propagation.controls import NoPropagation as NoPropagation
+    from scene2hap.propagation.controls import FullPropagation as FullPropagation, NoPropagation as NoPropagation
     from scene2hap.propagation.coupled.hand import Hand as Hand
     from scene2hap.propagation.exponential_plate import ExponentialPlate as ExponentialPlate
     from scene2hap.propagation.infinite_plate import InfinitePlate as InfinitePlate
     from scene2hap.propagation.mass_spring_damper import MassSpringDamper as MassSpringDamper
     from scene2hap.propagation.modal_plate import ModalPlate as ModalPlate
     from scene2hap.propagation.modes import plate_modes as plate_modes
-    from scene2hap.propagation.plate import Plate as Plate
-    from scene2hap.propagation.plate import RigidBody as RigidBody
+    from scene2hap.propagation.plate import Plate as Plate, RigidBody as RigidBody
     from scene2hap.propagation.protocol import (
         ContactNetwork as ContactNetwork,
-    )
-    from scene2hap.propagation.protocol import (
         Excitation as Excitation,
-    )
-    from scene2hap.propagation.protocol import (
         PropagationField as PropagationField,
-    )
-    from scene2hap.propagation.protocol import (
         PropagationModel as PropagationModel,
     )
     from scene2hap.scene.capture import capture_images as capture_images
     from scene2hap.scene.capture.given_pictures import GivenPictures as GivenPictures
     from scene2hap.scene.load import load_scene as load_scene
-    from scene2hap.scene.objects import Contact as Contact
-    from scene2hap.scene.objects import SceneObject as SceneObject
+    from scene2hap.scene.objects import Contact as Contact, SceneObject as SceneObject
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.pose_table import PoseTable as PoseTable
     from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
-    from scene2hap.scene.shapes import Box as Box
-    from scene2hap.scene.shapes import DominantSurface as DominantSurface
-    from scene2hap.scene.shapes import TriMesh as TriMesh
+    from scene2hap.scene.shapes import Box as Box, DominantSurface as DominantSurface, TriMesh as TriMesh
     from scene2hap.scene.snapshot import SceneSnapshot as SceneSnapshot
     from scene2hap.scene.surface.outline import Outline as Outline
     from scene2hap.session import (
         HapticFrame as HapticFrame,
-    )
-    from scene2hap.session import (
         HapticSession as HapticSession,
-    )
-    from scene2hap.session import (
+        Impact as Impact,
         SessionConfig as SessionConfig,
-    )
-    from scene2hap.session import (
         Touch as Touch,
-    )
-    from scene2hap.session import (
         UserProfile as UserProfile,
     )
     from scene2hap.touch_track import TouchTrack as TouchTrack

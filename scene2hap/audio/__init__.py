@@ -8,8 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from scene2hap.audio.conversion import convert as convert
-    from scene2hap.audio.conversion import convert_files as convert_files
+    from scene2hap.audio.conversion import convert as convert, convert_files as convert_files
 
 __all__ = ["convert", "convert_files"]
 

@@ -26,13 +26,13 @@ from scene2hap.cli import (
     edit,
     export,
     inspect,
+    list as list_names,
     play,
     render,
     report,
     settings,
     streams,
 )
-from scene2hap.cli import list as list_names
 from scene2hap.cli.console import Console
 from scene2hap.errors import Scene2HapError
 from scene2hap.printable import printable

@@ -14,8 +14,7 @@ from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.free_space import FreeSpace
-from scene2hap.contact.free_space import top_face as ledge_face
+from scene2hap.contact.free_space import FreeSpace, top_face as ledge_face
 from scene2hap.contact.geometry.separation import reach_along, separation
 from scene2hap.contact.geometry.vectors import AABB, Triple
 from scene2hap.contact.host_frame import roles

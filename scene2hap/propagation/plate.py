@@ -36,8 +36,9 @@ class Plate:
 
     Parameters: length_m, width_m, thickness_m > 0 [m]; material : a Material, or its name in the table; boundary :
     "free", "simply-supported", "clamped", or four letters F, S, C for the edges x=0, x=length, y=0, y=width;
-    object_mass_kg : mass of the whole object [kg], used where it moves as a whole, None for the plate's mass; feet :
-    material of the feet on which the object rests on heavier ones, None for its own; outline : outline of a plate that
+    object_mass_kg : mass of the whole object [kg], used where it moves as a whole, None for the plate's mass;
+    mass_is_estimate : True if no scene or person gave the mass, so that it limits the thickness less; feet : material
+    of the feet on which the object rests on heavier ones, None for its own; outline : outline of a plate that
     is not a rectangle, within length and width, with free edges; None for the rectangle. `MassSpringDamper` and
     `AutoFidelity` follow it, `ModalPlate` raises an error, and other models ignore edges.
     Raises: ModelDomainError: a dimension is not positive and finite, the boundary is not one of these, or an edge of a
@@ -52,6 +53,7 @@ class Plate:
     object_mass_kg: float | None = None
     feet: Material | None = None
     outline: Outline | None = None
+    mass_is_estimate: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.material, str):

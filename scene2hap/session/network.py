@@ -38,6 +38,9 @@ _HEAD_NOUNS = (
 HEAD_NOUNS = frozenset(_HEAD_NOUNS.split())
 """The last words of categories that are furniture."""
 
+_WEIGHED = frozenset({USER, "scene"})
+"""Origins of a mass that is no estimate."""
+
 
 def is_assembled(haptics: ObjectHaptics) -> bool:
     """Whether an object is furniture whose material no person chose; a chosen material keeps its loss factor."""
@@ -57,11 +60,13 @@ def body_of(haptics: ObjectHaptics | None, surface: DominantSurface | None = Non
         material = replace(material, loss_factor=ASSEMBLED_LOSS)
     length_m, width_m, thickness_m = haptics.estimated_size_m
     if surface is None or surface.outline is None:
-        return Plate(length_m, width_m, thickness_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
-    # A correction of the rectangle's size holds for the outline as well.
-    scale = length_m / surface.length_m, width_m / surface.width_m
-    outline = _scaled(surface.outline, scale)
-    return Plate.of_outline(outline, thickness_m, material, object_mass_kg=haptics.mass_kg, feet=haptics.feet)
+        plate = Plate(length_m, width_m, thickness_m, material)
+    else:
+        # A correction of the rectangle's size holds for the outline as well.
+        scale = length_m / surface.length_m, width_m / surface.width_m
+        plate = Plate.of_outline(_scaled(surface.outline, scale), thickness_m, material)
+    is_estimate = haptics.provenance.get("mass_kg", USER) not in _WEIGHED
+    return replace(plate, object_mass_kg=haptics.mass_kg, mass_is_estimate=is_estimate, feet=haptics.feet)
 
 
 @lru_cache(maxsize=1024)

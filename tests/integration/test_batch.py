@@ -13,8 +13,7 @@ from batch_server import BatchServer, Plan, answered, serving_batches
 from llm_server import KEY, Asked, Scripted, refused, said
 from rooms_of_things import digests, write_scenes
 from scene2hap import bake_many
-from scene2hap.baking.many import BatchReport, batch_status, collect_batch, submit_batch
-from scene2hap.baking.many import batch as batch_module
+from scene2hap.baking.many import BatchReport, batch as batch_module, batch_status, collect_batch, submit_batch
 from scene2hap.cli import main
 from scene2hap.errors import BackendUnavailable, BudgetExceeded, ConfigError
 from scene2hap.llm.batch import folder, service

@@ -13,8 +13,7 @@ from scene2hap.audio.files import write_wav
 from scene2hap.audio.recorded_runs import recorded_runs
 from scene2hap.cli import main
 from scenes import box, scene
-from starting_machines import RATE_HZ as RECORDED_HZ
-from starting_machines import Signal, machine
+from starting_machines import RATE_HZ as RECORDED_HZ, Signal, machine
 
 RATE_HZ = 48_000
 START_S, STOP_S = 2.0, 4.0

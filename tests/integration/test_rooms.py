@@ -6,8 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rooms import ROOMS, room_file
 from scene2hap import HapticSession, Pose, SceneSnapshot, Touch, bake, load_scene

@@ -3,8 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene, thing
 from scene2hap.contact.graph import ContactGraph

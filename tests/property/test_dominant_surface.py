@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import trimesh
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import Box, DominantSurface, TriMesh

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from export_draws import CHECKED, problems, random_exporter, random_track
 from scene2hap.clips.ahap import compose_ahap, read_ahap

@@ -3,8 +3,7 @@
 import asyncio
 from typing import Any
 
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from scene2hap.errors import BadAnswer
 from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer

@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from edge_scenes import EDGE_SCENES, on_top_of
 from scene2hap import AudioClip, Bands, Contact, HapticBundle, HapticLoop, HapticSession, Pose, SceneSnapshot, Touch

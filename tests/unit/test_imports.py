@@ -1,7 +1,9 @@
 """Modules that imports load, in a new process."""
 
+import ast
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -38,7 +40,19 @@ def test_every_public_name_is_there() -> None:
         assert getattr(scene2hap, name) is not None
 
 
-def test_rooms_are_reachable_as_attributes() -> None:
+def test_type_checkers_know_every_public_name() -> None:
+    """Those that `__getattr__` imports stand in a block that only type checkers read."""
+    import scene2hap
+
+    tree = ast.parse(Path(scene2hap.__file__).read_text(encoding="utf-8"))
+    (block,) = (one for one in tree.body if isinstance(one, ast.If) and ast.unparse(one.test) == "TYPE_CHECKING")
+    imports = [one for one in block.body if isinstance(one, ast.ImportFrom)]
+    known = {name.asname: f"{one.module}.{name.name}" for one in imports for name in one.names}
+    assert known.keys() == {*scene2hap.__all__} - {"__version__"}
+    assert all(place.endswith(f".{name}") for name, place in known.items())
+
+
+def test_packages_are_reachable_as_attributes() -> None:
     loaded = modules_after("import scene2hap; scene2hap.materials.lookup('oak')")
     assert "scene2hap.materials" in loaded
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scene2hap.llm.answers import ObjectAnswer, StateAnswer
+from scene2hap.llm.lexicon.masses import usual_mass_kg
 from scene2hap.llm.lexicon.materials import make, painted_with
 from scene2hap.llm.lexicon.name_checks import fit, owner_of_part
 from scene2hap.llm.lexicon.names import NameReading, read_name
@@ -122,7 +123,7 @@ def _as_real(
         vibration_reason=vibration_reason,
         states=states,
         confidence=round(confidence * fitting.trust, 3),
-        estimated_mass_kg=None if fitting.part_of else row.mass_kg,
+        estimated_mass_kg=None if fitting.part_of else usual_mass_kg(row, item.whole_m),
         feet_material=None if fitting.part_of else row.feet,
     )
 

@@ -4,7 +4,8 @@
 dominant surface. It also gives the span of its longest edge, its use, and the states in which it vibrates by itself.
 Each row names its source. Intensities are assumed, on the scale of `haptics.SourceState`; their ranking follows
 published hand-arm vibration if there is any. Thicknesses and sizes are assumed unless the row's source says otherwise.
-Masses are of usual products of usual size (shop listings and data sheets, from memory).
+Masses are of usual products of usual size (shop listings and data sheets, from memory). `usual_boxes.csv` has these
+sizes, also from memory, for nouns whose objects differ much in size.
 
 `role` resolves names that hold two nouns: a "container" or "vessel" may be followed by its "content"
 (crate_tomatoes); a "part" belongs to the noun before it (oven_door). A "vehicle" that is far too small is a toy.
@@ -84,7 +85,8 @@ def table() -> tuple[ObjectRow, ...]:
 @cache
 def version() -> str:
     """Return a short digest of the tables, so that an answer's provenance changes exactly when a row does."""
-    rows = [line for text in (_text(), starting_text()) for line in text.splitlines()]
+    texts = _text(), starting_text(), usual_boxes_text()
+    rows = [line for text in texts for line in text.splitlines()]
     return hashlib.sha256("\n".join(rows).encode()).hexdigest()[:8]
 
 
@@ -92,6 +94,12 @@ def version() -> str:
 def starting_text() -> str:
     """Return the content of the file of start and stop times; see `lexicon.start_times`."""
     return files(__package__).joinpath("start_times.csv").read_text(encoding="utf-8")
+
+
+@cache
+def usual_boxes_text() -> str:
+    """Return the content of the file of usual sizes; see `lexicon.masses`."""
+    return files(__package__).joinpath("usual_boxes.csv").read_text(encoding="utf-8")
 
 
 @cache

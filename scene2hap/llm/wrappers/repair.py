@@ -8,8 +8,7 @@ from dataclasses import replace
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
-from scene2hap.llm.backends.chat import Said, UnusableAnswer, require_willing, unusable
-from scene2hap.llm.backends.chat import about as describe
+from scene2hap.llm.backends.chat import Said, UnusableAnswer, about as describe, require_willing, unusable
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.validation import Fault, find_fault

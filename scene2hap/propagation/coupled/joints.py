@@ -12,6 +12,7 @@ import numpy as np
 from scene2hap.materials import Material
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import NORMAL, Along, Joint
+from scene2hap.propagation.coupled.layers import pressed_through
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.objects import Contact
@@ -28,18 +29,25 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
     """Return the joints between bodies that carry vibration, in an order that does not depend on the contacts' order.
 
     A contact's weight scales its stiffness; a contact of weight 0 makes no joint. Coinciding contacts of a pair act in
-    parallel, so their stiffnesses add up.
+    parallel, so their stiffnesses add up. A soft layer also touches its support below a load (`layers`).
     """
     pairs: dict[tuple[str, str], list[Contact]] = defaultdict(list)
     for contact in network.contacts:
         if contact.weight > 0 and contact.a in carriers and contact.b in carriers:
             first, second = sorted((contact.a, contact.b))
             pairs[first, second].append(contact)
-    touching: dict[str, list[Contact]] = defaultdict(list)
+    masses = {object_id: _known_mass_kg(network, object_id) for pair in pairs for object_id in pair}
+    preloads_n: dict[tuple[str, str], float] = {}
     for pair, contacts in pairs.items():
         contacts.sort(key=lambda one: (one.point_m, one.weight, one.area_m2 or 0.0))
+        known = [mass for mass in (masses[pair[0]], masses[pair[1]]) if mass is not None]
+        preloads_n[pair] = law.preload(known, len(contacts))
+    pressed = pressed_through(network, pairs, preloads_n, law)
+    touching: dict[str, list[Contact]] = defaultdict(list)
+    for pair, contacts in pairs.items():
         for object_id in pair:
             touching[object_id] += contacts
+            touching[object_id] += [one for one, _ in pressed.get(pair, ())]
     places = {
         object_id: iter(_on_body(network, object_id, tuple([one.point_m for one in contacts])))
         for object_id, contacts in touching.items()
@@ -48,15 +56,14 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
     stiffness = cache(law.stiffness)  # joints are of few kinds
     joints: list[Joint] = []
     for (a, b), contacts in pairs.items():
-        mass_a, mass_b = _known_mass_kg(network, a), _known_mass_kg(network, b)
-        preload_n = law.preload([mass for mass in (mass_a, mass_b) if mass is not None], len(contacts))
+        mass_a, mass_b = masses[a], masses[b]
         # The lighter object stands on the other; if no mass is known, neither stands.
         a_rests = mass_a is not None and (mass_b is None or mass_a < mass_b)
         b_rests = mass_b is not None and (mass_a is None or mass_b <= mass_a)
         materials = (_material(network, a, stands=a_rests), _material(network, b, stands=b_rests))
         found = []
-        for contact in contacts:
-            k, loss = stiffness(*materials, contact.area_m2, preload_n)
+        springs = [(one, stiffness(*materials, one.area_m2, preloads_n[a, b])) for one in contacts]
+        for contact, (k, loss) in [*springs, *pressed.get((a, b), ())]:
             point_a_m, point_b_m, weighed = next(places[a]), next(places[b]), contact.weight * k
             alongs = next(directions[a]), next(directions[b])
             found.append(Joint(a, b, point_a_m, point_b_m, weighed, loss, 0.0, *alongs))

@@ -27,6 +27,7 @@ from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, inclined_in
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import HandLoad
+from scene2hap.propagation.coupled.hollow import no_heavier_than_object
 from scene2hap.propagation.coupled.impact_scene import DENSITY, IMPACT_BANDS, StruckScene
 from scene2hap.propagation.coupled.impact_solution import solve_struck
 from scene2hap.propagation.coupled.joints import joints_of, legs_of, source_groups
@@ -107,7 +108,8 @@ class Assembly:
         return legged(plate, np.array(legs), np.full(len(legs), rest_kg / len(legs))) if legs else plate
 
     def _inclined(self, object_id: str, bending: ElasticBody | None) -> InclinedBody:
-        plate, rigid = self.network.bodies[object_id], self.rigid.get(object_id)
+        rigid = self.rigid.get(object_id)
+        plate = self.plates.get(object_id, self.network.bodies[object_id])
         assert isinstance(plate, Plate)
         if isinstance(bending, RigidMotion):
             rigid, bending = bending, None
@@ -137,8 +139,8 @@ def assemble(
         elif isinstance(body, RigidBody) or (isinstance(body, Plate) and is_compact(body)):
             rigid[object_id] = RigidMotion.of(body, body.moving_mass_kg, rocks=object_id in network.poses)
         elif body is not None:
-            check_thin(object_id, body, top_hz, outside_domain)
-            plates[object_id] = body
+            plates[object_id] = no_heavier_than_object(body)
+            check_thin(object_id, plates[object_id], top_hz, outside_domain)
     return Assembly(network, tuple(excitations), bands, groups, rigid, plates, top_hz)
 
 

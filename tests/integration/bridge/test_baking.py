@@ -12,8 +12,7 @@ import pytest
 from PIL import Image
 
 from bridge_client import Client, Refused
-from llm_server import GOOD, Asked, Scripted, said
-from llm_server import serving as serving_model
+from llm_server import GOOD, Asked, Scripted, said, serving as serving_model
 from scene2hap import HapticBundle
 from scene2hap.bridge import BridgeServer
 from scene2hap.bridge.frames import encode_picture

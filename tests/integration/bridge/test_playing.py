@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bridge_client import Client, Refused
-from bridge_client import __file__ as game
+from bridge_client import Client, Refused, __file__ as game
 from scene2hap import HapticBundle, HapticSession, Pose, Touch, bake_object
 from scene2hap.bridge import BridgeServer
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats

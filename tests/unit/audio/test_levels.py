@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.levels import at_level, drive_db, felt_level_db, sensation_level_db, threshold_db

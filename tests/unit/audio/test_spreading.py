@@ -5,8 +5,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread

@@ -7,11 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from scene2hap.bridge.frames import Gains, decode_frame, decode_gains, decode_picture, encode_frame, encode_gains
-from scene2hap.bridge.frames import encode_picture as picture_of
+from scene2hap.bridge.frames import (
+    Gains,
+    decode_frame,
+    decode_gains,
+    decode_picture,
+    encode_frame,
+    encode_gains,
+    encode_picture as picture_of,
+)
 from scene2hap.errors import BridgeError
 
 PAGE = (Path(__file__).parents[3] / "docs" / "bridge-protocol.md").read_text(encoding="utf-8")

@@ -5,12 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from contact_scenes import box, boxes, chair, house, pairs, scene
-from scene2hap.contact import free_space
-from scene2hap.contact import pair as narrow_phase
+from scene2hap.contact import free_space, pair as narrow_phase
 from scene2hap.contact.body import Body
 from scene2hap.contact.free_region import FreeRegion, FreeRegions
 from scene2hap.contact.free_space import FreeSpace

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from contact_scenes import Triple, box, boxes, chair, floor, found, on_floor, scene, weight
 from scene2hap.contact import rule

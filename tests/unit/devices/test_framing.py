@@ -6,8 +6,7 @@ import zlib
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from scene2hap.devices.framing import cobs
 from scene2hap.devices.framing.crc import fletcher16, with_crc32, without_crc32

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from scene2hap.export.envelope import analyse
-from scene2hap.export.track import ANALYSIS_HZ as RATE
-from scene2hap.export.track import Channel
+from scene2hap.export.track import ANALYSIS_HZ as RATE, Channel
 
 T = np.arange(2 * RATE) / RATE
 

@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, Material, ModalPlate, Plate, Pose, materials
 from scene2hap.propagation import modal_body

@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from scene2hap import TriMesh
 from scene2hap.errors import SceneError

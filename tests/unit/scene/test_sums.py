@@ -18,8 +18,7 @@ from scene2hap.scene.formats import mtl, stl_ply
 from scene2hap.scene.formats.stl_ply import read_stl_ply
 from scene2hap.scene.group_split import Member, split
 from scene2hap.scene.shapes import Box, TriMesh
-from scene2hap.scene.surface import dominant_surface as dominant_surface_module
-from scene2hap.scene.surface import surfaces
+from scene2hap.scene.surface import dominant_surface as dominant_surface_module, surfaces
 from scene2hap.scene.surface.cuboid import cuboid_bounds_m
 from scene2hap.scene.surface.dominant_surface import dominant_surface
 from scene2hap.scene.tree import Piece

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from scene2hap import ActuatorProfile, HapticBundle, HapticSession, MemorySink, SceneWarning, Touch, UserProfile
 from scene2hap.errors import ConfigError

@@ -1,8 +1,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from scene2hap.audio.sources.freesound.rate_limit import RateLimit
 from scene2hap.errors import BackendUnavailable

@@ -6,8 +6,7 @@ from importlib import import_module
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from host import rasteriser_problem
 from scene2hap.scene.capture.faces import extents, in_view

@@ -5,8 +5,7 @@ from __future__ import annotations
 from io import BytesIO
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 from PIL import Image
 
