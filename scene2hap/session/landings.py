@@ -73,7 +73,7 @@ class Landings:
             track = tracks.get(object_id)
             if track is not None:
                 near = beside.get(object_id)
-                track.near = dict(near) if near and track.is_falling else NOTHING
+                track.near = dict(near) if near else NOTHING
             elif len(tracks) < MOST_MOVING and object_id in self._graph:
                 pose = self._graph.pose(object_id)
                 # Some games give the poses of all objects in every frame. The graph refuses other types than poses.
@@ -102,10 +102,12 @@ class Landings:
         found = [one for object_id in stopped for one in self._landing(object_id, self._tracks[object_id], time_s)]
         for track, pose, step_m, middle_m in moving:
             track.follow(now, time_s, pose, step_m, middle_m)
-        for landing in found:
-            self._tracks[landing.object_id].land(now)
         for object_id in at_rest:
             del self._tracks[object_id]
+        if not found:
+            return found
+        for landing in found:
+            self._tracks[landing.object_id].land(now)
         # Two objects that met each other landed once.
         met = {(one.object_id, one.onto) for one in found}
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]

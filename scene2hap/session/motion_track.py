@@ -86,16 +86,15 @@ class MotionTrack:
 
     def step_to(self, pose: Pose | None) -> tuple[Vector, Vector] | None:
         """Return the step to another pose, and the middle there [m]; None without a motion."""
-        before = self.pose
-        if pose is None or (pose.position_m == before.position_m and pose.rotation_xyzw == before.rotation_xyzw):
+        if pose is None:
             return None
-        a, b, c = self.middle_m
-        if pose.rotation_xyzw == before.rotation_xyzw:
-            (x, y, z), (u, v, w) = pose.position_m, before.position_m
-            step_m = x - u, y - v, z - w
-            return step_m, (a + step_m[0], b + step_m[1], c + step_m[2])
-        x, y, z = middle_m = in_world(self.own_m, pose)
-        return (x - a, y - b, z - c), middle_m
+        before, (a, b, c) = self.pose, self.middle_m
+        if pose.rotation_xyzw != before.rotation_xyzw:
+            x, y, z = middle_m = in_world(self.own_m, pose)
+            return (x - a, y - b, z - c), middle_m
+        (x, y, z), (u, v, w) = pose.position_m, before.position_m
+        x, y, z = x - u, y - v, z - w
+        return ((x, y, z), (a + x, b + y, c + z)) if x or y or z else None
 
     def follow(self, update: int, time_s: float, pose: Pose, step_m: Vector, middle_m: Vector) -> None:
         """Add a step of `step_to`."""
@@ -106,7 +105,8 @@ class MotionTrack:
             self.gap, self.goes_on = 1.0, False
         else:
             self.gap = max(1.0, waited, self.gap - GAP_DECAYS)
-            if dot(step_m, self.step_m) <= 0:
+            (x, y, z), (u, v, w) = step_m, self.step_m
+            if x * u + y * v + z * w <= 0:
                 stopped_m = self.stopped_m
                 self.turn(last)
                 self.goes_on = stopped_m is not _ZERO and dot(step_m, stopped_m) > LEFT * dot(stopped_m, stopped_m)
