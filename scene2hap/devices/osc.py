@@ -35,11 +35,11 @@ class GainFrame(Protocol):
     """The part of a HapticFrame that is used: gains (n_hands, n_sources, n_bands)."""
 
     @property
-    def gains(self) -> NDArray[np.float32]: ...  # noqa: D102
+    def gains(self) -> NDArray[np.float32]: ...  # noqa: D102  # see HapticFrame
     @property
-    def hands(self) -> tuple[str, ...]: ...  # noqa: D102
+    def hands(self) -> tuple[str, ...]: ...  # noqa: D102  # see HapticFrame
     @property
-    def sources(self) -> tuple[str, ...]: ...  # noqa: D102
+    def sources(self) -> tuple[str, ...]: ...  # noqa: D102  # see HapticFrame
 
 
 class OscLine:
@@ -130,6 +130,6 @@ def encode(address: str, *values: str | float | int) -> bytes:
 
 def _require_python_osc() -> None:
     try:
-        import pythonosc.osc_message_builder  # noqa: F401
+        import pythonosc.osc_message_builder  # noqa: F401  # imported only to see that it is installed
     except ImportError as cause:
         raise MissingExtra("OSC messages need python-osc. Run: pip install 'scene2hap[osc]'") from cause

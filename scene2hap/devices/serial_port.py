@@ -23,7 +23,7 @@ WRITE_TIMEOUT_S = 0.05
 def require_pyserial() -> None:
     """Check that pyserial is installed. Raises: MissingExtra: it is not."""
     try:
-        import serial  # noqa: F401
+        import serial  # noqa: F401  # imported only to see that it is installed
     except ImportError as cause:
         raise MissingExtra("serial ports need pyserial. Run: pip install 'scene2hap[serial]'") from cause
 
