@@ -30,7 +30,7 @@ from scene2hap import HapticBundle, HapticSession, Plate, Pose, SceneSnapshot, T
 from scene2hap.demo import kitchen_path
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.impact import burst_of
-from scene2hap.session.impact_gains import struck_later
+from scene2hap.session.impacts.gains import struck_later
 from scene2hap.session.scene_state import SceneState
 
 UPDATES_HZ, IMPACTS_HZ, RATE_HZ, BLOCK, G = 90, 100, 48_000, 256, 9.81

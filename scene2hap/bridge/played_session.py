@@ -19,7 +19,7 @@ from scene2hap.engines.changes import Changes
 from scene2hap.errors import BridgeError
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.session import HapticFrame, HapticSession, Touch
-from scene2hap.session.impacts import Impact
+from scene2hap.session.impacts.felt_impacts import Impact
 
 LONGEST_FRAME_S = 1.0
 """Most time by which the session's clock advances between two frames, for example while a debugger stops the game."""

@@ -12,8 +12,8 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, PropagationModel
+from scene2hap.session.mix.sources import LoopRow
 from scene2hap.session.network import PlatePoses, body_of, excitations_of
-from scene2hap.session.sources import LoopRow
 
 LEAST_GAIN = 1e-3
 """Least gain that is exported [-]: 60 dB below the source nothing is felt."""

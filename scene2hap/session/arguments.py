@@ -18,7 +18,7 @@ from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.session.frame import Touch
-from scene2hap.session.impacts import KNOCK_M_S, Strike
+from scene2hap.session.impacts.felt_impacts import KNOCK_M_S, Strike
 
 MAX_RENDERED_FRAMES = 1 << 24
 """Most frames of one call; assumed: minutes, while a sink takes milliseconds at a time."""

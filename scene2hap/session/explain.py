@@ -26,9 +26,9 @@ from scene2hap.propagation.protocol import Body, Carrier, CarryingField
 from scene2hap.scene.objects import Contact
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
-from scene2hap.session.impacts import Impact
+from scene2hap.session.impacts.felt_impacts import Impact
+from scene2hap.session.mix.sources import Source, Sources
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.sources import Source, Sources
 
 LEAST_SHARE = 0.01
 """Smallest share of the power that the text mentions."""

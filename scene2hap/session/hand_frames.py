@@ -14,12 +14,12 @@ from scene2hap.session.audibility import SILENT, Audibility, CutoffCost
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explainer, Explanation
-from scene2hap.session.field_keeper import LiveKeeper, keeper_of
+from scene2hap.session.fields.keeper import LiveKeeper, keeper_of
 from scene2hap.session.frame import Counts, HapticFrame, SessionStats, Touch
 from scene2hap.session.hand_gains import AllGains, Felt, GainMethod, HandGains, Loudness, PrunedGains, TouchGains
+from scene2hap.session.mix.sources import LoopRow, Sources
 from scene2hap.session.network import excitations_of
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.sources import LoopRow, Sources
 from scene2hap.session.user_profile import PersonalGains, UserProfile
 
 PeaksOf = Callable[[Sequence[LoopRow]], NDArray[np.float32]]

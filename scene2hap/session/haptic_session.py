@@ -55,19 +55,19 @@ from scene2hap.session.explain import Explanation
 from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
-from scene2hap.session.impacts import Impact, Impacts, Strike
-from scene2hap.session.landings import Landings
+from scene2hap.session.impacts.felt_impacts import Impact, Impacts, Strike
+from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.likely_mistakes import (
     LikelyMistakes,
     warn_if_not_baked,
     warn_if_other_actuator,
     warn_if_other_hands,
 )
-from scene2hap.session.output import Output
-from scene2hap.session.playback import Playback
+from scene2hap.session.mix.output import Output
+from scene2hap.session.mix.playback import Playback
+from scene2hap.session.mix.sources import SourceInfo, Sources
+from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.sources import SourceInfo, Sources
-from scene2hap.session.starts_and_stops import Switching
 from scene2hap.session.user_profile import PersonalLimit, UserProfile
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface
 from scene2hap.scene.surface.outline import Outline
-from scene2hap.session.sources import LoopRow
+from scene2hap.session.mix.sources import LoopRow
 
 UNKNOWN_MASS_KG = 1.0
 """Mass of a source without known mass and material."""

@@ -25,7 +25,7 @@ from scene2hap.haptics import Bands
 from scene2hap.render.limiter import soft_limit
 from scene2hap.session.frame import Gains
 from scene2hap.session.hand_gains import HandGains
-from scene2hap.session.sources import LoopRow
+from scene2hap.session.mix.sources import LoopRow
 from scene2hap.settings import Settings
 
 MOST_DB = 40.0

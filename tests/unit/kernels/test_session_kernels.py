@@ -67,7 +67,7 @@ def test_kernels_answer_alike_from_the_last_field(seed: int, n: int, n_theirs: i
     columns = (rng.permutation(4)[:n_shared], rng.permutation(n_theirs)[:n_shared])
     among = [None if rng.random() < 0.3 else frozenset(np.flatnonzero(rng.random(4) < 0.6).tolist()) for _ in range(n)]
     told, compiled = (
-        kind(answers, own, columns, among, (4, 3)) for kind in both("session.prepared_field.put_together")
+        kind(answers, own, columns, among, (4, 3)) for kind in both("session.fields.prepared.put_together")
     )
     assert told.shape == (n, 4, 3)
     np.testing.assert_array_equal(compiled, told)

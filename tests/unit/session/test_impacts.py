@@ -29,7 +29,7 @@ from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.impacts import LEAST_INTERVAL_S, PEAK, Impact, struck_later
+from scene2hap.session.impacts.felt_impacts import LEAST_INTERVAL_S, PEAK, Impact, struck_later
 from scenes import table_with_two_phones
 
 RATE = 48_000

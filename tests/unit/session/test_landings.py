@@ -13,7 +13,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh
-from scene2hap.session.landings import Landing, Landings
+from scene2hap.session.impacts.landings import Landing, Landings
 
 PERIOD_S = 1 / 90
 Path = Iterator[tuple[float, float, float]]

@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike
 
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
-from scene2hap.session.prepared_field import FieldInUse
+from scene2hap.session.fields.prepared import FieldInUse
+from scene2hap.session.fields.worker import Prepared, Situation
 from scene2hap.session.scene_state import ModelInput
-from scene2hap.session.worker import Prepared, Situation
 
 HERE = (0.0, 0.0, 0.0)
 SOURCES = ("a", "b")

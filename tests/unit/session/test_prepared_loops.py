@@ -8,7 +8,7 @@ import pytest
 
 from scene2hap import AudioClip, HapticLoop, HapticSession, Touch
 from scene2hap.haptics import Bands
-from scene2hap.session import prepared_loops
+from scene2hap.session.mix import prepared_loops
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
 ON_FAN = Touch("left", "fan", (0.8, 0.82, 0.6))

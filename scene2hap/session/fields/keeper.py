@@ -26,10 +26,10 @@ from scene2hap.propagation.protocol import (
 from scene2hap.propagation.reference import FeltNear
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.prepared_field import FieldInUse, LastField
+from scene2hap.session.fields.prepared import FieldInUse, LastField
+from scene2hap.session.fields.worker import Desk, Prepared, Sign, Situation, put_to_work
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.worker import Desk, Prepared, Sign, Situation, put_to_work
 
 
 class FieldKeeper:

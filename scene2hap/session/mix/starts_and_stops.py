@@ -10,8 +10,8 @@ import zlib
 from dataclasses import dataclass
 
 from scene2hap.render.passage import STEADY, STILL, Course, Passage
-from scene2hap.session.playback import Playback
-from scene2hap.session.sources import LoopRow, Source, Sources
+from scene2hap.session.mix.playback import Playback
+from scene2hap.session.mix.sources import LoopRow, Source, Sources
 
 
 @dataclass(frozen=True, eq=False)

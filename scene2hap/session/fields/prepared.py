@@ -16,8 +16,8 @@ from scene2hap.compiled import compiled
 from scene2hap.propagation.live import LiveField, TouchedPoint, checked
 from scene2hap.propagation.protocol import PropagationField
 from scene2hap.scene.pose import Pose
+from scene2hap.session.fields.worker import Prepared
 from scene2hap.session.reach import Reach
-from scene2hap.session.worker import Prepared
 
 Gains = NDArray[np.float64]
 Point = tuple[float, float, float]

@@ -21,7 +21,7 @@ from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Body, CoupledModel
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.impact_gains import at_least_itself
+from scene2hap.session.impacts.gains import at_least_itself
 from scene2hap.session.scene_state import SceneState
 
 Floats = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""The compiled twin of the kernel in `prepared_field`."""
+"""The compiled twin of the kernel in `prepared`."""
 
 import numpy as np
 

@@ -29,13 +29,13 @@ from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, wave_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.hand_gains import Felt
-from scene2hap.session.impact_gains import struck_later, struck_live
-from scene2hap.session.playback import Playback
+from scene2hap.session.impacts.gains import struck_later, struck_live
+from scene2hap.session.mix.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
 
 if TYPE_CHECKING:
-    from scene2hap.session.prepared_impacts import StruckAhead
+    from scene2hap.session.impacts.struck_ahead import StruckAhead
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -293,7 +293,7 @@ class Impacts:
         self._waiting.append(self._submit(work))
 
     def _prepared_ahead(self) -> StruckAhead:
-        from scene2hap.session.prepared_impacts import StruckAhead  # by need: the physical models
+        from scene2hap.session.impacts.struck_ahead import StruckAhead  # by need: the physical models
 
         return StruckAhead(self._config.propagation, self._state, self._submit)
 

@@ -25,8 +25,8 @@ from scene2hap.render.mixer import Mixer
 from scene2hap.render.passage import Course, Passage, Running
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.prepared_loops import PreparedLoop, find, order, prepare
-from scene2hap.session.sources import LoopRow
+from scene2hap.session.mix.prepared_loops import PreparedLoop, find, order, prepare
+from scene2hap.session.mix.sources import LoopRow
 
 SPARE_SLOTS = 16
 """Least number of empty slots in a new bank; with more loops than this, one empty slot per loop."""

@@ -1,0 +1,1 @@
+"""The propagation field in use: live, or prepared by a worker."""

@@ -1,0 +1,1 @@
+"""Impacts: motions of objects, landings, and the bursts that each hand feels."""
