@@ -170,7 +170,7 @@ class ContactFinder:
             if y in seen:
                 continue
             body_pair = BodyPair.of(body, other)
-            if body_pair.rests == _NEITHER and (apart_by(body, other, TOUCH_M) or body_pair.has_nothing_near):
+            if body_pair.rests == _NEITHER and (apart_by(body, other, TOUCH_M) or body_pair.space.has_nothing_near):
                 if old is not None:
                     del body_pairs[y], self._body_pairs[y][x]
                     dirty.add(pair_of(x, y))

@@ -13,7 +13,8 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.junction import Junction, Pair
-from scene2hap.contact.level import Aside, Rest, rest_points
+from scene2hap.contact.level import Rest, rest_points
+from scene2hap.contact.mesh_distance import Gap
 from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by, box_distance_m
 from scene2hap.contact.rule import (
     CLEAR_M,
@@ -46,13 +47,12 @@ class Bond(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """The strongest bond of a pair, and the data for its contact points: `rest`, `side`, or else the triangles."""
+    """The strongest bond of a pair, and the data for its contact points: `rest`, or else the triangles."""
 
     body_pair: BodyPair
     bond: Bond
     within_m: float
     rest: Rest | None
-    side: Aside | None
 
     def junction(self) -> Junction | None:
         """Return the contact points of the pair, None if there are none."""
@@ -60,8 +60,6 @@ class Plan(NamedTuple):
         if self.rest is not None:
             x, y = (body_pair.a, body_pair.b) if bond.faller == body_pair.a.id else (body_pair.b, body_pair.a)
             points = rest_points(x, y, self.rest)
-        elif self.side is not None:
-            points = self.side.points
         else:
             points = body_pair.points(bond.way_m, self.within_m)
         n = len(points)
@@ -77,11 +75,11 @@ def priority(bond: Bond) -> tuple[float, bool]:
     return (bond.weight, bond.normal is not None)
 
 
-def direction(distance_m: float, way_m: Triple) -> Triple | None:
-    """Return the unit vector along the displacement between two surfaces, None if they are too near for a direction."""
-    if distance_m < CLEAR_M:
+def direction(gap: Gap) -> Triple | None:
+    """Return the unit vector from one surface to the other, None if they are too near for a direction."""
+    if gap.distance_m < CLEAR_M:
         return None
-    x, y, z = way_m
+    x, y, z = gap.way_m
     length = math.sqrt(x * x + y * y + z * z)
     return (x / length, y / length, z / length)
 
@@ -166,7 +164,7 @@ class Holders:
     def _hanging(self, body: Body, supported: float) -> dict[str, Bond]:
         """Return the bonds by which larger bodies hold a hanging body, scaled by 1 - `supported`."""
         x, reach_m = body.id, hang_reach_m(body.size_m)
-        ways: dict[str, tuple[float, Triple]] = {}
+        gaps: dict[str, Gap] = {}
         bodies, size_m = self.bodies, body.size_m
         larger = [
             y
@@ -181,22 +179,14 @@ class Holders:
         within_m, later_m = reach_m, hang_later_m(reach_m)
         # The nearest first: a farther body holds only within `later_m` of the nearest, which shortens its search.
         for y in sorted(larger, key=lambda y: (box_distance_m(body, bodies[y]), y)):
-            way = self._apart(self._body_pair(x, y), within_m)
-            if way is not None:
-                ways[y] = way
-                within_m = min(within_m, way[0] + later_m)
-        shares = hangs({y: ways[y][0] for y in sorted(ways)}, reach_m)
+            gap = self._body_pair(x, y).gap(within_m)
+            if gap is not None:
+                gaps[y] = gap
+                within_m = min(within_m, gap.distance_m + later_m)
+        shares = hangs({y: gaps[y].distance_m for y in sorted(gaps)}, reach_m)
         return {
-            y: Bond((1 - supported) * share, ways[y][1], direction(*ways[y]), False, x) for y, share in shares.items()
+            y: Bond((1 - supported) * share, gaps[y].way_m, direction(gaps[y]), False, x) for y, share in shares.items()
         }
-
-    def _apart(self, body_pair: BodyPair, within_m: float) -> tuple[float, Triple] | None:
-        """Return distance and displacement [m] between two surfaces, None if they are farther apart than `within_m`."""
-        side = body_pair.aside(within_m, SLACK_M)
-        if side is not None:
-            return (side.distance_m, side.way_m) if side.points else None
-        gap = body_pair.gap(within_m)
-        return None if gap is None else (gap.distance_m, gap.way_m)
 
     def _space(self, guest: Body, host: Body) -> FreeSpace:
         """Return the free space of a larger body around a smaller one, that of their pair if they have one."""
@@ -222,24 +212,23 @@ class Holders:
         if body_pair is None:
             return None
         slack_m = SLACK_M
-        bond, is_touch = NO_BOND, False
+        bond = NO_BOND
         for x, y in ((a, b), (b, a)):
             held = self.held.get(x)
             one = held.get(y) if held else None
             if one is not None and priority(one) > priority(bond):
                 bond = one
         if bond.weight < 1 and not apart_by(body_pair.a, body_pair.b, TOUCH_M):
-            apart = self._apart(body_pair, TOUCH_M)
-            if apart is not None:
-                share = weight(apart[0], TOUCH_M)
+            gap = body_pair.gap(TOUCH_M)
+            if gap is not None:
+                share = weight(gap.distance_m, TOUCH_M)
                 if share > bond.weight:
-                    bond, is_touch = Bond(share, NO_WAY, direction(*apart), False, a), True
-                    slack_m += apart[0]
+                    bond = Bond(share, NO_WAY, direction(gap), False, a)
+                    slack_m += gap.distance_m
         if bond.weight < 1:
             share, play_m = body_pair.enclosed()
             if share > bond.weight:
-                bond, is_touch, slack_m = Bond(share, NO_WAY, None, False, a), False, SLACK_M + play_m
+                bond, slack_m = Bond(share, NO_WAY, None, False, a), SLACK_M + play_m
         if bond.weight <= 0:
             return None
-        side = body_pair.aside(TOUCH_M, SLACK_M) if is_touch else None
-        return Plan(body_pair, bond, slack_m, body_pair.rest(bond.faller) if bond.lies else None, side)
+        return Plan(body_pair, bond, slack_m, body_pair.rest(bond.faller) if bond.lies else None)

@@ -1,7 +1,6 @@
-"""Closed forms for bodies with level faces: fall distance, distance of two upright blocks, and contact points.
+"""Closed forms for bodies with level faces above each other: fall distance and contact points.
 
-The results equal those of the triangles. Bodies above each other are compared by their convex outlines; blocks beside
-each other by the corners of one outline and the edges of the other.
+The bodies are compared by their convex outlines. The results equal those of the triangles.
 
     u, v : the world's level axes; h : the height [m]
 """
@@ -13,7 +12,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.geometry.polygons import Point, clipped, inside_edges, polygon_gap
+from scene2hap.contact.geometry.polygons import Point, clipped, inside_edges
 from scene2hap.contact.geometry.spread import spread_few
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.stance import Stance
@@ -97,45 +96,6 @@ def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
     return tuple([(pu, pv, height) for pu, pv in level])
 
 
-class Aside(NamedTuple):
-    """Two blocks beside each other: their distance [m], the vector from x to y between the nearest points [m], and
-    contact points half way wherever the blocks are at most `slack_m` farther apart."""
-
-    distance_m: float
-    way_m: Triple
-    points: tuple[Triple, ...]
-
-
-_FAR = Aside(math.inf, (0.0, 0.0, 0.0), ())
-
-
-def aside(x: Body, y: Body, within_m: float, slack_m: float) -> Aside | None:
-    """Return how two blocks stand beside each other; distance inf beyond `within_m`, None if one is above the other."""
-    a, v_axis = x.up_axis, x.v_axis
-    below, above = max(x.low[a], y.low[a]), min(x.high[a], y.high[a])
-    upright = max(below - above, 0.0)
-    if upright > within_m:
-        return _FAR
-    found = polygon_gap(_placed(x, v_axis), _placed(y, v_axis), upright, within_m, slack_m)
-    if found is None:
-        return None
-    distance, (du, dv), middles = found
-    if not middles:
-        return _FAR
-    origin = (y.position_m[0], y.position_m[v_axis])
-    own = _own([(u - origin[0], v - origin[1]) for u, v in middles], y.stance)
-    far = [middles[k] for k in spread_few(own)][:2]
-    heights = (below, above) if above - below > 2 * _ROUNDING_M else ((below + above) / 2,)
-    rise = 0.0 if upright == 0 else upright if y.low[a] >= x.high[a] else -upright
-    points = tuple(_point(a, *middle, height) for height in heights for middle in far)
-    return Aside(distance, _point(a, du, dv, rise), points)
-
-
-def _placed(x: Body, v_axis: int) -> list[Point]:
-    u, v = x.position_m[0], x.position_m[v_axis]
-    return [(u + pu, v + pv) for pu, pv in x.stance.base_outline]
-
-
 def _chosen(ring: Sequence[Point], stance: Stance) -> list[Point]:
     return [ring[k] for k in spread_few(_own(ring, stance))]
 
@@ -144,7 +104,3 @@ def _own(ring: Sequence[Point], stance: Stance) -> list[Point]:
     """Coordinates that turn with the stance, so that the rotation of a whole scene does not change the result."""
     c, s = stance.heading
     return [(c * u + s * v, c * v - s * u) for u, v in ring]
-
-
-def _point(up_axis: int, u: float, v: float, h: float) -> Triple:
-    return (u, h, v) if up_axis == 1 else (u, v, h)

@@ -15,9 +15,9 @@ from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
 from scene2hap.contact.host_frame import roles
-from scene2hap.contact.level import Aside, Rest, aside, rest_on
+from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
-from scene2hap.contact.rule import SLACK_M, TOUCH_M, fall_reach_m, is_over
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over
 
 NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 """Marks a fall distance that only triangles can give."""
@@ -111,21 +111,6 @@ class BodyPair:
     def falling(self, x: str) -> tuple[Body, Body]:
         """Return the body x and the other body."""
         return (self.a, self.b) if x == self.a.id else (self.b, self.a)
-
-    def aside(self, within_m: float, slack_m: float) -> Aside | None:
-        """Return how two upright blocks stand beside each other, None for other shapes; see `level.aside`."""
-        if not (self.a.stance.is_block and self.b.stance.is_block):
-            return None
-        found: Aside | None = self._cached((within_m, slack_m), lambda: aside(self.a, self.b, within_m, slack_m))
-        return found
-
-    @property
-    def has_nothing_near(self) -> bool:
-        """True if the two surely do not touch, also where the smaller is inside the AABB of the larger."""
-        side = self.aside(TOUCH_M, SLACK_M)
-        if side is not None:
-            return not side.points
-        return self.space.has_nothing_near
 
     def gap(self, within_m: float) -> Gap | None:
         """Return the distance of the surfaces, None beyond `within_m`; see `MeshPair.gap`."""

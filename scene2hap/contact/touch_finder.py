@@ -63,5 +63,5 @@ class TouchFinder:
         if gap is None or share <= 0:
             return None
         ends = mesh_pair.patch(NO_WAY, PATCH_SHARE * tolerance_m + gap.distance_m)
-        normal, n = direction(*gap), len(ends)
+        normal, n = direction(gap), len(ends)
         return Junction(tuple([x.middle_m for x in ends]), (share,) * n, (normal,) * n) if ends else None

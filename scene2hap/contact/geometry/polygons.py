@@ -1,4 +1,4 @@
-"""Convex polygons in the level plane: edges, containment, clipping and distance.
+"""Convex polygons in the level plane: edges, containment and clipping.
 
 u, v : coordinates [m]; n : unit normal of an edge, pointing inwards
 """
@@ -82,56 +82,3 @@ def clipped(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Trip
                 cut.append(ring[k])
         ring = cut
     return ring
-
-
-@compiled
-def polygon_gap(
-    x: Sequence[Point], y: Sequence[Point], rise_m: float, within_m: float, slack_m: float
-) -> PolygonGap | None:
-    """Return distance, direction and facing points of two disjoint convex polygons; None if they overlap.
-
-    Beyond `within_m` the distance is inf, without points.
-
-    Parameters: x, y : corners in order, at most 8 [m]; rise_m : vertical distance between the two, which is combined
-    with every level distance; slack_m : facing points may be this much farther apart than the nearest ones.
-    """
-    strip = _strip_m(x, y, within_m)
-    if strip < -_ROUNDING_M:
-        return None
-    nearest = _nearest(x, y) + [(q, p) for p, q in _nearest(y, x)] if strip <= within_m else []
-    lengths = [_length((q[0] - p[0], q[1] - p[1])) for p, q in nearest]
-    least, (p, q) = min(zip(lengths, nearest, strict=True), default=(math.inf, ((0.0, 0.0), (0.0, 0.0))))
-    distance = _length((least, rise_m))
-    if distance > within_m:
-        return math.inf, (0.0, 0.0), []
-    ends = [
-        pair for pair, apart in zip(nearest, lengths, strict=True) if _length((apart, rise_m)) <= distance + slack_m
-    ]
-    return distance, (q[0] - p[0], q[1] - p[1]), [((p[0] + q[0]) / 2, (p[1] + q[1]) / 2) for p, q in ends]
-
-
-def _length(way: Point) -> float:
-    return math.sqrt(way[0] * way[0] + way[1] * way[1])
-
-
-def _nearest(corners: Sequence[Point], ring: Sequence[Point]) -> list[tuple[Point, Point]]:
-    """Return, for each corner and each edge of the ring, the corner and the nearest point of the edge."""
-    found = []
-    for u, v in corners:
-        for (u1, v1), (u2, v2) in zip(ring, [*ring[1:], ring[0]], strict=True):
-            eu, ev = u2 - u1, v2 - v1
-            t = min(max(((u - u1) * eu + (v - v1) * ev) / (eu * eu + ev * ev), 0.0), 1.0)
-            found.append(((u, v), (u1 + t * eu, v1 + t * ev)))
-    return found
-
-
-def _strip_m(x: Sequence[Point], y: Sequence[Point], enough: float) -> float:
-    """Return the largest gap of two outlines along the normals of their edges [m] (separating axes), negative if they
-    overlap. It is at most their distance. The first gap above `enough` is returned at once."""
-    widest = -math.inf
-    for ring, other in ((x, y), (y, x)):
-        for nu, nv, offset in edges_of(ring):
-            widest = max(widest, -max([nu * u + nv * v - offset for u, v in other]))
-            if widest > enough:
-                return widest
-    return widest

@@ -9,8 +9,7 @@ from hypothesis import assume, given, settings, strategies as st
 from contact_scenes import box, boxes
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.polygons import clipped
-from scene2hap.contact.level import aside, rest_on, rest_points
-from scene2hap.contact.mesh_distance import MeshPair
+from scene2hap.contact.level import rest_on, rest_points
 from scene2hap.contact.pair import BodyPair
 from scene2hap.scene.pose import Pose
 
@@ -46,36 +45,6 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
             own = np.abs(body.pose.to_own(points))
             assert (own[:, [0, 2]] <= np.array(half)[[0, 2]] + 1e-9).all()
         assert points[:, 1] == pytest.approx(0.2 + gap / 2)
-
-
-@given(st.floats(0.4, 0.85), TURNS, TURNS, TURNS, st.floats(-0.4, 0.4))
-@settings(max_examples=50)
-def test_two_blocks_are_apart_as_their_triangles_are(
-    apart: float, bearing: float, turn_x: float, turn_y: float, rise: float
-) -> None:
-    at = (apart * math.cos(bearing), 0.1 + rise, apart * math.sin(bearing))
-    x = block("x", (0.3, 0.2, 0.2), at, turn_x)
-    y = block("y", (0.8, 0.3, 0.5), (0.0, 0.15, 0.0), turn_y)
-    told = aside(x, y, 0.5, 0.001)
-    gap = MeshPair(x, y).gap(0.5)
-    if told is None:
-        assert apart < 0.66  # the circles around the two outlines overlap
-    elif gap is None:
-        assert math.isinf(told.distance_m)
-    else:
-        assert told.distance_m == pytest.approx(gap.distance_m, abs=1e-9)
-        assert told.way_m == pytest.approx(gap.way_m, abs=1e-6) or gap.distance_m < 1e-9
-        assert 2 <= len(told.points) <= 4 or told.way_m[1] != 0.0
-
-
-def test_blocks_face_to_face_touch_at_the_corners_of_the_shared_area() -> None:
-    x, y = block("x", (0.2, 0.2, 0.2), (0, 0.1, 0), 0.0), block("y", (0.2, 0.4, 0.1), (0.203, 0.3, 0), 0.0)
-    side = aside(x, y, 0.004, 0.001)
-    assert side is not None
-    assert side.distance_m == pytest.approx(0.003)
-    assert side.way_m == pytest.approx((0.003, 0.0, 0.0))
-    expected = {(0.1015, height, z) for height in (0.1, 0.2) for z in (-0.05, 0.05)}
-    assert {tuple(np.round(point, 9).tolist()) for point in side.points} == expected
 
 
 def test_a_clipped_square_loses_its_corner() -> None:

@@ -170,24 +170,6 @@ def test_kernels_intersect_outlines_bit_for_bit(seed: int) -> None:
 
 
 @steady
-@given(seed=seeds)
-def test_kernels_find_outline_gaps_bit_for_bit(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    outlines = []
-    for n in rng.integers(3, 9, 2):
-        angles = np.sort(rng.uniform(0, 2 * math.pi, n))
-        ring = np.stack([np.cos(angles), np.sin(angles)], axis=1) + rng.choice([0.0, 1.0, 2.0, 2.001], 2)
-        if rng.random() < 0.5:
-            # Squares side by side, as on a grid: several vectors are equally short.
-            ring = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) + rng.choice([0.0, 1.0, 1.25], 2)
-        outlines.append([(u, v) for u, v in ring.tolist()])
-    plain, twin = both("contact.geometry.polygons.polygon_gap")
-    for rise_m in (0.0, 0.1):
-        given = (*outlines, rise_m, float(rng.choice([0.1, 0.5, 4.0])), 0.01)
-        assert twin(*given) == plain(*given)
-
-
-@steady
 @given(seed=seeds, n=st.integers(1, 20), n_axes=st.integers(2, 3))
 def test_kernels_select_the_same_contact_points(seed: int, n: int, n_axes: int) -> None:
     # On a grid many distances are equal; some points are closer than the resolution, or differ by a rounding error.
