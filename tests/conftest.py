@@ -10,6 +10,9 @@ from tempfile import mkdtemp
 import pytest
 from hypothesis import settings
 
+from scene2hap import bake, load_scene
+from scene2hap.demo import kitchen_path
+
 sys.path.insert(0, str(Path(__file__).parent))
 
 MEMORY = Path("/dev/shm")
@@ -44,3 +47,9 @@ def _no_network(monkeypatch: pytest.MonkeyPatch) -> None:
         connect(self, address)  # type: ignore[arg-type]  # as the caller gave it
 
     monkeypatch.setattr(socket.socket, "connect", only_loopback)
+
+
+@pytest.fixture(scope="session")
+def kitchen_bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the demo kitchen's bundle, baked once. Tests that edit a bundle copy it."""
+    return bake(load_scene(kitchen_path())).save(tmp_path_factory.mktemp("baked") / "kitchen.bundle")
