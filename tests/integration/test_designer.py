@@ -186,13 +186,13 @@ def test_help_names_the_documentation(capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent as a signal")
-def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
+def test_a_saved_sound_reaches_a_running_session(fan: Path) -> None:
     """An audio editor saves a file, `edit --watch` makes the loop, and a session that watches the bundle plays it."""
-    sound = tone(folder.parent / "mine.wav", 110.0)
-    words = [sys.executable, "-m", "scene2hap", "edit", str(folder), "sound", "smartphone", str(sound), "--watch"]
-    session = HapticSession(folder)
+    sound = tone(fan.parent / "mine.wav", 110.0)
+    words = [sys.executable, "-m", "scene2hap", "edit", str(fan), "sound", "handheld_fan", str(sound), "--watch"]
+    session = HapticSession(fan)
     # The watch starts first, since it ignores files saved before.
-    with BundleWatch(session, folder) as watch:
+    with BundleWatch(session, fan) as watch:
         edit = subprocess.Popen(words, env={**os.environ, "PYTHONUNBUFFERED": "1"}, stdout=subprocess.PIPE, text=True)
         try:
             for frequency_hz in (110.0, 170.0):
@@ -205,7 +205,7 @@ def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
                 while not watch.update():
                     assert time.monotonic() < until, watch.problem
                     time.sleep(0.02)
-                (loop,) = session._bundle.loops["smartphone"].values()
+                (loop,) = session._bundle.loops["handheld_fan"].values()
                 assert loop.frequency_raw_hz == pytest.approx(frequency_hz, rel=0.02)
         finally:
             edit.send_signal(signal.SIGINT)
