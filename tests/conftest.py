@@ -12,6 +12,11 @@ from hypothesis import settings
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+# The workers of pytest share the cores. Several BLAS threads in each worker, and in each process that tests start,
+# would wait busily for each other and take many times as long. numpy and scipy read these variables when imported.
+for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
+    os.environ.setdefault(variable, "1")
+
 MEMORY = Path("/dev/shm")
 LEAST_MEMORY_BYTES = 4 << 30
 
@@ -44,3 +49,12 @@ def _no_network(monkeypatch: pytest.MonkeyPatch) -> None:
         connect(self, address)  # type: ignore[arg-type]  # as the caller gave it
 
     monkeypatch.setattr(socket.socket, "connect", only_loopback)
+
+
+@pytest.fixture(scope="session")
+def kitchen_bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the demo kitchen's bundle, baked once. Tests that edit a bundle copy it."""
+    from scene2hap import bake, load_scene
+    from scene2hap.demo import kitchen_path
+
+    return bake(load_scene(kitchen_path())).save(tmp_path_factory.mktemp("baked") / "kitchen.bundle")

@@ -8,8 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import soundfile
+import trimesh
 from PIL import Image
 
+from scene2hap import Box, Pose, SceneObject, SceneSnapshot
 from scene2hap.cli import main
 from scene2hap.demo import kitchen_path
 from scene2hap.render.safety import FADE_OUT_S
@@ -73,11 +75,24 @@ def test_demo_twice_gives_the_same_bytes(demo: tuple[Path, dict[str, object]], t
     assert {str(p.relative_to(again)): p.read_bytes() for p in sorted(again.rglob("*")) if p.is_file()} == first
 
 
-def test_bake_then_render_then_inspect(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.fixture
+def room(tmp_path: Path) -> Path:
+    """The file of a scene with two sources and a table."""
+    sizes_m = {"microwave": (0.5, 0.3, 0.35), "refrigerator": (0.7, 1.8, 0.7), "dining_table": (1.6, 0.74, 0.9)}
+    things = [
+        SceneObject(name, name.replace("_", " "), Pose((2.0 * i, size_m[1] / 2, 0.0)), Box(size_m))
+        for i, (name, size_m) in enumerate(sizes_m.items())
+    ]
+    path = tmp_path / "room.json"
+    path.write_text(SceneSnapshot.build(things, name="room").to_json(), encoding="utf-8")
+    return path
+
+
+def test_bake_then_render_then_inspect(room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     bundle, wav, touches = tmp_path / "b", tmp_path / "out.wav", tmp_path / "t.csv"
     touches.write_text("time_s,hand,touch\n0.1,right,microwave\n1.0,,\n")
-    assert main(["bake", str(kitchen_path()), "-o", str(bundle)]) == 0
-    assert "45 objects, 7 sources" in capsys.readouterr().out
+    assert main(["bake", str(room), "-o", str(bundle)]) == 0
+    assert "3 objects, 2 sources" in capsys.readouterr().out
     command = ["render", str(bundle), "--touches", str(touches), "-o", str(wav)]
     assert main(command) == 0
     samples, rate = soundfile.read(wav)
@@ -87,27 +102,27 @@ def test_bake_then_render_then_inspect(tmp_path: Path, capsys: pytest.CaptureFix
     assert main([*command, "--propagation", "no_propagation", "--quiet"]) == 0
     assert main(["inspect", str(bundle), "--json"]) == 0
     said = json.loads(capsys.readouterr().out.partition("{")[2].join(["{", ""]))
-    assert said["counts"] == {"objects": 45, "sources": 7, "unknown": said["counts"]["unknown"]}
-    assert main(["inspect", str(kitchen_path())]) == 0
+    assert said["counts"] == {"objects": 3, "sources": 2, "unknown": said["counts"]["unknown"]}
+    assert main(["inspect", str(room)]) == 0
     assert "dining_table" in capsys.readouterr().out
 
 
-def test_your_own_sounds_come_first(tmp_path: Path) -> None:
+def test_your_own_sounds_come_first(room: Path, tmp_path: Path) -> None:
     sounds = tmp_path / "sounds"
     sounds.mkdir()
     t = np.arange(4 * 48000) / 48000
     soundfile.write(sounds / "microwave_humming.wav", 0.3 * np.sin(2 * np.pi * 120 * t), 48000)
-    assert main(["bake", str(kitchen_path()), "-o", str(tmp_path / "b"), "--sounds", str(sounds), "-q"]) == 0
+    assert main(["bake", str(room), "-o", str(tmp_path / "b"), "--sounds", str(sounds), "-q"]) == 0
     loops = json.loads((tmp_path / "b" / "loops.json").read_text())
     assert loops["microwave"]["on"]["frequency_raw_hz"] == pytest.approx(120, abs=0.05)
     assert loops["microwave"]["on"]["credit"]["author"] == "unknown"
     assert loops["refrigerator"]["on"]["credit"]["author"] == "scene2hap synthesizer"
 
 
-def test_settings_from_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_settings_from_a_file(room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     settings = tmp_path / "s.toml"
     settings.write_text('[bake]\ntactile = {kind = "svf_bandpass", center_hz = 120.0}\n[session]\nbands = "loud"\n')
-    assert main(["bake", str(kitchen_path()), "-o", str(tmp_path / "b"), "--settings", str(settings), "-q"]) == 0
+    assert main(["bake", str(room), "-o", str(tmp_path / "b"), "--settings", str(settings), "-q"]) == 0
     touches = tmp_path / "t.csv"
     touches.write_text("time_s,hand,touch\n0.1,right,microwave\n1.0,,\n")
     command = ["render", str(tmp_path / "b"), "--touches", str(touches), "-o", str(tmp_path / "o.wav")]
@@ -145,8 +160,13 @@ def test_error_is_one_line_with_the_next_step(
 
 
 def test_bake_counts_further_warnings_of_one_kind(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model = trimesh.Scene()
+    for i in range(12):
+        at = trimesh.transformations.translation_matrix((i, 0.45, 0.0))
+        model.add_geometry(trimesh.creation.box((0.5, 0.9, 0.5)), node_name=f"wooden chair {i}", transform=at)
+    model.export(tmp_path / "chairs.glb")
     # At a hundred metres per unit, every mass is implausible for its size.
-    assert main(["bake", str(kitchen_path()), "--unit-m", "100", "-q", "-o", str(tmp_path / "bundle")]) == 0
+    assert main(["bake", str(tmp_path / "chairs.glb"), "--unit-m", "100", "-q", "-o", str(tmp_path / "bundle")]) == 0
     account = json.loads((tmp_path / "bundle.account.json").read_text())
     heavy = [name for name, doubts in account["doubts"].items() if "mass" in str(doubts)]
     lines = [line for line in capsys.readouterr().err.splitlines() if "warning" in line]

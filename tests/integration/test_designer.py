@@ -18,7 +18,18 @@ import pytest
 import soundfile
 
 from command_line_page import PAGE, page
-from scene2hap import BundleWatch, HapticBundle, HapticSession, Touch, rebake
+from scene2hap import (
+    Box,
+    BundleWatch,
+    HapticBundle,
+    HapticSession,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    Touch,
+    bake,
+    rebake,
+)
 from scene2hap.audio.files import write_wav
 from scene2hap.baking.config import BakeConfig
 from scene2hap.bundle import BundleWarning
@@ -37,10 +48,20 @@ def tone(path: Path, frequency_hz: float) -> Path:
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(kitchen_bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the kitchen's bundle in the working folder."""
     monkeypatch.chdir(tmp_path)
-    assert main(["bake", str(kitchen_path()), "-o", "kitchen.bundle", "-q"]) == 0
-    return tmp_path / "kitchen.bundle"
+    return shutil.copytree(kitchen_bundle, tmp_path / "kitchen.bundle")
+
+
+@pytest.fixture
+def fan(tmp_path: Path) -> Path:
+    """The bundle of a fan beside a refrigerator."""
+    things = [
+        SceneObject("handheld_fan", "Handheld fan", Pose((0.0, 0.1, 0.0)), Box((0.1, 0.2, 0.06))),
+        SceneObject("refrigerator", "Refrigerator", Pose((2.0, 0.9, 0.0)), Box((0.7, 1.8, 0.7))),
+    ]
+    return bake(SceneSnapshot.build(things)).save(tmp_path / "fan.bundle")
 
 
 def outcome(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object]:
@@ -84,19 +105,19 @@ def test_intensity_changes_the_level_of_one_state(folder: Path, capsys: pytest.C
     assert quiet < 0.5 * loud
 
 
-def test_pitch_moves_the_felt_frequency_within_the_band(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["edit", str(folder), "pitch", "handheld_fan", "90", "-q"]) == 0
-    loop = HapticBundle.load(folder).loops["handheld_fan"]["on"]
+def test_pitch_moves_the_felt_frequency_within_the_band(fan: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["edit", str(fan), "pitch", "handheld_fan", "90", "-q"]) == 0
+    loop = HapticBundle.load(fan).loops["handheld_fan"]["on"]
     spectrum = np.abs(np.fft.rfft(loop.tactile.samples))
     strongest_hz = spectrum.argmax() * loop.tactile.sample_rate_hz / len(loop.tactile.samples)
     assert strongest_hz == pytest.approx(90.0, rel=0.05)
     with pytest.warns(BundleWarning, match="plays 130 to 230 Hz. The loop is at 130 Hz"):
-        rebaked = rebake(str(folder), {"actuator": "lra"})
+        rebaked = rebake(str(fan), {"actuator": "lra"})
     assert rebaked.loops["handheld_fan"]["on"].frequency_tactile_hz == pytest.approx(130.0, rel=0.05)
     with pytest.warns(BundleWarning, match="Lowpass does not move sources"):
-        rebake(str(folder), {"tactile": "lowpass"})
-    assert main(["edit", str(folder), "rebake", "--actuator", "lra", "-q"]) == 0
-    assert main(["edit", str(folder), "pitch", "handheld_fan", "90"]) == 1
+        rebake(str(fan), {"tactile": "lowpass"})
+    assert main(["edit", str(fan), "rebake", "--actuator", "lra", "-q"]) == 0
+    assert main(["edit", str(fan), "pitch", "handheld_fan", "90"]) == 1
     assert "130 to 230 Hz" in capsys.readouterr().err
 
 
@@ -165,13 +186,13 @@ def test_help_names_the_documentation(capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent as a signal")
-def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
+def test_a_saved_sound_reaches_a_running_session(fan: Path) -> None:
     """An audio editor saves a file, `edit --watch` makes the loop, and a session that watches the bundle plays it."""
-    sound = tone(folder.parent / "mine.wav", 110.0)
-    words = [sys.executable, "-m", "scene2hap", "edit", str(folder), "sound", "smartphone", str(sound), "--watch"]
-    session = HapticSession(folder)
+    sound = tone(fan.parent / "mine.wav", 110.0)
+    words = [sys.executable, "-m", "scene2hap", "edit", str(fan), "sound", "handheld_fan", str(sound), "--watch"]
+    session = HapticSession(fan)
     # The watch starts first, since it ignores files saved before.
-    with BundleWatch(session, folder) as watch:
+    with BundleWatch(session, fan) as watch:
         edit = subprocess.Popen(words, env={**os.environ, "PYTHONUNBUFFERED": "1"}, stdout=subprocess.PIPE, text=True)
         try:
             for frequency_hz in (110.0, 170.0):
@@ -184,7 +205,7 @@ def test_a_saved_sound_reaches_a_running_session(folder: Path) -> None:
                 while not watch.update():
                     assert time.monotonic() < until, watch.problem
                     time.sleep(0.02)
-                (loop,) = session._bundle.loops["smartphone"].values()
+                (loop,) = session._bundle.loops["handheld_fan"].values()
                 assert loop.frequency_raw_hz == pytest.approx(frequency_hz, rel=0.02)
         finally:
             edit.send_signal(signal.SIGINT)

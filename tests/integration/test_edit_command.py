@@ -1,6 +1,9 @@
 """Editing bundles with the command line: the command `scene2hap edit`."""
 
 import json
+import shutil
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +34,26 @@ def room(folder: Path) -> str:
     return str(path)
 
 
+@pytest.fixture(scope="module")
+def baked(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """A function that bakes the room with options of the command, once for equal options."""
+    work = tmp_path_factory.mktemp("baked")
+
+    @cache
+    def made(*options: str) -> Path:
+        folder = work / f"{'_'.join(options)}.bundle"
+        assert main(["bake", room(work), "-o", str(folder), "-q", *options]) == 0
+        return folder
+
+    return made
+
+
+@pytest.fixture
+def kitchen(baked: Callable[..., Path], tmp_path: Path) -> Callable[..., Path]:
+    """A function that gives a copy of the room's bundle, to be edited."""
+    return lambda *options: shutil.copytree(baked(*options), tmp_path / "kitchen.bundle")
+
+
 def outcome(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object]:
     capsys.readouterr()
     assert main(words) == 0
@@ -38,9 +61,10 @@ def outcome(capsys: pytest.CaptureFixture[str], *words: str) -> dict[str, object
     return found
 
 
-def test_edits_of_a_designer_stay_when_the_actuator_changes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder, sound = str(tmp_path / "kitchen.bundle"), tmp_path / "mine.wav"
-    assert main(["bake", room(tmp_path), "-o", folder, "--actuator", "voice_coil", "-q"]) == 0
+def test_edits_of_a_designer_stay_when_the_actuator_changes(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder, sound = str(kitchen("--actuator", "voice_coil")), tmp_path / "mine.wav"
     baked = HapticBundle.load(folder)
     assert baked.actuator is not None
     assert baked.actuator.name == "voice_coil"
@@ -75,9 +99,10 @@ def test_edits_of_a_designer_stay_when_the_actuator_changes(tmp_path: Path, caps
     assert muted == set(session.source_ids) - {first}
 
 
-def test_wrong_id_or_material_keeps_the_bundle_unchanged(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = tmp_path / "kitchen.bundle"
-    assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
+def test_wrong_id_or_material_keeps_the_bundle_unchanged(
+    kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = kitchen()
     before = (folder / "bundle.json").stat().st_ino
     some = next(iter(HapticBundle.load(folder).objects))
     for words in (["gain", "no_such_thing", "3"], ["material", some, "no_such_stuff"]):
@@ -86,10 +111,11 @@ def test_wrong_id_or_material_keeps_the_bundle_unchanged(tmp_path: Path, capsys:
     assert (folder / "bundle.json").stat().st_ino == before
 
 
-def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_locked_loop_stays_byte_for_byte(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     """Bake, set a custom sound, lock it, change the actuator, compare, undo, and repeat."""
-    folder, sound = tmp_path / "kitchen.bundle", tmp_path / "mine.wav"
-    assert main(["bake", room(tmp_path), "-o", str(folder), "--actuator", "voice_coil", "-q"]) == 0
+    folder, sound = kitchen("--actuator", "voice_coil"), tmp_path / "mine.wav"
     mine, *others = HapticBundle.load(folder).loops
     t = np.arange(2 * 44100) / 44100
     write_wav(sound, (0.5 * np.sin(2 * np.pi * 130.0 * t)).astype(np.float32), 44100)
@@ -119,19 +145,21 @@ def test_a_locked_loop_stays_byte_for_byte(tmp_path: Path, capsys: pytest.Captur
     assert remade[mine] == {state: ["actuator"] for state in HapticBundle.load(folder).loops[mine]}
 
 
-def test_a_comparison_lists_only_what_an_edit_changed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_comparison_lists_only_what_an_edit_changed(
+    kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
+) -> None:
     """An override has values for gain, sound, lock and mute; values that were not set are not listed."""
-    folder = tmp_path / "kitchen.bundle"
-    assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
+    folder = kitchen()
     source = next(iter(HapticBundle.load(folder).loops))
     assert main(["edit", str(folder), "gain", source, "-3", "-q"]) == 0
     found = outcome(capsys, "edit", str(folder), "diff", f"{folder}.before", "--json")["differences"]
     assert found == [[source, "gain", "-3.0 dB", "+0.0 dB"]]
 
 
-def test_undo_without_edits_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = tmp_path / "kitchen.bundle"
-    assert main(["bake", room(tmp_path), "-o", str(folder), "-q"]) == 0
+def test_undo_without_edits_is_refused(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = kitchen()
     assert main(["edit", str(folder), "undo"]) == 1
     assert "there is nothing to undo" in capsys.readouterr().err
     # Another user's folder at the path where the previous bundle would be kept.
@@ -151,9 +179,8 @@ def contents(folder: Path, object_id: str) -> list[bytes]:
     return [(folder / name).read_bytes() for name in names]
 
 
-def test_an_edit_says_what_changed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = str(tmp_path / "kitchen.bundle")
-    assert main(["bake", room(tmp_path), "-o", folder, "-q"]) == 0
+def test_an_edit_says_what_changed(kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]) -> None:
+    folder = str(kitchen())
     capsys.readouterr()
     assert main(["edit", folder, "gain", "fan", "-6"]) == 0
     assert "fan, gain: +0.0 dB -> -6.0 dB" in capsys.readouterr().out
@@ -168,10 +195,9 @@ def test_an_edit_says_what_changed(tmp_path: Path, capsys: pytest.CaptureFixture
 
 
 def test_an_edit_without_effect_can_still_be_followed_by_undo(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    folder = str(tmp_path / "kitchen.bundle")
-    assert main(["bake", room(tmp_path), "-o", folder, "-q"]) == 0
+    folder = str(kitchen())
     assert main(["edit", folder, "gain", "fan", "-6", "-q"]) == 0
     capsys.readouterr()
     for nothing in (("unmute", "fan"), ("unlock", "radio"), ("gain", "fan", "-6"), ("rebake",)):
@@ -184,9 +210,10 @@ def test_an_edit_without_effect_can_still_be_followed_by_undo(
     assert HapticBundle.load(folder).gain_db("fan") == 0.0
 
 
-def test_a_silent_object_can_be_made_to_vibrate(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = str(tmp_path / "kitchen.bundle")
-    assert main(["bake", room(tmp_path), "-o", folder, "-q"]) == 0
+def test_a_silent_object_can_be_made_to_vibrate(
+    kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = str(kitchen())
     assert main(["edit", folder, "intensity", "oak table", "0.5"]) == 0
     said = capsys.readouterr().err
     assert "intensity will change nothing until it does" in said
@@ -195,9 +222,10 @@ def test_a_silent_object_can_be_made_to_vibrate(tmp_path: Path, capsys: pytest.C
     assert "oak table" in HapticBundle.load(folder).loops
 
 
-def test_commands_play_on_the_actuator_of_the_bundle(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder, touches = str(tmp_path / "kitchen.bundle"), tmp_path / "touches.csv"
-    assert main(["bake", room(tmp_path), "-o", folder, "--actuator", "lra", "-q"]) == 0
+def test_commands_play_on_the_actuator_of_the_bundle(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder, touches = str(kitchen("--actuator", "lra")), tmp_path / "touches.csv"
     touches.write_text("time_s,hand,touch,glide_s\n0.1,left,fan,\n0.3,,,\n", encoding="utf-8")
     capsys.readouterr()
     assert main(["render", folder, "--touches", str(touches), "-o", str(tmp_path / "a.wav")]) == 0

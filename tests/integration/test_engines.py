@@ -13,7 +13,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import Box, Contact, HapticSession, MemorySink, Pose, PoseTable, SceneObject, SceneSnapshot, Touch, bake
+from scene2hap import (
+    Box,
+    Contact,
+    HapticBundle,
+    HapticSession,
+    MemorySink,
+    Pose,
+    PoseTable,
+    SceneObject,
+    SceneSnapshot,
+    Touch,
+    bake,
+)
 from scene2hap.engines import EngineAdapter, EngineLink, MuJoCoLink, Panda3DLink
 from scene2hap.errors import CallError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.testing import check_engine_adapter
@@ -62,6 +74,17 @@ def panda3d_engine() -> tuple[Any, SceneSnapshot]:
     return render, snapshot(render, name="study")
 
 
+bundles: dict[str, HapticBundle] = {}
+
+
+def baked(scene: SceneSnapshot) -> HapticBundle:
+    """The bundle of a scene. Equal scenes are baked once."""
+    key = scene.to_json()
+    if key not in bundles:
+        bundles[key] = bake(scene)
+    return bundles[key]
+
+
 def data_of(model: str) -> Any:
     import mujoco
 
@@ -79,7 +102,7 @@ def own_engine() -> dict[str, Any]:
 def test_three_lines_of_code_play_a_mujoco_scene(mujoco_engine: Any) -> None:
     model, data, scene, step = mujoco_engine
     sink = MemorySink()
-    with HapticSession(scene, bake(scene), sink=sink) as session:
+    with HapticSession(scene, baked(scene), sink=sink) as session:
         link = MuJoCoLink(model, data, session, hands={"left": "finger"})
         felt = [link.update().gain("left", "smartphone")]
         for _ in range(20):
@@ -94,7 +117,7 @@ def test_three_lines_of_code_play_a_mujoco_scene(mujoco_engine: Any) -> None:
 
 def test_engine_contacts_can_be_used(mujoco_engine: Any) -> None:
     model, data, scene, step = mujoco_engine
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     link = MuJoCoLink(model, data, session, contacts="engine")
     for _ in range(4):
         step()
@@ -104,7 +127,7 @@ def test_engine_contacts_can_be_used(mujoco_engine: Any) -> None:
 
 def test_three_lines_of_code_play_a_panda3d_scene() -> None:
     render, scene = panda3d_engine()
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     link = Panda3DLink(render, session)
     touches = [Touch("left", "wooden table", (0.2, 0.0, 0.7))]
     assert link.update(touches).gain("left", "smartphone") > 0.05
@@ -114,7 +137,7 @@ def test_three_lines_of_code_play_a_panda3d_scene() -> None:
 
 def test_every_adapter_keeps_its_contract(mujoco_engine: Any) -> None:
     model, data, scene, step = mujoco_engine
-    link = MuJoCoLink(model, data, HapticSession(scene, bake(scene)), hands={"left": "finger"}, contacts="engine")
+    link = MuJoCoLink(model, data, HapticSession(scene, baked(scene)), hands={"left": "finger"}, contacts="engine")
     check_engine_adapter(link._adapter, scene, step=step, moves="finger")
 
 
@@ -127,7 +150,7 @@ def test_engine_of_the_page_keeps_the_adapter_contract() -> None:
 
 def test_panda3d_adapter_keeps_its_contract() -> None:
     render, scene = panda3d_engine()
-    link = Panda3DLink(render, HapticSession(scene, bake(scene)))
+    link = Panda3DLink(render, HapticSession(scene, baked(scene)))
     check_engine_adapter(link._adapter, scene, step=lambda: render.find("**/smartphone").set_x(0.1), moves="smartphone")
 
 
@@ -149,7 +172,7 @@ def test_objects_at_rest_are_not_updated(mujoco_engine: Any) -> None:
         def contacts(self) -> None:
             return None
 
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     slow, places = Slow(), []
     link = EngineLink(slow, session)
     for _ in range(30):
@@ -184,7 +207,7 @@ def test_attached_parts_touch_for_their_hand() -> None:
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     scene = snapshot(model, data)
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     link = MuJoCoLink(model, data, session, hands={"left": "palm", "right": "nail"})
     assert link.update().gain("left", "smartphone") == 0.0
     mujoco.mj_step(model, data, nstep=30)
@@ -197,7 +220,7 @@ def test_attached_parts_touch_for_their_hand() -> None:
 def test_objects_missing_in_the_session_are_skipped(mujoco_engine: Any, contacts: Any) -> None:
     """An object removed from the session is skipped, and followed again once it is added back."""
     model, data, scene, step = mujoco_engine
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     link = MuJoCoLink(model, data, session, hands={"left": "finger"}, contacts=contacts)
     link.update()
     for gone in ("wooden_table", "finger"):
@@ -216,7 +239,7 @@ def test_objects_missing_in_the_session_are_skipped(mujoco_engine: Any, contacts
 def test_a_session_may_have_less_than_the_engine(mujoco_engine: Any) -> None:
     model, data, scene, step = mujoco_engine
     fewer = SceneSnapshot(scene.name, scene.up_axis, tuple(item for item in scene.objects if item.id != "finger"))
-    link = MuJoCoLink(model, data, HapticSession(fewer, bake(fewer)), hands={"left": "finger"}, contacts="engine")
+    link = MuJoCoLink(model, data, HapticSession(fewer, baked(fewer)), hands={"left": "finger"}, contacts="engine")
     for _ in range(10):
         step()
         frame = link.update()
@@ -226,8 +249,8 @@ def test_a_session_may_have_less_than_the_engine(mujoco_engine: Any) -> None:
 def test_readded_object_has_the_pose_of_the_engine(mujoco_engine: Any) -> None:
     """Also if it did not move in the engine meanwhile; for poses in a table and in a mapping."""
     model, data, scene, _ = mujoco_engine
-    for adapter in (MuJoCoLink(model, data, HapticSession(scene, bake(scene)))._adapter, Given(scene)):
-        session = HapticSession(scene, bake(scene))
+    for adapter in (MuJoCoLink(model, data, HapticSession(scene, baked(scene)))._adapter, Given(scene)):
+        session = HapticSession(scene, baked(scene))
         link = EngineLink(adapter, session)
         link.update()
         session.remove("smartphone")
@@ -241,7 +264,7 @@ def test_readded_object_has_the_pose_of_the_engine(mujoco_engine: Any) -> None:
 @pytest.mark.parametrize("as_table", [False, True])
 def test_an_adapter_may_have_new_objects_in_any_frame(as_table: bool) -> None:
     scene = own_scene()
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     adapter = Given(scene)
     link = EngineLink(adapter, session)
     link.update()
@@ -267,7 +290,7 @@ def test_a_node_out_of_the_graph_stays_where_it_was() -> None:
     phone.set_z(-0.299)
     phone.reparent_to(carried)
     scene = snapshot(render, name="study")
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     link = Panda3DLink(render, session)
     (phone_id,) = (item.id for item in scene.objects if "smartphone" in item.id)
     before = session.snapshot.object(phone_id).pose
@@ -330,7 +353,7 @@ def test_invalid_adapter_results_are_refused(given: Any, error: type[Exception],
     """The link raises an error in play, and the contract check detects the fault too."""
     scene = own_scene()
     with pytest.raises(error, match=re.escape(answered)):
-        EngineLink(Given(scene, **given), HapticSession(scene, bake(scene))).update()
+        EngineLink(Given(scene, **given), HapticSession(scene, baked(scene))).update()
     with pytest.raises(AssertionError, match=re.escape(asserted)):
         check_engine_adapter(Given(scene, **given), scene, step=lambda: None)
 
@@ -357,7 +380,7 @@ def test_contract_finds_faults_that_play_does_not(given: Any, moves: str | None,
 def test_link_moves_a_diverged_session_to_the_engine_state(as_table: bool) -> None:
     """The session diverges by an object added back at another place between two frames, or by a refused frame."""
     scene = own_scene()
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     adapter = Given(scene)
     link = EngineLink(adapter, session)
 
@@ -382,7 +405,7 @@ def test_link_moves_a_diverged_session_to_the_engine_state(as_table: bool) -> No
 
 def test_frame_has_a_time_on_the_clock() -> None:
     scene = own_scene()
-    link = EngineLink(Given(scene), HapticSession(scene, bake(scene)))
+    link = EngineLink(Given(scene), HapticSession(scene, baked(scene)))
     link.update(at_sample=480)
     with pytest.raises(SessionError, match="at_sample is 479"):
         link.update(None, at_sample=479)
@@ -398,7 +421,7 @@ def test_mocap_hand_touches_only_movable_objects() -> None:
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     scene = snapshot(model, data)
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     link = MuJoCoLink(model, data, session, hands={"left": "glove"})
     assert link.update().gain("left", "smartphone") == 1.0
     data.mocap_pos[0] = (0.4, 0.0, 0.729)
@@ -422,7 +445,7 @@ def test_unit_mismatch_is_detected_in_play(mujoco_engine: Any) -> None:
     from scene2hap.scene.engines.mujoco import snapshot
 
     scene = snapshot(model, data, unit_m=0.5)
-    session = HapticSession(scene, bake(scene))
+    session = HapticSession(scene, baked(scene))
     data.qpos[0] += 0.3
     import mujoco
 
@@ -431,7 +454,7 @@ def test_unit_mismatch_is_detected_in_play(mujoco_engine: Any) -> None:
         MuJoCoLink(model, data, session)
     MuJoCoLink(model, data, session, unit_m=0.5)
     own = own_scene()
-    EngineLink(Given(own, poses={"table": TABLE, "phone": Pose((2.0, 7.24, 1.0))}), HapticSession(own, bake(own)))
+    EngineLink(Given(own, poses={"table": TABLE, "phone": Pose((2.0, 7.24, 1.0))}), HapticSession(own, baked(own)))
 
 
 @pytest.mark.parametrize(
@@ -467,7 +490,7 @@ def test_objects_that_are_not_links_are_refused(
 ) -> None:
     model, data, scene, _ = mujoco_engine
     with pytest.raises(error, match=words):
-        make(model, data, HapticSession(scene, bake(scene)))
+        make(model, data, HapticSession(scene, baked(scene)))
 
 
 def test_engines_are_imported_when_they_are_linked() -> None:
@@ -494,4 +517,4 @@ def test_session_of_a_different_scene_is_refused(mujoco_engine: Any) -> None:
     model, data, _, _ = mujoco_engine
     _, other = panda3d_engine()
     with pytest.raises(SceneError, match=r"the engine lacks 1 of 2 objects of the session: 'wooden table'"):
-        MuJoCoLink(model, data, HapticSession(other, bake(other)))
+        MuJoCoLink(model, data, HapticSession(other, baked(other)))

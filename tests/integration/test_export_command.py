@@ -20,10 +20,9 @@ from scene2hap import (
     bake,
     export_bundle,
     export_clip,
-    load_scene,
 )
 from scene2hap.cli import main
-from scene2hap.demo import kitchen_path, tour_path
+from scene2hap.demo import tour_path
 from scene2hap.errors import ClipError, ConfigError, ExportError
 from scene2hap.export import EXPORTS
 from scene2hap.export.schema import manifest_schema
@@ -34,23 +33,18 @@ KINDS = tuple(EXPORTS.builtins)
 
 
 @pytest.fixture(scope="module")
-def kitchen(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return bake(load_scene(kitchen_path())).save(tmp_path_factory.mktemp("bundles") / "kitchen.bundle")
-
-
-@pytest.fixture(scope="module")
-def exported(kitchen: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
+def exported(kitchen_bundle: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
     """Export the kitchen and its tour in every format. Returns the folder and the manifest."""
     folder = tmp_path_factory.mktemp("out")
-    assert main(["export", str(kitchen), "-o", str(folder), "--touches", str(tour_path()), "-q"]) == 0
+    assert main(["export", str(kitchen_bundle), "-o", str(folder), "--touches", str(tour_path()), "-q"]) == 0
     return folder, json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
 
 
 def test_every_state_and_every_hand_has_files_of_every_kind(
-    exported: tuple[Path, dict[str, Any]], kitchen: Path
+    exported: tuple[Path, dict[str, Any]], kitchen_bundle: Path
 ) -> None:
     folder, manifest = exported
-    bundle = HapticBundle.load(kitchen)
+    bundle = HapticBundle.load(kitchen_bundle)
     states = {(one["object_id"], state["name"]): state for one in manifest["sources"] for state in one["states"]}
     assert set(states) == {(key, state) for key, found in bundle.loops.items() for state in found}
     (tour,) = manifest["tours"]
@@ -68,9 +62,9 @@ def test_the_manifest_keeps_its_published_schema(exported: tuple[Path, dict[str,
     jsonschema.Draft202012Validator(published).validate(exported[1])
 
 
-def test_paths_give_the_gains_of_a_session(exported: tuple[Path, dict[str, Any]], kitchen: Path) -> None:
+def test_paths_give_the_gains_of_a_session(exported: tuple[Path, dict[str, Any]], kitchen_bundle: Path) -> None:
     """The gain 5 cm beside a contact follows from the manifest's gains and decay."""
-    bundle = HapticBundle.load(kitchen)
+    bundle = HapticBundle.load(kitchen_bundle)
     session = HapticSession(bundle, config={"prepare": "blocking"})
     paths = [one for one in exported[1]["paths"] if one["source"] == "smartphone"]
     assert paths
@@ -111,9 +105,9 @@ def test_one_clip_is_turned_into_other_formats_and_back(tmp_path: Path) -> None:
 
 
 def test_invalid_requests_get_an_error_and_write_nothing(
-    kitchen: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    kitchen_bundle: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    bundle = HapticBundle.load(kitchen)
+    bundle = HapticBundle.load(kitchen_bundle)
     out = tmp_path / "out"
     for to, told in (
         ("hapic", "no kind 'hapic'. Did you mean 'haptic'?"),

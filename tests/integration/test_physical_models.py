@@ -1,12 +1,12 @@
 """The physical models in a session: gains of the demo kitchen, and of a moved table."""
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from scene2hap import Bands, HapticBundle, HapticSession, Pose, SceneSnapshot, Touch, bake, load_scene
-from scene2hap.demo import kitchen_path
+from scene2hap import Bands, HapticBundle, HapticSession, Pose, SceneSnapshot, Touch
 from scene2hap.propagation.domain import ThinPlateWarning
 from scenes import table_with_two_phones
 
@@ -14,9 +14,9 @@ PHYSICAL = ["infinite_plate", "modal_plate", "auto"]
 
 
 @pytest.fixture(scope="module")
-def demo() -> tuple[SceneSnapshot, HapticBundle]:
-    scene = load_scene(kitchen_path())
-    return scene, bake(scene)
+def demo(kitchen_bundle: Path) -> tuple[SceneSnapshot, HapticBundle]:
+    bundle = HapticBundle.load(kitchen_bundle)
+    return bundle.snapshot, bundle
 
 
 @pytest.mark.parametrize(

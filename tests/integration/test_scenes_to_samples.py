@@ -1,6 +1,7 @@
 """From scene file to samples: the rooms of the tests, and scenes by others where they are present."""
 
 import warnings
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 
 from others import SCENES, there
 from rooms import ROOMS, room_file
-from scene2hap import HapticBundle, HapticSession, Touch, bake, load_scene
+from scene2hap import HapticBundle, HapticSession, SceneSnapshot, Touch, bake, load_scene
 from scene2hap.scene.load import UnitWarning
 
 # Baking warns of rooms without sources.
@@ -34,12 +35,19 @@ def path_of(name: str) -> Path:
     return room_file(name) if name in ROOMS else SCENES / name / FILES[name]
 
 
-@pytest.mark.parametrize("name", [*ROOMS, *there(FILES, path_of)])
-def test_from_file_to_samples(name: str, tmp_path: Path) -> None:
+@cache
+def baked(name: str) -> tuple[SceneSnapshot, HapticBundle]:
+    """A scene and its bundle, baked once for all tests."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UnitWarning)
         scene = load_scene(path_of(name))
-    bundle = HapticBundle.load(bake(scene).save(tmp_path / "b"))
+        return scene, bake(scene)
+
+
+@pytest.mark.parametrize("name", [*ROOMS, *there(FILES, path_of)])
+def test_from_file_to_samples(name: str, tmp_path: Path) -> None:
+    scene, made = baked(name)
+    bundle = HapticBundle.load(made.save(tmp_path / "b"))
     assert bundle.snapshot == scene
     session = HapticSession(bundle.snapshot, bundle)
     if name in ROOMS:
@@ -58,8 +66,7 @@ def test_from_file_to_samples(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", [*ROOMS, *there(VIBRATES, path_of)])
 def test_machines_vibrate_and_furniture_does_not(name: str) -> None:
-    scene = load_scene(path_of(name))
-    vibrates = {key for key, haptics in bake(scene).objects.items() if haptics.vibrates}
+    vibrates = {key for key, haptics in baked(name)[1].objects.items() if haptics.vibrates}
     if name in ROOMS:
         assert vibrates == ROOMS[name].sources
     else:

@@ -83,7 +83,9 @@ def environment(pure: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def pip(python: Path, *what: object) -> subprocess.CompletedProcess[str]:
-    return run([sys.executable, "-m", "pip", "--python", python, "install", "-q", *what], python.parent)
+    # The demo compiles the modules that it imports; pip would compile all of every dependency.
+    command = [sys.executable, "-m", "pip", "--python", python, "install", "-q", "--no-compile", *what]
+    return run(command, python.parent)
 
 
 def demo_of(built: Path, python: Path, folder: Path) -> dict[str, bool]:

@@ -21,6 +21,7 @@ from websockets.sync.client import connect
 from bridge_client import Client, Refused
 from scene2hap import Touch
 from scene2hap.bridge import BridgeServer
+from scene2hap.cli import main
 
 Bridge = Callable[..., BridgeServer]
 
@@ -308,15 +309,16 @@ def test_warnings_reach_the_client(root: Path) -> None:
         assert "table" in warning["message"]
 
 
-def test_port_in_use_is_reported(root: Path) -> None:
-    with program("--port", "0") as (_, url):
-        port = url.rstrip("/").rpartition(":")[2]
-        words = [sys.executable, "-m", "scene2hap", "bridge", "--port", port]
-        found = subprocess.run(words, capture_output=True, text=True, timeout=30, check=False)
-        assert found.returncode == 1
-        assert f"port {port} cannot be used" in found.stderr
-        assert "Traceback" not in found.stderr
-    words = [sys.executable, "-m", "scene2hap", "bridge", "--host", "0.0.0.0"]
+def test_port_in_use_is_reported(bridge: Bridge) -> None:
+    port = bridge().port
+    words = [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)]
     found = subprocess.run(words, capture_output=True, text=True, timeout=30, check=False)
     assert found.returncode == 1
-    assert "needs a token" in found.stderr
+    assert f"port {port} cannot be used" in found.stderr
+    assert "Traceback" not in found.stderr
+
+
+def test_the_command_needs_a_token_for_a_public_interface(bridge: Bridge, capsys: pytest.CaptureFixture[str]) -> None:
+    port = bridge().port  # in use, so that the command would end if it accepted the host
+    assert main(["bridge", "--host", "0.0.0.0", "--port", str(port)]) == 1
+    assert "needs a token" in capsys.readouterr().err

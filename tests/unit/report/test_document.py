@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 import soundfile
 
-from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake, load_scene
+from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.cli import main
-from scene2hap.demo import kitchen_path
 from scene2hap.errors import ConfigError
 from scene2hap.report import write_report
 from scene2hap.report.document import document
@@ -22,8 +21,8 @@ from scene2hap.report.surface_points import patches_of
 
 
 @pytest.fixture(scope="module")
-def kitchen() -> HapticBundle:
-    return bake(load_scene(kitchen_path()))
+def kitchen(kitchen_bundle: Path) -> HapticBundle:
+    return HapticBundle.load(kitchen_bundle)
 
 
 def test_band_levels_sum_to_the_total_level(kitchen: HapticBundle) -> None:
