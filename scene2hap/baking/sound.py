@@ -27,6 +27,7 @@ from scene2hap.audio.sources.chain import gather
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import OWN_CLIP, converter_name, differences, made_by, request_digests
 from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
+from scene2hap.blas_threads import one_blas_thread
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
 
@@ -110,8 +111,9 @@ async def make_loops(
         SourceClip(part.clip, part.state.intensity, part.group, part.keep, part.pitch_hz) for part in parts if part.clip
     ]
     standing = [(part.earlier, part.group) for part in parts if part.clip is None and part.earlier is not None]
-    plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
-    made = await _made(parts, plans, config, tell)
+    with one_blas_thread:
+        plans = await asyncio.to_thread(plan_scene, sources, config.tactile, config.actuator, config.spread, standing)
+        made = await _made(parts, plans, config, tell)
     loops: dict[str, dict[str, HapticLoop]] = {}
     for part, (loop, reasons) in zip(parts, made, strict=True):
         loops.setdefault(part.object_id, {})[part.state.name] = loop

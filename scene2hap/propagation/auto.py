@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.blas_threads import one_blas_thread
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
@@ -83,6 +84,7 @@ class AutoFidelity:
         object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
         object.__setattr__(self, "hand", checked_hand(self.hand))
 
+    @one_blas_thread
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> AutoField:
         """Prepare the field of a scene, with each object's rung in `choices`. Errors and warnings: see `ModalPlate`."""
         scene = assemble(network, excitations, bands, self.contact, self.outside_domain)
@@ -113,6 +115,7 @@ class AutoFidelity:
         rung = self.choose(plate, max_frequency_hz).rung
         return body_of(rung, plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
 
+    @one_blas_thread
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
@@ -131,6 +134,7 @@ class AutoFidelity:
         ratio: NDArray[np.complex128] = self._receptance(plate, drive, points_on(plate, points_m), f) / driven
         return ratio
 
+    @one_blas_thread
     def plate_receptance(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:

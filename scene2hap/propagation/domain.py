@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from functools import lru_cache
 from typing import Literal, get_args
 
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.plate import Plate, require_frequencies, require_plate
+from scene2hap.scene.scene_warning import warn_of
 
 THIN_WAVELENGTHS = 6.0
 """Shortest wavelength for which thin-plate theory is used, in thicknesses. There its frequencies are already 15 % above
@@ -37,11 +37,10 @@ class SlowPlateWarning(UserWarning):
 def warn_if_slow(plate: Plate, size: int, most: int, what: str) -> None:
     """Issue a `SlowPlateWarning`, once per plate, if `size` exceeds `most`, which takes about a second."""
     if size > most:
-        warnings.warn(
+        warn_of(
             f"{size} {what} of a plate of {plate.length_m:g} × {plate.width_m:g} × {plate.thickness_m:g} m are worked "
             f"out; more than {most} take over a second. A lower top frequency or InfinitePlate is quicker.",
             SlowPlateWarning,
-            stacklevel=4,
         )
 
 
@@ -119,7 +118,7 @@ def check_thin(object_id: str, plate: Plate, top_hz: float, outside_domain: Outs
 
 @lru_cache(maxsize=4096)
 def _warn_of_object(object_id: str, plate: Plate) -> None:
-    warnings.warn(f"object {object_id!r}: {_too_thick(plate)}", ThinPlateWarning, stacklevel=5)
+    warn_of(f"object {object_id!r}: {_too_thick(plate)}", ThinPlateWarning)
 
 
 def _thin_limit_hz(plate: Plate) -> float:
@@ -129,8 +128,7 @@ def _thin_limit_hz(plate: Plate) -> float:
 
 @lru_cache(maxsize=4096)
 def _warn_once(plate: Plate) -> None:
-    # Level 4 is the caller of the model, beyond this function, `warn_if_thick` and the model itself.
-    warnings.warn(_too_thick(plate), ThinPlateWarning, stacklevel=4)
+    warn_of(_too_thick(plate), ThinPlateWarning)
 
 
 def _too_thick(plate: Plate) -> str:

@@ -23,6 +23,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.blas_threads import one_blas_thread
 from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND
@@ -114,6 +115,7 @@ class InfinitePlate:
             return RigidMotion.of(plate, plate.moving_mass_kg, rocks=True)
         return InfiniteBody(plate, plate.material.loss_factor)
 
+    @one_blas_thread
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
@@ -129,6 +131,7 @@ class InfinitePlate:
         warn_if_thick(plate, f)
         return _spread(plate, drive_m, points_m, f)
 
+    @one_blas_thread
     def plate_receptance(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:

@@ -13,7 +13,6 @@ wavenumber, k_c^4 = m omega^2 / (D (1 + j eta)). Time runs as e^{+j omega t}.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -23,6 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.blas_threads import one_blas_thread
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
@@ -55,6 +55,7 @@ from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper,
 from scene2hap.propagation.modes import n_rigid_motions, points_on
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.scene.scene_warning import warn_of
 
 CELLS_PER_WAVE = 4.0
 """Fewest cells in a bending wavelength; with four, the lattice turns it 0.7 % too fast."""
@@ -132,6 +133,7 @@ class MassSpringDamper:
         needed = _needed_resolution(plate, frequency_hz)
         return needed > FINEST or is_too_much(plate, max(self.resolution, needed), frequency_hz)
 
+    @one_blas_thread
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
@@ -152,6 +154,7 @@ class MassSpringDamper:
         ratio: NDArray[np.complex128] = found[1:] / found[0]
         return ratio
 
+    @one_blas_thread
     def plate_receptance(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
@@ -270,7 +273,7 @@ def _coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> str:
 
 @lru_cache(maxsize=4096)
 def _warn_coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> None:
-    warnings.warn(_coarsened(plate, max_frequency_hz, limit_hz), CoarsenedWarning, stacklevel=4)
+    warn_of(_coarsened(plate, max_frequency_hz, limit_hz), CoarsenedWarning)
 
 
 def _summed(terms: NDArray[Any], ratio: NDArray[Any] | float) -> NDArray[Any]:

@@ -20,6 +20,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.blas_threads import one_blas_thread
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
@@ -85,6 +86,7 @@ class ModalPlate:
         _require_rectangle(plate)
         return modal_body(plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
 
+    @one_blas_thread
     def plate_transfer(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:
@@ -106,6 +108,7 @@ class ModalPlate:
         ratio: NDArray[np.complex128] = self._receptance(plate, drive, points_on(plate, points_m), f) / driven
         return ratio
 
+    @one_blas_thread
     def plate_receptance(
         self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
     ) -> NDArray[np.complex128]:

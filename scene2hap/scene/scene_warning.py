@@ -5,17 +5,17 @@ from __future__ import annotations
 import sys
 import warnings
 
-_PASSED = (__name__.partition(".")[0], "asyncio")
-"""Packages whose lines are not the caller's: our own, and the event loop in which `bake` runs."""
+_PASSED = (__name__.partition(".")[0], "asyncio", "contextlib")
+"""Packages whose lines are not the caller's: our own, the event loop in which `bake` runs, and decorators."""
 
 
 class SceneWarning(UserWarning):
     """A scene, or a use of it, that is almost certainly wrong."""
 
 
-def warn_of(sentence: str) -> None:
-    """Issue a SceneWarning that points at the caller's line."""
+def warn_of(sentence: str, category: type[Warning] = SceneWarning) -> None:
+    """Issue a warning that points at the caller's line."""
     level, frame = 2, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in _PASSED:
         level, frame = level + 1, frame.f_back
-    warnings.warn(sentence, SceneWarning, stacklevel=level)
+    warnings.warn(sentence, category, stacklevel=level)

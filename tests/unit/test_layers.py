@@ -10,7 +10,7 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
 # From bottom to top; packages of one row never import each other.
 LAYERS = [
-    {"errors", "printable", "quiet_logs"},
+    {"blas_threads", "errors", "printable", "quiet_logs"},
     {"checks", "compiled", "key_search"},
     {"calls"},
     {"file_stamp", "html_tables", "plots", "plugins", "secret", "text_files", "web"},

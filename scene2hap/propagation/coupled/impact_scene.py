@@ -20,6 +20,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.blas_threads import one_blas_thread
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.coupling import ElasticBody
@@ -79,6 +80,7 @@ class StruckScene:
         """Whether `gains` has an answer for a touched object and a struck one."""
         return (touched_id, struck_id) in self._passed or (touched_id, struck_id) in self._silent
 
+    @one_blas_thread
     def gains(
         self, struck_id: str, struck_m: Floats, felt: Sequence[tuple[str, Floats]], frequencies_hz: Floats
     ) -> Floats:

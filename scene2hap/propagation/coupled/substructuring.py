@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.blas_threads import one_blas_thread
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import Sampling
@@ -144,6 +145,7 @@ def assemble(
     return Assembly(network, tuple(excitations), bands, groups, rigid, plates, top_hz)
 
 
+@one_blas_thread
 def prepare_coupled(
     network: ContactNetwork,
     excitations: Sequence[Excitation],
@@ -167,6 +169,7 @@ def prepare_coupled(
     return scene.solve({key: elastic_body(plate, top_hz) for key, plate in scene.plates.items()}, density, hand)
 
 
+@one_blas_thread
 def prepare_struck(model: CoupledModel, network: ContactNetwork, touched_ids: Collection[str]) -> StruckScene:
     """Prepare a scene for impacts on any point of the objects that are connected with touched ones.
 
@@ -232,6 +235,7 @@ class CoupledField:
     _responses: dict[str, ObjectResponse] = field(init=False, repr=False, default_factory=dict)
     _expected: set[str] = field(init=False, repr=False, default_factory=set)
 
+    @one_blas_thread
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Deflection over the free deflection of each source; above 1 at resonances. See `PropagationField`."""
         points = as_points(points_m, 3)
@@ -241,6 +245,7 @@ class CoupledField:
             found = self._responses.setdefault(object_id, self._response(object_id))
         return found(points)
 
+    @one_blas_thread
     def expect(self, object_id: str) -> None:
         """Prepare an object for many queries, see `ExpectantField`."""
         # If each source has one frequency, an existing response cannot become faster.
@@ -249,6 +254,7 @@ class CoupledField:
             self._responses[object_id] = self._response(object_id, is_expected=True)
             self._expected.add(object_id)
 
+    @one_blas_thread
     def carriers(self, object_id: str, source_id: str, band: int) -> tuple[Carrier, ...]:
         """The contacts through which power comes into an object, see `CarryingField`."""
         solved = self.reach.get(object_id)
