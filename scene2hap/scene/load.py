@@ -169,7 +169,7 @@ def _from_mjcf(path: Path, up_axis: UpAxis | None, unit_m: float, group: Groupin
 def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
     # Transforms of a broken file may overflow when they are multiplied; MeshPool refuses the results.
     with np.errstate(all="ignore"):
-        groups = group_objects(authored.roots, group)
+        groups = group_objects(authored.roots, group, scene_name=name)
     if not groups:
         raise SceneError(f"scene {name!r} holds no triangles; nothing in it can be touched. Export it with meshes.")
     limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")
