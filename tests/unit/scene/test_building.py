@@ -157,6 +157,35 @@ def test_check_finds_a_room_above_or_below_its_floor(up_m: float, kind: str | No
         assert words in str(found[0])
 
 
+def gallery(*more: str) -> list[SceneObject]:
+    """A floor, a wall, and pictures on the wall: most things touch what is beside them, and not what is below them."""
+    wall = SceneObject("wall", pose=Pose((0, 1.25, -2.05)), geometry=Box((4.0, 2.5, 0.1)))
+    names = ("picture", "clock", *more)
+    return [
+        ROOM[0],
+        wall,
+        *(
+            SceneObject(name, pose=Pose((k - 1.0, 1.5, -1.98)), geometry=Box((0.4, 0.4, 0.04)))
+            for k, name in enumerate(names)
+        ),
+    ]
+
+
+@pytest.mark.parametrize("more", [(), ("mirror", "shelf")])
+def test_pictures_on_a_wall_do_not_tip_the_up_axis(more: tuple[str, ...]) -> None:
+    assert SceneSnapshot.build(gallery(*more)).check() == ()
+
+
+def test_a_roof_is_no_floor() -> None:
+    roof = SceneObject("roof", pose=Pose((0, 2.6, 0)), geometry=Box((3.0, 0.2, 3.0)))
+    posts = [
+        SceneObject(f"post {k}", pose=Pose((x, 1.25, z)), geometry=Box((0.1, 2.5, 0.1)))
+        for k, (x, z) in enumerate([(-1.4, -1.4), (1.4, -1.4), (-1.4, 1.4), (1.4, 1.4)])
+    ]
+    bench = SceneObject("bench", pose=Pose((0, 0.25, 0)), geometry=Box((1.5, 0.5, 0.4)))
+    assert SceneSnapshot.build([roof, *posts, bench]).check() == ()
+
+
 def test_check_finds_real_scene_lifted_off_its_floor() -> None:
     scene = load_scene(needed(SCENES / "composed_kitchen_kaykit/composed_kitchen_kaykit.glb"))
     up = {"y": 1, "z": 2}[scene.up_axis]

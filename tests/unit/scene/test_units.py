@@ -85,6 +85,20 @@ def test_many_objects_within_a_hand_get_a_suggestion_and_one_does_not() -> None:
     assert suggestion(tiny(8)) == pytest.approx(100.0)
 
 
+def test_a_robot_hand_in_metres_gets_no_suggestion() -> None:
+    """A hand of 16 cm is as high as it is wide; a room of that size is flat."""
+    fingers = [
+        box(f"finger_{k}_{j}", (0.02, 0.035, 0.02), (0.035 * k, 0.04 * j, 0.0)) for k in range(5) for j in range(4)
+    ]
+    assert suggestion(scene(*fingers)) is None
+
+
+def test_large_factors_are_written_without_exponents() -> None:
+    tiny = scene(*(box(f"o{i}", (0.004, 0.003, 0.004), (0.005 * i, 0.0, 0.0)) for i in range(8)))
+    with pytest.warns(UnitWarning, match=r"unit_m=100 \(metres per unit"):
+        warn_if_implausible(tiny)
+
+
 def test_suggestion_is_relative_to_the_current_unit() -> None:
     assert suggestion(room(100.0, FURNITURE), unit_m=0.001) == pytest.approx(1e-5)
 
