@@ -60,7 +60,10 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     sizes = implausible(scene)
     if sizes is not None:
         unit = f", as for {sizes.name}" if sizes.name else ""
-        remedy = f"Load the file with unit_m={sizes.unit_m}{unit}, or multiply positions and sizes by {sizes.unit_m}."
+        model = f" ({sizes.of_model_m} if it holds one model and no room)" if sizes.of_model_m else ""
+        remedy = (
+            f"Load the file with unit_m={sizes.unit_m}{unit}{model}, or multiply positions and sizes by {sizes.unit_m}."
+        )
         yield Finding("units", ids, f"{sizes.sentence} {remedy}")
     if _begin_with_w(scene):
         yield Finding(

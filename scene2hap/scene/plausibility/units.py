@@ -34,6 +34,8 @@ _TYPICAL_WIDTH_M = 5.0
 # millimetres once too often. A hand of a robot, as high as it is wide, is none.
 _TOO_OFTEN = (100.0, 1000.0)
 _UNITS = {0.01: "centimetres", 0.001: "millimetres", 0.0254: "inches", 0.1: "decimetres", 0.3048: "feet"}
+# Single models are mostly in centimetres: 463 of 484 of the Sweet Home 3D catalogues, at most this large [m] (assumed).
+_OF_MODELS, _LARGEST_MODEL_M = 0.01, 3.0
 _SAME_FACTOR = 1.25
 # Evidence that differs from the usual size by more than this factor causes a warning. One piece of furniture may have
 # an odd size, several hardly (tuned on real scenes).
@@ -51,11 +53,15 @@ class _Evidence(NamedTuple):
 
 
 class Doubt(NamedTuple):
-    """Why sizes cannot be metres, and the likely unit: in metres, as text, and its name, empty if it has none."""
+    """Why sizes cannot be metres, and the likely unit: in metres, as text, and its name, empty if it has none.
+
+    `of_model_m` is the likely unit if the file holds a single model and no room, empty if it is the same.
+    """
 
     sentence: str
     unit_m: str
     name: str
+    of_model_m: str = ""
 
 
 def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: bool = False) -> None:
@@ -70,8 +76,10 @@ def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: b
         remedy = f"Multiply positions and sizes by {found.unit_m}{f' if they are in {found.name}' * bool(found.name)}."
     else:
         meant = f", {found.name}" if found.name else ""
+        model = f", or {found.of_model_m} if it holds one model and no room" if found.of_model_m else ""
         remedy = (
-            f"Perhaps unit_m={found.unit_m} (metres per unit of the file{meant}); giving any unit_m ends this warning."
+            f"Perhaps unit_m={found.unit_m} (metres per unit of the file{meant}){model}; giving any unit_m ends this "
+            "warning."
         )
     warnings.warn(f"{found.sentence} {remedy}", UnitWarning, stacklevel=4)
 
@@ -94,7 +102,10 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     text, name = next(
         ((f"{known:g}", word) for known, word in _UNITS.items() if np.isclose(unit, known)), (rounded, "")
     )
-    return Doubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name)
+    of_model = ""
+    if found is not by_name and factor != _OF_MODELS and float(extents.max()) * _OF_MODELS <= _LARGEST_MODEL_M:
+        of_model = f"{_OF_MODELS * unit_m:g}"
+    return Doubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name, of_model)
 
 
 def _evidence_of(

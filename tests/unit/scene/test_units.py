@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 import warnings
 from pathlib import Path
+from unittest.mock import ANY as ANY_TEXT
 
 import pytest
 
 from gltf_builder import Gltf
 from scene2hap.scene.load import UnitWarning, load_scene
-from scene2hap.scene.plausibility.units import warn_if_implausible
+from scene2hap.scene.plausibility.units import implausible, warn_if_implausible
 from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene
 
@@ -71,6 +72,20 @@ def test_unrelated_names_give_no_suggestion(name: str) -> None:
 
 def test_extremely_wide_scene_gets_a_suggestion_without_names() -> None:
     assert suggestion(scene(box("Object_1", (360.0, 207.0, 60.0), (0, 0, 0)))) == 0.01
+
+
+@pytest.mark.parametrize(("size_m", "unit", "of_model"), [((60, 42, 32), "0.1", "0.01"), ((400, 300, 350), "0.01", "")])
+def test_a_single_model_may_be_in_centimetres(size_m: tuple[float, float, float], unit: str, of_model: str) -> None:
+    """A cooker hood of 60 cm is as large as a room in decimetres."""
+    hood = scene(*(box(f"Circle.{k}", size_m, (0, 0, 0)) for k in range(2)))
+    assert (implausible(hood), implausible(hood, 0.1)) == (
+        (ANY_TEXT, unit, ANY_TEXT, of_model),
+        (ANY_TEXT, f"{float(unit) / 10:g}", ANY_TEXT, f"{float(of_model) / 10:g}" if of_model else ""),
+    )
+    with pytest.warns(
+        UnitWarning, match="or 0.01 if it holds one model and no room; giving" if of_model else "; giving"
+    ):
+        warn_if_implausible(hood)
 
 
 def test_extremely_high_room_gets_a_suggestion_without_names() -> None:
