@@ -12,7 +12,9 @@ import trimesh
 from edge_scenes import EDGE_SCENES
 from others import SCENES, needed
 from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot, TriMesh, bake, load_scene
+from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SceneError
+from scene2hap.llm.sharing import copies
 from scene2hap.scene.plausibility.check import SceneWarning
 from scene2hap.scene.plausibility.units import UnitWarning
 
@@ -43,6 +45,20 @@ def test_heights_are_above_the_lowest_of_the_scene() -> None:
     assert heights == pytest.approx({"floor": 0.0, "table": 0.1, "phone": 0.82, "mug": 0.82, "crate": 0.1})
     assert scene.up_axis == "y"
     assert SceneSnapshot.from_json(scene.to_json()) == scene
+
+
+def test_copies_share_a_key_and_an_analysis() -> None:
+    """Four chairs of one mesh cost one question, a box of the same size under another name one more."""
+    chair = trimesh.creation.box((0.4, 0.9, 0.4))
+    row = [SceneObject(f"chair {k}", pose=Pose((0.6 * k, 0.45, 0)), geometry=chair) for k in range(4)]
+    stool = SceneObject("stool", pose=Pose((3, 0.45, 0)), geometry=chair)
+    given = SceneObject("bench", pose=Pose((4, 0.45, 0)), geometry=chair, instance_key="mine")
+    scene = SceneSnapshot.build([*row, stool, given])
+    assert len({item.instance_key for item in scene.objects[:5]}) == 1
+    assert scene.object("bench").instance_key == "mine"
+    assert scene.object("stool").instance_key != SceneSnapshot.build(ROOM).object("mug").instance_key
+    shared = copies(scene, ContactGraph(scene))
+    assert [shared[item.id] for item in scene.objects] == [*["chair 0"] * 4, "stool", "bench"]
 
 
 def test_surface_faces_up_with_z_up() -> None:
