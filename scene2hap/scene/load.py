@@ -11,6 +11,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.calls import clear_call
+from scene2hap.counted import counted
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
@@ -100,7 +101,7 @@ def load_scene(
         if authored.left_out:
             n = len(authored.left_out)
             first = " ".join(authored.left_out[:_LISTED]) + (f" And {n - _LISTED} more." if n > _LISTED else "")
-            message = f"{path.name!r} is read without {n} of its textures, in their plain colours: {first}"
+            message = f"{path.name!r} is read without {counted(n, 'texture')}, in plain colours: {first}"
             warnings.warn(message, TextureWarning, stacklevel=3)
         unit = unit_m or authored.unit_m or 1.0
         snapshot = _snapshot(writable(scene_stem(path)), authored, up_axis or authored.up_axis, unit, group)

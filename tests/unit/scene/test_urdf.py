@@ -228,7 +228,7 @@ def test_texture_becomes_its_mean_colour(home: Path) -> None:
 @pytest.mark.parametrize("name", ["gone.png", "../other/t.png", "robot.urdf"])
 def test_missing_texture_warns_and_keeps_the_colour(home: Path, name: str) -> None:
     textured = f"<material name='m'><color rgba='1 0 0 1'/><texture filename='{name}'/></material></visual>"
-    with pytest.warns(TextureWarning, match="read without 1 of its textures"):
+    with pytest.warns(TextureWarning, match="read without 1 texture, in"):
         scene = loaded(home, f"<link name='a'>{BOX.replace('</visual>', textured)}</link>")
     assert colour(scene) == [(1.0, 0.0, 0.0, 1.0)]
 
