@@ -185,8 +185,8 @@ def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]]
     is_floor = (sizes[:, level].prod(axis=1) >= _FLOOR_SHARE * whole) & (
         sizes[:, up] <= _FLOOR_FLATNESS * sizes[:, level].min(axis=1)
     )
-    for row in np.flatnonzero(is_floor):
-        is_floor[row] = bool((np.delete(high[:, up], row) > low[row, up]).any())
+    for plate in np.flatnonzero(is_floor).tolist():
+        is_floor[plate] = bool((np.delete(high[:, up], plate) > low[plate, up]).any())
     if not is_floor.any():
         return None
     row = int(np.flatnonzero(is_floor)[high[is_floor, up].argmin()])
