@@ -221,13 +221,15 @@ def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None
     for found in scene.check():
         if found.kind != "units":
             warn_of(str(found))
+    unknown = [key for key, haptics in objects.items() if haptics.object_category.lower() in UNKNOWN]
     if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
+        is_one_model = 2 * len(unknown) > len(objects)
+        parts = " If the file is one model of many parts, load it with group=0." if is_one_model else ""
         warn_of(
             f"none of {len(objects)} objects of {scene.name!r} vibrates; nothing will be felt. Give objects names that "
-            "say what they are, let a model look at them (llm), or override(id, vibrates=True). If the file is one "
-            "model of many parts, load it with group=0."
+            f"say what they are, let a model look at them (llm), or override(id, vibrates=True).{parts}"
         )
-    elif len(objects) == 1 and all(haptics.object_category.lower() in UNKNOWN for haptics in objects.values()):
+    elif len(objects) == 1 and unknown:
         warn_of(
             f"{scene.name!r} is one object, {scene.objects[0].name!r}, which is unknown; nothing will be felt. If it "
             "merges several objects, separate them in the program that made it, or try group='leaf'. Otherwise give it "

@@ -253,8 +253,14 @@ def test_bake_warns_of_floating_objects_and_scenes_without_sources() -> None:
     objects = [*ROOM[:3], moved(ROOM[3], pose=Pose((-0.3, 1.9, 0.1))), ROOM[4]]
     with pytest.warns(SceneWarning, match="'mug' floats"):
         bake(SceneSnapshot.build(objects))
-    with pytest.warns(SceneWarning, match="none of 2 objects of 'scene' vibrates"):
+    with pytest.warns(
+        SceneWarning, match=r"none of 2 objects of 'scene' vibrates; .* or override\(id, vibrates=True\)\.$"
+    ):
         bake(SceneSnapshot.build(ROOM[:2]))
+    parts = [moved(ROOM[1], id="Cylinder.003"), moved(ROOM[2], id="Circle.022"), ROOM[4]]
+    parts = [moved(item, name=item.id) for item in parts]
+    with pytest.warns(SceneWarning, match="one model of many parts, load it with group=0"):
+        bake(SceneSnapshot.build(parts))
 
 
 def test_check_does_not_depend_on_batch_size(monkeypatch: pytest.MonkeyPatch) -> None:
