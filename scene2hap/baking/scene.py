@@ -22,6 +22,7 @@ from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
 from scene2hap.calls import clear_call
+from scene2hap.counted import counted
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import UNKNOWN, Inference, infer_scene
@@ -220,12 +221,15 @@ def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None
     for found in scene.check():
         if found.kind != "units":
             warn_of(str(found))
+    unknown = [key for key, haptics in objects.items() if haptics.object_category.lower() in UNKNOWN]
     if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
+        is_one_model = 2 * len(unknown) > len(objects)
+        parts = " If the file is one model of many parts, load it with group=0." if is_one_model else ""
         warn_of(
             f"none of {len(objects)} objects of {scene.name!r} vibrates; nothing will be felt. Give objects names that "
-            "say what they are, let a model look at them (llm), or override(id, vibrates=True)."
+            f"say what they are, let a model look at them (llm), or override(id, vibrates=True).{parts}"
         )
-    elif len(objects) == 1 and all(haptics.object_category.lower() in UNKNOWN for haptics in objects.values()):
+    elif len(objects) == 1 and unknown:
         warn_of(
             f"{scene.name!r} is one object, {scene.objects[0].name!r}, which is unknown; nothing will be felt. If it "
             "merges several objects, separate them in the program that made it, or try group='leaf'. Otherwise give it "
@@ -265,7 +269,7 @@ def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
     if unknown:
         some = ", ".join(unknown[:3]) + (", ..." if len(unknown) > 3 else "")
         warnings.warn(
-            f"the loops of {len(unknown)} sources ({some}) have no fingerprint, as in older bundles, and "
+            f"the loops of {counted(len(unknown), 'source')} ({some}) have no fingerprint, as in older bundles, and "
             "stay as they are. Give actuator or tactile to make them again.",
             BundleWarning,
             stacklevel=3,

@@ -171,8 +171,8 @@ class HapticBundle(BundleContents):
         """Draw the scene from above with its sources, and for each source its sound, vibration and spectra.
 
         Parameters: sources : ids of the sources to draw, the first eight if None; up_to_m : leave out surfaces higher
-        than this above the lowest point of the scene [m], such as a ceiling; figure : an empty matplotlib figure to
-        draw into, None for a new one.
+        than this above the lowest point of the scene [m], None for ceilings that hide most of the objects; figure : an
+        empty matplotlib figure to draw into, None for a new one.
         Returns: the figure, made without pyplot; lengths in m, times in s, levels in dB re full scale.
         Raises: MissingExtra: matplotlib is not installed; BundleError: no such source, or `up_to_m` is no height.
         """

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scene2hap.bundle.contents import BundleContents
+from scene2hap.counted import counted
 from scene2hap.html_tables import html_table, number
 
 _COLUMNS = (
@@ -20,8 +21,8 @@ def bundle_table(bundle: BundleContents) -> str:
     n_sources = sum(map(bool, bundle.loops.values()))
     actuator = f", made for the actuator {bundle.actuator.name}" if bundle.actuator is not None else ""
     title = (
-        f"Bundle of scene {bundle.snapshot.name} ({bundle.scene_category}): {len(bundle.objects)} objects, "
-        f"{n_sources} of them sources{actuator}"
+        f"Bundle of scene {bundle.snapshot.name} ({bundle.scene_category}): "
+        f"{counted(len(bundle.objects), 'object')}, {counted(n_sources, 'source')}{actuator}"
     )
     return html_table(title, _COLUMNS, _rows(bundle, carriers), n_states + len(carriers))
 

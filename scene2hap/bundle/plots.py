@@ -98,4 +98,5 @@ def _draw_plan(axes: Axes, beside: Axes, bundle: BundleContents, up_to_m: float 
         title = f"sources ({more} more not listed)" if more > 0 else "sources"
         add_legend(beside, handles[:_MOST_LISTED], labels[:_MOST_LISTED], title=title, loc="center", markerscale=0.5)
     beside.set_axis_off()
-    set_title(axes, f"{plain(scene.name)} from above")
+    below = ", below the ceiling" if view.is_uncovered else ""
+    set_title(axes, f"{plain(scene.name)} from above{below}")

@@ -75,7 +75,10 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--up-axis", choices=("y", "z"), help="y or z, overriding the axis of the file's format")
     parser.add_argument(
-        "--group", default="authored", metavar="RULE", help="authored (default), leaf, or a depth in the node tree"
+        "--group",
+        default="authored",
+        metavar="RULE",
+        help="authored (default), leaf, or a depth in the node tree (0: one object)",
     )
 
 

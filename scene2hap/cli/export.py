@@ -18,6 +18,7 @@ from typing import Any
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.cli.specs import given_spec, session_config
+from scene2hap.counted import counted
 from scene2hap.errors import ConfigError
 from scene2hap.export import EXPORTS, ExportReport, export_bundle, export_clip
 from scene2hap.export.exporting import ALL
@@ -63,7 +64,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
                 progress=tell,
             )
     _show(console, report)
-    console.say(f"wrote {len(report.files)} files below {arguments.output}; report.txt has the error of each")
+    console.say(
+        f"wrote {counted(len(report.files), 'file')} below {arguments.output}; report.txt has the error of each"
+    )
     return report.to_data()
 
 

@@ -23,6 +23,7 @@ from scene2hap.bundle import HapticBundle, file_stem
 from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
+from scene2hap.counted import counted
 from scene2hap.errors import SceneError
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -75,5 +76,5 @@ def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list
     put("plan.png", plan_view(pictured))
     for item in pictured.objects:
         put(f"{file_stem(item.id)}.png", contact_sheet(item))
-    console.say(f"wrote {len(written)} pictures to {folder}")
+    console.say(f"wrote {counted(len(written), 'picture')} to {folder}")
     return written

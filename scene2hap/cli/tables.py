@@ -9,6 +9,7 @@ from typing import Any
 from scene2hap.audio.haptic_loop import NOTICED_DB, HapticLoop, Sensation
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
+from scene2hap.counted import counted
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import UNKNOWN
 from scene2hap.llm.report import InferenceReport
@@ -42,7 +43,7 @@ def scene_outcome(scene: SceneSnapshot) -> dict[str, Any]:
 def show_scene(console: Console, scene: SceneSnapshot) -> None:
     """Show the objects of a scene as a table."""
     console.table(
-        f"{scene.name}: {_counted(len(scene.objects), 'objects')}, {scene.up_axis} up",
+        f"{scene.name}: {counted(len(scene.objects), 'object')}, {scene.up_axis} up",
         ("object", ">length m", ">width m", ">thick m", ">height m", ">triangles", "measured"),
         (
             (
@@ -107,7 +108,7 @@ def show_bundle(console: Console, bundle: HapticBundle) -> None:
     counts = bundle_counts(bundle)
     console.table(
         f"{bundle.snapshot.name}: {bundle.scene_category}, "
-        + ", ".join(_counted(number, what) for what, number in counts.items()),
+        + ", ".join(_with_noun(number, what) for what, number in counts.items()),
         (
             *("object", "type", "material", ">mass kg", ">confidence", "vibrates", ">sound Hz", ">vibration Hz"),
             *(">felt dB", "starts, stops s"),
@@ -121,9 +122,9 @@ def show_bundle(console: Console, bundle: HapticBundle) -> None:
         console.say("`scene2hap inspect --help` explains the columns.")
 
 
-def _counted(number: int, what: str) -> str:
-    """Return a number with its noun, in the singular for 1."""
-    return f"{number} {what.removesuffix('s') if number == 1 else what}"
+def _with_noun(number: int, what: str) -> str:
+    """Return a number with its noun, or with an adjective such as "unknown"."""
+    return counted(number, what[:-1]) if what.endswith("s") else f"{number} {what}"
 
 
 def _bundle_row(bundle: HapticBundle, object_id: str) -> tuple[str, ...]:
@@ -172,7 +173,7 @@ def show_report(console: Console, report: InferenceReport, prices: Mapping[str, 
     """Show an inference's calls, tokens, cost, skipped questions, and errors."""
     n_calls = sum(report.calls.values())
     tokens = sum(used.get("total_tokens", 0) for used in report.tokens.values())
-    said = [f"{n_calls} calls, {report.kept} of them answered from a cache or recording"]
+    said = [f"{counted(n_calls, 'call')}, {report.kept} of them answered from a cache or recording"]
     said += [f"{number} skipped: {reason.replace('_', ' ')}" for reason, number in report.skipped.items() if number]
     if report.tokens:
         cost = report.cost_usd(price_list(prices))

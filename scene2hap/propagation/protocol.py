@@ -43,8 +43,9 @@ class Excitation:
 
     def __post_init__(self) -> None:
         for name, unit in (("frequency_raw_hz", "Hz"), ("frequency_tactile_hz", "Hz"), ("mass_kg", "kg")):
+            named = f"{name} of source {checks.represented(self.source_id)}"
             value = checks.number(
-                name, getattr(self, name), unit, above=0.0, at_least=1e-9, at_most=1e12, error=ModelDomainError
+                named, getattr(self, name), unit, above=0.0, at_least=1e-9, at_most=1e12, error=ModelDomainError
             )
             object.__setattr__(self, name, value)
 

@@ -1,9 +1,13 @@
-"""A scene from above: the topmost object at each place of a grid, and its height there."""
+"""A scene from above: the topmost object at each place of a grid, and its height there.
+
+A ceiling or a roof would hide the room, so it is left out: a wide object whose surface is so high that a person stands
+under it, and without which several times as many objects are visible.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +18,18 @@ Floats = NDArray[np.float64]
 NOTHING = -1
 _MOST_PAIRS = 1_000_000
 """Pairs of triangle and cell that are tested at once: about 100 MB."""
+_HEADROOM_M = 1.8
+"""Least height of a ceiling above the lowest point of the scene; assumed. A table that covers its own legs is none."""
+_WIDE_SHARE = 0.7
+"""Least share of the scene's width and depth of a ceiling, or of a room whose ceiling is part of it."""
+_UNCOVERED = 2.0
+"""Without a ceiling, more than this many times as many objects are visible; assumed. Terrain uncovers nothing."""
+_AROUND_M = 1.0
+"""Least width of the strip of ground that is drawn around everything else; assumed, the reach of a hand."""
+_FAR_LARGER = 3.0
+"""The ground is cut off if the drawing becomes at least this many times larger; assumed."""
+_MOST_LAYERS = 8
+"""Most surfaces above each other that are tried: top and underside of a ceiling, of an attic and of a roof."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +39,7 @@ class TopView:
     Parameters: top : (n_rows, n_columns) index in the scene of the object on top in the middle of each cell, `NOTHING`
         for none; height_m : (n_rows, n_columns) height of its surface there along the up axis, world [m]; low_m : (2,)
         corner of the grid [m]; cell_m : side of a cell [m]; level : numbers of the two level axes; up : number of the
-        up axis.
+        up axis; is_uncovered : True if a ceiling is left out.
     """
 
     scene: SceneSnapshot
@@ -33,38 +49,65 @@ class TopView:
     cell_m: float
     level: tuple[int, int]
     up: int
+    is_uncovered: bool = False
 
     @classmethod
     def of(cls, scene: SceneSnapshot, n_cells: int, up_to_m: float | None = None) -> TopView:
         """Return a view with `n_cells` along the longer side.
 
-        Parameters: up_to_m : surfaces higher than this above the lowest point of the scene, such as a ceiling, are left
-            out; None for no limit.
+        Parameters: up_to_m : surfaces higher than this above the lowest point of the scene are left out; None to leave
+            out only ceilings and roofs that hide most of the objects.
         """
+        bounds = np.array([item.bounds_m for item in scene.objects])
+        up = {"y": 1, "z": 2}[scene.up_axis]
+        lowest = float(bounds[:, 0, up].min())
+        if up_to_m is not None:
+            return cls._up_to(scene, n_cells, np.full(len(bounds), lowest + up_to_m))
+        limits = np.full(len(bounds), np.inf)
+        view = best = cls._up_to(scene, n_cells, limits)
+        is_wide = np.ptp(bounds, axis=1) >= _WIDE_SHARE * (bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0))
+        wide = np.flatnonzero(is_wide[:, view.level].all(axis=1))
+        for _ in range(_MOST_LAYERS):
+            is_cover = np.isin(view.top, wide) & (view.height_m >= lowest + _HEADROOM_M)
+            if not is_cover.any():
+                break
+            for number in np.unique(view.top[is_cover]):
+                limits[number] = np.nextafter(view.height_m[is_cover & (view.top == number)].min(), -np.inf)
+            view = cls._up_to(scene, n_cells, limits)
+            if view._n_visible > _UNCOVERED * best._n_visible:
+                best = replace(view, is_uncovered=True)
+        return best
+
+    @classmethod
+    def _up_to(cls, scene: SceneSnapshot, n_cells: int, limits_m: Floats) -> TopView:
+        """Return the view of the surfaces up to a height (n_objects,) [m] for each object."""
         up = {"y": 1, "z": 2}[scene.up_axis]
         across, deep = (axis for axis in range(3) if axis != up)
         order = [across, deep, up]
         bounds = np.array([item.bounds_m for item in scene.objects])[:, :, order]
-        low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
-        cell = max(float((high - low)[:2].max()) / n_cells, 1e-9)
-        n_columns, n_rows = (int(n) for n in np.maximum(1, np.ceil((high - low)[:2] / cell - 1e-9)))
-        # The grid extends beyond the scene by the same length on both sides.
-        corner = (low + high)[:2] / 2 - cell * np.array([n_columns, n_rows]) / 2
+        low, high = _frame(bounds[..., :2])
+        cell = max(float((high - low).max()) / n_cells, 1e-9)
+        n_columns, n_rows = (int(n) for n in np.maximum(1, np.ceil((high - low) / cell - 1e-9)))
+        # The grid extends beyond the frame by the same length on both sides.
+        corner = (low + high) / 2 - cell * np.array([n_columns, n_rows]) / 2
         top = np.full(n_rows * n_columns, NOTHING, dtype=np.intp)
         height = np.full(n_rows * n_columns, -np.inf)
-        highest = np.inf if up_to_m is None else float(low[2]) + up_to_m
         for number, item in enumerate(scene.objects):
             mesh = item.geometry.mesh
             triangles = item.pose.to_world(mesh.vertices_m)[:, order][mesh.faces]
             triangles[..., :2] = (triangles[..., :2] - corner) / cell
             for cells, heights in _surface(triangles, n_columns, n_rows):
-                seen = (heights > height[cells]) & (heights <= highest)
+                seen = (heights > height[cells]) & (heights <= limits_m[number])
                 cells, heights = cells[seen], heights[seen]
                 # numpy keeps the last of several values for one cell, so the highest must come last
                 rising = np.argsort(heights, kind="stable")
                 top[cells[rising]], height[cells[rising]] = number, heights[rising]
         shape = (n_rows, n_columns)
         return cls(scene, top.reshape(shape), height.reshape(shape), corner, cell, (across, deep), up)
+
+    @property
+    def _n_visible(self) -> int:
+        return len(np.unique(self.top[self.top != NOTHING]))
 
     @property
     def extent_m(self) -> tuple[float, float, float, float]:
@@ -94,6 +137,23 @@ class TopView:
         level = np.stack([np.stack([column, row], -1), np.stack([column + 1, row], -1)], 1)
         edges: Floats = np.concatenate([upright, level]) * self.cell_m + self.low_m
         return edges
+
+
+def _frame(bounds_m: Floats) -> tuple[Floats, Floats]:
+    """Return the corners (2,) [m] of the drawn ground, from the bounds (n_objects, 2, 2) [m] of all objects over it.
+
+    A ground that is far larger than the rest, such as the endless floor of a simulator, is drawn around the rest only.
+    """
+    low, high = bounds_m[:, 0].min(axis=0), bounds_m[:, 1].max(axis=0)
+    largest = np.ptp(bounds_m, axis=1).prod(axis=1).argmax()
+    rest = np.delete(bounds_m, largest, axis=0)
+    if not len(rest):
+        return low, high
+    inner_low, inner_high = rest[:, 0].min(axis=0), rest[:, 1].max(axis=0)
+    margin = max(float((inner_high - inner_low).max()), _AROUND_M)
+    inner_low, inner_high = np.maximum(inner_low - margin, low), np.minimum(inner_high + margin, high)
+    is_far_larger = (high - low).max() > _FAR_LARGER * (inner_high - inner_low).max()
+    return (inner_low, inner_high) if is_far_larger else (low, high)
 
 
 def _surface(triangles: Floats, n_columns: int, n_rows: int) -> Iterator[tuple[NDArray[np.intp], Floats]]:

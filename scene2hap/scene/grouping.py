@@ -35,8 +35,9 @@ from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]
 """The rule by which nodes become objects.
 
-"authored": the rule above. "leaf": every node with a mesh is an object. An int from 1: every node at that depth below
-the scene is one object with all nodes below it; the scene's own nodes have depth 1, and each mesh above is an object. A
+"authored": the rule above. "leaf": every node with a mesh is an object. An int from 0: every node at that depth below
+the scene is one object with all nodes below it; the scene's own nodes have depth 1, and each mesh above is an object.
+The depth 0 is the scene itself: the whole file is one object, with the name of the file. A
 mapping from a node's name to an object's name: that node and all below it belong to that object, and nodes mapped to
 one name make one object; the rest of the scene follows "authored".
 """
@@ -68,8 +69,8 @@ class Group:
     mass_kg: float | None = None
 
 
-def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored") -> list[Group]:
-    """Return the objects of a scene in file order.
+def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, scene_name: str = "") -> list[Group]:
+    """Return the objects of a scene in file order. `scene_name` names the object of depth 0.
 
     Raises: SceneError: `how` is none of the forms of `Grouping`, or names a node that the scene does not have.
     """
@@ -79,12 +80,13 @@ def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored") -> 
         return [group for root in kept for group in _authored(root, origin).groups]
     if how == "leaf":
         return [group for root in kept for group in _leaves(root, origin)]
-    if isinstance(how, int) and not isinstance(how, bool) and how >= 1:
-        return [group for root in kept for group in _at_depth(root, origin, how)]
+    if isinstance(how, int) and not isinstance(how, bool) and how >= 0:
+        scene = AuthoredNode(scene_name, origin, children=tuple(kept))
+        return list(_at_depth(scene, origin, how)) if kept else []
     if isinstance(how, Mapping):
         return _mapped(kept, how)
     raise SceneError(
-        f"group is {how!r}; it must be 'authored', 'leaf', a depth from 1, or a mapping of node names to object names."
+        f"group is {how!r}; it must be 'authored', 'leaf', a depth from 0, or a mapping of node names to object names."
     )
 
 
@@ -181,7 +183,7 @@ def _leaves(node: AuthoredNode, above: Matrix) -> Iterator[Group]:
 
 def _at_depth(node: AuthoredNode, above: Matrix, depth: int) -> Iterator[Group]:
     frame = above @ node.matrix
-    if depth == 1:
+    if depth == 0:
         yield Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)
         return
     if node.pieces:

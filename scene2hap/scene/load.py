@@ -11,6 +11,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.calls import clear_call
+from scene2hap.counted import counted
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
@@ -100,7 +101,7 @@ def load_scene(
         if authored.left_out:
             n = len(authored.left_out)
             first = " ".join(authored.left_out[:_LISTED]) + (f" And {n - _LISTED} more." if n > _LISTED else "")
-            message = f"{path.name!r} is read without {n} of its textures, in their plain colours: {first}"
+            message = f"{path.name!r} is read without {counted(n, 'texture')}, in plain colours: {first}"
             warnings.warn(message, TextureWarning, stacklevel=3)
         unit = unit_m or authored.unit_m or 1.0
         snapshot = _snapshot(writable(scene_stem(path)), authored, up_axis or authored.up_axis, unit, group)
@@ -169,7 +170,7 @@ def _from_mjcf(path: Path, up_axis: UpAxis | None, unit_m: float, group: Groupin
 def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float, group: Grouping) -> SceneSnapshot:
     # Transforms of a broken file may overflow when they are multiplied; MeshPool refuses the results.
     with np.errstate(all="ignore"):
-        groups = group_objects(authored.roots, group)
+        groups = group_objects(authored.roots, group, scene_name=name)
     if not groups:
         raise SceneError(f"scene {name!r} holds no triangles; nothing in it can be touched. Export it with meshes.")
     limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")

@@ -131,7 +131,8 @@ class SceneObject:
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
         if self.mass_kg is not None:
-            mass = checks.number("mass_kg", self.mass_kg, "kg", above=0.0, at_most=1e9, error=SceneError)
+            named = f"mass_kg of object {checks.represented(self.id)}"
+            mass = checks.number(named, self.mass_kg, "kg", above=0.0, at_most=1e9, error=SceneError)
             object.__setattr__(self, "mass_kg", mass)
 
     @property

@@ -107,6 +107,9 @@ class SceneSnapshot(SceneData):
     ) -> SceneSnapshot:
         """Return a scene of objects made in Python. Missing surfaces, and heights, are measured for its up axis.
 
+        Objects of equal geometry without looks and without a key get one `instance_key`, so that copies are inferred
+        once.
+
         Raises: SceneError: as the constructor.
         Warns: UnitWarning: the sizes cannot be metres.
         """
@@ -124,6 +127,8 @@ class SceneSnapshot(SceneData):
                 )
             if up_axis != "y" and item.is_measured_with_y_up:
                 item = replace(item, surface=measured_surface(item.geometry, item.pose, up_axis))
+            if not item.instance_key and item.appearance is None:
+                item = replace(item, instance_key=item.geometry.mesh.digest)
             turned.append(item)
         scene = cls(name, up_axis, tuple(turned), None if contacts is None else tuple(contacts))
         scene = replace(scene, objects=with_relative_heights(turned, up_axis))

@@ -101,11 +101,12 @@ class AuthoredNode:
             yield from child.walk()
 
     def with_geometry(self) -> AuthoredNode | None:
-        """Return the node without descendants that draw nothing (cameras, lights, bones); None if nothing is left."""
+        """Return the node without what draws nothing (cameras, lights, bones, curves); None if nothing is left."""
         children = tuple(kept for child in self.children if (kept := child.with_geometry()) is not None)
-        if not children and not self.pieces:
+        pieces = tuple(piece for piece in self.pieces if len(piece.faces))
+        if not children and not pieces:
             return None
-        return replace(self, children=children)
+        return replace(self, pieces=pieces, children=children)
 
 
 @dataclass(frozen=True, eq=False)

@@ -445,8 +445,8 @@ class HapticSession:
         source, user and hand. It does not change the mix, and no touch is counted. Call it on the thread that calls
         `update`. If a worker prepares the model, call `wait_prepared` first.
         Parameters: hand : the first if None; cells : along the longer side of the scene, each with one touch; up_to_m :
-        leave out surfaces higher than this above the lowest point of the scene [m], such as a ceiling; axes : of
-        matplotlib, to draw into, None for a new figure.
+        leave out surfaces higher than this above the lowest point of the scene [m], None for ceilings that hide most of
+        the objects; axes : of matplotlib, to draw into, None for a new figure.
         Returns: the figure, made without pyplot; lengths in m, levels in dB.
         Raises: MissingExtra: matplotlib is not installed; UnknownObject: no such source; SessionError: no such hand,
         fewer than 4 cells or more than 2000, or `up_to_m` is no height.

@@ -18,6 +18,7 @@ import numpy as np
 
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
+from scene2hap.counted import counted
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
@@ -164,9 +165,10 @@ def warn_if_not_baked(scene: SceneSnapshot, bundle: HapticBundle) -> None:
     """Warn of objects that the bundle does not have, as after a bake of an earlier scene. Warns: SceneWarning."""
     new = [item.id for item in scene.objects if item.id not in bundle.objects]
     if new:
+        objects = counted(len(scene.objects), "object")
         warn_of(
-            f"{len(new)} of {len(scene.objects)} objects of the scene are not in the bundle, such as {new[0]!r}: they "
-            "neither vibrate nor carry vibration. Bake the scene again; corrections are kept by bake(scene, "
+            f"the bundle lacks {len(new)} of {objects} of the scene, such as {new[0]!r}. What it lacks neither "
+            "vibrates nor carries vibration. Bake the scene again; corrections are kept by bake(scene, "
             "overrides=bundle.overrides)."
         )
 

@@ -129,8 +129,8 @@ def _corner(surface: DominantSurface, length_m: float, width_m: float, *, has_ou
     return surface.pose.compose(Pose(((x - length_m) / 2, (y - width_m) / 2, 0.0)))
 
 
-def striker_of(item: SceneObject, haptics: ObjectHaptics | None) -> RigidBody:
-    """The body of a striking object whose material is unknown: as heavy as it is known to be, or as its box suggests.
+def rigid_body_of(item: SceneObject, haptics: ObjectHaptics | None) -> RigidBody:
+    """The body in an impact of an object of unknown material: as heavy as it is known to be, or as its box suggests.
 
     A feather is no hammer, also if nobody says what it is made of.
     """

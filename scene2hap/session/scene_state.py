@@ -15,7 +15,7 @@ from scene2hap.scene.objects import Contact, SceneObject, unknown_object
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import RemovedIds
-from scene2hap.session.network import Corners, PlatePoses, body_of, striker_of
+from scene2hap.session.network import Corners, PlatePoses, body_of, rigid_body_of
 from scene2hap.session.reach import Reach, reach_over
 
 Thing = TypeVar("Thing")
@@ -110,10 +110,10 @@ class SceneState:
         ((x, y),) = ContactNetwork(self.bodies, (), corner).on_body(object_id, [point_m]).tolist()
         return x, y
 
-    def striker(self, object_id: str) -> Body:
-        """The body with which an object strikes another one, also if its material is unknown."""
+    def meeting(self, object_id: str) -> Body:
+        """The body of an object in an impact, striking or struck, also if its material is unknown."""
         body = self.bodies.get(object_id)
-        return striker_of(self.objects[object_id], self.haptics.get(object_id)) if body is None else body
+        return rigid_body_of(self.objects[object_id], self.haptics.get(object_id)) if body is None else body
 
     def reach(self, source_ids: Sequence[str]) -> Reach:
         """The present groups of connected objects, and the sources in each."""

@@ -13,7 +13,7 @@ LAYERS = [
     {"blas_threads", "errors", "printable", "quiet_logs"},
     {"checks", "compiled", "key_search"},
     {"calls"},
-    {"file_stamp", "html_tables", "plots", "plugins", "secret", "text_files", "web"},
+    {"counted", "file_stamp", "html_tables", "plots", "plugins", "secret", "text_files", "web"},
     {"settings"},
     {"scene"},
     {"contact", "materials", "contact_needs"},

@@ -25,6 +25,7 @@ from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import WORK
 from scene2hap.baking.many.run import Progress, Run, scene_paths
 from scene2hap.calls import clear_attributes, clear_call
+from scene2hap.counted import counted
 from scene2hap.errors import BudgetExceeded, ConfigError, Scene2HapError
 from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch import AnswerPending, BatchBackend, BatchFolder, BatchRow, BatchService, BatchStatus
@@ -85,9 +86,9 @@ class BatchReport:
 
     def __str__(self) -> str:
         cost = "unknown cost" if self.cost_usd is None else f"{self.cost_usd:.2f} dollars"
-        parts = [f"{self.n_ready} of {self.n_scenes} scenes are answered throughout"] if self.n_scenes else []
-        parts += [f"{self.n_under_way} questions under way", f"{self.n_to_send} to send"]
-        return "; ".join([*parts, f"{self.n_answers} answers, {cost}"])
+        parts = [f"{self.n_ready} of {self.n_scenes} scenes answered throughout"] if self.n_scenes else []
+        parts += [f"{counted(self.n_under_way, 'question')} under way", f"{self.n_to_send} to send"]
+        return "; ".join([*parts, f"{counted(self.n_answers, 'answer')}, {cost}"])
 
 
 @clear_call

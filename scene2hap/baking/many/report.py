@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
 from scene2hap.calls import clear_attributes
+from scene2hap.counted import counted
 
 Outcome = Literal["baked", "kept", "failed"]
 
@@ -88,5 +89,6 @@ class ManyReport:
 
     def __str__(self) -> str:
         cost = "unknown cost" if self.cost_usd is None else f"{self.cost_usd:.2f} dollars"
-        scenes = f"{self.count('baked')} scenes baked, {self.count('kept')} kept, {self.count('failed')} failed in "
-        return f"{scenes}{self.seconds:.0f} s; {self.calls} calls, {self.kept} answered from the cache, {cost}"
+        baked, calls = counted(self.count("baked"), "scene"), counted(self.calls, "call")
+        scenes = f"{baked} baked, {self.count('kept')} kept, {self.count('failed')} failed in {self.seconds:.0f} s"
+        return f"{scenes}; {calls}, {self.kept} answered from the cache, {cost}"

@@ -33,8 +33,9 @@ def read_words(name: str) -> tuple[list[str], float]:
 
 
 def split_words(name: str) -> list[str]:
-    """Split a name into words in lower case, without digits, accents and signs."""
+    """Split a name into words in lower case, without digits, accents, signs and the possessive "'s"."""
     plain = "".join(letter for letter in unicodedata.normalize("NFKD", name) if not unicodedata.combining(letter))
+    plain = re.sub(r"['\u2019]s\b", "", plain)
     return [part.casefold() for run in re.findall(r"[^\W\d_]+", plain) for part in _at_capitals(run)]
 
 

@@ -197,5 +197,5 @@ def forms(word: str) -> Iterator[str]:
         if word.endswith("ies"):
             yield word[:-3] + "y"
         yield word[:-1]
-        if word.endswith("es"):
+        if word.endswith(("ses", "xes", "zes", "ches", "shes", "oes")):  # boxes, but "panes" is no plural of "pan"
             yield word[:-2]

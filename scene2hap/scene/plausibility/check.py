@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.copies import name_words
 from scene2hap.scene.objects import SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
 from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
@@ -35,6 +36,7 @@ _TWO = 2
 # another up axis use 90 degrees.
 _MOSTLY_W = 0.8
 _FLOOR_SHARE, _FLOOR_FLATNESS = 0.5, 0.2  # A floor takes up this share of the scene, and is this flat (assumed).
+_GROUNDS = frozenset({"floor", "ground", "carpet", "rug"})
 _DENSEST_KG_M3 = 22_600.0  # osmium
 _NONE = 1e-6
 _MOST_NAMED = 5
@@ -58,7 +60,10 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     sizes = implausible(scene)
     if sizes is not None:
         unit = f", as for {sizes.name}" if sizes.name else ""
-        remedy = f"Load the file with unit_m={sizes.unit_m}{unit}, or multiply positions and sizes by {sizes.unit_m}."
+        model = f" ({sizes.of_model_m} if it holds one model and no room)" if sizes.of_model_m else ""
+        remedy = (
+            f"Load the file with unit_m={sizes.unit_m}{unit}{model}, or multiply positions and sizes by {sizes.unit_m}."
+        )
         yield Finding("units", ids, f"{sizes.sentence} {remedy}")
     if _begin_with_w(scene):
         yield Finding(
@@ -74,7 +79,8 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     boxes = np.array([item.bounds_m for item in scene.objects])
     up = {"y": 1, "z": 2}[scene.up_axis]
     resting, other = _resting_share(boxes, up), _resting_share(boxes, 3 - up)
-    if len(ids) >= _FEW and other >= max(_MOST_RESTING, _MORE_RESTING * resting):
+    is_doubtful = len(ids) >= _FEW and other >= max(_MOST_RESTING, _MORE_RESTING * resting)
+    if is_doubtful and not _has_level_ground(scene, boxes, up):
         letter = "xyz"[3 - up]
         yield Finding(
             "up-axis",
@@ -126,6 +132,18 @@ def _resting_share(boxes: NDArray[np.float64], up: int) -> float:
     return float(rests.mean())
 
 
+def _has_level_ground(scene: SceneData, boxes: NDArray[np.float64], up: int) -> bool:
+    """Return True if an object that is named as a floor is flat along the up axis.
+
+    That shows the axis even where most objects hang on walls, as in a gallery.
+    """
+    sizes = np.ptp(boxes, axis=1)
+    is_flat = sizes[:, up] <= _FLOOR_FLATNESS * np.delete(sizes, up, axis=1).min(axis=1)
+    return any(
+        flat and _GROUNDS & set(name_words(item.name)) for item, flat in zip(scene.objects, is_flat, strict=True)
+    )
+
+
 def _batches(n_rows: int) -> Iterator[slice]:
     """Yield all rows in slices. Comparing thousands of boxes with all others at once would take a gigabyte."""
     for start in range(0, n_rows, _BATCH):
@@ -150,12 +168,16 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
             "floating",
             tuple(ids[k] for k in alone),
             f"{_named(ids, alone)} {'float' if len(alone) > 1 else 'floats'}: {ids[row]!r} is {nearest[row]:.2f} m "
-            f"from the nearest other object, more than {_FLOATS_M} m. Move it onto something, or touch it alone.",
+            f"from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto something, or touch "
+            f"{_them(alone)} alone.",
         )
 
 
 def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]] | None:
-    """Return the row of the lowest floor, and a mask of the boxes above or below it; None without a floor."""
+    """Return the row of the lowest floor, and a mask of the boxes above or below it; None without a floor.
+
+    A plate that nothing reaches above is no floor but a ceiling, a roof or a table top.
+    """
     low, high = boxes[:, 0], boxes[:, 1]
     level = [axis for axis in range(3) if axis != up]
     whole = np.ptp(boxes.reshape(-1, 3)[:, level], axis=0).prod()
@@ -163,6 +185,8 @@ def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]]
     is_floor = (sizes[:, level].prod(axis=1) >= _FLOOR_SHARE * whole) & (
         sizes[:, up] <= _FLOOR_FLATNESS * sizes[:, level].min(axis=1)
     )
+    for plate in np.flatnonzero(is_floor).tolist():
+        is_floor[plate] = bool((np.delete(high[:, up], plate) > low[plate, up]).any())
     if not is_floor.any():
         return None
     row = int(np.flatnonzero(is_floor)[high[is_floor, up].argmin()])
@@ -208,8 +232,12 @@ def _sunk(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator
             "sunk",
             tuple(ids[k] for k in sunk),
             f"{_named(ids, sunk)} {'are' if len(sunk) > 1 else 'is'} below the floor: {ids[row]!r} ends "
-            f"{depth[row]:.2f} m under the top of {ids[floor]!r}, more than {_SUNK_M} m. Raise it.",
+            f"{depth[row]:.2f} m under the top of {ids[floor]!r}, more than {_SUNK_M} m. Raise {_them(sunk)}.",
         )
+
+
+def _them(rows: NDArray[np.intp]) -> str:
+    return "them" if len(rows) > 1 else "it"
 
 
 def _named(ids: tuple[str, ...], rows: NDArray[np.intp]) -> str:

@@ -30,7 +30,12 @@ _MIN_WIDTH_M = 0.2
 _MIN_OBJECTS = 5  # a scene with fewer objects may be a close-up of something small
 _ROOM_WIDTH_M, _ROOM_HEIGHT_M = (1.0, 30.0), (1.8, 6.0)
 _TYPICAL_WIDTH_M = 5.0
+# A scene within a hand is doubted if it is a room at one of these scales: its numbers were taken for centimetres or
+# millimetres once too often. A hand of a robot, as high as it is wide, is none.
+_TOO_OFTEN = (100.0, 1000.0)
 _UNITS = {0.01: "centimetres", 0.001: "millimetres", 0.0254: "inches", 0.1: "decimetres", 0.3048: "feet"}
+# Single models are mostly in centimetres: 463 of 484 of the Sweet Home 3D catalogues, at most this large [m] (assumed).
+_OF_MODELS, _LARGEST_MODEL_M = 0.01, 3.0
 _SAME_FACTOR = 1.25
 # Evidence that differs from the usual size by more than this factor causes a warning. One piece of furniture may have
 # an odd size, several hardly (tuned on real scenes).
@@ -48,11 +53,15 @@ class _Evidence(NamedTuple):
 
 
 class Doubt(NamedTuple):
-    """Why sizes cannot be metres, and the likely unit: in metres, as text, and its name, empty if it has none."""
+    """Why sizes cannot be metres, and the likely unit: in metres, as text, and its name, empty if it has none.
+
+    `of_model_m` is the likely unit if the file holds a single model and no room, empty if it is the same.
+    """
 
     sentence: str
     unit_m: str
     name: str
+    of_model_m: str = ""
 
 
 def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: bool = False) -> None:
@@ -67,8 +76,10 @@ def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: b
         remedy = f"Multiply positions and sizes by {found.unit_m}{f' if they are in {found.name}' * bool(found.name)}."
     else:
         meant = f", {found.name}" if found.name else ""
+        model = f", or {found.of_model_m} if it holds one model and no room" if found.of_model_m else ""
         remedy = (
-            f"Perhaps unit_m={found.unit_m} (metres per unit of the file{meant}); giving any unit_m ends this warning."
+            f"Perhaps unit_m={found.unit_m} (metres per unit of the file{meant}){model}; giving any unit_m ends this "
+            "warning."
         )
     warnings.warn(f"{found.sentence} {remedy}", UnitWarning, stacklevel=4)
 
@@ -87,10 +98,14 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
         return None
     factor, reason = found
     unit = factor * unit_m
+    rounded = f"{float(f'{unit:.2g}'):g}"  # 100, not 1e+02
     text, name = next(
-        ((f"{known:g}", word) for known, word in _UNITS.items() if np.isclose(unit, known)), (f"{unit:.2g}", "")
+        ((f"{known:g}", word) for known, word in _UNITS.items() if np.isclose(unit, known)), (rounded, "")
     )
-    return Doubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name)
+    of_model = ""
+    if found is not by_name and factor != _OF_MODELS and float(extents.max()) * _OF_MODELS <= _LARGEST_MODEL_M:
+        of_model = f"{_OF_MODELS * unit_m:g}"
+    return Doubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name, of_model)
 
 
 def _evidence_of(
@@ -148,10 +163,17 @@ def _by_size(size_m: NDArray[np.float64], up: int, edges_m: NDArray[np.float64])
     is_large = (width > _MAX_WIDTH_M or height > _MAX_HEIGHT_M) and float(np.median(edges_m)) > _MAX_MEDIAN_M
     if not is_large and not is_small:
         return None
-    units = [1 / unit for unit in _UNITS] if is_small else list(_UNITS)
     low, high = _ROOM_WIDTH_M
-    likely = [unit for unit in units if low <= width * unit <= high]
+    if is_small:
+        rooms = (unit for unit in _TOO_OFTEN if low <= width * unit <= high and height * unit <= _ROOM_HEIGHT_M[1])
+        unit = next(rooms, None)
+        return None if unit is None else (unit, _size(width, height))
+    likely = [unit for unit in _UNITS if low <= width * unit <= high]
     # Rooms differ less in height than in width.
     low, high = _ROOM_HEIGHT_M
     likely = [unit for unit in likely if low <= height * unit <= high] or likely or [_TYPICAL_WIDTH_M / width]
-    return likely[0], f"the scene is {width:.3g} m wide and {height:.3g} m high"
+    return likely[0], _size(width, height)
+
+
+def _size(width_m: float, height_m: float) -> str:
+    return f"the scene is {width_m:.3g} m wide and {height_m:.3g} m high"

@@ -138,8 +138,8 @@ class Impacts:
             self._play(*self._impact(strike, at_frame), felt, hands, profile)
 
     def _impact(self, strike: Strike, at_frame: int) -> tuple[Impact, Burst]:
-        struck = self._state.bodies.get(strike.object_id)
-        striker = None if strike.with_object is None else self._state.striker(strike.with_object)
+        struck = self._state.meeting(strike.object_id)
+        striker = None if strike.with_object is None else self._state.meeting(strike.with_object)
         burst = burst_of(
             struck,
             self._state.on_plate(strike.object_id, strike.point_m),

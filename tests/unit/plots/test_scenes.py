@@ -219,6 +219,66 @@ def test_a_ceiling_is_left_out_and_z_may_point_up() -> None:
     np.testing.assert_allclose(seen.height_m, 0.0, atol=1e-12)
 
 
+def furnished(*more: SceneObject) -> SceneSnapshot:
+    """A floor with nine crates, walls on two sides, and other objects."""
+    floor = SceneObject("floor", pose=Pose((0, -0.05, 0)), geometry=Box((6.0, 0.1, 5.0)))
+    walls = [
+        SceneObject(f"wall {k}", pose=Pose((x, 1.3, 0)), geometry=Box((0.1, 2.6, 5.0)))
+        for k, x in enumerate((-3.0, 3.0))
+    ]
+    crates = [
+        SceneObject(f"crate {k}", pose=Pose((k % 3 - 1.0, 0.25, k // 3 - 1.0)), geometry=Box((0.5, 0.5, 0.5)))
+        for k in range(9)
+    ]
+    return SceneSnapshot.build([floor, *walls, *crates, *more])
+
+
+def test_a_ceiling_that_hides_the_room_is_left_out() -> None:
+    """Also an upper floor of another box above it; the walls stay."""
+    covers = [
+        SceneObject("ceiling", pose=Pose((0, 2.65, 0)), geometry=Box((6.0, 0.1, 5.0))),
+        SceneObject("roof", pose=Pose((0, 3.5, 0)), geometry=Box((6.4, 0.1, 5.4))),
+    ]
+    view = TopView.of(furnished(*covers), 60)
+    assert view.is_uncovered
+    seen = {view.scene.objects[k].id for k in np.unique(view.top) if k != NOTHING}
+    assert seen == {item.id for item in view.scene.objects} - {"ceiling", "roof"}
+    assert TopView.of(furnished(*covers), 60, up_to_m=9.0).top.max() == len(view.scene.objects) - 1
+
+
+def test_the_ceiling_of_a_room_in_one_piece_is_left_out() -> None:
+    inside = Box((6.0, 2.6, 5.0)).mesh
+    view = TopView.of(furnished(SceneObject("room", pose=Pose((0, 1.3, 0)), geometry=inside)), 60)
+    assert view.is_uncovered
+    assert {f"crate {k}" for k in range(9)} < {view.scene.objects[k].id for k in np.unique(view.top)}
+
+
+def test_terrain_and_table_tops_are_no_ceilings() -> None:
+    hill = SceneObject("terrain", pose=Pose((0, -2.5, 0)), geometry=Box((8.0, 5.0, 8.0)))
+    assert not TopView.of(furnished(hill), 60).is_uncovered
+    assert not TopView.of(furnished(), 60).is_uncovered
+    legs = [
+        SceneObject(f"leg {k}", pose=Pose((x, 0.36, z)), geometry=Box((0.05, 0.72, 0.05)))
+        for k, (x, z) in enumerate([(-0.5, -0.3), (0.5, -0.3), (-0.5, 0.3), (0.5, 0.3)])
+    ]
+    top = SceneObject("top", pose=Pose((0, 0.73, 0)), geometry=Box((1.2, 0.02, 0.7)))
+    assert (view_of(top, *legs).top <= 0).all()
+
+
+def test_an_endless_floor_is_drawn_around_the_rest_only() -> None:
+    floor = SceneObject("floor", geometry=Box((100.0, 0.1, 100.0)))
+    table = SceneObject("table", pose=Pose((20, 0.4, 5)), geometry=Box((1.2, 0.7, 0.8)))
+    view = view_of(floor, table)
+    assert view.extent_m == pytest.approx((18.2, 21.8, 3.4, 6.6), abs=0.05)
+    assert set(np.unique(view.top)) == {0, 1}
+    assert view_of(SceneObject("floor", geometry=Box((4.0, 0.1, 4.0))), table).extent_m[1] == pytest.approx(
+        20.6, abs=0.5
+    )
+    room = SceneObject("floor", geometry=Box((6.0, 0.1, 6.0)))
+    phone = SceneObject("phone", pose=Pose((1, 0.054, 0)), geometry=Box((0.07, 0.008, 0.15)))
+    assert view_of(room, phone).extent_m == pytest.approx((-3.0, 3.0, -3.0, 3.0))
+
+
 def test_flat_upright_and_tiny_things_have_a_view() -> None:
     upright = TriMesh(np.array([[0, 0, 0], [0, 1, 0], [0, 0, 1.0]]), np.array([[0, 1, 2]]))
     view = view_of(SceneObject("wall", geometry=upright))

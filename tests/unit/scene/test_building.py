@@ -12,7 +12,9 @@ import trimesh
 from edge_scenes import EDGE_SCENES
 from others import SCENES, needed
 from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot, TriMesh, bake, load_scene
+from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SceneError
+from scene2hap.llm.sharing import copies
 from scene2hap.scene.plausibility.check import SceneWarning
 from scene2hap.scene.plausibility.units import UnitWarning
 
@@ -43,6 +45,20 @@ def test_heights_are_above_the_lowest_of_the_scene() -> None:
     assert heights == pytest.approx({"floor": 0.0, "table": 0.1, "phone": 0.82, "mug": 0.82, "crate": 0.1})
     assert scene.up_axis == "y"
     assert SceneSnapshot.from_json(scene.to_json()) == scene
+
+
+def test_copies_share_a_key_and_an_analysis() -> None:
+    """Four chairs of one mesh cost one question, a box of the same size under another name one more."""
+    chair = trimesh.creation.box((0.4, 0.9, 0.4))
+    row = [SceneObject(f"chair {k}", pose=Pose((0.6 * k, 0.45, 0)), geometry=chair) for k in range(4)]
+    stool = SceneObject("stool", pose=Pose((3, 0.45, 0)), geometry=chair)
+    given = SceneObject("bench", pose=Pose((4, 0.45, 0)), geometry=chair, instance_key="mine")
+    scene = SceneSnapshot.build([*row, stool, given])
+    assert len({item.instance_key for item in scene.objects[:5]}) == 1
+    assert scene.object("bench").instance_key == "mine"
+    assert scene.object("stool").instance_key != SceneSnapshot.build(ROOM).object("mug").instance_key
+    shared = copies(scene, ContactGraph(scene))
+    assert [shared[item.id] for item in scene.objects] == [*["chair 0"] * 4, "stool", "bench"]
 
 
 def test_surface_faces_up_with_z_up() -> None:
@@ -157,6 +173,35 @@ def test_check_finds_a_room_above_or_below_its_floor(up_m: float, kind: str | No
         assert words in str(found[0])
 
 
+def gallery(*more: str) -> list[SceneObject]:
+    """A floor, a wall, and pictures on the wall: most things touch what is beside them, and not what is below them."""
+    wall = SceneObject("wall", pose=Pose((0, 1.25, -2.05)), geometry=Box((4.0, 2.5, 0.1)))
+    names = ("picture", "clock", *more)
+    return [
+        ROOM[0],
+        wall,
+        *(
+            SceneObject(name, pose=Pose((k - 1.0, 1.5, -1.98)), geometry=Box((0.4, 0.4, 0.04)))
+            for k, name in enumerate(names)
+        ),
+    ]
+
+
+@pytest.mark.parametrize("more", [(), ("mirror", "shelf")])
+def test_pictures_on_a_wall_do_not_tip_the_up_axis(more: tuple[str, ...]) -> None:
+    assert SceneSnapshot.build(gallery(*more)).check() == ()
+
+
+def test_a_roof_is_no_floor() -> None:
+    roof = SceneObject("roof", pose=Pose((0, 2.6, 0)), geometry=Box((3.0, 0.2, 3.0)))
+    posts = [
+        SceneObject(f"post {k}", pose=Pose((x, 1.25, z)), geometry=Box((0.1, 2.5, 0.1)))
+        for k, (x, z) in enumerate([(-1.4, -1.4), (1.4, -1.4), (-1.4, 1.4), (1.4, 1.4)])
+    ]
+    bench = SceneObject("bench", pose=Pose((0, 0.25, 0)), geometry=Box((1.5, 0.5, 0.4)))
+    assert SceneSnapshot.build([roof, *posts, bench]).check() == ()
+
+
 def test_check_finds_real_scene_lifted_off_its_floor() -> None:
     scene = load_scene(needed(SCENES / "composed_kitchen_kaykit/composed_kitchen_kaykit.glb"))
     up = {"y": 1, "z": 2}[scene.up_axis]
@@ -208,8 +253,14 @@ def test_bake_warns_of_floating_objects_and_scenes_without_sources() -> None:
     objects = [*ROOM[:3], moved(ROOM[3], pose=Pose((-0.3, 1.9, 0.1))), ROOM[4]]
     with pytest.warns(SceneWarning, match="'mug' floats"):
         bake(SceneSnapshot.build(objects))
-    with pytest.warns(SceneWarning, match="none of 2 objects of 'scene' vibrates"):
+    with pytest.warns(
+        SceneWarning, match=r"none of 2 objects of 'scene' vibrates; .* or override\(id, vibrates=True\)\.$"
+    ):
         bake(SceneSnapshot.build(ROOM[:2]))
+    parts = [moved(ROOM[1], id="Cylinder.003"), moved(ROOM[2], id="Circle.022"), ROOM[4]]
+    parts = [moved(item, name=item.id) for item in parts]
+    with pytest.warns(SceneWarning, match="one model of many parts, load it with group=0"):
+        bake(SceneSnapshot.build(parts))
 
 
 def test_check_does_not_depend_on_batch_size(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -156,6 +156,7 @@ DEEP = group("house", group("room", mesh("table", mesh("cup")), mesh("lamp")), m
 @pytest.mark.parametrize(
     ("depth", "expected"),
     [
+        (0, {"": ["table", "cup", "lamp", "roof"]}),
         (1, {"house": ["table", "cup", "lamp", "roof"]}),
         (2, {"room": ["table", "cup", "lamp"], "roof": ["roof"]}),
         (3, {"table": ["table", "cup"], "lamp": ["lamp"], "roof": ["roof"]}),
@@ -164,6 +165,13 @@ DEEP = group("house", group("room", mesh("table", mesh("cup")), mesh("lamp")), m
 )
 def test_depth_grouping_merges_all_nodes_below_the_depth(depth: int, expected: dict[str, list[object]]) -> None:
     assert objects(DEEP, how=depth) == expected
+
+
+def test_depth_zero_is_one_object_with_the_name_of_the_scene() -> None:
+    (item,) = group_objects([mesh("blade"), mesh("motor", at=2.0)], 0, scene_name="fan")
+    assert item.name == "fan"
+    assert [matrix[0, 3] for matrix, _ in item.parts] == [0.0, 2.0]
+    assert group_objects([group("empty")], 0) == []
 
 
 def test_mapping_merges_only_the_named_nodes() -> None:
@@ -195,9 +203,9 @@ def test_mapping_error_names_the_nearest_node() -> None:
         group_objects([mesh("table")], {"tabel": "x"})
 
 
-@pytest.mark.parametrize("how", ["", "auto", 0, -1, True, 1.5, None, ["table"]])
+@pytest.mark.parametrize("how", ["", "auto", -1, False, True, 1.5, None, ["table"]])
 def test_unknown_grouping_is_refused(how: Any) -> None:
-    with pytest.raises(SceneError, match="must be 'authored', 'leaf', a depth from 1, or a mapping"):
+    with pytest.raises(SceneError, match="must be 'authored', 'leaf', a depth from 0, or a mapping"):
         group_objects([mesh("table")], how)
 
 

@@ -497,7 +497,7 @@ def test_warning_of_missing_textures_names_the_model(dataset: Dataset) -> None:
     for name in (f"f/{CHAIR}", f"0/{HASH}"):
         gltf.write(dataset.folder / f"objects/{name}.glb")
     path = dataset.scene(instance(), instance(at=[1, 0, 0]), instance(HASH))
-    with pytest.warns(TextureWarning, match=rf"without 2 of its textures.*{CHAIR}\.glb: .*gone\.png.*{HASH}\.glb: "):
+    with pytest.warns(TextureWarning, match=rf"without 2 textures.*{CHAIR}\.glb: .*gone\.png.*{HASH}\.glb: "):
         loaded(path)
 
 

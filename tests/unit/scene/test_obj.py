@@ -36,6 +36,15 @@ def test_edges_written_as_faces_are_left_out() -> None:
     assert corners(SQUARE + "f 1 2\nf 1 2 3\nf 4\n") == [[[0, 0, 0], [1, 0, 0], [1, 1, 0]]]
 
 
+def test_an_object_of_edges_alone_is_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "bed.obj"
+    path.write_text(SQUARE + "g BezierCircle\nf 1 2\nf 2 3\ng bed\nf 1 2 3 4\n")
+    assert [item.name for item in load_scene(path).objects] == ["bed"]
+    path.write_text(SQUARE + "g BezierCircle\nf 1 2\n")
+    with pytest.raises(SceneError, match="holds no triangles"):
+        load_scene(path)
+
+
 def test_negative_indices_count_back_from_their_line() -> None:
     text = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\no b\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf -3 -2 -1\n"
     heights = [node.pieces[0].vertices[:, 2].tolist() for node in read_obj(text, "file").roots]

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 import warnings
 from pathlib import Path
+from unittest.mock import ANY as ANY_TEXT
 
 import pytest
 
 from gltf_builder import Gltf
 from scene2hap.scene.load import UnitWarning, load_scene
-from scene2hap.scene.plausibility.units import warn_if_implausible
+from scene2hap.scene.plausibility.units import implausible, warn_if_implausible
 from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene
 
@@ -73,6 +74,20 @@ def test_extremely_wide_scene_gets_a_suggestion_without_names() -> None:
     assert suggestion(scene(box("Object_1", (360.0, 207.0, 60.0), (0, 0, 0)))) == 0.01
 
 
+@pytest.mark.parametrize(("size_m", "unit", "of_model"), [((60, 42, 32), "0.1", "0.01"), ((400, 300, 350), "0.01", "")])
+def test_a_single_model_may_be_in_centimetres(size_m: tuple[float, float, float], unit: str, of_model: str) -> None:
+    """A cooker hood of 60 cm is as large as a room in decimetres."""
+    hood = scene(*(box(f"Circle.{k}", size_m, (0, 0, 0)) for k in range(2)))
+    assert (implausible(hood), implausible(hood, 0.1)) == (
+        (ANY_TEXT, unit, ANY_TEXT, of_model),
+        (ANY_TEXT, f"{float(unit) / 10:g}", ANY_TEXT, f"{float(of_model) / 10:g}" if of_model else ""),
+    )
+    with pytest.warns(
+        UnitWarning, match="or 0.01 if it holds one model and no room; giving" if of_model else "; giving"
+    ):
+        warn_if_implausible(hood)
+
+
 def test_extremely_high_room_gets_a_suggestion_without_names() -> None:
     assert suggestion(scene(box("Object_1", (28.0, 27.0, 26.0), (0, 0, 0)))) == 0.1
 
@@ -83,6 +98,20 @@ def test_many_objects_within_a_hand_get_a_suggestion_and_one_does_not() -> None:
 
     assert suggestion(tiny(1)) is None
     assert suggestion(tiny(8)) == pytest.approx(100.0)
+
+
+def test_a_robot_hand_in_metres_gets_no_suggestion() -> None:
+    """A hand of 16 cm is as high as it is wide; a room of that size is flat."""
+    fingers = [
+        box(f"finger_{k}_{j}", (0.02, 0.035, 0.02), (0.035 * k, 0.04 * j, 0.0)) for k in range(5) for j in range(4)
+    ]
+    assert suggestion(scene(*fingers)) is None
+
+
+def test_large_factors_are_written_without_exponents() -> None:
+    tiny = scene(*(box(f"o{i}", (0.004, 0.003, 0.004), (0.005 * i, 0.0, 0.0)) for i in range(8)))
+    with pytest.warns(UnitWarning, match=r"unit_m=100 \(metres per unit"):
+        warn_if_implausible(tiny)
 
 
 def test_suggestion_is_relative_to_the_current_unit() -> None:

@@ -333,6 +333,16 @@ def test_striker_of_unknown_material_strikes_as_hard_as_its_size_or_mass_lets_it
     assert felt[feather] < 0.2 * felt[weight]
 
 
+def test_struck_object_of_unknown_material_has_its_own_mass() -> None:
+    """A finger shakes an empty box more than a safe of the same size."""
+    made, felt = session(), {}
+    for name, mass_kg in (("box", 0.2), ("safe", 60.0)):
+        _put(made, name, (0.3, 0.3, 0.3), mass_kg)
+        made.update(touches=[Touch("left", name, (9.0, 5.15, 9.0))])
+        felt[name] = made.strike(name, (9.0, 5.15, 9.0)).felt["left"]
+    assert felt["safe"] < 0.3 * felt["box"]
+
+
 def test_landing_of_unknown_material_is_as_a_strike_with_it() -> None:
     made = session()
     feather, crate = _put(made, "feather", (0.1, 0.005, 0.02)), _put(made, "crate", (0.1, 0.1, 0.1), mass_kg=3.0)
