@@ -7,6 +7,12 @@ the whole sound; if it is unknown, M is the mean of their difference over two se
     difference d = L_bed - L_sound        gain -(d - M) + sign(d - M) `FREE_DB`   where |d - M| > `FREE_DB`, else 0 dB
 
 A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms.
+
+The gain is bounded. A bed that needs more is next to nothing: the pitch has left its band, or another part of the sound
+plays alone. If M and the frequency at which the sound is felt are known, a sine at that frequency supplies the energy
+that is missing, so that the rise and fall of the whole sound is felt:
+
+    a = sqrt(2 E_bed (10^(lift / 10) - 10^(`MOST_LIFTED_DB` / 10)))      lift: the gain that is needed [dB]
 """
 
 from __future__ import annotations
@@ -14,6 +20,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
+from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
 from scene2hap.compiled import compiled
@@ -30,10 +37,17 @@ _NOTHING = 1e-12
 
 
 class Following:
-    """A `Stage` that keeps the level of a bed at a constant difference from that of its sound."""
+    """A `Stage` that keeps the level of a bed at a constant difference from that of its sound.
 
-    def __init__(self, bed: Stage, sample_rate_hz: float, bed_db: float | None = None) -> None:
+    If `felt_hz` is given, a sine of this frequency replaces a bed that is too weak.
+    """
+
+    def __init__(
+        self, bed: Stage, sample_rate_hz: float, bed_db: float | None = None, felt_hz: float | None = None
+    ) -> None:
         self._bed, self._bed_db = bed, bed_db
+        self._sine = None if felt_hz is None or bed_db is None else Oscillator(felt_hz, sample_rate_hz)
+        self._n_made = 0
         self._step = max(1, round(STEP_S * sample_rate_hz))
         self._waiting = np.empty(0)
         self._heard = StepEnergies(self._step), StepEnergies(self._step)
@@ -42,7 +56,7 @@ class Following:
         self._window = window / window.sum()
         self._forget = float(np.exp(-STEP_S / _MEAN_S))
         self._means = np.zeros((2, 1))
-        self._gain: float | None = None  # at the beginning of the next step
+        self._gains = np.empty((2, 0))  # of bed and sine, at the beginning of the next step
 
     def run(self, x: Signal) -> Signal:
         """Return the samples whose level is known."""
@@ -64,21 +78,20 @@ class Following:
         n = self._energies.shape[1] - _STEPS + 1
         if n < 1:
             return np.empty(0)
-        gains = self._gains(n)
+        gains = np.concatenate([self._gains, self._next_gains(n)], axis=1)
         self._energies = self._energies[:, n:]
-        if self._gain is not None:
-            gains = np.concatenate([[self._gain], gains])
-        self._gain = float(gains[-1])
-        return self._released(gains)
+        self._gains = gains[:, -1:]
+        return self._released(*gains)
 
-    def _gains(self, n: int) -> Signal:
-        """Return the gain at the beginnings of n steps (n,), each in the middle of a window."""
+    def _next_gains(self, n: int) -> Signal:
+        """Return the gains of bed and sine at the beginnings of n steps (2, n), each in the middle of a window."""
         # Sums of shifted rows, since the rounding of a convolution depends on the block size.
         around = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
         beyond = _ratio_db(around) - self._usual_db(around)
         beyond -= np.clip(beyond, -FREE_DB, FREE_DB)
-        gains: Signal = 10.0 ** (np.clip(-beyond, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
-        return gains
+        gains = 10.0 ** (np.clip(-beyond, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
+        lacking = 10.0 ** (np.maximum(-beyond, MOST_LIFTED_DB) / 10.0) - 10.0 ** (MOST_LIFTED_DB / 10.0)
+        return np.stack([gains, np.sqrt(2.0 * (around[1] + _NOTHING) * lacking)])
 
     def _usual_db(self, around: Signal) -> Signal | float:
         if self._bed_db is not None:
@@ -87,11 +100,19 @@ class Following:
         means, self._means = lfilter(*share, around, axis=1, zi=self._means)
         return _ratio_db(means)
 
-    def _released(self, gains: Signal) -> Signal:
-        """Return the n - 1 steps between gains (n,), each faded from one gain to the next."""
+    def _released(self, gains: Signal, amplitudes: Signal) -> Signal:
+        """Return the n - 1 steps between gains of the bed (n,), each faded from one gain to the next, plus the sine."""
         n = (len(gains) - 1) * self._step
         y, self._waiting = self._waiting[:n], self._waiting[n:]
-        return faded(y, gains, self._step)
+        start, self._n_made = self._n_made, self._n_made + n
+        felt = faded(y, gains, self._step)
+        if self._sine is None or n == 0:
+            return felt
+        for k in np.flatnonzero(amplitudes[:-1] + amplitudes[1:]).tolist():
+            at = k * self._step
+            _, sine = self._sine.values(start + at, self._step)
+            felt[at : at + self._step] += faded(sine, amplitudes[k : k + 2], self._step)
+        return felt
 
 
 def _ratio_db(energies: Signal) -> Signal:

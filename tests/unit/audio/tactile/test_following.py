@@ -124,3 +124,19 @@ def test_a_slow_change_outside_the_band_is_felt() -> None:
     felt = np.concatenate([stream.process((0.1 * x).astype(np.float32)), stream.finish()]).astype(float)
     envelopes = [10 ** (levels_db(y) / 20) for y in (x, felt)]
     assert np.corrcoef(*envelopes)[0, 1] > 0.95
+
+
+@pytest.mark.parametrize("block", [1237, 64, 100_000])
+def test_sound_that_leaves_its_band_is_felt_with_the_same_level(block: int) -> None:
+    """In an earlier version the gain ended at 15 dB: the start of a shot, and the high end of a chirp, were missing."""
+    x = 0.5 * np.sin(2 * np.pi * 120.0 * T) * (T < 3.0) + 0.5 * np.sin(2 * np.pi * 2500.0 * T) * (T >= 3.0)
+    context = ConversionContext(own_hz=120.0, band_db=-3.0)
+    stream, fed = CONVERTERS.build("auto").stream(RATE, context), x.astype(np.float32)
+    parts = [stream.process(fed[at : at + block]) for at in range(0, len(fed), block)]
+    felt = np.concatenate([*parts, stream.finish()]).astype(float)
+    level = levels_db(felt)
+    assert np.ptp(level[:-1]) < 3.0
+    spectrum = np.abs(np.fft.rfft(felt[4 * RATE : 5 * RATE]))
+    assert np.argmax(spectrum) == 120  # one bin is 1 Hz
+    again = CONVERTERS.build("auto").stream(RATE, context)
+    np.testing.assert_array_equal(np.concatenate([again.process(fed), again.finish()]).astype(float), felt)
