@@ -33,6 +33,7 @@ from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
     TactileStream,
+    follows_anchor,
     one_channel,
     opened_stream,
 )
@@ -217,6 +218,7 @@ class _Felt:
             Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns) for _ in range(2)
         )
         self._raw = raw
+        self.follows_anchor = follows_anchor(converter, context)
         self._converter, self._name = converter, type(converter).__name__
         self._mono = mono
         self._streams: list[TactileStream] = [
@@ -308,7 +310,7 @@ def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, 
         heard.hear(block)
         held.write(block.tobytes())
     now_db, gain = heard.level_db(), 1.0
-    if now_db > _NOTHING_DB and not is_noise(felt.before.peak, heard.peak):
+    if now_db > _NOTHING_DB and not is_noise(felt.before.peak, heard.peak, is_chosen=felt.follows_anchor):
         asked_db = sensation_level_db(context.intensity)
         gain = min(10 ** ((asked_db - now_db) / 20), 10 ** (-TACTILE_HEADROOM_DB / 20) / heard.peak)
         felt.level_db = now_db + 20 * math.log10(gain)

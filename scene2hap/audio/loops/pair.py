@@ -16,7 +16,7 @@ from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noi
 from scene2hap.audio.loops.seam import apply_seam
 from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
 from scene2hap.audio.loops.whole import whole_loop
-from scene2hap.audio.protocol import ConversionContext, TactileConverter
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_anchor
 from scene2hap.errors import AudioError
 
 AUDIBLE_PEAK_DBFS = -1.0
@@ -75,7 +75,7 @@ def loop_pair(
         if not loop.any():
             raise AudioError(f"{clip.credit.title!r}: the {name} is silent. Choose another sound or converter.")
     felt = tactile
-    if not is_noise(peak, float(np.abs(tactile).max())):
+    if not is_noise(peak, float(np.abs(tactile).max()), is_chosen=follows_anchor(converter, context)):
         felt = _with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))
         felt = felt if finish is None else finish(felt)
     return HapticLoop(

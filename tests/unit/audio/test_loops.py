@@ -8,7 +8,9 @@ import pytest
 
 from others import RECORDINGS, there
 from own_sounds import OWN_SOUNDS
+from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.clip import AudioClip, Credit, Samples
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.audio.loops import (
@@ -20,6 +22,7 @@ from scene2hap.audio.loops import (
     make_loop,
 )
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.lowpass import Lowpass
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.errors import AudioError
@@ -427,6 +430,18 @@ def test_noise_floor_of_a_recording_is_refused_as_a_loop(peak_db: float, is_nois
             loop_pair(clip, SvfBandpass(), ConversionContext())
     else:
         assert loop_pair(clip, SvfBandpass(), ConversionContext()).tactile.samples.any()
+
+
+def test_component_that_was_chosen_is_felt_however_weak_it_is() -> None:
+    """In an earlier version it counted as noise, and the loop stayed at the threshold of touch."""
+    t = np.arange(3 * 32_000) / 32_000
+    x = 0.02 * (np.sin(2 * np.pi * 4000.0 * t) + 0.012 * np.sin(2 * np.pi * 200.0 * t))
+    clip, auto = AudioClip(x.astype(np.float32), 32_000), CONVERTERS.build("auto")
+    (plan,) = plan_scene([SourceClip(clip, 0.3)], auto, actuator_profile("flat"))
+    assert plan.context.own_hz == pytest.approx(200.0, abs=0.1)
+    loop = felt_loop(clip, auto, plan)
+    assert loop.felt is not None
+    assert loop.felt.level_db == pytest.approx(loop.felt.asked_level_db, abs=1.0)
 
 
 def test_remainder_of_a_filtered_whine_is_not_amplified() -> None:

@@ -391,6 +391,16 @@ def test_noise_floor_of_a_recording_is_not_amplified(tmp_path: Path, peak_db: fl
     assert (made.peak_out < 1e-3) == is_noise
 
 
+def test_component_that_was_chosen_is_felt_however_weak_it_is(tmp_path: Path) -> None:
+    """In an earlier version it counted as noise: a file of 64 dB below full scale, without a level."""
+    t = np.arange(3 * 32_000) / 32_000
+    x = 0.02 * (np.sin(2 * np.pi * 4000.0 * t) + 0.012 * np.sin(2 * np.pi * 200.0 * t))
+    soundfile.write(tmp_path / "a.wav", x, 32_000, subtype="FLOAT")
+    made = audio.convert(tmp_path / "a.wav", tmp_path / "b.wav", intensity=0.3)
+    assert made.level_db == pytest.approx(sensation_level_db(0.3), abs=0.1)
+    assert made.frequency_out_hz == pytest.approx(200.0, abs=1.0)
+
+
 @pytest.mark.parametrize("kind", ["lowpass", "envelope", "auto"])
 def test_remainder_of_a_filtered_whine_is_not_amplified(tmp_path: Path, kind: str) -> None:
     """In an earlier version noise at -80 dB re full scale became -21 dB."""
