@@ -20,6 +20,7 @@ from scene2hap.audio.loops import (
     find_seam,
     loop_pair,
     make_loop,
+    middle_of,
 )
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
@@ -430,6 +431,18 @@ def test_noise_floor_of_a_recording_is_refused_as_a_loop(peak_db: float, is_nois
             loop_pair(clip, SvfBandpass(), ConversionContext())
     else:
         assert loop_pair(clip, SvfBandpass(), ConversionContext()).tactile.samples.any()
+
+
+def test_loop_of_a_long_sound_is_not_cut_from_a_pause_in_its_middle() -> None:
+    """In an earlier version such a sound was refused as silent, or the noise of the room became its loop."""
+    rng, t = np.random.default_rng(0), np.arange(60 * 8000) / 8000
+    x = 0.3 * np.sin(2 * np.pi * 180.0 * t) * ((t < 23.0) | (t > 39.0)) + 1e-4 * rng.standard_normal(len(t))
+    middle = middle_of(AudioClip(x.astype(np.float32), 8000))
+    assert middle.duration_s == pytest.approx(14.2)
+    assert np.square(middle.samples[16_000:-16_000]).mean() > 0.25 * np.square(x).mean()
+    steady = AudioClip(x[: 22 * 8000].astype(np.float32), 8000)
+    first = (len(steady.samples) - len(middle.samples)) // 2
+    np.testing.assert_array_equal(middle_of(steady).samples, steady.samples[first : first + len(middle.samples)])
 
 
 def test_component_that_was_chosen_is_felt_however_weak_it_is() -> None:
