@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -67,6 +68,14 @@ _LARGEST_WAV_BYTES = 0xFFFF_0000
 """Lengths in a WAV header have 32 bits. Longer files become RF64 (EBU Tech 3306), which most programs read."""
 
 
+MISSED_DB = 3.0
+"""Level error from which on a conversion warns [dB]: about the least difference that is felt."""
+
+
+class LevelWarning(UserWarning):
+    """A converted file is felt weaker than planned for its intensity."""
+
+
 @dataclass(frozen=True)
 class Conversion:
     """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
@@ -93,6 +102,17 @@ class Conversion:
     level_db: float | None = None
     asked_level_db: float | None = None
 
+    @property
+    def level_doubt(self) -> str:
+        """The sentence that says by how much the planned level is missed; empty within `MISSED_DB`."""
+        missing_db = 0.0 if self.level_db is None else (self.asked_level_db or 0.0) - self.level_db
+        if missing_db <= MISSED_DB:
+            return ""
+        return (
+            f"{self.output} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks or the "
+            "actuator allow no more. Give a smaller intensity, or a sound that is steadier."
+        )
+
 
 def convert(
     source: str | Path,
@@ -117,6 +137,7 @@ def convert(
     mono : mix the channels by their mean first; overwrite : replace files that exist.
     picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without
     removal of the offset, equalization and scaling.
+    Warns: LevelWarning: the planned level is missed by more than `MISSED_DB`.
     Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
     finite, `output` exists or cannot be written, or the converter changes the length.
     """
@@ -145,7 +166,7 @@ def convert(
                 title = f"{source.name} through {type(built).__name__}"
                 meters, sensation = (felt.before, felt.after), felt.sensation(context)
                 draw_conversion(title, source, beside, meters, context.actuator, picture_beside, sensation)
-    return Conversion(
+    made = Conversion(
         source,
         output,
         felt.before.n_frames / felt.rate,
@@ -161,6 +182,9 @@ def convert(
         felt.level_db,
         None if raw else sensation_level_db(context.intensity),
     )
+    if made.level_doubt:
+        warnings.warn(made.level_doubt, LevelWarning, stacklevel=2)
+    return made
 
 
 def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> ConversionContext:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import os
 import tracemalloc
+import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,6 +22,8 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.errors import AudioError, ConfigError
+
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.audio.conversion.LevelWarning")
 
 RATE = 8000
 
@@ -389,6 +392,22 @@ def test_noise_floor_of_a_recording_is_not_amplified(tmp_path: Path, peak_db: fl
     made = audio.convert(source, tmp_path / "b.wav")
     assert (made.level_db is None) == is_noise
     assert (made.peak_out < 1e-3) == is_noise
+
+
+def test_a_missed_level_warns(tmp_path: Path) -> None:
+    clicks = np.zeros((4 * RATE, 1))
+    clicks[RATE] = 1.0
+    source = write(tmp_path / "a.wav", clicks)
+    with pytest.warns(audio.conversion.LevelWarning, match=r"b\.wav is felt \d+ dB weaker than planned"):
+        made = audio.convert(source, tmp_path / "b.wav")
+    assert made.level_doubt
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        faint = audio.convert(write(tmp_path / "c.wav", sound(1.0, 1, 150.0)), tmp_path / "d.wav", intensity=0.3)
+        (many,) = audio.convert_files([source], tmp_path / "e.wav")
+    assert faint.level_doubt == ""
+    assert isinstance(many, audio.conversion.Conversion)
+    assert many.level_doubt
 
 
 def test_component_that_was_chosen_is_felt_however_weak_it_is(tmp_path: Path) -> None:
