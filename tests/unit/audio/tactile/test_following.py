@@ -140,3 +140,12 @@ def test_sound_that_leaves_its_band_is_felt_with_the_same_level(block: int) -> N
     assert np.argmax(spectrum) == 120  # one bin is 1 Hz
     again = CONVERTERS.build("auto").stream(RATE, context)
     np.testing.assert_array_equal(np.concatenate([again.process(fed), again.finish()]).astype(float), felt)
+
+
+@pytest.mark.parametrize("slow_hz", [0.0, 1.0])
+def test_an_offset_is_not_felt_where_the_sound_pauses(slow_hz: float) -> None:
+    slow = 0.1 * np.cos(2 * np.pi * slow_hz * T)
+    x = 0.5 * np.sin(2 * np.pi * 120.0 * T) * (T < 3.0) + slow
+    stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=120.0, band_db=0.0))
+    felt = np.concatenate([stream.process(x.astype(np.float32)), stream.finish()]).astype(float)
+    assert 20 * np.log10(np.abs(felt[4 * RATE : 5 * RATE]).max() / np.abs(felt).max()) < -30.0
