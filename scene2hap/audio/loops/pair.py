@@ -14,8 +14,15 @@ from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise
 from scene2hap.audio.loops.seam import apply_seam
-from scene2hap.audio.loops.seam_search import CROSSFADE_S, LEAST_POWER, MAX_LOOP_S, MIN_CLIP_S, find_seam
-from scene2hap.audio.loops.whole import whole_loop
+from scene2hap.audio.loops.seam_search import (
+    CROSSFADE_S,
+    LEAST_POWER,
+    MAX_LOOP_S,
+    MIN_CLIP_S,
+    find_seam,
+    level_period,
+)
+from scene2hap.audio.loops.whole import is_between_silences, meets_itself, whole_loop
 from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_anchor
 from scene2hap.errors import AudioError
 
@@ -77,7 +84,7 @@ def loop_pair(
     chosen for both signals; each has its own fade law. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
     at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. If the converter leaves only the recording's
     noise (`levels.is_noise`), this noise is not amplified. A clip that is a vibration already is looped whole. It is
-    converted only if its frequency is to be moved.
+    converted only if its frequency is to be moved. A sound between silences without a beat is looped whole, too.
 
     Parameters: finish : last step for the tactile loop, such as equalizing it for an actuator.
     Raises: AudioError: the clip is shorter than `MIN_CLIP_S`, or the clip or its conversion is silent.
@@ -115,9 +122,21 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
         vibration = clip if context.own_hz == context.target_hz else convert_clip(clip, converter, context)
         loop = whole_loop(vibration.samples, clip.sample_rate_hz)
         return loop, loop
+    if _repeats_whole(clip):
+        converted = convert_clip(clip, converter, context, from_rest=True)
+        if meets_itself(converted.samples):
+            return clip.samples, converted.samples
     converted = convert_clip(clip, converter, context)
     seam = find_seam(clip.samples, clip.sample_rate_hz, converted.samples)
     return apply_seam(clip.samples, seam), apply_seam(converted.samples, seam.fitted(converted.samples))
+
+
+def _repeats_whole(clip: AudioClip) -> bool:
+    """Return True if a clip is short, lies between silences, and has no beat that its length would break."""
+    x, rate = clip.samples, clip.sample_rate_hz
+    if clip.duration_s > MAX_LOOP_S or clip.duration_s < MIN_CLIP_S or not is_between_silences(x, rate):
+        return False
+    return level_period(x.astype(np.float64), rate) is None
 
 
 def _with_peak(samples: Samples, peak: float) -> Samples:

@@ -96,7 +96,7 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
     offset = (n - usable) // 2
     cut = [signal[offset : offset + usable] for signal in signals]
     weights = [_mean_power(x, fade) for x in cut]
-    period = _level_period(cut[0], rate)
+    period = level_period(cut[0], rate)
     found = _refined(cut, weights, fade, _promising(cut, weights, fade, min(1.0, _COARSE_HZ / rate), period))
     if period is not None:
         found = _preferred([seam for seam in found if _in_beat(seam[1], period)], found, _UNNOTICED)
@@ -130,7 +130,7 @@ def _in_beat(lengths: ArrayLike, period: float) -> NDArray[np.bool_]:
     return np.asarray(np.abs(periods - np.round(periods)) <= _PERIOD_TOLERANCE)
 
 
-def _level_period(x: Signal, rate: float) -> float | None:
+def level_period(x: Signal, rate: float) -> float | None:
     """Return the period of the level of a sound (n,) [samples]; None if the level is not periodic."""
     step = max(1, round(_LEVEL_STEP_S * rate))
     level = np.sqrt((x[: len(x) // step * step].reshape(-1, step) ** 2).mean(axis=1))

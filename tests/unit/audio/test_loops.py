@@ -433,6 +433,31 @@ def test_noise_floor_of_a_recording_is_refused_as_a_loop(peak_db: float, is_nois
         assert loop_pair(clip, SvfBandpass(), ConversionContext()).tactile.samples.any()
 
 
+@pytest.mark.parametrize("kind", ["auto", "lowpass"])
+def test_a_sound_between_silences_is_looped_whole(kind: str) -> None:
+    """In an earlier version the fade of the seam took 13 dB from a knock at the beginning of its recording."""
+    t = np.arange(2 * RATE) / RATE
+    x = np.zeros(2 * RATE)
+    x[1:] = 0.5 * (np.exp(-t / 0.03) * np.sin(2 * np.pi * 200.0 * t))[:-1] * (t[:-1] < 0.3)
+    sound, converter = clip(x), CONVERTERS.build(kind)
+    (plan,) = plan_scene([SourceClip(sound, 0.3)], converter, actuator_profile("flat"))
+    loop = felt_loop(sound, converter, plan)
+    np.testing.assert_allclose(loop.audible.samples, x * loop.audible.samples.max() / x.max(), atol=1e-6)
+    felt = loop.tactile.samples.astype(float)
+    assert np.abs(felt[: RATE // 5]).max() == np.abs(felt).max()
+    assert abs(felt[0] - felt[-1]) < 1e-3 * np.abs(felt).max()
+    assert np.abs(felt[-RATE:]).max() < 1e-2 * np.abs(felt).max()
+
+
+def test_a_beat_between_silences_keeps_whole_periods() -> None:
+    t = np.arange(6 * RATE) / RATE
+    rings = np.sin(2 * np.pi * 400.0 * t) * (t % 1.5 < 0.8) * (t < 5.6)
+    rings[0] = 0.0
+    loop = loop_pair(clip(0.5 * rings), Lowpass(), ConversionContext())
+    periods = len(loop.audible.samples) / RATE / 1.5
+    assert periods == pytest.approx(round(periods), abs=0.03)
+
+
 def test_loop_of_a_long_sound_is_not_cut_from_a_pause_in_its_middle() -> None:
     """In an earlier version such a sound was refused as silent, or the noise of the room became its loop."""
     rng, t = np.random.default_rng(0), np.arange(60 * 8000) / 8000
