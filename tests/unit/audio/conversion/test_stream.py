@@ -394,6 +394,17 @@ def test_noise_floor_of_a_recording_is_not_amplified(tmp_path: Path, peak_db: fl
     assert (made.peak_out < 1e-3) == is_noise
 
 
+def test_mono_takes_the_strongest_of_channels_that_cancel_each_other(tmp_path: Path) -> None:
+    """In an earlier version the file was silent."""
+    one = sound(2.0, 1, 150.0)
+    source = write(tmp_path / "a.wav", np.concatenate([one, -0.98 * one], axis=1))
+    made = audio.convert(source, tmp_path / "b.wav", mono=True, intensity=0.3)
+    alone = audio.convert(write(tmp_path / "c.wav", one), tmp_path / "d.wav", intensity=0.3)
+    assert made.channels == 1
+    assert made.level_db == pytest.approx(alone.level_db, abs=0.01)
+    assert made.peak_in == pytest.approx(alone.peak_in, rel=1e-3)
+
+
 def test_a_missed_level_warns(tmp_path: Path) -> None:
     clicks = np.zeros((4 * RATE, 1))
     clicks[RATE] = 1.0
