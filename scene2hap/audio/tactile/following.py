@@ -82,6 +82,8 @@ class Following:
         if n < 1:
             return np.empty(0)
         gains = np.concatenate([self._gains, self._next_gains(n)], axis=1)
+        if self._gains.size == 0:
+            gains[1, 0] = 0.0  # a sine that begins at once clicks
         self._energies = self._energies[:, n:]
         self._gains = gains[:, -1:]
         return self._released(*gains)

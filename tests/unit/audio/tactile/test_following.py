@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.signal import butter, sosfilt
 
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.protocol import ConversionContext
@@ -149,3 +150,12 @@ def test_an_offset_is_not_felt_where_the_sound_pauses(slow_hz: float) -> None:
     stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=120.0, band_db=0.0))
     felt = np.concatenate([stream.process(x.astype(np.float32)), stream.finish()]).astype(float)
     assert 20 * np.log10(np.abs(felt[4 * RATE : 5 * RATE]).max() / np.abs(felt).max()) < -30.0
+
+
+def test_the_sine_that_replaces_a_weak_bed_begins_without_a_click() -> None:
+    x = 0.5 * np.sin(2 * np.pi * 2500.0 * T)
+    stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=120.0, band_db=-3.0))
+    felt = np.concatenate([stream.process(x.astype(np.float32)), stream.finish()]).astype(float)
+    above = sosfilt(butter(4, 1500.0, "highpass", fs=RATE, output="sos"), np.concatenate([np.zeros(RATE), felt]))
+    # The rest of the 2.5 kHz, which the filters let through, is at -53 dB.
+    assert 20 * np.log10(np.abs(above[: RATE + RATE // 5]).max() / np.abs(felt).max()) < -45.0
