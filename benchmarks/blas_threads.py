@@ -96,11 +96,10 @@ def main() -> None:
         for n_busy, beside in ((0, "none"), (n_cores, "one busy process per core")):
             with busy_processes(n_busy):
                 for kind in KINDS:
-                    one, own = (in_a_process(saved, kind, arguments.updates, is_one=is_one) for is_one in (True, False))
-                    print(
-                        f"| {kind} | {beside} | {one[0]:.2f} | {own[0]:.2f} | {1e3 * one[1]:.2f} | {1e3 * own[1]:.2f} |",
-                        flush=True,
-                    )
+                    one = in_a_process(saved, kind, arguments.updates, is_one=True)
+                    own = in_a_process(saved, kind, arguments.updates, is_one=False)
+                    cells = f"{one[0]:.2f} | {own[0]:.2f} | {1e3 * one[1]:.2f} | {1e3 * own[1]:.2f}"
+                    print(f"| {kind} | {beside} | {cells} |", flush=True)
 
 
 if __name__ == "__main__":

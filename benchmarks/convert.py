@@ -20,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import warnings
 from collections.abc import Callable
 from functools import partial
 from importlib.metadata import version
@@ -31,6 +32,7 @@ import soundfile
 from numpy.typing import NDArray
 
 from scene2hap.audio import convert
+from scene2hap.audio.conversion import LevelWarning
 
 RATE = 48_000
 BLOCK = 65_536
@@ -80,6 +82,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=7)
     runs = parser.parse_args().runs
+    warnings.simplefilter("ignore", LevelWarning)  # the sounds are made for their cost
     print(f"Python {platform.python_version()}, {platform.machine()}, {os.cpu_count()} cores, {runs} runs in turn")
     with tempfile.TemporaryDirectory() as folder:
         memory(Path(folder))  # first: a new process inherits the peak memory of its parent

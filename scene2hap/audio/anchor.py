@@ -8,7 +8,8 @@ of the strongest can reach the level:
 - If the actuator does not render the strongest, its band is shifted to the frequency at which the actuator is felt
   best.
 - If the strongest is below 60 Hz, its band is shifted there as well, and its rate is kept as roughness.
-- If the strongest is higher, and would be felt more than 6 dB better there, as a beep of 900 Hz, it is shifted.
+- If the strongest is higher, and would be felt more than 6 dB better there, as a beep of 900 Hz, it is shifted. So is
+  the strongest of all frequencies that are heard, if the best component in the range of touch is that much weaker.
 - Otherwise the component that comes nearest to the level keeps its frequency and is weaker than planned.
 
 If the pitch moves out of the band around the anchor, as that of an engine that revs, a band that holds the moving pitch
@@ -44,7 +45,7 @@ FAINTEST_DB = -14.0
 steady test recordings were felt at a component 14-21 dB below their strongest one."""
 FAINTEST_BELOW_WHINE_DB = -40.0
 """The bound `FAINTEST_DB` if the strongest component is too high to be felt: it admits a hum below a whine, but not a
-recording's noise."""
+recording's noise. The band around it must also be within this bound of the whole sound."""
 MISSED_DB = 3.0
 """Largest error of a component's level [dB]: about the least difference that is felt."""
 ACCEPTED_DB = 2.0
@@ -95,7 +96,8 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     """Return the anchor of a whole sound (n_samples,) for a planned sensation level; None if it has none."""
     x = np.asarray(samples, dtype=np.float64)
     magnitude = magnitudes(x)
-    heard = components(magnitude, sample_rate_hz, (RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)), -300.0)
+    heard_hz = RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)
+    heard = components(magnitude, sample_rate_hz, heard_hz, -300.0)
     if not heard:
         return None
     low = components(magnitude, sample_rate_hz, (RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)), FAINTEST_DB)
@@ -112,14 +114,21 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
             lowest, highest = rendered_hz(sample_rate_hz, actuator)
             candidates += [hz for hz in bands if lowest <= hz <= highest] or [one.hz for one in near]
     found, missed_db = needs.first_met(candidates)
-    is_whine = heard[0].hz > RANGE_HZ[1]
-    if found is not None and is_whine and needs.above_db(found.frequency_hz, heard[0].hz) < FAINTEST_BELOW_WHINE_DB:
-        found, strongest = None, heard[0]  # a hiss: only its lower end is in range
+    loudest = heard[0]
+    if not loudest.is_line:  # the highest peak of noise is anywhere
+        bands = strongest_bands_hz(magnitude, sample_rate_hz, heard_hz, 0.0)
+        loudest = loudest._replace(hz=bands[0]) if bands else loudest
+    is_whine = loudest.hz > RANGE_HZ[1]
+    if found is not None and is_whine and needs.band_db(found) < FAINTEST_BELOW_WHINE_DB:
+        found, strongest = None, loudest  # a hiss: only its lower end is in range
     found = needs.felt(found, missed_db, strongest)
     pitch = needs.moving_pitch(found)
     if pitch is not None:
         strongest = strongest._replace(hz=pitch.centre_hz, above_noise_db=LINE_DB)
         found = needs.felt(*needs.first_met([pitch.centre_hz], pitch.q), strongest)
+    carried = needs.carried(loudest.hz)
+    if loudest.hz > carried.felt_hz and needs.missed_db(found) - needs.missed_db(carried) > CARRIED_DB:
+        found, strongest = carried, loudest  # the rest is hardly felt, as the hum of a room below the call of a bird
     rough_hz = _rough_hz(strongest, found, magnitude, sample_rate_hz)
     return replace(found, rough_hz=rough_hz, band_db=needs.band_db(found))
 
@@ -243,11 +252,6 @@ class _Needs:
         """Return by how much an anchor's band misses the level at the frequency at which it is felt [dB]."""
         drive = float(drive_db(anchor.felt_hz, self._level_db, self._actuator))
         return max(0.0, drive + anchor.crest_db - HIGHEST_PEAK_DB)
-
-    def above_db(self, one_hz: float, other_hz: float) -> float:
-        """Return the energy of a band relative to another [dB]."""
-        one, other = (float(np.sum(np.abs(self._band(hz)[0]) ** 2)) for hz in (one_hz, other_hz))
-        return 10.0 * float(np.log10(max(one, 1e-300) / max(other, 1e-300)))
 
     def band_db(self, anchor: Anchor) -> float:
         """Return the level of the kept part of the sound, relative to the whole sound [dB].

@@ -48,10 +48,15 @@ _NOTHING_DB = -120.0
 """Level below which there are only rounding errors [dB]."""
 
 
-def is_noise(sound_peak: float, touch_peak: float) -> bool:
-    """Return True if the peaks [-] show that a sound, or its vibration, is only the noise of a recording."""
+def is_noise(sound_peak: float, touch_peak: float, *, is_chosen: bool = False) -> bool:
+    """Return True if the peaks [-] show that a sound, or its vibration, is only the noise of a recording.
+
+    Parameters: is_chosen : the vibration is made of a component that the analysis of the whole sound chose, which is no
+    noise, however weak it is.
+    """
     faintest = 10 ** (FAINTEST_PEAK_DB / 20)
-    return sound_peak < faintest or touch_peak < min(faintest, sound_peak * 10 ** (LEFT_PEAK_DB / 20))
+    is_left_over = touch_peak < min(faintest, sound_peak * 10 ** (LEFT_PEAK_DB / 20))
+    return sound_peak < faintest or (is_left_over and not is_chosen)
 
 
 def sensation_level_db(intensity: float) -> float:

@@ -83,6 +83,11 @@ class TactileConverter(Protocol):
         ...
 
 
+def follows_anchor(converter: object, context: ConversionContext) -> bool:
+    """Return True if the converter makes the vibration of the component that the analysis of the whole sound chose."""
+    return context.band_db is not None and bool(getattr(converter, "follows_target", False))
+
+
 _STREAM: Members = {"process": ("block",), "finish": ()}
 
 

@@ -22,8 +22,6 @@ from scene2hap.cli.specs import given_spec
 from scene2hap.errors import AudioError, ConfigError
 
 HELP = "sound files -> tactile files"
-_CLOSE_DB = 3.0
-"""About the smallest difference of level that people feel. Smaller deviations are not shown."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -84,13 +82,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     for one in made:
         if one.n_clipped:
             console.warn(f"{one.output}: {one.n_clipped} samples beyond full scale were cut to it.")
-        if one.level_db is not None and one.asked_level_db is not None:
-            missing_db = one.asked_level_db - one.level_db
-            if missing_db > _CLOSE_DB:
-                console.warn(
-                    f"{one.output} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks "
-                    "or the actuator allow no more. Give a smaller --intensity, or a sound that is steadier."
-                )
+        if one.level_doubt:
+            console.warn(one.level_doubt)
     for failure in failed:
         console.fail(failure.reason)
     if failed:

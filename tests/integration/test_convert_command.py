@@ -19,6 +19,8 @@ from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.baking import BakeConfig
 from scene2hap.cli import main
 
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.audio.conversion.LevelWarning")
+
 RATE = 8000
 
 

@@ -2,6 +2,6 @@
 
 from scene2hap.audio.conversion.batch import Failure, convert_files
 from scene2hap.audio.conversion.clips import convert_clip
-from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert
+from scene2hap.audio.conversion.stream import FORMATS, Conversion, LevelWarning, convert
 
-__all__ = ["FORMATS", "Conversion", "Failure", "convert", "convert_clip", "convert_files"]
+__all__ = ["FORMATS", "Conversion", "Failure", "LevelWarning", "convert", "convert_clip", "convert_files"]

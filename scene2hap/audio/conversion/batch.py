@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, settled
+from scene2hap.audio.conversion.stream import FORMATS, Conversion, LevelWarning, convert, settled
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.errors import AudioError, Scene2HapError
 
@@ -105,7 +106,9 @@ def _convert(job: _Job, pictures: bool, settings: dict[str, Any]) -> Conversion 
     try:
         job.output.parent.mkdir(parents=True, exist_ok=True)
         picture = job.output.with_suffix(".png") if pictures else None
-        return convert(job.source, job.output, picture=picture, **settings)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", LevelWarning)  # the caller gets it as `Conversion.level_doubt`
+            return convert(job.source, job.output, picture=picture, **settings)
     except Scene2HapError as error:
         return Failure(job.source, str(error))
     except OSError as error:

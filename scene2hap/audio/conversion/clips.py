@@ -14,16 +14,20 @@ PRE_ROLL_S = 1.0
 """Length of the pre-roll before the clip [s]: a band-pass with Q = 100 at 250 Hz settles to -68 dB in it."""
 
 
-def convert_clip(clip: AudioClip, converter: TactileConverter, context: ConversionContext) -> AudioClip:
+def convert_clip(
+    clip: AudioClip, converter: TactileConverter, context: ConversionContext, *, from_rest: bool = False
+) -> AudioClip:
     """Convert a clip to its tactile counterpart: same length, rate and credit, not scaled.
 
     The beginning of the clip, mirrored in time and without its offset, is converted first, so that filters have settled
-    when the clip starts.
+    when the clip starts. With `from_rest`, silence is converted first.
     Raises: AudioError: the converter returns more or fewer samples than it was given.
     """
     n_before = min(round(PRE_ROLL_S * clip.sample_rate_hz), len(clip.samples) - 1)
     fed = np.concatenate([clip.samples[n_before:0:-1], clip.samples])
     fed -= clip.samples.mean(dtype=np.float64).astype(np.float32)
+    if from_rest:
+        fed[:n_before] = 0.0
     stream = opened_stream(converter, clip.sample_rate_hz, context)
     felt = np.concatenate([one_channel(converter, stream.process(fed)), one_channel(converter, stream.finish())])
     if len(felt) != len(fed):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -33,6 +34,7 @@ from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
     TactileStream,
+    follows_anchor,
     one_channel,
     opened_stream,
 )
@@ -66,6 +68,14 @@ _LARGEST_WAV_BYTES = 0xFFFF_0000
 """Lengths in a WAV header have 32 bits. Longer files become RF64 (EBU Tech 3306), which most programs read."""
 
 
+MISSED_DB = 3.0
+"""Level error from which on a conversion warns [dB]: about the least difference that is felt."""
+
+
+class LevelWarning(UserWarning):
+    """A converted file is felt weaker than planned for its intensity."""
+
+
 @dataclass(frozen=True)
 class Conversion:
     """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
@@ -92,6 +102,17 @@ class Conversion:
     level_db: float | None = None
     asked_level_db: float | None = None
 
+    @property
+    def level_doubt(self) -> str:
+        """The sentence that says by how much the planned level is missed; empty within `MISSED_DB`."""
+        missing_db = 0.0 if self.level_db is None else (self.asked_level_db or 0.0) - self.level_db
+        if missing_db <= MISSED_DB:
+            return ""
+        return (
+            f"{self.output} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks or the "
+            "actuator allow no more. Give a smaller intensity, or a sound that is steadier."
+        )
+
 
 def convert(
     source: str | Path,
@@ -113,9 +134,11 @@ def convert(
     converter : a kind, a mapping with a `kind` and its settings, or an instance; each channel gets its own stream.
     actuator : a profile, its name, or a CSV file of its response, which is compensated; intensity : of the source, 0..1
     [-], which sets the sensation level (`sensation_level_db`).
-    mono : mix the channels by their mean first; overwrite : replace files that exist.
+    mono : mix the channels by their mean first, or take the strongest if they cancel each other; overwrite : replace
+    files that exist.
     picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without
     removal of the offset, equalization and scaling.
+    Warns: LevelWarning: the planned level is missed by more than `MISSED_DB`.
     Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
     finite, `output` exists or cannot be written, or the converter changes the length.
     """
@@ -129,7 +152,8 @@ def convert(
     with opened_sound(source) as file, written_whole(output) as beside:
         if not raw and getattr(built, "follows_target", False):
             context = _looked_at(file, context)
-        felt = _Felt(built, context, file, mono=mono, raw=raw, n_columns=_PICTURE_COLUMNS if drawn else 0)
+        only = _strongest_of_cancelled(file) if mono else None
+        felt = _Felt(built, context, file, mono=mono, only=only, raw=raw, n_columns=_PICTURE_COLUMNS if drawn else 0)
         blocks = felt.blocks(source, file)
         with _opened_for_writing(output, beside, felt) as target, ExitStack() as held:
             if not raw:
@@ -144,7 +168,7 @@ def convert(
                 title = f"{source.name} through {type(built).__name__}"
                 meters, sensation = (felt.before, felt.after), felt.sensation(context)
                 draw_conversion(title, source, beside, meters, context.actuator, picture_beside, sensation)
-    return Conversion(
+    made = Conversion(
         source,
         output,
         felt.before.n_frames / felt.rate,
@@ -160,15 +184,15 @@ def convert(
         felt.level_db,
         None if raw else sensation_level_db(context.intensity),
     )
+    if made.level_doubt:
+        warnings.warn(made.level_doubt, LevelWarning, stacklevel=2)
+    return made
 
 
 def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> ConversionContext:
     """Return the context with the source's own frequency, found in the middle of the file; unchanged if none is found,
     so that the converter tracks the frequency."""
-    n = round(_LOOK_S * file.samplerate)
-    file.seek(max(0, int(file.frames) - n) // 2)
-    channels, mixdown = file.read(n, dtype="float32", always_2d=True), Mixdown()
-    file.seek(0)
+    channels, mixdown = _middle(file), Mixdown()
     heard, strongest = mixdown.mean(channels), mixdown.strongest
     if strongest is not None:
         heard = channels[:, strongest].astype(np.float64)
@@ -185,6 +209,22 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
         band_q=anchor.band_q,
         band_db=anchor.band_db,
     )
+
+
+def _strongest_of_cancelled(file: soundfile.SoundFile) -> int | None:
+    """Return the strongest channel, if the channels cancel each other in the middle of the file; else None."""
+    mixdown = Mixdown()
+    mixdown.mean(_middle(file))
+    return mixdown.strongest
+
+
+def _middle(file: soundfile.SoundFile) -> Block:
+    """Return the middle of a file (n, n_channels), at most `_LOOK_S`."""
+    n = round(_LOOK_S * file.samplerate)
+    file.seek(max(0, int(file.frames) - n) // 2)
+    channels: Block = file.read(n, dtype="float32", always_2d=True)
+    file.seek(0)
+    return channels
 
 
 def settled(converter: object, actuator: object, intensity: float) -> tuple[TactileConverter, ConversionContext]:
@@ -206,6 +246,7 @@ class _Felt:
         file: soundfile.SoundFile,
         *,
         mono: bool,
+        only: int | None,
         raw: bool,
         n_columns: int,
     ) -> None:
@@ -217,8 +258,9 @@ class _Felt:
             Meter(self.rate, self.channels, n_frames=int(file.frames), n_columns=n_columns) for _ in range(2)
         )
         self._raw = raw
+        self.follows_anchor = follows_anchor(converter, context)
         self._converter, self._name = converter, type(converter).__name__
-        self._mono = mono
+        self._mono, self._only = mono, only
         self._streams: list[TactileStream] = [
             opened_stream(converter, self.rate, context) for _ in range(self.channels)
         ]
@@ -229,7 +271,7 @@ class _Felt:
         rest = None if self._raw else _Rest(self.rate, self._offsets(file))
         while len(block := file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
             if self._mono and block.shape[1] > 1:
-                block = block.mean(axis=1, keepdims=True, dtype=np.float32)
+                block = self._mixed(block)
             self.before.hear(block)
             if not math.isfinite(self.before.peak):
                 require_finite(source, block, n_read)
@@ -253,8 +295,16 @@ class _Felt:
         file.seek(0)
         if not len(head) or not np.isfinite(head).all():  # the conversion raises an error for this
             return [0.0] * self.channels
-        mean = head.mean(axis=0, dtype=np.float64)
-        return [float(mean.mean())] if self._mono else mean.tolist()
+        mixed = self._mixed(head) if self._mono else head
+        offsets: list[float] = mixed.mean(axis=0, dtype=np.float64).tolist()
+        return offsets
+
+    def _mixed(self, block: Block) -> Block:
+        """Return the mean of the channels, or the one that stands for all, as (n, 1)."""
+        if self._only is not None:
+            return np.ascontiguousarray(block[:, self._only, None])
+        mean: Block = block.mean(axis=1, keepdims=True, dtype=np.float32)
+        return mean
 
     def _felt(self, channels: list[NDArray[np.float32]]) -> Block:
         channels = [one_channel(self._converter, channel) for channel in channels]
@@ -308,7 +358,7 @@ def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, 
         heard.hear(block)
         held.write(block.tobytes())
     now_db, gain = heard.level_db(), 1.0
-    if now_db > _NOTHING_DB and not is_noise(felt.before.peak, heard.peak):
+    if now_db > _NOTHING_DB and not is_noise(felt.before.peak, heard.peak, is_chosen=felt.follows_anchor):
         asked_db = sensation_level_db(context.intensity)
         gain = min(10 ** ((asked_db - now_db) / 20), 10 ** (-TACTILE_HEADROOM_DB / 20) / heard.peak)
         felt.level_db = now_db + 20 * math.log10(gain)

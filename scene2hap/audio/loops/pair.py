@@ -14,9 +14,16 @@ from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import FAINTEST_PEAK_DB, TACTILE_HEADROOM_DB, is_noise
 from scene2hap.audio.loops.seam import apply_seam
-from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
-from scene2hap.audio.loops.whole import whole_loop
-from scene2hap.audio.protocol import ConversionContext, TactileConverter
+from scene2hap.audio.loops.seam_search import (
+    CROSSFADE_S,
+    LEAST_POWER,
+    MAX_LOOP_S,
+    MIN_CLIP_S,
+    find_seam,
+    level_period,
+)
+from scene2hap.audio.loops.whole import is_between_silences, meets_itself, whole_loop
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, follows_anchor
 from scene2hap.errors import AudioError
 
 AUDIBLE_PEAK_DBFS = -1.0
@@ -26,18 +33,38 @@ _RUN_UP_S = 2.0
 """Run-up of converters [s] (assumed: their transients decay to imperceptibility within a tenth of this)."""
 
 AUDIBLE_RANGE_HZ = (20.0, 20_000.0)
+_LEVEL_STEP_S = 0.1
+"""Resolution with which pauses are found [s]."""
 
 
 def middle_of(clip: AudioClip) -> AudioClip:
     """Return the middle of a clip, long enough for the longest loop and a run-up for converters on either side.
 
-    The seam search uses only the middle, so the rest of the clip would never be heard.
+    The seam search uses only this part, so the rest of the clip would never be heard. If the middle is a pause, the
+    nearest part with enough sound is taken.
     """
-    n = round((MAX_LOOP_S + CROSSFADE_S + 2.0 * _RUN_UP_S) * clip.sample_rate_hz)
+    rate = clip.sample_rate_hz
+    n = round((MAX_LOOP_S + CROSSFADE_S + 2.0 * _RUN_UP_S) * rate)
     if len(clip.samples) <= n:
         return clip
-    first = (len(clip.samples) - n) // 2
+    first = _first_of_middle(clip.samples, n, round(_RUN_UP_S * rate), max(1, round(_LEVEL_STEP_S * rate)))
     return replace(clip, samples=clip.samples[first : first + n])
+
+
+def _first_of_middle(x: Samples, n: int, run_up: int, step: int) -> int:
+    """Return the first of n samples around the middle of a sound, or around the nearest place that is no pause.
+
+    Parameters: run_up : number of samples at either end of the n in which no loop lies; step : resolution [samples].
+    """
+    middle = (len(x) - n) // 2
+    rows = x[: len(x) // step * step].reshape(-1, step)
+    energies = np.einsum("ij,ij->i", rows, rows, dtype=np.float64) - step * float(x.mean(dtype=np.float64)) ** 2
+    sums = np.concatenate([[0.0], np.cumsum(energies)])
+    firsts = np.append(np.arange(0, len(x) - n + 1, step), middle)
+    inside = (sums[(firsts + n - run_up) // step] - sums[(firsts + run_up) // step]) / (n - 2 * run_up)
+    needed = min(LEAST_POWER * float(sums[-1]) / len(x), float(inside.max()))
+    places = firsts[inside >= needed]
+    return int(places[np.argmin(np.abs(places - middle))])
 
 
 def make_loop(clip: AudioClip) -> AudioClip:
@@ -57,7 +84,7 @@ def loop_pair(
     chosen for both signals; each has its own fade law. The audible loop peaks at `AUDIBLE_PEAK_DBFS`, the tactile one
     at `context.intensity` times full scale less `TACTILE_HEADROOM_DB`. If the converter leaves only the recording's
     noise (`levels.is_noise`), this noise is not amplified. A clip that is a vibration already is looped whole. It is
-    converted only if its frequency is to be moved.
+    converted only if its frequency is to be moved. A sound between silences without a beat is looped whole, too.
 
     Parameters: finish : last step for the tactile loop, such as equalizing it for an actuator.
     Raises: AudioError: the clip is shorter than `MIN_CLIP_S`, or the clip or its conversion is silent.
@@ -75,7 +102,7 @@ def loop_pair(
         if not loop.any():
             raise AudioError(f"{clip.credit.title!r}: the {name} is silent. Choose another sound or converter.")
     felt = tactile
-    if not is_noise(peak, float(np.abs(tactile).max())):
+    if not is_noise(peak, float(np.abs(tactile).max()), is_chosen=follows_anchor(converter, context)):
         felt = _with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))
         felt = felt if finish is None else finish(felt)
     return HapticLoop(
@@ -95,9 +122,21 @@ def _looped(clip: AudioClip, converter: TactileConverter, context: ConversionCon
         vibration = clip if context.own_hz == context.target_hz else convert_clip(clip, converter, context)
         loop = whole_loop(vibration.samples, clip.sample_rate_hz)
         return loop, loop
+    if _repeats_whole(clip):
+        converted = convert_clip(clip, converter, context, from_rest=True)
+        if meets_itself(converted.samples):
+            return clip.samples, converted.samples
     converted = convert_clip(clip, converter, context)
     seam = find_seam(clip.samples, clip.sample_rate_hz, converted.samples)
     return apply_seam(clip.samples, seam), apply_seam(converted.samples, seam.fitted(converted.samples))
+
+
+def _repeats_whole(clip: AudioClip) -> bool:
+    """Return True if a clip is short, lies between silences, and has no beat that its length would break."""
+    x, rate = clip.samples, clip.sample_rate_hz
+    if clip.duration_s > MAX_LOOP_S or clip.duration_s < MIN_CLIP_S or not is_between_silences(x, rate):
+        return False
+    return level_period(x.astype(np.float64), rate) is None
 
 
 def _with_peak(samples: Samples, peak: float) -> Samples:

@@ -67,7 +67,7 @@ _LEAST_DEPTH, _LEAST_LIKENESS, _TIE = 0.3, 0.8, 0.05
 largest difference from the best autocorrelation, up to which a shorter period is chosen."""
 _PERIOD_TOLERANCE = 0.02
 """Largest difference from a whole number of periods [periods]. Touch notices a change of rate by 0.18."""
-_LEAST_POWER = 0.25
+LEAST_POWER = 0.25
 """Least power of a loop, as a share of the sound's (assumed). Pauses are similar to each other, but a loop of pauses
 would be silent."""
 _SILENT = 1e-9
@@ -96,7 +96,7 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
     offset = (n - usable) // 2
     cut = [signal[offset : offset + usable] for signal in signals]
     weights = [_mean_power(x, fade) for x in cut]
-    period = _level_period(cut[0], rate)
+    period = level_period(cut[0], rate)
     found = _refined(cut, weights, fade, _promising(cut, weights, fade, min(1.0, _COARSE_HZ / rate), period))
     if period is not None:
         found = _preferred([seam for seam in found if _in_beat(seam[1], period)], found, _UNNOTICED)
@@ -130,7 +130,7 @@ def _in_beat(lengths: ArrayLike, period: float) -> NDArray[np.bool_]:
     return np.asarray(np.abs(periods - np.round(periods)) <= _PERIOD_TOLERANCE)
 
 
-def _level_period(x: Signal, rate: float) -> float | None:
+def level_period(x: Signal, rate: float) -> float | None:
     """Return the period of the level of a sound (n,) [samples]; None if the level is not periodic."""
     step = max(1, round(_LEVEL_STEP_S * rate))
     level = np.sqrt((x[: len(x) // step * step].reshape(-1, step) ** 2).mean(axis=1))
@@ -189,7 +189,7 @@ def _promising(
 
 
 def _has_sound(signals: Sequence[Signal], settling: int, starts: Signal, lengths: Signal) -> NDArray[np.bool_]:
-    """Return a mask (n,) of the loops with at least `_LEAST_POWER` of the mean power of every signal.
+    """Return a mask (n,) of the loops with at least `LEAST_POWER` of the mean power of every signal.
 
     The first signal is the sound. The others were converted from it, and their first `settling` samples do not count:
     a converter responds to the onset of a steady tone with a burst that can exceed the rest of the signal. If it
@@ -202,7 +202,7 @@ def _has_sound(signals: Sequence[Signal], settling: int, starts: Signal, lengths
         first, end = (
             np.clip(edge.astype(np.int64) - skipped, 0, len(x) - skipped) for edge in (starts, starts + lengths)
         )
-        enough &= (energy[end] - energy[first]) * (len(x) - skipped) >= _LEAST_POWER * (end - first) * energy[-1]
+        enough &= (energy[end] - energy[first]) * (len(x) - skipped) >= LEAST_POWER * (end - first) * energy[-1]
     return enough
 
 

@@ -1,4 +1,4 @@
-"""The loop of a hand-made clip: the whole clip, closed at the end of its last cycle."""
+"""Loops of whole clips: a hand-made clip, closed at the end of its last cycle, and a sound between silences."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ _LAST_CYCLE_S = 0.025
 _FADE_S = 0.005
 _AT_REST = 1e-3
 """Share of the peak below which the end of a clip counts as at rest [-]."""
+_SILENCE_S = 0.2
+"""Least silence at the end of a sound that repeats as a whole [s]: the length of the fade of a seam."""
 
 
 def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:
@@ -32,3 +34,15 @@ def whole_loop(samples: Samples, sample_rate_hz: float) -> Samples:
     n_fade = max(2, round(_FADE_S * sample_rate_hz))
     faded[-n_fade:] *= np.linspace(1.0, 0.0, n_fade, dtype=np.float32)
     return faded
+
+
+def is_between_silences(samples: Samples, sample_rate_hz: float) -> bool:
+    """Return True if a sound (n,) begins at rest and ends in silence, so that it repeats without a seam."""
+    limit = _AT_REST * float(np.abs(samples).max(initial=0.0))
+    tail = samples[len(samples) - round(_SILENCE_S * sample_rate_hz) :]
+    return len(tail) < len(samples) and abs(float(samples[0])) <= limit and float(np.abs(tail).max()) <= limit
+
+
+def meets_itself(samples: Samples) -> bool:
+    """Return True if the last sample of a sound (n,) is followed by the first without a step."""
+    return abs(float(samples[0]) - float(samples[-1])) <= _AT_REST * float(np.abs(samples).max(initial=0.0))

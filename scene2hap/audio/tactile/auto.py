@@ -56,7 +56,7 @@ class Auto(Adaptive):
             bed = Roughened(stages, band, context.rough_hz, sample_rate_hz)
         is_known = context.own_hz is not None
         if is_known:  # the whole sound was analysed, so this is no live stream, and latency is allowed
-            bed = Following(bed, sample_rate_hz, context.band_db)
+            bed = Following(bed, sample_rate_hz, context.band_db, context.target_hz or context.own_hz)
         onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
         return StageStream(onsets) if context.band_db is None else StageStream(onsets, Scaled(_ROOM))
 

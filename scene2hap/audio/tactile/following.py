@@ -7,6 +7,14 @@ the whole sound; if it is unknown, M is the mean of their difference over two se
     difference d = L_bed - L_sound        gain -(d - M) + sign(d - M) `FREE_DB`   where |d - M| > `FREE_DB`, else 0 dB
 
 A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms.
+
+The gain is bounded. A bed that needs more is next to nothing: the pitch has left its band, or another part of the sound
+plays alone. If M and the frequency at which the sound is felt are known, a sine at that frequency supplies the energy
+that is missing, so that the rise and fall of the whole sound is felt:
+
+    a = sqrt(2 E_bed (10^(lift / 10) - 10^(`MOST_LIFTED_DB` / 10)))      lift: the gain that is needed [dB]
+
+The lift counts the sound without its mean in 60 ms. An offset, or a wander below the range of touch, is no sound.
 """
 
 from __future__ import annotations
@@ -14,8 +22,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
+from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, Stage
-from scene2hap.audio.tactile.step_energies import StepEnergies
+from scene2hap.audio.tactile.step_energies import StepEnergies, StepMeans
 from scene2hap.compiled import compiled
 
 STEP_S = 0.01
@@ -30,19 +39,27 @@ _NOTHING = 1e-12
 
 
 class Following:
-    """A `Stage` that keeps the level of a bed at a constant difference from that of its sound."""
+    """A `Stage` that keeps the level of a bed at a constant difference from that of its sound.
 
-    def __init__(self, bed: Stage, sample_rate_hz: float, bed_db: float | None = None) -> None:
+    If `felt_hz` is given, a sine of this frequency replaces a bed that is too weak.
+    """
+
+    def __init__(
+        self, bed: Stage, sample_rate_hz: float, bed_db: float | None = None, felt_hz: float | None = None
+    ) -> None:
         self._bed, self._bed_db = bed, bed_db
+        self._sine = None if felt_hz is None or bed_db is None else Oscillator(felt_hz, sample_rate_hz)
+        self._n_made = 0
         self._step = max(1, round(STEP_S * sample_rate_hz))
         self._waiting = np.empty(0)
-        self._heard = StepEnergies(self._step), StepEnergies(self._step)
-        self._energies = np.zeros((2, _STEPS // 2))  # of sound and bed, by steps, from half a window before
+        self._heard = StepEnergies(self._step), StepEnergies(self._step), StepMeans(self._step)
+        # Of sound and bed, and the mean of the sound, by steps, from half a window before.
+        self._energies = np.zeros((3, _STEPS // 2))
         window = np.hanning(_STEPS + 2)[1:-1]
         self._window = window / window.sum()
         self._forget = float(np.exp(-STEP_S / _MEAN_S))
         self._means = np.zeros((2, 1))
-        self._gain: float | None = None  # at the beginning of the next step
+        self._gains = np.empty((2, 0))  # of bed and sine, at the beginning of the next step
 
     def run(self, x: Signal) -> Signal:
         """Return the samples whose level is known."""
@@ -59,44 +76,60 @@ class Following:
 
     def _followed(self, x: Signal, y: Signal) -> Signal:
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
-        energies = [of.next(part) for of, part in zip(self._heard, (x, y), strict=True)]
+        energies = [of.next(part) for of, part in zip(self._heard, (x, y, x), strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)
         n = self._energies.shape[1] - _STEPS + 1
         if n < 1:
             return np.empty(0)
-        gains = self._gains(n)
+        gains = np.concatenate([self._gains, self._next_gains(n)], axis=1)
+        if self._gains.size == 0:
+            gains[1, 0] = 0.0  # a sine that begins at once clicks
         self._energies = self._energies[:, n:]
-        if self._gain is not None:
-            gains = np.concatenate([[self._gain], gains])
-        self._gain = float(gains[-1])
-        return self._released(gains)
+        self._gains = gains[:, -1:]
+        return self._released(*gains)
 
-    def _gains(self, n: int) -> Signal:
-        """Return the gain at the beginnings of n steps (n,), each in the middle of a window."""
+    def _next_gains(self, n: int) -> Signal:
+        """Return the gains of bed and sine at the beginnings of n steps (2, n), each in the middle of a window."""
         # Sums of shifted rows, since the rounding of a convolution depends on the block size.
-        around = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
-        beyond = _ratio_db(around) - self._usual_db(around)
-        beyond -= np.clip(beyond, -FREE_DB, FREE_DB)
-        gains: Signal = 10.0 ** (np.clip(-beyond, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
-        return gains
+        sound, bed, mean = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
+        usual_db = self._usual_db(np.stack([sound, bed]))
+        lifts = _lifts_db(sound, bed, usual_db)
+        gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
+        missing = np.maximum(_lifts_db(np.maximum(sound - mean**2, 0.0), bed, usual_db), MOST_LIFTED_DB)
+        lacking = 10.0 ** (missing / 10.0) - 10.0 ** (MOST_LIFTED_DB / 10.0)
+        return np.stack([gains, np.sqrt(2.0 * (bed + _NOTHING) * lacking)])
 
     def _usual_db(self, around: Signal) -> Signal | float:
         if self._bed_db is not None:
             return self._bed_db
         share = [1.0 - self._forget], [1.0, -self._forget]
         means, self._means = lfilter(*share, around, axis=1, zi=self._means)
-        return _ratio_db(means)
+        return _ratio_db(*means)
 
-    def _released(self, gains: Signal) -> Signal:
-        """Return the n - 1 steps between gains (n,), each faded from one gain to the next."""
+    def _released(self, gains: Signal, amplitudes: Signal) -> Signal:
+        """Return the n - 1 steps between gains of the bed (n,), each faded from one gain to the next, plus the sine."""
         n = (len(gains) - 1) * self._step
         y, self._waiting = self._waiting[:n], self._waiting[n:]
-        return faded(y, gains, self._step)
+        start, self._n_made = self._n_made, self._n_made + n
+        felt = faded(y, gains, self._step)
+        if self._sine is None or n == 0:
+            return felt
+        for k in np.flatnonzero(amplitudes[:-1] + amplitudes[1:]).tolist():
+            at = k * self._step
+            _, sine = self._sine.values(start + at, self._step)
+            felt[at : at + self._step] += faded(sine, amplitudes[k : k + 2], self._step)
+        return felt
 
 
-def _ratio_db(energies: Signal) -> Signal:
-    """Return the level of the bed relative to its sound [dB], from the energies of sound and bed (2, n)."""
-    return np.asarray(10.0 * np.log10((energies[1] + _NOTHING) / (energies[0] + _NOTHING)))
+def _lifts_db(sound: Signal, bed: Signal, usual_db: Signal | float) -> Signal:
+    """Return the gain that the bed needs [dB]; 0 within `FREE_DB`."""
+    beyond = _ratio_db(sound, bed) - usual_db
+    return np.asarray(np.clip(beyond, -FREE_DB, FREE_DB) - beyond)
+
+
+def _ratio_db(sound: Signal, bed: Signal) -> Signal:
+    """Return the level of the bed relative to its sound [dB], from their energies (n,)."""
+    return np.asarray(10.0 * np.log10((bed + _NOTHING) / (sound + _NOTHING)))
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""Mean squares of a signal in steps of equal length."""
+"""Mean squares, and means, of a signal in steps of equal length."""
 
 from __future__ import annotations
 
@@ -25,7 +25,17 @@ class StepEnergies:
         first, whole = np.concatenate([self._left, x[:n_first]]), x[n_first:]
         n = len(whole) // self._step * self._step
         self._left = whole[n:].copy()
-        return np.concatenate([mean_squares(first, self._step), mean_squares(whole[:n], self._step)])
+        return np.concatenate([self._of(first), self._of(whole[:n])])
+
+    def _of(self, x: Floats) -> Floats:
+        return mean_squares(x, self._step)
+
+
+class StepMeans(StepEnergies):
+    """Means of a signal in steps of `step` samples, for any block size."""
+
+    def _of(self, x: Floats) -> Floats:
+        return np.asarray(x.reshape(-1, self._step).mean(axis=1))
 
 
 @compiled

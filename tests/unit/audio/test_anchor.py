@@ -137,6 +137,33 @@ def test_anchor_of_a_hiss_is_not_the_rumble_of_its_recording(seed: int) -> None:
     assert found.carrier_hz is not None
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_hum_below_a_louder_hiss_is_felt_only_if_it_is_in_reach(seed: int) -> None:
+    """In an earlier version the 60 Hz of a room, 30 dB below the calls of birds, were felt 13 dB too weak."""
+    rng, rate = np.random.default_rng(seed), 32_000
+    t = np.arange(4 * rate) / rate
+    hiss = band_noise(rng, 4 * rate, rate, 2000.0, 5000.0)
+    for hum_hz, expected_hz in ((60.0, None), (150.0, 150.0)):
+        hum = 0.03 * np.sin(2 * np.pi * hum_hz * t)
+        found = anchor_of(hiss + hum, rate, sensation_level_db(0.3), actuator_profile("flat"))
+        assert found is not None
+        if expected_hz is None:
+            assert found.frequency_hz > 1500.0
+            assert found.carrier_hz is not None
+        else:
+            assert found.frequency_hz == pytest.approx(expected_hz, abs=0.1)
+
+
+def test_call_above_the_rumble_of_its_recording_is_felt() -> None:
+    """Rumble has the highest peak at 20 Hz, where it cannot be felt. Earlier, a howl around 700 Hz was felt by it."""
+    rng, rate = np.random.default_rng(1), 16_000
+    x = band_noise(rng, 4 * rate, rate, 600.0, 800.0) + 0.6 * band_noise(rng, 4 * rate, rate, 18.0, 36.0)
+    found = anchor_of(x, rate, sensation_level_db(0.3), actuator_profile("flat"))
+    assert found is not None
+    assert found.carrier_hz is not None
+    assert found.frequency_hz > 500.0
+
+
 @pytest.mark.parametrize("actuator", ["flat", "lra", "voice_coil"])
 @pytest.mark.parametrize(("tone_hz", "is_rough"), [(30.0, True), (49.0, True), (2600.0, False)])
 def test_moved_tone_reaches_the_requested_level_and_reports_its_origin(

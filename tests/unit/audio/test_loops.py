@@ -8,7 +8,9 @@ import pytest
 
 from others import RECORDINGS, there
 from own_sounds import OWN_SOUNDS
+from scene2hap.audio.actuators import actuator_profile
 from scene2hap.audio.clip import AudioClip, Credit, Samples
+from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
 from scene2hap.audio.loops import (
@@ -18,8 +20,10 @@ from scene2hap.audio.loops import (
     find_seam,
     loop_pair,
     make_loop,
+    middle_of,
 )
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.lowpass import Lowpass
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.errors import AudioError
@@ -427,6 +431,55 @@ def test_noise_floor_of_a_recording_is_refused_as_a_loop(peak_db: float, is_nois
             loop_pair(clip, SvfBandpass(), ConversionContext())
     else:
         assert loop_pair(clip, SvfBandpass(), ConversionContext()).tactile.samples.any()
+
+
+@pytest.mark.parametrize("kind", ["auto", "lowpass"])
+def test_a_sound_between_silences_is_looped_whole(kind: str) -> None:
+    """In an earlier version the fade of the seam took 13 dB from a knock at the beginning of its recording."""
+    t = np.arange(2 * RATE) / RATE
+    x = np.zeros(2 * RATE)
+    x[1:] = 0.5 * (np.exp(-t / 0.03) * np.sin(2 * np.pi * 200.0 * t))[:-1] * (t[:-1] < 0.3)
+    sound, converter = clip(x), CONVERTERS.build(kind)
+    (plan,) = plan_scene([SourceClip(sound, 0.3)], converter, actuator_profile("flat"))
+    loop = felt_loop(sound, converter, plan)
+    np.testing.assert_allclose(loop.audible.samples, x * loop.audible.samples.max() / x.max(), atol=1e-6)
+    felt = loop.tactile.samples.astype(float)
+    assert np.abs(felt[: RATE // 5]).max() == np.abs(felt).max()
+    assert abs(felt[0] - felt[-1]) < 1e-3 * np.abs(felt).max()
+    assert np.abs(felt[-RATE:]).max() < 1e-2 * np.abs(felt).max()
+
+
+def test_a_beat_between_silences_keeps_whole_periods() -> None:
+    t = np.arange(6 * RATE) / RATE
+    rings = np.sin(2 * np.pi * 400.0 * t) * (t % 1.5 < 0.8) * (t < 5.6)
+    rings[0] = 0.0
+    loop = loop_pair(clip(0.5 * rings), Lowpass(), ConversionContext())
+    periods = len(loop.audible.samples) / RATE / 1.5
+    assert periods == pytest.approx(round(periods), abs=0.03)
+
+
+def test_loop_of_a_long_sound_is_not_cut_from_a_pause_in_its_middle() -> None:
+    """In an earlier version such a sound was refused as silent, or the noise of the room became its loop."""
+    rng, t = np.random.default_rng(0), np.arange(60 * 8000) / 8000
+    x = 0.3 * np.sin(2 * np.pi * 180.0 * t) * ((t < 23.0) | (t > 39.0)) + 1e-4 * rng.standard_normal(len(t))
+    middle = middle_of(AudioClip(x.astype(np.float32), 8000))
+    assert middle.duration_s == pytest.approx(14.2)
+    assert np.square(middle.samples[16_000:-16_000]).mean() > 0.25 * np.square(x).mean()
+    steady = AudioClip(x[: 22 * 8000].astype(np.float32), 8000)
+    first = (len(steady.samples) - len(middle.samples)) // 2
+    np.testing.assert_array_equal(middle_of(steady).samples, steady.samples[first : first + len(middle.samples)])
+
+
+def test_component_that_was_chosen_is_felt_however_weak_it_is() -> None:
+    """In an earlier version it counted as noise, and the loop stayed at the threshold of touch."""
+    t = np.arange(3 * 32_000) / 32_000
+    x = 0.02 * (np.sin(2 * np.pi * 4000.0 * t) + 0.012 * np.sin(2 * np.pi * 200.0 * t))
+    clip, auto = AudioClip(x.astype(np.float32), 32_000), CONVERTERS.build("auto")
+    (plan,) = plan_scene([SourceClip(clip, 0.3)], auto, actuator_profile("flat"))
+    assert plan.context.own_hz == pytest.approx(200.0, abs=0.1)
+    loop = felt_loop(clip, auto, plan)
+    assert loop.felt is not None
+    assert loop.felt.level_db == pytest.approx(loop.felt.asked_level_db, abs=1.0)
 
 
 def test_remainder_of_a_filtered_whine_is_not_amplified() -> None:

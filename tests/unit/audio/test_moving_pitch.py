@@ -20,6 +20,8 @@ from scene2hap.audio.tactile.adaptive import Adaptive
 from scene2hap.audio.tactile.auto import Auto
 from scene2hap.audio.tactile.stages import Signal
 
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.audio.conversion.LevelWarning")
+
 RATE = 16_000
 T = np.arange(16 * RATE) / RATE
 

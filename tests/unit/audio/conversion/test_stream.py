@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import os
 import tracemalloc
+import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,6 +22,8 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.errors import AudioError, ConfigError
+
+pytestmark = pytest.mark.filterwarnings("ignore::scene2hap.audio.conversion.LevelWarning")
 
 RATE = 8000
 
@@ -389,6 +392,43 @@ def test_noise_floor_of_a_recording_is_not_amplified(tmp_path: Path, peak_db: fl
     made = audio.convert(source, tmp_path / "b.wav")
     assert (made.level_db is None) == is_noise
     assert (made.peak_out < 1e-3) == is_noise
+
+
+def test_mono_takes_the_strongest_of_channels_that_cancel_each_other(tmp_path: Path) -> None:
+    """In an earlier version the file was silent."""
+    one = sound(2.0, 1, 150.0)
+    source = write(tmp_path / "a.wav", np.concatenate([one, -0.98 * one], axis=1))
+    made = audio.convert(source, tmp_path / "b.wav", mono=True, intensity=0.3)
+    alone = audio.convert(write(tmp_path / "c.wav", one), tmp_path / "d.wav", intensity=0.3)
+    assert made.channels == 1
+    assert made.level_db == pytest.approx(alone.level_db, abs=0.01)
+    assert made.peak_in == pytest.approx(alone.peak_in, rel=1e-3)
+
+
+def test_a_missed_level_warns(tmp_path: Path) -> None:
+    clicks = np.zeros((4 * RATE, 1))
+    clicks[RATE] = 1.0
+    source = write(tmp_path / "a.wav", clicks)
+    with pytest.warns(audio.conversion.LevelWarning, match=r"b\.wav is felt \d+ dB weaker than planned"):
+        made = audio.convert(source, tmp_path / "b.wav")
+    assert made.level_doubt
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        faint = audio.convert(write(tmp_path / "c.wav", sound(1.0, 1, 150.0)), tmp_path / "d.wav", intensity=0.3)
+        (many,) = audio.convert_files([source], tmp_path / "e.wav")
+    assert faint.level_doubt == ""
+    assert isinstance(many, audio.conversion.Conversion)
+    assert many.level_doubt
+
+
+def test_component_that_was_chosen_is_felt_however_weak_it_is(tmp_path: Path) -> None:
+    """In an earlier version it counted as noise: a file of 64 dB below full scale, without a level."""
+    t = np.arange(3 * 32_000) / 32_000
+    x = 0.02 * (np.sin(2 * np.pi * 4000.0 * t) + 0.012 * np.sin(2 * np.pi * 200.0 * t))
+    soundfile.write(tmp_path / "a.wav", x, 32_000, subtype="FLOAT")
+    made = audio.convert(tmp_path / "a.wav", tmp_path / "b.wav", intensity=0.3)
+    assert made.level_db == pytest.approx(sensation_level_db(0.3), abs=0.1)
+    assert made.frequency_out_hz == pytest.approx(200.0, abs=1.0)
 
 
 @pytest.mark.parametrize("kind", ["lowpass", "envelope", "auto"])

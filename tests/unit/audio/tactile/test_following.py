@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.signal import butter, sosfilt
 
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.protocol import ConversionContext
@@ -124,3 +125,37 @@ def test_a_slow_change_outside_the_band_is_felt() -> None:
     felt = np.concatenate([stream.process((0.1 * x).astype(np.float32)), stream.finish()]).astype(float)
     envelopes = [10 ** (levels_db(y) / 20) for y in (x, felt)]
     assert np.corrcoef(*envelopes)[0, 1] > 0.95
+
+
+@pytest.mark.parametrize("block", [1237, 64, 100_000])
+def test_sound_that_leaves_its_band_is_felt_with_the_same_level(block: int) -> None:
+    """In an earlier version the gain ended at 15 dB: the start of a shot, and the high end of a chirp, were missing."""
+    x = 0.5 * np.sin(2 * np.pi * 120.0 * T) * (T < 3.0) + 0.5 * np.sin(2 * np.pi * 2500.0 * T) * (T >= 3.0)
+    context = ConversionContext(own_hz=120.0, band_db=-3.0)
+    stream, fed = CONVERTERS.build("auto").stream(RATE, context), x.astype(np.float32)
+    parts = [stream.process(fed[at : at + block]) for at in range(0, len(fed), block)]
+    felt = np.concatenate([*parts, stream.finish()]).astype(float)
+    level = levels_db(felt)
+    assert np.ptp(level[:-1]) < 3.0
+    spectrum = np.abs(np.fft.rfft(felt[4 * RATE : 5 * RATE]))
+    assert np.argmax(spectrum) == 120  # one bin is 1 Hz
+    again = CONVERTERS.build("auto").stream(RATE, context)
+    np.testing.assert_array_equal(np.concatenate([again.process(fed), again.finish()]).astype(float), felt)
+
+
+@pytest.mark.parametrize("slow_hz", [0.0, 1.0])
+def test_an_offset_is_not_felt_where_the_sound_pauses(slow_hz: float) -> None:
+    slow = 0.1 * np.cos(2 * np.pi * slow_hz * T)
+    x = 0.5 * np.sin(2 * np.pi * 120.0 * T) * (T < 3.0) + slow
+    stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=120.0, band_db=0.0))
+    felt = np.concatenate([stream.process(x.astype(np.float32)), stream.finish()]).astype(float)
+    assert 20 * np.log10(np.abs(felt[4 * RATE : 5 * RATE]).max() / np.abs(felt).max()) < -30.0
+
+
+def test_the_sine_that_replaces_a_weak_bed_begins_without_a_click() -> None:
+    x = 0.5 * np.sin(2 * np.pi * 2500.0 * T)
+    stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(own_hz=120.0, band_db=-3.0))
+    felt = np.concatenate([stream.process(x.astype(np.float32)), stream.finish()]).astype(float)
+    above = sosfilt(butter(4, 1500.0, "highpass", fs=RATE, output="sos"), np.concatenate([np.zeros(RATE), felt]))
+    # The rest of the 2.5 kHz, which the filters let through, is at -53 dB.
+    assert 20 * np.log10(np.abs(above[: RATE + RATE // 5]).max() / np.abs(felt).max()) < -45.0
