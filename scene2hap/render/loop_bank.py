@@ -125,6 +125,10 @@ class LoopBank:
         on."""
         read([self.loops[loop] for loop in loops], begin, out)
 
+    def only(self, begin: int) -> StoredLoop | None:
+        """Return the loop of a bank of one, at a tactile sample of the common clock; None for silence."""
+        return self.loops[0]
+
     def position_s(self, loop: int, frame: int, sample_rate_hz: int) -> float:
         """Return the position of a loop [s] at a frame of a clock with another rate."""
         return position_s(*self._periods[loop], frame, sample_rate_hz)
@@ -156,8 +160,8 @@ class SlotBank(LoopBank):
 
     def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
         """Write as `LoopBank`; an empty slot is silent."""
-        banks = [self.slots[loop] for loop in loops]
-        read([None if bank is None else bank.loops[0] for bank in banks], begin + self._shift, out)
+        banks, at = [self.slots[loop] for loop in loops], begin + self._shift
+        read([None if bank is None else bank.only(at) for bank in banks], at, out)
 
 
 def position_s(n: int, rate_hz: int, frame: int, sample_rate_hz: int) -> float:

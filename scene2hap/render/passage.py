@@ -7,8 +7,9 @@ x)^2. Its amplitude is a = s^2, the force of an unbalance. A source that does no
 amplitude follows half a cosine. Recorded: a is the recorded amplitude. If the recording shows a speed, s is that speed;
 else s = sqrt(a) for a source that spins.
 
-A passage begins or ends in phase with the loop itself, so the change between them is seamless. A passage that begins
-during another one continues from the present amplitude. If the curve has another speed there, the difference fades over
+A passage begins or ends in phase with the loop itself, so the change between them is seamless. After its end it is the
+loop, or silence, for as long as nothing replaces it: a game may not update for a while. A passage that begins during
+another one continues from the present amplitude. If the curve has another speed there, the difference fades over
 the rest of the passage.
 """
 
@@ -21,10 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.audio.run_curve import RunCurve
-from scene2hap.render.loop_bank import Block, LoopBank, StoredLoop, stored_once
+from scene2hap.render.loop_bank import CELL, Block, LoopBank, StoredLoop, stored_once
 
-HOLD_S = 0.5
-"""Length of a passage's tail [s], the steady loop or silence, until the player detects the end of the passage."""
 LEAD_S = 0.03
 """Time that a decaying loop continues unchanged while it replaces the steady one [s]."""
 _GRID = np.linspace(0.0, 1.0, 4097)
@@ -84,7 +83,7 @@ class Passage(LoopBank):
 
     Parameters: steady : the bank of the loop itself; begin : tactile sample of the clock at which the passage starts;
         lasts_s : from standstill to full speed, or back [s]; since : speed and amplitude at its start. From the sample
-        `end` on, the steady loop or silence may replace it.
+        `end` on, it is the steady loop or silence.
     """
 
     def __init__(self, steady: LoopBank, begin: int, lasts_s: float, course: Course, since: Running) -> None:
@@ -97,7 +96,7 @@ class Passage(LoopBank):
         self._ahead = since.speed - float(course.speed(np.array([self._from]))[0]) if is_under_way else 0.0
         lead, n = self._lead, math.ceil((1 - self._from) * self._lasts)
         self.end = begin + lead + n
-        x = self._share(np.arange(begin, self.end + round(HOLD_S * rate)))
+        x = self._share(np.arange(begin, self.end + CELL))
         speed, amplitude = self._speed(x), course.amplitude(x)
         played = np.concatenate([[0.0], np.cumsum(speed[:-1])])
         # A start is in phase with the loop at its end, a stop at its beginning.
@@ -107,11 +106,16 @@ class Passage(LoopBank):
         samples = _between(source, at - low + 1) * amplitude[:, None].astype(np.float32)
         self._samples = samples
         self.loops: list[StoredLoop] = [stored_once(samples, begin)]
+        self._afterwards = steady.loops[0] if course.goes_up else None
 
     @property
     def nbytes(self) -> int:
         """Memory of the loop [bytes]."""
         return self._samples.nbytes
+
+    def only(self, begin: int) -> StoredLoop | None:
+        """Return the passage, or from its end on the steady loop or silence."""
+        return self.loops[0] if begin < self.end else self._afterwards
 
     @property
     def _lead(self) -> int:

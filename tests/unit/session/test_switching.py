@@ -75,6 +75,23 @@ def test_loop_is_at_its_position_after_a_start() -> None:
     np.testing.assert_allclose(made.render(4800), plain.render(4800), atol=1e-4)
 
 
+def test_without_updates_a_stop_stays_silent_and_a_start_steady() -> None:
+    made, plain = session({"start_up_s": 0.5, "wind_down_s": 0.5, "spins": True}), session()
+    for one in (made, plain):
+        one.set_source("alarm", on=False)
+        envelope(one, 0.5)
+    made.set_source("phone", on=False)
+    made.update(touches=TOUCH)
+    made.render_s(1.0)
+    assert np.abs(made.render_s(10.0)).max() < 1e-4
+    plain.render_s(11.0)
+    made.set_source("phone", on=True)
+    for one in (made, plain):
+        one.update(touches=TOUCH)
+        one.render_s(1.0)
+    np.testing.assert_allclose(made.render_s(10.0), plain.render_s(10.0), atol=1e-4)
+
+
 def test_interrupted_start_continues_from_its_level() -> None:
     made = session({"start_up_s": 2.0, "wind_down_s": 2.0, "spins": True})
     steady = envelope(made, 0.5)[-1]
