@@ -3,7 +3,7 @@
 python benchmarks/blas_threads.py [--updates N]
 
 Each row is a new process. `wait_prepared` and `update`, with a touch that moves in each frame, are measured by wall
-time: alone on the machine, and beside one busy process for each core, as beside a game.
+time: alone on the machine, and beside busy processes, as beside a game.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def child(folder: str, kind: str, n_updates: str, is_one: str) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--updates", type=int, default=400)
+    parser.add_argument("--updates", type=int, default=800)
     parser.add_argument("--child", nargs=4, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.child:
@@ -93,8 +93,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         saved = Path(folder, "kitchen.bundle")
         bake(kitchen_path()).save(saved)
-        for n_busy, beside in ((0, "none"), (n_cores, "one busy process per core")):
-            with busy_processes(n_busy):
+        for per_core, beside in ((0, "none"), (1, "one busy process per core"), (3, "three busy processes per core")):
+            with busy_processes(per_core * n_cores):
                 for kind in KINDS:
                     one = in_a_process(saved, kind, arguments.updates, is_one=True)
                     own = in_a_process(saved, kind, arguments.updates, is_one=False)

@@ -114,7 +114,7 @@ FIGURES = {
     "frames-rooms-3": Figure("frames", "benchmarks/paper_loop.py 200 --defaults --seed 3", 10, has_times=True),
     "frames-rooms-71": Figure("frames", "benchmarks/paper_loop.py 200 --defaults --seed 71", 10, has_times=True),
     "playing-session": Figure("playing", "benchmarks/session.py", 5, has_times=True),
-    "blas-threads": Figure("playing", "benchmarks/blas_threads.py", 3, has_times=True),
+    "blas-threads": Figure("playing", "benchmarks/blas_threads.py", 6, has_times=True),
     "playing-two-contacts": Figure("playing", "benchmarks/paper_loop.py 300", 10, has_times=True),
     "playing-long": Figure("playing", "stress/session.py", 10, is_text=True),
     "sound-card": Figure("actuators", "stress/sound_card.py", 60, has_times=True, is_text=True, needs="sound server"),
