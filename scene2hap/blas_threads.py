@@ -1,7 +1,7 @@
 """One BLAS thread while scene2hap computes.
 
-Its matrices are small. Several BLAS threads would wait for each other, busily: the demo kitchen then takes up to 30
-times as long to prepare, and an update of a physical model up to six times (docs/figures/playing.md).
+Its matrices are small. Several BLAS threads would wait for each other, busily: beside a game that uses the cores, the
+demo kitchen then takes four to six times as long to prepare, and an update up to twice as long (docs/figures/playing.md).
 """
 
 from __future__ import annotations
