@@ -1,7 +1,8 @@
 """One BLAS thread while scene2hap computes.
 
 Its matrices are small. Several BLAS threads would wait for each other, busily: beside a game that uses the cores, the
-demo kitchen then takes four to six times as long to prepare, and an update up to twice as long (docs/figures/playing.md).
+demo kitchen then takes four to six times as long to prepare, and an update up to twice as long
+(docs/figures/playing.md).
 """
 
 from __future__ import annotations
