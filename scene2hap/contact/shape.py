@@ -51,6 +51,15 @@ class Shape:
         """A bounding volume hierarchy over the triangles."""
         return TriangleTree.over(self.triangles, self.boxes, self.features)
 
+    def prepare(self) -> None:
+        """Derive what contacts by triangles need, which else the first of them does. May run on another thread."""
+        _ = self.tree, self.sides
+
+    @property
+    def is_prepared(self) -> bool:
+        """True if `prepare` has nothing left to do."""
+        return {"tree", "sides"} <= self.__dict__.keys()
+
     @cached_property
     def features(self) -> Features:
         """The corners and edges that the narrow phase tests."""
@@ -145,7 +154,7 @@ def shape_of(mesh: TriMesh) -> Shape:
     shape = _shapes.get(mesh.digest)
     if shape is None:
         triangles = np.ascontiguousarray(mesh.vertices_m[mesh.faces].transpose(2, 1, 0))
-        shape = Shape(triangles, mesh.vertices_m[np.unique(mesh.faces)])
+        shape = Shape(triangles, mesh.corners_m)
         _shapes[mesh.digest] = shape
     return shape
 

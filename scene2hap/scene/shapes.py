@@ -109,10 +109,17 @@ class TriMesh:
         content.update(self.faces.tobytes())
         return content.hexdigest()[:16]
 
+    @property
+    def corners_m(self) -> NDArray[np.float64]:
+        """The vertices (n, 3) [m] that faces use."""
+        is_used = np.zeros(len(self.vertices_m), dtype=bool)  # a tenth of the time of numpy.unique
+        is_used[self.faces] = True
+        return self.vertices_m[is_used]
+
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
         """Lowest and highest corner (2, 3) [m] in the own frame, of the vertices that faces use."""
-        used = self.vertices_m[np.unique(self.faces)]
+        used = self.corners_m
         return np.array([used.min(axis=0), used.max(axis=0)])
 
 

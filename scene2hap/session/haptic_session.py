@@ -67,6 +67,7 @@ from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import SourceInfo, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
+from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import PersonalLimit, UserProfile
 
@@ -134,6 +135,9 @@ class HapticSession:
                 self._sources.add(object_id, loops, haptics, bundle.gain_db(object_id), is_muted=muted)
         follows_outlines = bool(getattr(self.config.propagation, "follows_outlines", False))
         self._state = SceneState(scene, bundle, follows_outlines=follows_outlines)
+        finds_contacts = scene.contacts is None
+        self._shapes = PreparedShapes(is_wanted=finds_contacts and self.config.prepare == "background")
+        self._shapes.order(item.geometry.mesh for item in scene.objects)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._switching: Switching | None = None
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
@@ -478,14 +482,15 @@ class HapticSession:
         )
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
-        """Wait until workers have prepared the present scene and all loops, for loading screens.
+        """Wait until workers have prepared the present scene, all loops and all detailed meshes, for loading screens.
 
         Returns: False after the timeout [s].
         """
         if timeout_s is not None:
             timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)
         end = Deadline(timeout_s)
-        return self._playback.wait(end) and self._impacts.wait(end) and self._hand_frames.wait(end)
+        parts = (self._playback, self._impacts, self._hand_frames, self._shapes)
+        return all(part.wait(end) for part in parts)
 
     def render(self, n_frames: int) -> Block:
         """Return the next samples of the mix (n_frames, n_hands) float32 in [-1, 1], without the safety layer.
@@ -603,6 +608,7 @@ class HapticSession:
     ) -> None:
         """Add an object with the level and the mute switch that a bundle has for `its_id`."""
         change = self._state.add(item, haptics)
+        self._shapes.order([item.geometry.mesh])
         if loops:
             gain_db, muted = corrected.gain_db(its_id), corrected.is_muted(its_id)
             self._sources.add(item.id, loops, haptics, gain_db, is_muted=muted)
