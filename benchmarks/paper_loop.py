@@ -2,9 +2,9 @@
 
 OMP_NUM_THREADS=1 python benchmarks/paper_loop.py [n_frames] [--defaults] [--seed N]
 
-`--defaults` measures only default settings (any number of contacts), in three rooms drawn from a seed, which is new in
-each run. It also prints the mean time of a frame for pairs of meshes, for other work on contacts, and for the rest of
-the session. The other tables limit `ExponentialPlate` to two contacts, as in the paper's loop.
+`--defaults` measures default settings (any number of contacts) instead, in three rooms drawn from a seed, which is new
+in each run. It also prints the mean time of a frame for pairs of meshes, for other work on contacts, and for the rest
+of the session. The other tables limit `ExponentialPlate` to two contacts, as in the paper's loop.
 
 The plain loop does the following once per frame. It compares each bounding box with all others and builds a networkx
 graph. It follows all paths of up to two contacts from every touch to every source, depth first, and computes one
@@ -329,8 +329,8 @@ def main() -> None:
         end="",
     )
     print(f"load {os.getloadavg()[0]:.1f}")
-    default_settings(n_frames, args.seed)
     if args.defaults:
+        default_settings(n_frames, args.seed)
         return
     print("\n`ExponentialPlate` over at most two contacts.\n")
     print(
