@@ -12,8 +12,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from scene2hap.contact.base_face import across
+from scene2hap.contact.geometry.planes import Footprint
 from scene2hap.contact.geometry.polygons import Point, edges_of, turned_outline
-from scene2hap.contact.geometry.separation import Footprint
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.ledge import Upright
 from scene2hap.contact.shape import Shape

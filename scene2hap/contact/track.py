@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from scene2hap.compiled import compiled
-from scene2hap.contact.geometry.separation import reach_along
+from scene2hap.contact.geometry.planes import reach_along
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.ledge import Flat
 from scene2hap.contact.stance import Stance

@@ -1,8 +1,9 @@
-"""Separating axes in the level plane: the direction along which two footprints are farthest apart.
+"""Planes that separate bodies and bound the region of a body: vertical walls, level roofs and floors.
 
-A footprint is the projection of a body onto the level plane: the oriented rectangle of its box or a circle, whichever
-is narrower along a direction. If a vertical plane separates two bodies, neither can fall onto the other, and the gap is
-a lower bound of their distance.
+Walls are found in the level plane, along the direction in which two footprints are farthest apart. A footprint is the
+projection of a body onto the level plane: the oriented rectangle of its box or a circle, whichever is narrower along a
+direction. If a vertical plane separates two bodies, neither can fall onto the other, and the gap is a lower bound of
+their distance.
 
     u, v : the world's level axes; n : a direction in the level plane, of length 1
 
@@ -32,6 +33,13 @@ class Footprint(NamedTuple):
 Separation = tuple[float, float, float, float, float]
 """(n_u, n_v, gap, one, other): unit direction from one body to the other, their gap along it [m], and the coordinates
 of their facing ends along it [m]."""
+
+Plane = tuple[float, float, float, float, bool]
+"""(n_u, n_v, n_h, most_m, is_square): every point p of the body must satisfy n p <= most_m [m].
+
+For a level direction, the body is its footprint: the rectangle if `is_square`, else the narrower of rectangle and
+circle along n.
+"""
 
 
 def reach_along(footprint: Footprint, n_u: float, n_v: float) -> float:
@@ -63,3 +71,18 @@ def separation(
             here = n_u * one_u + n_v * one_v
             best = (n_u, n_v, gap_m, here + one_m, here + along - other_m)
     return best
+
+
+def wall_at(n_u: float, n_v: float, most_m: float, *, is_square: bool = False) -> Plane:
+    """Return a vertical plane that keeps the body where n_u u + n_v v <= most_m."""
+    return (n_u, n_v, 0.0, most_m, is_square)
+
+
+def roof_at(height_m: float) -> Plane:
+    """Return a level plane above the body."""
+    return (0.0, 0.0, 1.0, height_m, False)
+
+
+def floor_at(height_m: float) -> Plane:
+    """Return a level plane below the body."""
+    return (0.0, 0.0, -1.0, -height_m, False)
