@@ -53,7 +53,7 @@ class Sensation:
 
 
 NOTICED_DB = 3.0
-"""Level error from which on the text of a `Sensation` mentions it [dB]: about the least difference that is felt."""
+"""Level error that is mentioned [dB]: about the least difference that is felt."""
 
 
 @clear_construction

@@ -101,7 +101,7 @@ class AuthoredNode:
             yield from child.walk()
 
     def with_geometry(self) -> AuthoredNode | None:
-        """Return the node without what draws nothing (cameras, lights, bones, curves); None if nothing is left."""
+        """Return the node without parts that draw nothing (cameras, lights, curves); None if none is left."""
         children = tuple(kept for child in self.children if (kept := child.with_geometry()) is not None)
         pieces = tuple(piece for piece in self.pieces if len(piece.faces))
         if not children and not pieces:

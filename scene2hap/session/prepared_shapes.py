@@ -13,13 +13,11 @@ from weakref import WeakSet
 
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.shapes import TriMesh
-from scene2hap.session.deadline import Deadline
+from scene2hap.session.deadline import LAST_S, Deadline
 
 FEW_TRIANGLES = 1000
 """A mesh of fewer is prepared when it is needed, which takes 2 to 6 ms, once. Many small ones in the background would
 hold Python's interpreter lock, and so delay the frames of a game that has begun."""
-LAST_S = 2.0
-"""Longest time [s] for which Python waits at its end for a mesh that is being prepared."""
 
 _ENDING = Event()
 _WORKERS: WeakSet[Thread] = WeakSet()

@@ -28,7 +28,7 @@ from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import Mixdown, opened_sound, require_finite, written_whole
-from scene2hap.audio.haptic_loop import Sensation
+from scene2hap.audio.haptic_loop import NOTICED_DB, Sensation
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
@@ -68,10 +68,6 @@ _LARGEST_WAV_BYTES = 0xFFFF_0000
 """Lengths in a WAV header have 32 bits. Longer files become RF64 (EBU Tech 3306), which most programs read."""
 
 
-MISSED_DB = 3.0
-"""Level error from which on a conversion warns [dB]: about the least difference that is felt."""
-
-
 class LevelWarning(UserWarning):
     """A converted file is felt weaker than planned for its intensity."""
 
@@ -104,9 +100,9 @@ class Conversion:
 
     @property
     def level_doubt(self) -> str:
-        """The sentence that says by how much the planned level is missed; empty within `MISSED_DB`."""
+        """The sentence that says by how much the planned level is missed; empty within `NOTICED_DB`."""
         missing_db = 0.0 if self.level_db is None else (self.asked_level_db or 0.0) - self.level_db
-        if missing_db <= MISSED_DB:
+        if missing_db <= NOTICED_DB:
             return ""
         return (
             f"{self.output} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks or the "
@@ -138,7 +134,7 @@ def convert(
     files that exist.
     picture : a PNG to draw: spectrograms before and after, and both envelopes; raw : apply the converter alone, without
     removal of the offset, equalization and scaling.
-    Warns: LevelWarning: the planned level is missed by more than `MISSED_DB`.
+    Warns: LevelWarning: the planned level is missed by more than `NOTICED_DB`.
     Raises: ConfigError: settings that cannot work. AudioError: `source` cannot be read or holds a sample that is not
     finite, `output` exists or cannot be written, or the converter changes the length.
     """

@@ -9,7 +9,6 @@ from __future__ import annotations
 import atexit
 import contextlib
 import dataclasses
-import time
 from collections import deque
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
@@ -28,12 +27,11 @@ from scene2hap.propagation.protocol import (
     checked_field,
 )
 from scene2hap.scene.pose import Pose
+from scene2hap.session.deadline import LAST_S, Deadline
 from scene2hap.session.scene_state import ModelInput
 
 AT_REST_S = 0.05
 """Time without a change after which the whole scene is prepared, not only the objects near the hands [s]."""
-LAST_S = 2.0
-"""Longest time for which Python waits at exit for fields that are being prepared [s]."""
 
 
 @dataclass(eq=False)
@@ -165,9 +163,9 @@ def put_to_work(desk: Desk, newest: Prepared) -> Thread:
 @atexit.register
 def _end_all() -> None:
     """Wait for the workers, since Python reports an error if it exits while a worker is in a sparse solver."""
-    end_s = time.monotonic() + LAST_S
+    end = Deadline(LAST_S)
     workers = list(_WORKERS.items())
     for _, desk in workers:
         desk.orders.put(Sign.END)
     for worker, _ in workers:
-        worker.join(max(0.0, end_s - time.monotonic()))
+        worker.join(end.left_s)
