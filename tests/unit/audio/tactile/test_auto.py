@@ -52,7 +52,8 @@ def test_auto_equals_adaptive_without_roughness_and_onsets() -> None:
     context = ConversionContext(own_hz=150.0, target_hz=170.0)
     stream = CONVERTERS.build("adaptive").stream(RATE, context)
     expected = stream.process(SosStage(heard_sections(RATE)).run(ENGINE.astype(np.float64)))
-    np.testing.assert_array_equal(felt(context), expected[RATE:])
+    before_end = slice(0, -RATE // 10)  # the level follower mends the end, where the sound breaks off
+    np.testing.assert_array_equal(felt(context)[before_end], expected[RATE:][before_end])
 
 
 def test_a_band_that_exceeds_full_scale_is_not_clipped() -> None:
