@@ -1,8 +1,9 @@
 """Measures of a sound: silent ends, dynamic range, spectral flatness, dominant frequency.
 
 Pure functions of samples (n,) in any scale and their rate. The offset, which is neither heard nor felt, is removed
-first; otherwise it would count as a loud, steady tone. For spectra the mean is removed, for levels the median: a few
-strokes in digital silence have a mean, whose removal would turn the silence into a steady level.
+first; otherwise it would count as a loud, steady tone. For spectra the mean is removed, for silent ends the median: a
+few strokes in digital silence have a mean, whose removal would turn the silence into a steady level. The dynamic range
+is that of the sound as it is heard (`heard`).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.audio.clip import Samples
+from scene2hap.audio.heard import heard
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
@@ -78,7 +80,7 @@ def dynamic_range_db(samples: ArrayLike, sample_rate_hz: float, *, dominant_hz: 
     Raises: AudioError: the samples are empty or all equal.
     """
     x, rate = _sounding(samples, sample_rate_hz)
-    x = x - np.median(x)
+    x = heard(x, rate)
     is_slow = (dominant_frequency_hz(x, rate) if dominant_hz is None else dominant_hz) < SLOW_HZ
     frames = _frames(x, round((SLOW_LEVEL_FRAME_S if is_slow else LEVEL_FRAME_S) * rate))
     power = np.mean(frames**2, axis=1)

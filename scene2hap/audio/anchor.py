@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.audio.actuators import MAX_BOOST_DB, response_db
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.components import LINE_DB, Component, Signal, components, magnitudes, strongest_bands_hz
+from scene2hap.audio.heard import heard
 from scene2hap.audio.levels import TACTILE_RANGE_HZ, drive_db, felt_level_of_spectrum_db, threshold_db
 from scene2hap.audio.moving_pitch import GROWN_DB, MovingPitch, growth_db, moving_pitch
 from scene2hap.haptics import ActuatorProfile
@@ -93,16 +94,16 @@ class Anchor:
 
 
 def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> Anchor | None:
-    """Return the anchor of a whole sound (n_samples,) for a planned sensation level; None if it has none."""
-    x = np.asarray(samples, dtype=np.float64)
+    """Return the anchor of a whole sound (n_samples,), as it is heard, for a planned sensation level; None if none."""
+    x = heard(np.asarray(samples, dtype=np.float64), sample_rate_hz)
     magnitude = magnitudes(x)
-    heard_hz = RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)
-    heard = components(magnitude, sample_rate_hz, heard_hz, -300.0)
-    if not heard:
+    audible_hz = RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)
+    audible = components(magnitude, sample_rate_hz, audible_hz, -300.0)
+    if not audible:
         return None
     low = components(magnitude, sample_rate_hz, (RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)), FAINTEST_DB)
-    is_heard_low = bool(low) and low[0].level_db >= heard[0].level_db + FAINTEST_BELOW_WHINE_DB
-    strongest = low[0] if is_heard_low else heard[0]
+    is_heard_low = bool(low) and low[0].level_db >= audible[0].level_db + FAINTEST_BELOW_WHINE_DB
+    strongest = low[0] if is_heard_low else audible[0]
     needs = _Needs(x, sample_rate_hz, level_db, actuator)
     candidates: list[float] = []
     if is_heard_low:
@@ -114,9 +115,9 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
             lowest, highest = rendered_hz(sample_rate_hz, actuator)
             candidates += [hz for hz in bands if lowest <= hz <= highest] or [one.hz for one in near]
     found, missed_db = needs.first_met(candidates)
-    loudest = heard[0]
+    loudest = audible[0]
     if not loudest.is_line:  # the highest peak of noise is anywhere
-        bands = strongest_bands_hz(magnitude, sample_rate_hz, heard_hz, 0.0)
+        bands = strongest_bands_hz(magnitude, sample_rate_hz, audible_hz, 0.0)
         loudest = loudest._replace(hz=bands[0]) if bands else loudest
     is_whine = loudest.hz > RANGE_HZ[1]
     if found is not None and is_whine and needs.band_db(found) < FAINTEST_BELOW_WHINE_DB:
@@ -188,7 +189,7 @@ class _Needs:
 
     def __init__(self, x: Signal, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> None:
         self._x, self._n, self._rate_hz, self._level_db, self._actuator = x, len(x), sample_rate_hz, level_db, actuator
-        self._spectrum = np.asarray(scipy.fft.rfft(x - x.mean()), dtype=np.complex128) / len(x)
+        self._spectrum = np.asarray(scipy.fft.rfft(x), dtype=np.complex128) / len(x)
         self._f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
         self._power = self._spectrum.real**2 + self._spectrum.imag**2
         # Far above the middle f_0 of a band, its energy is that of the sound times (f_0 / f)^4 / Q^4.
@@ -239,7 +240,7 @@ class _Needs:
 
     def _growth_db(self, own_hz: float, q: float | None = None) -> float:
         band, n = self._band(own_hz, q)
-        return growth_db(self._x - self._x.mean(), scipy.fft.irfft(band, n), self._n / self._rate_hz)
+        return growth_db(self._x, scipy.fft.irfft(band, n), self._n / self._rate_hz)
 
     def carried(self, own_hz: float, q: float | None = None) -> Anchor:
         """Return the anchor of a band that is shifted to the best frequency of the actuator; its crest stays."""

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from scipy.signal import butter
 
 from scene2hap.audio.anchor import BAND_Q, best_carrier_hz, is_beep
+from scene2hap.audio.heard import heard_sections
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
@@ -58,7 +59,8 @@ class Auto(Adaptive):
         if is_known:  # the whole sound was analysed, so this is no live stream, and latency is allowed
             bed = Following(bed, sample_rate_hz, context.band_db, context.target_hz or context.own_hz)
         onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
-        return StageStream(onsets) if context.band_db is None else StageStream(onsets, Scaled(_ROOM))
+        parts: list[Stage] = [SosStage(heard_sections(sample_rate_hz)), onsets]
+        return StageStream(*parts) if context.band_db is None else StageStream(*parts, Scaled(_ROOM))
 
 
 def _beep_hz(context: ConversionContext) -> float | None:

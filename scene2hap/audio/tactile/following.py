@@ -13,8 +13,6 @@ plays alone. If M and the frequency at which the sound is felt are known, a sine
 that is missing, so that the rise and fall of the whole sound is felt:
 
     a = sqrt(2 E_bed (10^(lift / 10) - 10^(`MOST_LIFTED_DB` / 10)))      lift: the gain that is needed [dB]
-
-The lift counts the sound without its mean in 60 ms. An offset, or a wander below the range of touch, is no sound.
 """
 
 from __future__ import annotations
@@ -24,7 +22,7 @@ from scipy.signal import lfilter
 
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, Stage
-from scene2hap.audio.tactile.step_energies import StepEnergies, StepMeans
+from scene2hap.audio.tactile.step_energies import StepEnergies
 from scene2hap.compiled import compiled
 
 STEP_S = 0.01
@@ -52,9 +50,9 @@ class Following:
         self._n_made = 0
         self._step = max(1, round(STEP_S * sample_rate_hz))
         self._waiting = np.empty(0)
-        self._heard = StepEnergies(self._step), StepEnergies(self._step), StepMeans(self._step)
-        # Of sound and bed, and the mean of the sound, by steps, from half a window before.
-        self._energies = np.zeros((3, _STEPS // 2))
+        self._heard = StepEnergies(self._step), StepEnergies(self._step)
+        # Of sound and bed, by steps, from half a window before.
+        self._energies = np.zeros((2, _STEPS // 2))
         window = np.hanning(_STEPS + 2)[1:-1]
         self._window = window / window.sum()
         self._forget = float(np.exp(-STEP_S / _MEAN_S))
@@ -76,7 +74,7 @@ class Following:
 
     def _followed(self, x: Signal, y: Signal) -> Signal:
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
-        energies = [of.next(part) for of, part in zip(self._heard, (x, y, x), strict=True)]
+        energies = [of.next(part) for of, part in zip(self._heard, (x, y), strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)
         n = self._energies.shape[1] - _STEPS + 1
         if n < 1:
@@ -91,12 +89,11 @@ class Following:
     def _next_gains(self, n: int) -> Signal:
         """Return the gains of bed and sine at the beginnings of n steps (2, n), each in the middle of a window."""
         # Sums of shifted rows, since the rounding of a convolution depends on the block size.
-        sound, bed, mean = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
+        sound, bed = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
         usual_db = self._usual_db(np.stack([sound, bed]))
         lifts = _lifts_db(sound, bed, usual_db)
         gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
-        missing = np.maximum(_lifts_db(np.maximum(sound - mean**2, 0.0), bed, usual_db), MOST_LIFTED_DB)
-        lacking = 10.0 ** (missing / 10.0) - 10.0 ** (MOST_LIFTED_DB / 10.0)
+        lacking = 10.0 ** (np.maximum(lifts, MOST_LIFTED_DB) / 10.0) - 10.0 ** (MOST_LIFTED_DB / 10.0)
         return np.stack([gains, np.sqrt(2.0 * (bed + _NOTHING) * lacking)])
 
     def _usual_db(self, around: Signal) -> Signal | float:

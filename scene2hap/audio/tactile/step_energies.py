@@ -1,4 +1,4 @@
-"""Mean squares, and means, of a signal in steps of equal length."""
+"""Mean squares of a signal in steps of equal length."""
 
 from __future__ import annotations
 
@@ -29,13 +29,6 @@ class StepEnergies:
 
     def _of(self, x: Floats) -> Floats:
         return mean_squares(x, self._step)
-
-
-class StepMeans(StepEnergies):
-    """Means of a signal in steps of `step` samples, for any block size."""
-
-    def _of(self, x: Floats) -> Floats:
-        return np.asarray(x.reshape(-1, self._step).mean(axis=1))
 
 
 @compiled
