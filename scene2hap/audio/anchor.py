@@ -94,9 +94,9 @@ class Anchor:
 
 
 def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> Anchor | None:
-    """Return the anchor of a whole sound (n_samples,), as it is heard, for a planned sensation level; None if none."""
-    x = heard(np.asarray(samples, dtype=np.float64), sample_rate_hz)
-    magnitude = magnitudes(x)
+    """Return the anchor of a whole sound (n_samples,) for a planned sensation level; None if it has none."""
+    x = np.asarray(samples, dtype=np.float64)
+    magnitude = magnitudes(x)  # of all: the flank of the high-pass would turn a slope into a peak
     audible_hz = RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)
     audible = components(magnitude, sample_rate_hz, audible_hz, -300.0)
     if not audible:
@@ -104,7 +104,7 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     low = components(magnitude, sample_rate_hz, (RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)), FAINTEST_DB)
     is_heard_low = bool(low) and low[0].level_db >= audible[0].level_db + FAINTEST_BELOW_WHINE_DB
     strongest = low[0] if is_heard_low else audible[0]
-    needs = _Needs(x, sample_rate_hz, level_db, actuator)
+    needs = _Needs(heard(x, sample_rate_hz), sample_rate_hz, level_db, actuator)
     candidates: list[float] = []
     if is_heard_low:
         rendered = components(magnitude, sample_rate_hz, rendered_hz(sample_rate_hz, actuator), FAINTEST_DB)
