@@ -301,6 +301,18 @@ def test_complex_gains_of_a_model_are_refused(bands: str) -> None:
         s.update(touches=[ON_TABLE])
 
 
+@pytest.mark.parametrize("model", ["exponential_plate", "infinite_plate", "full_propagation"])
+def test_gains_of_a_frame_cannot_be_changed(model: str) -> None:
+    """An update without a change returns the last frame, so a change would come back as a gain of the session."""
+    s = session(propagation=model, prepare="blocking")
+    for touches in ([ON_TABLE], []):
+        gains = s.update(touches=touches).gains
+        kept = gains.copy()
+        with pytest.raises(ValueError, match="read-only"):
+            gains *= 100
+        np.testing.assert_array_equal(s.update(touches=touches).gains, kept)
+
+
 def test_touch_on_an_unknown_object_names_the_nearest() -> None:
     with pytest.raises(UnknownObject, match=r"no object 'tabel'. Did you mean 'table'"):
         session().update(touches=[Touch("left", "tabel", (0, 0, 0))])
