@@ -73,8 +73,8 @@ class ActuatorSink(Protocol):
     `stop` and `close` may be called twice.
 
     Optional members are looked up by name. `on_event` is an `EventCallback` or None, and may be set at any time (sinks
-    with a device: see `scene2hap.devices.link`). `abort()` is called instead of `stop` and `close` when a run has
-    failed. `show(frame)` is called with every HapticFrame, for devices that play gains.
+    with a device: see `scene2hap.devices.link`). `abort()` is called instead of `close` when a run has failed.
+    `show(frame)` is called with every HapticFrame, for devices that play gains.
     """
 
     def open(self, format: SinkFormat) -> None:

@@ -29,7 +29,12 @@ Prices = list[list[float]]
 
 
 def checked(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.float64]:
-    """Return a field's result as an array. Raises: ModelDomainError: another shape, which kernels do not check."""
+    """Return a field's result as an array.
+
+    Raises: ModelDomainError: complex numbers, or another shape, which kernels do not check.
+    """
+    if np.iscomplexobj(found):
+        raise ModelDomainError("the model's field answered with complex numbers; a gain is their magnitude, np.abs(h).")
     gains: NDArray[np.float64] = np.asarray(found, dtype=np.float64)
     if gains.shape != shape:
         raise ModelDomainError(

@@ -102,7 +102,8 @@ class PropagationField(Protocol):
         """Return the response at points of one object over each source's free vibration.
 
         Parameters: points_m : (n_points, 3) float64 [m], world, on or near the object as it was when prepared.
-        Returns: (n_points, n_sources, n_bands) float64 [-], >= 0; 1 on the source itself, 0 where nothing arrives.
+        Returns: a new array (n_points, n_sources, n_bands) float64 [-], >= 0; 1 on the source itself, 0 where nothing
+        arrives.
         """
         ...
 

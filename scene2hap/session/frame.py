@@ -43,7 +43,7 @@ class HapticFrame:
 
     def __init__(self, gains: Gains | Callable[[], Gains], hands: tuple[str, ...], sources: tuple[str, ...]) -> None:
         self.hands, self.sources = hands, sources
-        self._gains: Gains | None = None if callable(gains) else gains
+        self._gains: Gains | None = None if callable(gains) else _read_only(gains)
         self._work_out: Callable[[], Gains] | None = gains if callable(gains) else None
 
     def __repr__(self) -> str:
@@ -51,7 +51,7 @@ class HapticFrame:
 
     @property
     def gains(self) -> Gains:
-        """Gains (n_hands, n_sources, n_bands) float32 [-], 0 below -140 dB.
+        """Gains (n_hands, n_sources, n_bands) float32 [-], 0 below -140 dB. Read-only: later frames may share them.
 
         Models that report path cost (`propagation.live.PricedField`) compute them on first access, since most games
         never read them. If a contact has changed by then, only the gains of mixed sources are computed, and the others
@@ -59,7 +59,7 @@ class HapticFrame:
         """
         if self._gains is None:
             assert self._work_out is not None
-            self._gains, self._work_out = self._work_out(), None
+            self._gains, self._work_out = _read_only(self._work_out()), None
         return self._gains
 
     @clear_call
@@ -73,6 +73,12 @@ class HapticFrame:
         if source_id not in self.sources:
             raise UnknownObject(unknown_source(source_id, self.sources))
         return float(self.gains[self.hands.index(hand), self.sources.index(source_id)].max())
+
+
+def _read_only(gains: Gains) -> Gains:
+    view = gains.view()
+    view.flags.writeable = False
+    return view
 
 
 @clear_attributes

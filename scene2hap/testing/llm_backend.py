@@ -8,8 +8,10 @@ import inspect
 from collections import Counter
 
 from scene2hap.llm import BACKENDS
+from scene2hap.llm.backends.chat import about
 from scene2hap.llm.chain import infer_haptics
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
+from scene2hap.llm.validation import find_fault
 from scene2hap.plugins import lacking
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
@@ -29,7 +31,7 @@ ROOM = SceneSnapshot.build(
 def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
     """Check a backend against its protocol: it gets all questions about a scene, and each answer must be valid.
 
-    The backend gets several questions at the same time.
+    The backend gets several questions at the same time. Numbers that are merely implausible are accepted.
     Parameters: scene : the scene of the questions, three objects by default; a paid service bills some ten answers.
     Raises: AssertionError: names the broken promise; and the errors of the backend.
     """
@@ -41,6 +43,7 @@ def check_llm_backend(backend: LLMBackend, scene: SceneSnapshot = ROOM) -> None:
     assert set(objects) == {item.id for item in scene.objects}
     unanswered = {key: haptics.provenance for key, haptics in objects.items() if haptics.object_category == "unknown"}
     assert len(unanswered) < len(objects), f"{name} has no answer for any object: {unanswered}"
+    assert not watched.faults, f"{name} gives invalid answers: {'; '.join(watched.faults)}"
     for component in ("scene_analyzer", "object_analyzer"):
         assert watched.n_requests[component], f"{name} got no request for the {component}"
 
@@ -50,6 +53,7 @@ class _Watched:
 
     def __init__(self, backend: LLMBackend) -> None:
         self.n_requests: Counter[str] = Counter()
+        self.faults: list[str] = []
         self._backend = backend
 
     async def complete(self, request: LLMRequest) -> LLMReply:
@@ -64,4 +68,7 @@ class _Watched:
         assert isinstance(reply.model, str), f"{by} gives a model that is a {type(reply.model).__name__}"
         assert reply.model, f"{by} does not say which model answered"
         assert request.facts == facts, f"{by} changed the facts of its request"
+        fault = find_fault(request.component, reply.text, request.facts)
+        if fault is not None and not fault.is_minor:
+            self.faults.append(f"{about(request)}: {fault.reason}")
         return reply

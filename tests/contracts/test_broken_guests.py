@@ -61,6 +61,40 @@ class OtherSources(Model):
         return field
 
 
+class Reused(Model):
+    """Its fields answer in one array for each shape."""
+
+    def __init__(self) -> None:
+        arrays: dict[Any, NDArray[np.float64]] = {}
+
+        def reused(found: NDArray[np.float64], *_: Any) -> NDArray[np.float64]:
+            array = arrays.setdefault(found.shape, np.zeros_like(found))
+            array[:] = found
+            return array
+
+        super().__init__(reused)
+
+
+class Forgetful(Model):
+    """All its fields answer for the scene that was prepared last."""
+
+    def __init__(self) -> None:
+        super().__init__(lambda _, object_id, points: self._last.attenuation(object_id, points))
+
+    def prepare(self, network: Any, excitations: Any, bands: Any) -> Any:
+        self._last = FullPropagation().prepare(network, excitations, bands)
+        return super().prepare(network, excitations, bands)
+
+
+class FromAToB(Model):
+    """Contacts conduct from a to b only."""
+
+    def prepare(self, network: Any, excitations: Any, bands: Any) -> Any:
+        touched = {contact.b for contact in network.contacts}
+        self._change = lambda found, object_id, _: found * (object_id in touched or object_id == "phone")
+        return super().prepare(network, excitations, bands)
+
+
 def moved_points(found: Any, _: str, points: NDArray[np.float64]) -> Any:
     points += 1.0
     return found
@@ -79,6 +113,10 @@ MODELS: list[tuple[Any, str]] = [
     (Model(lambda found, key, _: found + 0.2 * (key == "shelf")), "arrives on 'shelf', which nothing reaches"),
     (Model(lambda found, key, points: found * (len(points) if key == "table" else 1)), "depends on the others"),
     (Model(moved_points), "changed the points that it was given"),
+    (Model(lambda found, *_: found + 1e-6), "a source is felt on itself by 1.000001; it must be 1"),
+    (Reused(), "Reused: a query changes the array of the one before"),
+    (Forgetful(), "Forgetful: preparing another scene changes a field"),
+    (FromAToB(lambda found, *_: found), "with a and b of each contact swapped"),
 ]
 
 
@@ -160,6 +198,20 @@ class Deaf(Converter):
         return stream
 
 
+class OneStream(Converter):
+    """All its streams are one, which begins anew when it is opened."""
+
+    def stream(self, sample_rate_hz: int, context: Any) -> Any:
+        self._stream = super().stream(sample_rate_hz, context)
+        return self
+
+    def process(self, block: Any) -> Any:
+        return self._stream.process(block)
+
+    def finish(self) -> Any:
+        return self._stream.finish()
+
+
 @pytest.mark.parametrize(
     ("converter", "words"),
     [
@@ -173,6 +225,7 @@ class Deaf(Converter):
         (Converter(lambda block: block + 0.01 * (1 - abs(block))), "of silence"),
         (Converter(lambda block: block * (1 - 0.1 * (len(block) < 100))), "blocks of other sizes give other samples"),
         (Deaf(lambda block: block), "takes a sample that is nan"),
+        (OneStream(lambda block: block), "OneStream: two streams at once change each other"),
     ],
 )
 def test_broken_converters_fail_the_contract(converter: Any, words: str) -> None:
@@ -227,6 +280,10 @@ class Hasty:
         return LLMReply("{}", "hasty")
 
 
+def only(component: str, text: str) -> Callable[[LLMReply, LLMRequest], LLMReply]:
+    return lambda reply, request: LLMReply(text, "m") if request.component == component else reply
+
+
 def spoiled(reply: LLMReply, request: LLMRequest) -> LLMReply:
     request.facts["object_name"] = "spoon"  # type: ignore[index]
     return reply
@@ -242,6 +299,9 @@ def spoiled(reply: LLMReply, request: LLMRequest) -> LLMReply:
         (Backend(lambda reply, _: LLMReply("", "m")), "answered without content"),
         (Backend(lambda reply, _: LLMReply('{"wrong": 1}', "m")), "object_category: Field required"),
         (Backend(spoiled), "changed the facts"),
+        (Backend(only("scene_analyzer", "[]")), "invalid answers: scene_analyzer"),
+        (Backend(only("material_estimator", '{"density_kg_m3": "heavy"}')), "invalid answers: material_estimator"),
+        (Backend(only("vibration_describer", "It hums.")), "invalid answers: vibration_describer"),
     ],
 )
 def test_broken_backends_fail_the_contract(backend: Any, words: str) -> None:

@@ -185,3 +185,48 @@ def test_upright_board_agrees_with_finite_elements(monkeypatch: pytest.MonkeyPat
         errors = np.abs(20 * np.log10(coupled.found_by(ModalPlate(), case, points) / coupled.truth(case, points)))
     assert np.median(errors) < 0.15
     assert np.percentile(errors, 95) < 0.6
+
+
+def cupboard_at_a_wall(turned_rad: float) -> ContactNetwork:
+    """A vibrating cupboard on a floor and against a wall, with a board that leans on wall and floor; z is up."""
+    turn = Pose.from_yaw((0.0, 0.0, 0.0), turned_rad, up_axis="z")
+    bodies = {
+        "floor": Plate(4.0, 3.0, 0.15, materials.lookup("concrete")),
+        "wall": Plate(4.0, 2.5, 0.1, materials.lookup("plasterboard")),
+        "cupboard": Plate(0.8, 1.6, 0.4, OAK, object_mass_kg=40.0),
+        "board": Plate(0.5, 1.2, 0.02, OAK),
+    }
+    lean = math.radians(10.0)
+    poses = {
+        "floor": Pose((0.0, 0.0, 0.0)),
+        "wall": Pose((0.0, 2.8, 0.0), UPRIGHT),
+        "cupboard": Pose((0.5, 2.55, 0.0), UPRIGHT),
+        "board": Pose((2.0, 2.5, 0.0), (math.sin(math.pi / 4 - lean / 2), 0.0, 0.0, math.cos(math.pi / 4 - lean / 2))),
+    }
+    back, leaning = (0.0, 1.0, 0.0), (0.0, math.cos(lean), math.sin(lean))
+    contacts = [Contact("cupboard", "floor", (x, y, 0.0), (0.0, 0.0, -1.0)) for x in (0.55, 1.25) for y in (2.4, 2.7)]
+    contacts += [Contact("cupboard", "wall", (x, 2.75, 1.5), back) for x in (0.6, 1.2)]
+    contacts += [Contact("board", "floor", (x, 2.5, 0.0), (0.0, 0.0, -1.0)) for x in (2.05, 2.4)]
+    contacts += [Contact("board", "wall", (x, 2.75, 1.15), leaning) for x in (2.05, 2.4)]
+    moved = [
+        replace(one, point_m=tuple(turn.to_world([one.point_m])[0]), normal=tuple(turn.to_world([one.normal])[0]))
+        for one in contacts
+    ]
+    return ContactNetwork(bodies, moved, {name: turn.compose(pose) for name, pose in poses.items()})
+
+
+@pytest.mark.parametrize("model", [ModalPlate(), InfinitePlate()])
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
+def test_gains_do_not_depend_on_the_compass_direction_of_a_room(model: ModalPlate | InfinitePlate) -> None:
+    """The phase between the forces on floor and wall followed the axes of the world: 5 dB, at 45 degrees by chance."""
+    places = {"wall": (1.5, 2.75, 1.0), "floor": (2.0, 1.0, 0.0), "board": (2.2, 2.6, 0.6)}
+
+    def gains(turned_rad: float) -> list[float]:
+        network = cupboard_at_a_wall(turned_rad)
+        field = model.prepare(network, [Excitation("cupboard", 100.0, 100.0, 40.0)], Bands((40.0, 80.0, 160.0, 320.0)))
+        turn = Pose.from_yaw((0.0, 0.0, 0.0), turned_rad, up_axis="z")
+        return [x for name, at in places.items() for x in field.attenuation(name, turn.to_world([at]))[0, 0]]
+
+    expected = gains(0.0)
+    for degrees in (45, 90, 135, 180, 225, 270, 315, 17):
+        assert gains(math.radians(degrees)) == pytest.approx(expected, rel=1e-6), degrees

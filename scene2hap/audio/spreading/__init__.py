@@ -37,9 +37,10 @@ class Placement:
 def spread(
     voices: Sequence[Voice], actuator: ActuatorProfile | None = None, limits: SpreadLimits | None = None
 ) -> tuple[Placement, ...]:
-    """Return the placements of a scene's sources, in their order; equal input gives equal results."""
+    """Return the placements of a scene's sources, in their order. No placement depends on that order."""
     limits = limits or SpreadLimits()
-    stay = {voice: Placement(voice.own_hz, voice.level_db) for voice in voices}
+    # Of several placements that are equally good, the search returns one by the order of its input.
+    stay = {voice: Placement(voice.own_hz, voice.level_db) for voice in sorted(voices, key=_rank)}
     if len(stay) < 2 or limits.octaves == limits.level_db == 0.0:
         return tuple(stay[voice] for voice in voices)
     for weber, counts_rhythm in ((WIDEST_WEBER, False), (FREQUENCY_WEBER, False), (FREQUENCY_WEBER, True)):
@@ -52,6 +53,11 @@ def spread(
         for voice, x, level_db in zip(room.voices, outcome.x, outcome.level_db, strict=True)
     }
     return tuple(placed[voice] for voice in voices)
+
+
+def _rank(voice: Voice) -> tuple[float | str, ...]:
+    rhythm_hz = 0.0 if voice.rhythm_hz is None else voice.rhythm_hz
+    return voice.own_hz, voice.level_db, voice.crest_db, rhythm_hz, voice.is_placed, voice.group
 
 
 def _placement(voice: Voice, target_hz: float, level_db: float) -> Placement:

@@ -1,13 +1,14 @@
 """Move few sources apart, each as little as possible, by a mixed-integer linear programme.
 
 For voice i, x_i [oct] is the logarithm of its frequency and l_i [dB] its level. X and Y are the limits of their moves.
-Every pair has two binaries, which voice is higher (o) and whether their levels differ (m), and a slack s [oct], the
-missing distance. M and M' switch a row off:
+Every pair has three binaries, which voice is higher (o) and whether the first or the second is stronger by two JNDs
+(m, m'), and a slack s [oct], the missing distance. M and M' switch a row off:
 
     minimise  sum_i |x_i - x_i0| / X + |l_i - l_i0| / Y + W sum_ij s_ij
-    x_j - x_i >= d (2 - m) - s - M (1 - o)       d [oct] one JND of frequency: two of them, or one and two of level
-    x_i - x_j >= d (2 - m) - s - M o
-    l_i - l_j >= 2 J - M' (1 - m)                i the stronger of the two; J [dB] one JND of level
+    x_j - x_i >= d (2 - m - m') - s - M (1 - o)  d [oct] one JND of frequency: two of them, or one and two of level
+    x_i - x_j >= d (2 - m - m') - s - M o
+    l_i - l_j >= 2 J - M' (1 - m)                J [dB] one JND of level; m is 0 if i is the weaker of the two
+    l_j - l_i >= 2 J - M' (1 - m')               m' is 0 if j is; of equal voices either may become the stronger
     l_i >= l_j + least gap                       the order of intensities
 
 W is so large that slack remains only where the limits force it. The solution is exact, but slow beyond some thirty
@@ -29,7 +30,7 @@ _NODES = 1000
 
 
 class Programme:
-    """The programme. Its variables in order: x, moves of x, l, moves of l (n each), then s, o, m (one per pair)."""
+    """The programme. Its variables in order: x, moves of x, l, moves of l (n each), then s, o, m, m' (one per pair)."""
 
     def __init__(self, room: Room) -> None:
         self._room = room
@@ -51,12 +52,14 @@ class Programme:
             self._row({2 * n + strong: 1.0, 2 * n + weak: -1.0}, gap)
         move_x, move_l, slack = 1.0 / room.octaves, 1.0 / room.level_db, _SLACK_WEIGHT
         never = np.full(n, np.inf)
-        cost = _joined(n * [0.0], n * [move_x], n * [0.0], n * [move_l], p * [slack], 2 * p * [0.0])
-        low = _joined(room.x_low, n * [0.0], room.l_low, n * [0.0], 3 * p * [0.0])
-        high = _joined(room.x_high, never, room.l_high, never, np.full(p, np.inf), 2 * p * [1.0])
+        first, second = np.array(self._pairs, dtype=np.int64).reshape(-1, 2).T
+        stronger, weaker = room.l0[first] >= room.l0[second], room.l0[first] <= room.l0[second]
+        cost = _joined(n * [0.0], n * [move_x], n * [0.0], n * [move_l], p * [slack], 3 * p * [0.0])
+        low = _joined(room.x_low, n * [0.0], room.l_low, n * [0.0], 4 * p * [0.0])
+        high = _joined(room.x_high, never, room.l_high, never, np.full(p, np.inf), p * [1.0], stronger, weaker)
         answer = milp(
             cost,
-            integrality=np.repeat([0, 1], [4 * n + p, 2 * p]),
+            integrality=np.repeat([0, 1], [4 * n + p, 3 * p]),
             bounds=Bounds(low, high),
             constraints=LinearConstraint(self._matrix(len(cost)), np.array(self._least), np.inf),
             options={"node_limit": _NODES},
@@ -68,14 +71,15 @@ class Programme:
     def _keep_apart(self, number: int, i: int, j: int) -> None:
         room, n, p = self._room, self._n, len(self._pairs)
         jnd = room.jnd_oct
-        slack, order, mode = (4 * n + k * p + number for k in range(3))
+        slack, order, stronger, weaker = (4 * n + k * p + number for k in range(4))
         # M: the ranges of the pair allow no larger violation.
         most = 2.0 * jnd + max(room.x_high[i] - room.x_low[j], room.x_high[j] - room.x_low[i])
-        self._row({j: 1.0, i: -1.0, mode: jnd, slack: 1.0, order: -most}, 2.0 * jnd - most)
-        self._row({i: 1.0, j: -1.0, mode: jnd, slack: 1.0, order: most}, 2.0 * jnd)
-        strong, weak = (i, j) if room.l0[i] >= room.l0[j] else (j, i)
-        reach = 2.0 * LEVEL_STEP_DB + float(room.l_high[weak] - room.l_low[strong])
-        self._row({2 * n + strong: 1.0, 2 * n + weak: -1.0, mode: -reach}, 2.0 * LEVEL_STEP_DB - reach)
+        modes = {stronger: jnd, weaker: jnd}
+        self._row({j: 1.0, i: -1.0, **modes, slack: 1.0, order: -most}, 2.0 * jnd - most)
+        self._row({i: 1.0, j: -1.0, **modes, slack: 1.0, order: most}, 2.0 * jnd)
+        for mode, strong, weak in ((stronger, i, j), (weaker, j, i)):
+            reach = 2.0 * LEVEL_STEP_DB + float(room.l_high[weak] - room.l_low[strong])
+            self._row({2 * n + strong: 1.0, 2 * n + weak: -1.0, mode: -reach}, 2.0 * LEVEL_STEP_DB - reach)
 
     def _row(self, coefficients: dict[int, float], least: float) -> None:
         self._rows.append(coefficients)

@@ -7,8 +7,9 @@ bodies. With the forces g of all joints,
     u(x) = u_free - sum over the body's joints of +-Y(x, x_j) g_j
 
 where Y is block-diagonal by body, and each row of B takes the deflection of a minus that of b. A source is a body that
-would move by u_free = 1 at all of its joints, in phase, if nothing touched it. The cost depends on the number of
-joints, not on the model of each body. Loops and several joints per pair need no special treatment.
+would move by u_free = 1 at all of its joints, in phase, if nothing touched it: forward along each of its own axes. The
+cost depends on the number of joints, not on the model of each body. Loops and several joints per pair need no special
+treatment.
 
 Letters: Y [m/N] receptance, Z [m/N] compliance of a joint, g [N/m] force per free deflection, u [-], k [N/m], c
 [N s/m], eta [-] loss factor. Time runs as e^{+j omega t}.
@@ -231,8 +232,17 @@ def solve_joints(
     free = np.zeros((len(joints), len(source_ids)))
     for column, source_id in enumerate(source_ids):
         if source_id in ends:
-            free[ends[source_id].rows, column] = ends[source_id].signs
+            free[ends[source_id].rows, column] = ends[source_id].signs * _free_motion(ends[source_id].points_m)
     return _forces(receptances, ends, joints, free, frequencies_hz)
+
+
+def _free_motion(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Free deflection of a source along each of its joints, +1 or -1: it moves in phase along its own three axes."""
+    if points_m.shape[1] == 2:
+        return np.ones(len(points_m))
+    along = points_m[:, 3:]
+    largest: NDArray[np.float64] = np.take_along_axis(along, np.abs(along).argmax(axis=1)[:, None], axis=1)[:, 0]
+    return np.copysign(1.0, largest)
 
 
 def _forces(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -20,6 +21,7 @@ from scene2hap.scene.pose import Pose
 
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are closer than this are merged."""
+Direction = tuple[float, float, float]
 _PLACE_DIGITS = 6  # decimals of a position in metres, as `SAME_POINT_M`
 LEVEL = 0.9
 """A contact counts as normal to a plate if at least this part of its direction is, up to 26 degrees off."""
@@ -52,7 +54,11 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         object_id: iter(_on_body(network, object_id, tuple([one.point_m for one in contacts])))
         for object_id, contacts in touching.items()
     }
-    directions = {object_id: iter(_directions(network, object_id, touching[object_id])) for object_id in touching}
+    axes = {object_id: _level_axis(network, object_id, contacts) for object_id, contacts in touching.items()}
+    level = {object_id: axis for object_id, axis in axes.items() if axis is not None}
+    directions = {
+        object_id: iter(_directions(network, object_id, contacts, level)) for object_id, contacts in touching.items()
+    }
     stiffness = cache(law.stiffness)  # joints are of few kinds
     joints: list[Joint] = []
     for (a, b), contacts in pairs.items():
@@ -122,19 +128,33 @@ def _on_body(
     return _remembered(network.bodies.get(object_id), network.poses.get(object_id), points_m)
 
 
-def _directions(network: ContactNetwork, object_id: str, contacts: Sequence[Contact]) -> Sequence[Along]:
-    """Direction in which each contact acts on an object: `NORMAL` for all, unless one differs (`LEVEL`)."""
+def _level_axis(network: ContactNetwork, object_id: str, contacts: Sequence[Contact]) -> Direction | None:
+    """The normal of a plate, if all its contacts are along it (`LEVEL`); else None."""
     body, pose = network.bodies.get(object_id), network.poses.get(object_id)
     if not isinstance(body, Plate) or pose is None:
+        return None
+    x, y, z = pose.rotation[:, 2].tolist()
+    is_level = all(one.normal is None or abs(_dot((x, y, z), one.normal)) >= LEVEL for one in contacts)
+    return (x, y, z) if is_level else None
+
+
+def _directions(
+    network: ContactNetwork, object_id: str, contacts: Sequence[Contact], level: Mapping[str, Direction]
+) -> Sequence[Along]:
+    """Direction in which each contact acts on an object: `NORMAL` for all, unless one differs (`LEVEL`).
+
+    Parameters: level : the normal of each plate all of whose contacts are along it.
+    """
+    body, pose = network.bodies.get(object_id), network.poses.get(object_id)
+    if not isinstance(body, Plate) or pose is None or object_id in level:
         return [NORMAL] * len(contacts)
     x, y, z = pose.rotation.T.tolist()
-    if all(one.normal is None or abs(_dot(z, one.normal)) >= LEVEL for one in contacts):
-        return [NORMAL] * len(contacts)
     found = []
     for contact, height_m in zip(contacts, pose.to_own([one.point_m for one in contacts])[:, 2].tolist(), strict=True):
-        # Both signs give the same spring, but both of its bodies must use the same sign.
+        # Both signs give the same spring, but both of its bodies must use the same sign: `NORMAL` is that of the plate.
         normal = contact.normal or z
-        sign = 1.0 if max(normal, key=abs) > 0 else -1.0
+        plate = level.get(contact.a) or level.get(contact.b)
+        sign = math.copysign(1.0, max(normal, key=abs) if plate is None else _dot(plate, normal))
         found.append(Along(sign * _dot(x, normal), sign * _dot(y, normal), sign * _dot(z, normal), height_m))
     return found
 

@@ -82,6 +82,7 @@ class Output:
     def start(self, fill: Fill, hands: Sequence[str]) -> None:
         """Send the samples of `fill` through the safety layer to the sink; does nothing if it is started already.
 
+        A sink that cannot be opened or started is closed again.
         Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session uses it;
         ConfigError: the actuator's budget is out of bounds.
         """
@@ -99,7 +100,8 @@ class Output:
             self._sink.open(SinkFormat(rate, tuple(hands)))
             self._sink.start(safety.guard(fill))
         except BaseException:
-            give_back_sink(self._sink, self)
+            with contextlib.suppress(Exception):  # the first error says what is wrong
+                self._release(self._sink, _discard(self._sink))
             raise
         self._safety = safety
 
@@ -107,11 +109,7 @@ class Output:
         """Fade out, stop the sink and release it; may be called twice."""
         if self._sink is not None and self._safety is not None:
             self._fade_out()
-            try:
-                self._sink.stop()
-                self._sink.close()
-            finally:
-                give_back_sink(self._sink, self)
+            self._release(self._sink, self._sink.close)
 
     def abort(self) -> None:
         """Stop after a failure. A sink with a method `abort` can then discard a half-written file."""
@@ -119,10 +117,17 @@ class Output:
             if has_clock(self._sink):
                 self._fade_out()
             self._safety = None
+            self._release(self._sink, _discard(self._sink))
+
+    def _release(self, sink: ActuatorSink, end: Callable[[], None]) -> None:
+        """Stop a sink and call `end`, `close` or `abort`, also if it does not stop; then give it back."""
+        try:
             try:
-                getattr(self._sink, "abort", self._sink.close)()
+                sink.stop()
             finally:
-                give_back_sink(self._sink, self)
+                end()
+        finally:
+            give_back_sink(sink, self)
 
     @contextlib.contextmanager
     def reopened_for(self, hands: Sequence[str], fill: Fill) -> Iterator[None]:
@@ -153,3 +158,9 @@ class Output:
             # No clock, so the sink must be pulled. A sink that its owner has closed accepts no more samples.
             with contextlib.suppress(DeviceError):
                 self._sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]  # above
+
+
+def _discard(sink: ActuatorSink) -> Callable[[], None]:
+    """Return the method that ends a failed run: `abort` if the sink has it, else `close`."""
+    end: Callable[[], None] = getattr(sink, "abort", sink.close)
+    return end

@@ -53,6 +53,24 @@ def test_spread_gives_equal_voices_of_a_group_one_frequency() -> None:
     assert one == two
 
 
+def test_of_two_equal_voices_the_one_that_can_be_louder_becomes_the_stronger() -> None:
+    """Limits of 0.2 octaves need two JNDs of level, and a crest of 10 dB leaves no headroom to be louder."""
+    peaky, even = Voice(200.0, 31.0, "a", crest_db=10.0), Voice(200.0, 31.0, "b")
+    for voices in ([peaky, even], [even, peaky]):
+        places = dict(zip(voices, spread(voices, limits=SpreadLimits(octaves=0.2)), strict=True))
+        assert lacking(list(places.values())) == 0
+        assert places[even].level_db > 31.0 > places[peaky].level_db
+
+
+@pytest.mark.parametrize("n_voices", [2, 4, 6, 12])
+def test_a_placement_does_not_depend_on_the_order_of_voices(n_voices: int) -> None:
+    rng = np.random.default_rng(n_voices)
+    for _ in range(3):
+        voices = [Voice(rng.uniform(100, 300), rng.choice([15.0, 20.0, 25.0]), f"{i}") for i in range(n_voices)]
+        shuffled = [voices[i] for i in rng.permutation(n_voices)]
+        assert dict(zip(voices, spread(voices), strict=True)) == dict(zip(shuffled, spread(shuffled), strict=True))
+
+
 def test_spread_keeps_placed_voices_and_moves_others_away() -> None:
     placed, free = spread([Voice(200.0, 20.0, "a", is_placed=True), Voice(260.0, 20.0, "b")])
     assert placed == Placement(200.0, 20.0)

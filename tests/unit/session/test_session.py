@@ -1,13 +1,14 @@
 """A session on a table with two phones."""
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
 from scene2hap import (
     Bands,
+    FullPropagation,
     HapticSession,
     MemorySink,
     NoPropagation,
@@ -16,7 +17,8 @@ from scene2hap import (
     WavSink,
     materials,
 )
-from scene2hap.errors import ConfigError, SessionError, UnknownObject
+from scene2hap.devices.protocol import Fill
+from scene2hap.errors import ConfigError, DeviceError, ModelDomainError, SessionError, UnknownObject
 from scene2hap.render.safety import SafetyLayer
 from scenes import RATE, table_with_two_phones
 
@@ -234,6 +236,81 @@ def test_a_run_that_fails_leaves_no_wav(tmp_path: object) -> None:
         sink.pull(10)
         s.update(touches=[Touch("left", "tabel", (0, 0, 0))])
     assert not sink.path.exists()
+
+
+class Journal(MemorySink):
+    """A sink of somebody else, with the methods of the protocol alone: `close` does not stop it."""
+
+    def __init__(self, refuses: str = "") -> None:
+        super().__init__()
+        self.calls: list[str] = []
+        self._refuses = refuses
+
+    def _note(self, call: str) -> None:
+        self.calls.append(call)
+        if call == self._refuses:
+            raise DeviceError(f"{call} failed")
+
+    def start(self, fill: Fill) -> None:
+        super().start(fill)
+        self._note("start")
+
+    def stop(self) -> None:
+        self._note("stop")
+
+    def close(self) -> None:
+        self._note("close")
+
+
+def test_a_run_that_fails_stops_a_sink_without_abort() -> None:
+    sink = Journal()
+    with pytest.raises(ZeroDivisionError), HapticSession(*table_with_two_phones(), CONFIG, sink=sink):
+        _ = 1 / 0
+    assert sink.calls == ["start", "stop", "close"]
+
+
+def test_a_sink_that_does_not_start_is_closed() -> None:
+    sink = Journal(refuses="start")
+    with pytest.raises(DeviceError, match="start failed"):
+        HapticSession(*table_with_two_phones(), CONFIG, sink=sink).start()
+    assert sink.calls == ["start", "stop", "close"]
+
+
+def test_a_sink_that_does_not_stop_is_closed() -> None:
+    sink = Journal(refuses="stop")
+    with pytest.raises(DeviceError, match="stop failed"), HapticSession(*table_with_two_phones(), CONFIG, sink=sink):
+        pass
+    assert sink.calls == ["start", "stop", "close"]
+
+
+@pytest.mark.parametrize("bands", ["dominant", "third-octaves"])
+def test_complex_gains_of_a_model_are_refused(bands: str) -> None:
+    """The real part of a transfer function is 0 at a resonance, where the vibration is strongest."""
+
+    class Transfer:
+        def prepare(self, network: Any, excitations: Any, bands: Any) -> Any:
+            field = FullPropagation().prepare(network, excitations, bands)
+            return Phasors(field.source_ids, lambda *query: 1j * field.attenuation(*query))
+
+    class Phasors(NamedTuple):
+        source_ids: tuple[str, ...]
+        attenuation: Any
+
+    s = session(propagation=Transfer(), prepare="blocking", bands=bands)
+    with pytest.raises(ModelDomainError, match=r"complex numbers; a gain is their magnitude, np.abs\(h\)"):
+        s.update(touches=[ON_TABLE])
+
+
+@pytest.mark.parametrize("model", ["exponential_plate", "infinite_plate", "full_propagation"])
+def test_gains_of_a_frame_cannot_be_changed(model: str) -> None:
+    """An update without a change returns the last frame, so a change would come back as a gain of the session."""
+    s = session(propagation=model, prepare="blocking")
+    for touches in ([ON_TABLE], []):
+        gains = s.update(touches=touches).gains
+        kept = gains.copy()
+        with pytest.raises(ValueError, match="read-only"):
+            gains *= 100
+        np.testing.assert_array_equal(s.update(touches=touches).gains, kept)
 
 
 def test_touch_on_an_unknown_object_names_the_nearest() -> None:
