@@ -138,7 +138,7 @@ def main() -> None:
         row["again"] = attempt(lambda: str(old_and_new()[1].save(ROOM)) and which())
         row["thesis_again"] = thesis_is_there()
         row["left_again"] = sorted(path.name for path in WORK.iterdir() if path != ROOM)
-        row["odd"] = sorted(path.name for path in ROOM.rglob("*") if "kept" in path.name or path.suffix == ".part")
+        row["odd"] = sorted(path.name for path in ROOM.rglob("*") if "kept" in path.name or ".part" in path.name)
         rows.append(row)
     print(json.dumps(rows))
 

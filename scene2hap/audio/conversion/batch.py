@@ -97,7 +97,7 @@ def _result(future: Future[Conversion | Failure], job: _Job) -> Conversion | Fai
     try:
         return future.result()
     except BrokenProcessPool:
-        for litter in job.output.parent.glob(f".{job.output.name}.*.part"):
+        for litter in job.output.parent.glob(f".{job.output.name}.*.part*"):
             litter.unlink(missing_ok=True)
         return Failure(job.source, f"{job.source}: a process died while files were converted. Try with --workers 1.")
 

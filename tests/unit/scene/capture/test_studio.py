@@ -155,7 +155,9 @@ def test_changed_settings_render_new_pictures(change: dict[str, object]) -> None
 def test_a_folder_keeps_pictures_between_runs(tmp_path: Path) -> None:
     before = captured(cache_dir=tmp_path)
     render_all(before)
-    assert not list(tmp_path.rglob("*.part"))
+    assert not list(tmp_path.rglob(".*"))
+    (tmp_path / "plain").touch()
+    assert next(tmp_path.rglob("*.png")).stat().st_mode == (tmp_path / "plain").stat().st_mode, "others cannot share it"
     MEMORY.clear()
     after = captured(cache_dir=tmp_path)
     stats = render_all(after)
