@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.objects import VERTICAL
 from scene2hap.scene.snapshot import SceneSnapshot
 
 Floats = NDArray[np.float64]
@@ -59,7 +60,7 @@ class TopView:
             out only ceilings and roofs that hide most of the objects.
         """
         bounds = np.array([item.bounds_m for item in scene.objects])
-        up = {"y": 1, "z": 2}[scene.up_axis]
+        up = VERTICAL[scene.up_axis]
         lowest = float(bounds[:, 0, up].min())
         if up_to_m is not None:
             return cls._up_to(scene, n_cells, np.full(len(bounds), lowest + up_to_m))
@@ -81,7 +82,7 @@ class TopView:
     @classmethod
     def _up_to(cls, scene: SceneSnapshot, n_cells: int, limits_m: Floats) -> TopView:
         """Return the view of the surfaces up to a height (n_objects,) [m] for each object."""
-        up = {"y": 1, "z": 2}[scene.up_axis]
+        up = VERTICAL[scene.up_axis]
         across, deep = (axis for axis in range(3) if axis != up)
         order = [across, deep, up]
         bounds = np.array([item.bounds_m for item in scene.objects])[:, :, order]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from scene2hap.scene.capture.stage import Actor, Stage
 from scene2hap.scene.copies import copy_key
-from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.objects import VERTICAL, SceneObject
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ def shells(stage: Stage) -> frozenset[int]:
     A shell spans `_SHELL_SPAN` of the scene along two axes, or is a piece of wall. A piece of wall spans this share of
     the scene's height, is thin, and is at the scene's boundary.
     """
-    up = {"y": 1, "z": 2}[stage.up_axis]
+    up = VERTICAL[stage.up_axis]
     low, high = stage.box_m
     extent = np.maximum(high - low, 1e-12)
     found = set()
@@ -71,7 +71,7 @@ def containers(stage: Stage, target: int) -> frozenset[int]:
 
 def supports(stage: Stage) -> tuple[int | None, ...]:
     """Return the support of each object: the first object below most of its footprint; None for none."""
-    up = {"y": 1, "z": 2}[stage.up_axis]
+    up = VERTICAL[stage.up_axis]
     level = [axis for axis in range(3) if axis != up]
     return tuple(_support(stage, number, up, level) for number in range(len(stage.actors)))
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.copies import name_words
-from scene2hap.scene.objects import SceneData, SceneObject
+from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
 from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
 
@@ -77,7 +77,7 @@ def findings(scene: SceneData) -> Iterator[Finding]:
         if heavy:
             yield Finding("mass", (item.id,), heavy)
     boxes = np.array([item.bounds_m for item in scene.objects])
-    up = {"y": 1, "z": 2}[scene.up_axis]
+    up = VERTICAL[scene.up_axis]
     resting, other = _resting_share(boxes, up), _resting_share(boxes, 3 - up)
     is_doubtful = len(ids) >= _FEW and other >= max(_MOST_RESTING, _MORE_RESTING * resting)
     if is_doubtful and not _has_level_ground(scene, boxes, up):
