@@ -9,6 +9,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.bounds import joined
 from scene2hap.scene.objects import VERTICAL, SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -34,7 +35,7 @@ def shells(scene: SceneSnapshot) -> frozenset[str]:
     boxes = np.array([item.bounds_m for item in scene.objects])
     up = VERTICAL[scene.up_axis]
     sizes = np.ptp(boxes, axis=1)
-    whole = boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)
+    whole = np.ptp(joined(boxes), axis=0)
     level = [axis for axis in range(3) if axis != up]
     is_wide = (sizes[:, level] >= _SHELL_SHARE * whole[level]).all(axis=1)
     # A floor is as wide too, but it hides nothing.

@@ -10,6 +10,7 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.bounds import distances
 from scene2hap.scene.capture.stage import Actor, Stage
 from scene2hap.scene.copies import copy_key
 from scene2hap.scene.objects import VERTICAL, SceneObject
@@ -51,11 +52,9 @@ def shells(stage: Stage) -> frozenset[int]:
 
 def near(stage: Stage, target: int, share: float) -> frozenset[int]:
     """Return the objects whose box is within `share` of the target's diagonal from the target's box."""
-    low, high = stage.actors[target].box_m
     reach = share * stage.actors[target].diagonal_m
     boxes = np.array([actor.box_m for actor in stage.actors])
-    gaps = np.maximum(np.maximum(boxes[:, 0] - high, low - boxes[:, 1]), 0.0)
-    return frozenset(np.flatnonzero(np.linalg.norm(gaps, axis=1) <= reach).tolist()) - {target}
+    return frozenset(np.flatnonzero(distances(boxes, boxes[target]) <= reach).tolist()) - {target}
 
 
 def containers(stage: Stage, target: int) -> frozenset[int]:

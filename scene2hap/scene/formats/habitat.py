@@ -40,14 +40,12 @@ from scene2hap import checks
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
+from scene2hap.scene.bounds import Bounds, bounds_of, joined
 from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object
 from scene2hap.scene.formats.habitat_names import Names, ObjectNames
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
-
-_Box = NDArray[np.float64]
-"""Lowest and highest corner (2, 3) of a box."""
 
 _INSTANCES: dict[Kind, str] = {
     "objects": "object_instances",
@@ -343,28 +341,24 @@ def _keyed(node: AuthoredNode, number: int, seen: dict[int, Piece]) -> AuthoredN
     return replace(node, pieces=tuple(pieces), children=children)
 
 
-def _node_box(node: AuthoredNode) -> _Box | None:
+def _node_box(node: AuthoredNode) -> Bounds | None:
     """Return the box of a node and all nodes below it, in the node's own frame."""
-    boxes: list[_Box | None] = [
-        np.array([piece.vertices.min(axis=0), piece.vertices.max(axis=0)]) for piece in node.pieces
-    ]
-    return _joined_box([*boxes, *(_turned_box(_node_box(child), child.matrix) for child in node.children)])
+    own = [bounds_of(piece.vertices) for piece in node.pieces]
+    return _joined_box([*own, *(_turned_box(_node_box(child), child.matrix) for child in node.children)])
 
 
-def _turned_box(box: _Box | None, matrix: Matrix) -> _Box | None:
+def _turned_box(box: Bounds | None, matrix: Matrix) -> Bounds | None:
     """Return the box around the corners of a transformed box."""
     if box is None:
         return None
     corners = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
     moved = corners @ matrix[:3, :3].T + matrix[:3, 3]
-    return np.array([moved.min(axis=0), moved.max(axis=0)])
+    return bounds_of(moved)
 
 
-def _joined_box(boxes: list[_Box | None]) -> _Box | None:
+def _joined_box(boxes: list[Bounds | None]) -> Bounds | None:
     there = [box for box in boxes if box is not None]
-    if not there:
-        return None
-    return np.array([np.min([box[0] for box in there], axis=0), np.max([box[1] for box in there], axis=0)])
+    return joined(there) if there else None
 
 
 def _with_parts(file: Path) -> list[Path]:

@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.bounds import distances
 from scene2hap.scene.copies import name_words
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
@@ -155,8 +156,7 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
         return
     nearest = np.empty(len(ids))
     for some in _batches(len(ids)):
-        gaps = np.maximum(boxes[some, None, 0] - boxes[None, :, 1], boxes[None, :, 0] - boxes[some, None, 1]).clip(0.0)
-        apart = np.linalg.norm(gaps, axis=2)
+        apart = distances(boxes[some, None], boxes)
         rows = np.arange(len(apart))
         apart[rows, some.start + rows] = np.inf
         nearest[some] = apart.min(axis=1)
