@@ -17,6 +17,7 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.vectors import dot
 
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are closer than this are merged."""
@@ -128,19 +129,15 @@ def _directions(network: ContactNetwork, object_id: str, contacts: Sequence[Cont
     if not isinstance(body, Plate) or pose is None:
         return [NORMAL] * len(contacts)
     x, y, z = pose.rotation.T.tolist()
-    if all(one.normal is None or abs(_dot(z, one.normal)) >= LEVEL for one in contacts):
+    if all(one.normal is None or abs(dot(z, one.normal)) >= LEVEL for one in contacts):
         return [NORMAL] * len(contacts)
     found = []
     for contact, height_m in zip(contacts, pose.to_own([one.point_m for one in contacts])[:, 2].tolist(), strict=True):
         # Both signs give the same spring, but both of its bodies must use the same sign.
         normal = contact.normal or z
         sign = 1.0 if max(normal, key=abs) > 0 else -1.0
-        found.append(Along(sign * _dot(x, normal), sign * _dot(y, normal), sign * _dot(z, normal), height_m))
+        found.append(Along(sign * dot(x, normal), sign * dot(y, normal), sign * dot(z, normal), height_m))
     return found
-
-
-def _dot(one: Sequence[float], other: Sequence[float]) -> float:
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
 def _merged(joints: Sequence[Joint]) -> list[Joint]:
