@@ -8,9 +8,6 @@ from scene2hap.llm.lexicon.places import UNDEFINED
 from scene2hap.llm.lexicon.start_times import starting_of
 from scene2hap.llm.lexicon.table import StateRow
 
-MAX_WORDS = 15
-"""Most words of a sentence; paper, section "Vibration Describer"."""
-
 _MAX_KEYWORDS = 60  # letters, as in VibrationAnswer
 _CATEGORY_WORDS, _STATE_WORDS, _PLACE_WORDS = 4, 2, 2
 _MAX_LETTERS = 24  # of one word; a longer string is not a word and would exceed the answer's bound
