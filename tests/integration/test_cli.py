@@ -49,13 +49,13 @@ def test_demo_writes_bundle_wav_and_picture(demo: tuple[Path, dict[str, object]]
 
 def test_demo_finds_the_seven_sources_and_no_other(demo: tuple[Path, dict[str, object]]) -> None:
     _, outcome = demo
-    assert {key for key, said in outcome["objects"].items() if said["vibrates"]} == SOURCES  # type: ignore[attr-defined]  # JSON
+    assert {key for key, said in outcome["objects"].items() if said["vibrates"]} == SOURCES
     assert outcome["scene_category"] == "kitchen"
 
 
 def test_demo_tour_lets_hands_feel_its_sources(demo: tuple[Path, dict[str, object]]) -> None:
     _, outcome = demo
-    felt: list[dict] = outcome["felt"]  # type: ignore[assignment]  # JSON
+    felt: list[dict] = outcome["felt"]
     touched = {row["on"] for row in felt if row["felt_db"].get(row["on"]) == 0.0}
     assert touched == SOURCES
     worktop = [row["felt_db"]["microwave"] for row in felt if row["on"] == "worktop"]

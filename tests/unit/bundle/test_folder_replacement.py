@@ -272,7 +272,7 @@ def test_missing_bundle_is_restored_by_the_next_reader(tmp_path: Path, look: obj
         process.communicate()
     assert not folder.exists()
     with pytest.warns(BundleWarning, match="being replaced when that process died"):
-        look(folder)  # type: ignore[operator]
+        look(folder)
     assert HapticBundle.load(folder).gain_db("phone") == -7.0
     assert (folder / "thesis.txt").read_text() == "ten years"
     assert [path.name for path in tmp_path.iterdir()] == ["room"]

@@ -33,7 +33,7 @@ def bundle() -> HapticBundle:
 
 
 def told(bundle: HapticBundle, account: object) -> tuple[dict[str, list[str]], list[list[str]]]:
-    found = document(bundle, most_points=50, account=account)["account"]  # type: ignore[arg-type]  # wrong ones too
+    found = document(bundle, most_points=50, account=account)["account"]
     rows: dict[str, list[str]] = {}
     for label, text in found["rows"]:
         rows.setdefault(label, []).append(text)
