@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.counted import first_of
 from scene2hap.html_tables import html_table
 from scene2hap.propagation.exponential_plate import REFERENCE_HZ, ExponentialPlate
 from scene2hap.propagation.plate import Plate
@@ -199,7 +200,7 @@ class Explainer:
             silent.setdefault(_why_silent(self._sources[source_id]), []).append(source_id)
         for why, remedy in _REMEDIES.items():
             if several := silent.get(why):
-                named = ", ".join(map(repr, several[:MOST_NAMED])) + (" and others" * (len(several) > MOST_NAMED))
+                named = first_of([*map(repr, several)], MOST_NAMED)
                 yield f"Connected, but {why}: {named}; call set_source(id, {remedy})."
 
     def _felt(self, source_id: str, band: int, touches: Sequence[Touch]) -> FeltSource:

@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.counted import first_of
 from scene2hap.scene.bounds import distances
 from scene2hap.scene.copies import name_words
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
@@ -241,5 +242,4 @@ def _them(rows: NDArray[np.intp]) -> str:
 
 
 def _named(ids: tuple[str, ...], rows: NDArray[np.intp]) -> str:
-    names = ", ".join(repr(ids[k]) for k in rows[:_MOST_NAMED])
-    return names if len(rows) <= _MOST_NAMED else f"{names} and {len(rows) - _MOST_NAMED} more"
+    return first_of([repr(ids[k]) for k in rows], _MOST_NAMED)
