@@ -14,6 +14,7 @@ from scene2hap.scene.bounds import distances
 from scene2hap.scene.capture.stage import Actor, Stage
 from scene2hap.scene.copies import copy_key
 from scene2hap.scene.objects import VERTICAL, SceneObject
+from scene2hap.scene.vectors import cross_2d
 
 Floats = NDArray[np.float64]
 
@@ -104,20 +105,15 @@ def _heights_under(actor: Actor, feet: Floats, below: float, up: int, level: lis
     triangles = triangles[reaches & (triangles[:, :, up].min(axis=1) <= below)].astype(np.float64)
     a, b, c = np.moveaxis(triangles[:, :, level], 1, 0)
     height = triangles[:, :, up]
-    area = _cross(b - a, c - a)
+    area = cross_2d(b - a, c - a)
     with np.errstate(divide="ignore", invalid="ignore"):
         foot = feet[:, None]
-        of_b = _cross(foot - a, c - a) / area
-        of_c = _cross(b - a, foot - a) / area
+        of_b = cross_2d(foot - a, c - a) / area
+        of_c = cross_2d(b - a, foot - a) / area
         at = height[:, 0] + of_b * (height[:, 1] - height[:, 0]) + of_c * (height[:, 2] - height[:, 0])
         is_met = (of_b >= 0) & (of_c >= 0) & (of_b + of_c <= 1) & (at <= below)
     heights: Floats = np.where(is_met, at, -np.inf).max(axis=1, initial=-np.inf)
     return heights
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    product: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return product
 
 
 class Copies:
