@@ -48,7 +48,7 @@ def on_feet(plate: Plate) -> ContactNetwork:
 
 
 def levels_db(hand: str | None, network: ContactNetwork, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    model = ModalPlate(outside_domain="ignore", hand=hand)  # type: ignore[arg-type]  # a name is taken too
+    model = ModalPlate(outside_domain="ignore", hand=hand)
     field = model.prepare(network, [Excitation("phone", 170.0, 170.0, 0.2)], BANDS)
     return 20 * np.log10(field.attenuation("plate", points)[:, 0])
 
@@ -74,7 +74,7 @@ def costs() -> None:
     print("\n| kitchen | prepare again [s] | first touch of an object, median / largest [ms] | further, median [ms] |")
     print("|---|---|---|---|")
     for hand in (None, "palm"):
-        model = ModalPlate(outside_domain="ignore", hand=hand)  # type: ignore[arg-type]  # a name is taken too
+        model = ModalPlate(outside_domain="ignore", hand=hand)
         model.prepare(network, excitations, AROUND)  # modes are cached from now on
         begin = time.process_time()
         field = model.prepare(network, excitations, AROUND)

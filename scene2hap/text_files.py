@@ -1,11 +1,12 @@
-"""Text files: reading of regular files with a size limit, and writing whole files or none."""
+"""Files: reading of regular ones with a size limit, and writing whole files or none."""
 
 from __future__ import annotations
 
 import os
 import stat
 import uuid
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 MAX_BYTES = 1 << 24
@@ -34,19 +35,26 @@ def read_small_text(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) ->
     return read_small(path, max_bytes).decode("utf-8-sig")
 
 
-def write_whole(path: Path, content: str | bytes) -> None:
-    """Write a file beside its path, then replace the path with it. If this fails, an earlier file stays unchanged.
+@contextmanager
+def draft_of(path: Path) -> Iterator[Path]:
+    """Yield a path in the same folder, with the same suffix, to write to. It replaces `path` when the block ends.
 
+    If the block raises, the draft is removed, and an earlier file stays unchanged.
     Raises: OSError.
     """
-    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
+    draft = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part{path.suffix}")
     try:
-        with beside.open("wb") as file:
-            file.write(content.encode() if isinstance(content, str) else content)
-            file.flush()
+        yield draft
+        with draft.open("rb+") as file:
             os.fsync(file.fileno())
-        os.replace(beside, path)
+        os.replace(draft, path)
     except BaseException:
         with suppress(OSError):
-            beside.unlink(missing_ok=True)
+            draft.unlink(missing_ok=True)
         raise
+
+
+def write_whole(path: Path, content: str | bytes) -> None:
+    """Write a file whole or not at all; see `draft_of`. Raises: OSError."""
+    with draft_of(path) as draft:
+        draft.write_bytes(content.encode() if isinstance(content, str) else content)

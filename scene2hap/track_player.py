@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -16,6 +16,7 @@ from scene2hap.devices.protocol import Block
 from scene2hap.errors import SessionError
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.scene.vectors import vector
 from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
 
@@ -125,14 +126,14 @@ class _TrackState:
         """Return the poses of the moving objects, and drop finished motions. Call it once per frame."""
         for object_id, motion in list(self.moves.items()):
             position = motion.at(time_s)
-            self.poses[object_id] = Pose(_triple(position), self.poses[object_id].rotation_xyzw)
+            self.poses[object_id] = Pose(vector(position), self.poses[object_id].rotation_xyzw)
         under_way = {object_id: self.poses[object_id] for object_id in self.moves}
         self.moves = {object_id: motion for object_id, motion in self.moves.items() if not motion.is_over(time_s)}
         return under_way
 
     def touches(self, time_s: float) -> tuple[Touch, ...]:
         return tuple(
-            Touch(hand, object_id, _triple(self._pose_at(object_id, time_s).to_world(motion.at(time_s))))
+            Touch(hand, object_id, vector(self._pose_at(object_id, time_s).to_world(motion.at(time_s))))
             for hand, (object_id, motion) in self.hands.items()
         )
 
@@ -160,8 +161,4 @@ class _TrackState:
     def _pose_at(self, object_id: str, time_s: float) -> Pose:
         pose = self.poses[object_id]
         motion = self.moves.get(object_id)
-        return pose if motion is None else Pose(_triple(motion.at(time_s)), pose.rotation_xyzw)
-
-
-def _triple(values: NDArray[np.float64] | Sequence[float]) -> tuple[float, float, float]:
-    return (float(values[0]), float(values[1]), float(values[2]))
+        return pose if motion is None else Pose(vector(motion.at(time_s)), pose.rotation_xyzw)

@@ -23,6 +23,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "integration" / "bridge"))
 
+from process_use import memory_mb
 from test_faults import ON_TABLE, mutated
 from websockets.exceptions import ConnectionClosed
 
@@ -30,11 +31,6 @@ from bridge_client import Client
 from scene2hap import Box, Pose, SceneObject, SceneSnapshot, bake
 
 NO_POSES = np.empty((0, 7), np.float32)
-
-
-def memory_mb(process: subprocess.Popen[str]) -> float:
-    status = Path(f"/proc/{process.pid}/status").read_text()
-    return int(next(line for line in status.splitlines() if line.startswith("VmRSS")).split()[1]) / 1024
 
 
 def joined(url: str) -> Client:
@@ -70,7 +66,7 @@ def main() -> None:
             before_mb = 0.0
             for turn in range(arguments.messages):
                 if turn == arguments.messages // 10:
-                    before_mb = memory_mb(process)  # buffers and caches are warm
+                    before_mb = memory_mb(process.pid)  # buffers and caches are warm
                 try:
                     client.socket.send(mutated(client, rng))
                     if turn % 20 == 0:  # the server drops a client that does not read
@@ -85,7 +81,7 @@ def main() -> None:
                     honest.socket.send(honest.frame(turn + 1, float(turn), NO_POSES, [ON_TABLE]))
                     assert honest.next_gains().gains.max() > 0.0
                     late_ms.append(1e3 * (time.perf_counter() - sent))
-            after_mb = memory_mb(process)
+            after_mb = memory_mb(process.pid)
             assert process.poll() is None
         process.terminate()
         _, errors = process.communicate(timeout=30)

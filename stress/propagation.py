@@ -206,7 +206,7 @@ def scenes(number: int, tallies: dict[str, Tally], limit_s: float) -> None:
     touch = np.array([[rng.random(), rng.random(), 0.0] for _ in range(2)])
     for name, model in MODELS.items():
 
-        def everywhere(model: ModalPlate = model) -> NDArray[np.float64]:  # type: ignore[assignment]  # any of MODELS
+        def everywhere(model: ModalPlate = model) -> NDArray[np.float64]:
             prepared = model.prepare(network, excitations, bands)
             gains = np.array([prepared.attenuation(object_id, touch) for object_id in network.bodies])
             assert gains.shape == (len(network.bodies), 2, len(excitations), bands.n_bands)
@@ -267,7 +267,10 @@ def lattice_steppers(
             found = []
             for damping, zeta in ((1e-6 * stiffness, 1.0), (csr_array(stiffness.shape), 0.0)):
                 stepper = NewmarkStepper(mass, damping, stiffness, dt)
-                energy = lambda s, stepper=stepper: np.array([stepper.energy(s)])  # noqa: E731
+
+                def energy(state: State, stepper: NewmarkStepper = stepper) -> NDArray[np.float64]:
+                    return np.array([stepper.energy(state)])
+
                 found.append(walked(stepper, start, n_steps, energy, np.array([zeta])))
             yield f"Newmark, whole lattice {boundary}", dt, found[0][0], found[1][1]
 

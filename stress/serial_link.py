@@ -29,6 +29,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
+from process_use import memory_mb, n_files
+
 from scene2hap.devices.framing import cobs, vhp
 from scene2hap.devices.framing.frames import Frame, FrameParser, from_datagram, pcm, to_wire
 from scene2hap.devices.protocol import Block, SinkFormat
@@ -173,9 +175,7 @@ def random_bytes(n_bytes: int, seed: int) -> tuple[bool, str]:
 
 def _held() -> tuple[int, int, float]:
     gc.collect()
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    files = len(os.listdir("/proc/self/fd"))
-    return threading.active_count(), files, pages * os.sysconf("SC_PAGE_SIZE") / 2**20
+    return threading.active_count(), n_files(), memory_mb()
 
 
 def unplug(cycles: int) -> tuple[bool, str]:

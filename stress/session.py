@@ -16,7 +16,6 @@ from __future__ import annotations
 import argparse
 import gc
 import random
-import resource
 import sys
 import time
 import tracemalloc
@@ -27,6 +26,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from process_use import memory_mb
 
 from edge_scenes import EDGE_SCENES, Bundled
 from scene2hap import HapticSession, Pose, Touch
@@ -157,8 +158,7 @@ def held_bytes() -> int:
     gc.collect()
     if tracemalloc.is_tracing():
         return tracemalloc.get_traced_memory()[0]
-    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
-    return pages * resource.getpagesize()
+    return round(memory_mb() * 1e6)
 
 
 def drift_samples(life: Life) -> float:

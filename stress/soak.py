@@ -24,6 +24,8 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
+from process_use import memory_mb, n_files, n_threads, stolen_s
+
 from scene2hap.devices.soundcard import SoundCardSink
 from sound_server import DEVICE, RATE, SoundServer, missing
 from sound_takes import PERIOD, SETTLING, Game, safe_period, session_on, undisturbed
@@ -60,7 +62,7 @@ def played(server: SoundServer, seconds: float) -> NDArray[np.float32]:
             time.sleep(seconds / 10)
             print(
                 f"{tenth * seconds / 600:.2g} min: {game.updates} updates, underruns {sink.stats.underruns}, "
-                f"{len(os.listdir('/proc/self/task'))} threads, {len(os.listdir('/proc/self/fd'))} files, "
+                f"{n_threads()} threads, {n_files()} files, "
                 f"{memory_mb():.1f} MB, load {os.getloadavg()[0]:.1f}, stolen {stolen_s():.0f} s",
                 flush=True,
             )
@@ -108,16 +110,6 @@ def shift_of(block: NDArray[np.floating], safe: NDArray[np.float64]) -> int:
 def residual(block: NDArray[np.float64], safe: NDArray[np.float64], shift: int) -> float:
     """The largest difference of a block from the shifted period."""
     return float(np.abs(block - np.roll(safe, shift, axis=0)).max())
-
-
-def memory_mb() -> float:
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
-
-
-def stolen_s() -> float:
-    """Time since boot [s] in which the host of a virtual machine ran other machines."""
-    return int(Path("/proc/stat").read_text().split()[8]) / os.sysconf("SC_CLK_TCK")
 
 
 if __name__ == "__main__":

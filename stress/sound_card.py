@@ -30,6 +30,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
+from process_use import memory_mb, n_files, n_threads, stolen_s
+
 from scene2hap.devices.protocol import SinkEvent
 from scene2hap.devices.soundcard import SoundCardSink
 from sound_server import DEVICE, RATE, SoundServer, missing
@@ -185,7 +187,7 @@ def unplug(arguments: argparse.Namespace) -> None:
                 assert sink.wait_connected(20.0), sink.stats
                 time.sleep(0.05)
                 if cycle % max(1, arguments.cycles // 10) == 0 or cycle == arguments.cycles - 1:
-                    marks.append((cycle + 1, tasks(), files(), memory_mb()))
+                    marks.append((cycle + 1, n_threads(), n_files(), memory_mb()))
                     print("cycle {}: {} threads, {} files, {:.1f} MB".format(*marks[-1]), flush=True)
             game.kill()
         print(f"events {dict(Counter(event.kind for event in events))}; {sink.stats}")
@@ -197,24 +199,6 @@ def wait_for(is_so: Callable[[], object], timeout_s: float = 20.0) -> None:
     while not is_so():
         assert time.monotonic() < deadline, "nothing happened"
         time.sleep(0.005)
-
-
-def tasks() -> int:
-    return len(os.listdir("/proc/self/task"))
-
-
-def stolen_s() -> float:
-    """Time since boot [s] in which the host of a virtual machine ran other machines."""
-    return int(Path("/proc/stat").read_text().split()[8]) / os.sysconf("SC_CLK_TCK")
-
-
-def files() -> int:
-    return len(os.listdir("/proc/self/fd"))
-
-
-def memory_mb() -> float:
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 CAMPAIGNS = {"takes": takes, "low": low, "latency": latency, "watchdog": watchdog, "hitches": hitches, "unplug": unplug}

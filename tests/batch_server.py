@@ -13,6 +13,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 from llm_server import GOOD, Asked, Scripted, said
+from server_thread import running
 
 FIELDS = {
     "scene_category": "scene_analyzer",
@@ -196,12 +197,6 @@ def serving_batches(by: Callable[[Asked], Scripted] = answered) -> Iterator[Batc
         def log_message(self, format: str, *args: Any) -> None:
             pass
 
-    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as http:
-        thread = threading.Thread(target=http.serve_forever, kwargs={"poll_interval": 0.01})
-        thread.start()
+    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as http, running(http):
         server.base_url = f"http://127.0.0.1:{http.server_address[1]}"
-        try:
-            yield server
-        finally:
-            http.shutdown()
-            thread.join()
+        yield server

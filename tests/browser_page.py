@@ -10,13 +10,14 @@ import os
 import shutil
 import subprocess
 import sys
-import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any, ClassVar
 from urllib.parse import urlencode
+
+from server_thread import running
 
 CLIENT = Path(__file__).parents[1] / "clients" / "browser"
 NEEDS_CHROMIUM = "needs chromium: apt-get install chromium, and pip install playwright"
@@ -96,15 +97,8 @@ def served(modules: Path, pages: Mapping[str, str] | None = None) -> Iterator[in
         def log_message(self, format: str, *args: object) -> None:
             pass
 
-    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    thread = threading.Thread(target=server.serve_forever)
-    thread.start()
-    try:
+    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as server, running(server):
         yield server.server_port
-    finally:
-        server.shutdown()
-        thread.join()
-        server.server_close()
 
 
 @contextmanager

@@ -124,7 +124,7 @@ def thesis_is_there() -> bool:
 def main() -> None:
     kind = sys.argv[2]
     if sys.argv[3] == "renames":
-        folder_replacement.exchange = lambda one, other: False  # type: ignore[assignment]  # as without exchange
+        folder_replacement.exchange = lambda one, other: False  # as without exchange
     stride, n_steps = int(sys.argv[4]) if len(sys.argv) > 4 else 1, count_steps()
     rows = []
     for step in sorted({*range(1, n_steps, stride), *range(max(1, n_steps - N_AT_THE_END), n_steps + 2)}):
@@ -138,7 +138,7 @@ def main() -> None:
         row["again"] = attempt(lambda: str(old_and_new()[1].save(ROOM)) and which())
         row["thesis_again"] = thesis_is_there()
         row["left_again"] = sorted(path.name for path in WORK.iterdir() if path != ROOM)
-        row["odd"] = sorted(path.name for path in ROOM.rglob("*") if "kept" in path.name or path.suffix == ".part")
+        row["odd"] = sorted(path.name for path in ROOM.rglob("*") if "kept" in path.name or ".part" in path.name)
         rows.append(row)
     print(json.dumps(rows))
 

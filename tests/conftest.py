@@ -46,7 +46,7 @@ def _no_network(monkeypatch: pytest.MonkeyPatch) -> None:
         host = address[0] if isinstance(address, tuple) else ""
         if self.family in (socket.AF_INET, socket.AF_INET6) and host not in ("127.0.0.1", "::1", "localhost"):
             raise AssertionError(f"a test tried to reach {address!r}; tests use no network")
-        connect(self, address)  # type: ignore[arg-type]  # as the caller gave it
+        connect(self, address)
 
     monkeypatch.setattr(socket.socket, "connect", only_loopback)
 

@@ -15,6 +15,8 @@ from urllib.parse import parse_qs, urlsplit
 import numpy as np
 import soundfile
 
+from server_thread import running
+
 TOKEN = "fs-test-0123456789abcdefghij"
 CC0 = "http://creativecommons.org/publicdomain/zero/1.0/"
 BY = "http://creativecommons.org/licenses/by/4.0/"
@@ -96,17 +98,13 @@ def host(*pages: Page, by: Callable[[Get], Page] | None = None) -> Iterator[Host
         def log_message(self, format: str, *args: Any) -> None:
             pass
 
-    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as http:
+    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as http, running(http):
         http.daemon_threads = True
-        thread = threading.Thread(target=http.serve_forever, kwargs={"poll_interval": 0.01})
-        thread.start()
         served.port = http.server_address[1]
         try:
             yield served
         finally:
             served.over.set()
-            http.shutdown()
-            thread.join()
 
 
 def hum(seconds: float = 3.0, *, pitch_hz: float = 100.0, rate: int = 8000, kind: str = "OGG") -> bytes:

@@ -134,12 +134,12 @@ def _with_odd_value(text: str, rng: random.Random) -> str:
     place, step = {"": document}, ""
     while isinstance(place[step], dict | list) and place[step] and (step == "" or rng.random() < 0.85):
         place = place[step]
-        step = rng.choice(list(place) if isinstance(place, dict) else list(range(len(place))))  # type: ignore[assignment]
+        step = rng.choice(list(place) if isinstance(place, dict) else list(range(len(place))))
     action = rng.random()
     if action < 0.1 and isinstance(place, dict):
         del place[step]
     elif action < 0.2:
-        place[step] = [place[step]] * rng.choice([2, 3, 5000])  # type: ignore[assignment]
+        place[step] = [place[step]] * rng.choice([2, 3, 5000])
     else:
         place[step] = rng.choice(ODD)
     return json.dumps(document)

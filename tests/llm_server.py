@@ -14,6 +14,7 @@ from typing import Any
 
 from scene2hap.llm.protocol import Component, LLMRequest
 from scene2hap.llm.validation import ANSWERS
+from server_thread import running
 
 KEY = "sk-test-0123456789abcdefghij"
 PNG = b"\x89PNG\r\n\x1a\n0"
@@ -136,16 +137,12 @@ def serving(
     class Handler(_Handler):
         playing = server
 
-    with _HTTPServer(("127.0.0.1", 0), Handler) as http:
-        thread = threading.Thread(target=http.serve_forever, kwargs={"poll_interval": 0.01})
-        thread.start()
+    with _HTTPServer(("127.0.0.1", 0), Handler) as http, running(http):
         server.base_url = f"http://127.0.0.1:{http.server_address[1]}"
         try:
             yield server
         finally:
             server.over.set()
-            http.shutdown()
-            thread.join()
 
 
 class _HTTPServer(ThreadingHTTPServer):

@@ -18,7 +18,7 @@ CLAMPED = (*HINGED, "u_{n}", "u_xy")
 
 
 @cache
-def finite_elements(plate: Plate, cells: tuple[int, int]):  # type: ignore[no-untyped-def]
+def finite_elements(plate: Plate, cells: tuple[int, int]):
     """(basis, K, M, free degrees of freedom) for stiffness over D and mass over rho h; skips without scikit-fem."""
     skfem = pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
     from skfem.helpers import dd, ddot, eye, trace
@@ -30,12 +30,12 @@ def finite_elements(plate: Plate, cells: tuple[int, int]):  # type: ignore[no-un
     basis = skfem.Basis(mesh, skfem.ElementTriArgyris(), intorder=10)
 
     @skfem.BilinearForm
-    def bending(u, v, _):  # type: ignore[no-untyped-def]
+    def bending(u, v, _):
         moment = (1 - nu) * dd(u) + nu * eye(trace(dd(u)), 2)
         return ddot(moment, dd(v))
 
     @skfem.BilinearForm
-    def mass(u, v, _):  # type: ignore[no-untyped-def]
+    def mass(u, v, _):
         return u * v
 
     fixed: set[int] = set()
@@ -90,7 +90,7 @@ def outline_mesh(lines_x: object, lines_y: object, is_cut: object) -> Any:
     """Triangles between lines [m], without those whose centroids `is_cut`(x, y)."""
     skfem = pytest.importorskip("skfem", reason="scikit-fem is not installed; run: pip install scikit-fem")
     mesh = skfem.MeshTri.init_tensor(np.unique(np.round(lines_x, 9)), np.unique(np.round(lines_y, 9)))
-    return mesh.remove_elements(np.flatnonzero(is_cut(*mesh.p[:, mesh.t].mean(axis=1))))  # type: ignore[operator]
+    return mesh.remove_elements(np.flatnonzero(is_cut(*mesh.p[:, mesh.t].mean(axis=1))))
 
 
 def refined_at(mesh: Any, corners_m: object, times: int) -> Any:
@@ -114,11 +114,11 @@ def fe_receptance_within(
     basis = skfem.Basis(mesh.scaled(scale), skfem.ElementTriArgyris(), intorder=10)
 
     @skfem.BilinearForm
-    def bending(u, v, _):  # type: ignore[no-untyped-def]
+    def bending(u, v, _):
         return ddot((1 - nu) * dd(u) + nu * eye(trace(dd(u)), 2), dd(v))
 
     @skfem.BilinearForm
-    def mass(u, v, _):  # type: ignore[no-untyped-def]
+    def mass(u, v, _):
         return u * v
 
     K, M = bending.assemble(basis).tocsc() * scale**2, mass.assemble(basis).tocsc() / scale**2

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.heard import heard
+from scene2hap.audio.windows import hann
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
@@ -111,7 +112,7 @@ def spectral_flatness(
             f"band_hz is {low:g} to {high:g} Hz; a sound of {len(x)} samples at {rate:g} Hz has no such band. "
             "Choose one below half the rate, or a longer sound."
         )
-    spectrum = scipy.fft.rfft(frames * np.hanning(frames.shape[1] + 2)[1:-1], axis=1)[:, in_band]
+    spectrum = scipy.fft.rfft(frames * hann(frames.shape[1]), axis=1)[:, in_band]
     power = spectrum.real**2 + spectrum.imag**2
     mean = power.mean(axis=1)
     is_heard = mean > mean.max() * 10 ** (LEVEL_FLOOR_DB / 10)
@@ -143,7 +144,7 @@ def dominant_frequencies_hz(
     for low, high in ranges_hz:
         checks.number("range_hz[0]", low, "Hz", above=0.0, below=min(high, rate / 2), error=AudioError)
     n = scipy.fft.next_fast_len(2 * len(x), real=True)
-    magnitude = np.abs(scipy.fft.rfft(x * np.hanning(len(x) + 2)[1:-1], n))
+    magnitude = np.abs(scipy.fft.rfft(x * hann(len(x)), n))
     found = []
     for low, high in ranges_hz:
         frequency_hz = peak_frequency_hz(magnitude, rate / n, (low, high))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import io
-import os
-import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -19,6 +17,7 @@ from numpy.typing import ArrayLike
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.errors import AudioError
+from scene2hap.text_files import draft_of
 
 PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
 
@@ -156,20 +155,14 @@ def require_finite(path: Path, channels: np.ndarray[tuple[int, ...], np.dtype[np
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Yield a temporary path to write to. It replaces `path` when the block ends, and is removed on error.
-
-    Raises: AudioError: the file cannot be written.
-    """
-    beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
+    """Yield a draft of a file, as `text_files.draft_of`. Raises: AudioError: the file cannot be written."""
     try:
-        yield beside
-        os.replace(beside, path)
+        with draft_of(path) as beside:
+            yield beside
     except OSError as cause:
         raise AudioError(
             f"{path}: cannot be written ({cause.strerror}). Choose a folder that exists and is yours."
         ) from cause
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def _is_cut_short(path: Path) -> bool:
@@ -215,10 +208,8 @@ def _write(path: Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubt
         raise AudioError(f"subtype is {subtype!r}; it must be one of {', '.join(_BITS)}.")
     encoded = io.BytesIO()
     soundfile.write(encoded, _quantised(path, samples, _BITS[subtype]), rate, subtype=subtype, format=container)
-    with written_whole(path) as beside, beside.open("wb") as file:
-        file.write(encoded.getbuffer())
-        file.flush()
-        os.fsync(file.fileno())
+    with written_whole(path) as beside:
+        beside.write_bytes(encoded.getbuffer())
 
 
 def as_stored(clip: AudioClip) -> AudioClip:

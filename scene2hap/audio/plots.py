@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.audio.threshold import threshold_db
+from scene2hap.audio.windows import hann
 from scene2hap.plots import SOUND, THRESHOLD, TOUCH, add_legend, new_figure, plain, set_title
 
 if TYPE_CHECKING:
@@ -151,7 +152,7 @@ def _draw_spectrogram(axes: Axes, samples: Samples, sample_rate_hz: int) -> None
     x = np.asarray(samples, dtype=np.float64)
     size = min(len(x), max(2, round(_WINDOW_S * sample_rate_hz)))
     starts = np.unique(np.linspace(0, len(x) - size, _FRAMES).astype(np.intp))
-    window = np.hanning(size + 2)[1:-1]
+    window = hann(size)
     frames = np.lib.stride_tricks.sliding_window_view(x, size)[starts] * window
     amplitude = 2.0 * np.abs(np.fft.rfft(frames, axis=1)) / window.sum()
     top_hz = max(0.5 * sample_rate_hz, 2.0 * FELT_HZ[0])

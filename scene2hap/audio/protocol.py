@@ -110,3 +110,12 @@ def one_channel(converter: TactileConverter, block: Samples) -> Samples:
             f"the stream of {type(converter).__name__} gave {checks.described(block)}; it must give samples (n,)."
         )
     return found
+
+
+def require_in_step(converter: TactileConverter, n_made: int, n_given: int) -> None:
+    """Compare the numbers of samples of a whole conversion. Raises: AudioError: they differ."""
+    if n_made != n_given:
+        raise AudioError(
+            f"{type(converter).__name__} made {n_made} samples of {n_given}; touch must stay in step with sound. "
+            "Its stream must return as many samples as it was given, counting finish()."
+        )

@@ -21,6 +21,7 @@ from scipy.optimize import least_squares
 from scipy.signal import butter, sosfiltfilt
 
 from scene2hap.audio.speed_track import SpeedTrack
+from scene2hap.audio.windows import hann
 
 Signal = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ fan and a washing machine have 1.2 to 3.5, pink noise 3.4, revved chainsaws 8.7 
 MOST_RESIDUAL_DB = 2.5
 """Largest rms residual of the fit over the rise [dB] (assumed); it excludes rises with steps or dips."""
 
-_WINDOW = np.hanning(11)[1:-1] / np.hanning(11)[1:-1].sum()
+_WINDOW = hann(9) / hann(9).sum()
 _SHORT, _LONG = 10, 50
 """Numbers of bins over which a level is averaged: the short mean resolves single notes and strokes, the long one
 smooths them."""

@@ -18,6 +18,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from scene2hap.audio.components import components, magnitudes
+from scene2hap.audio.windows import hann
 
 Signal = NDArray[np.float64]
 
@@ -99,7 +100,7 @@ def track_speed(
 
 def _centres(x: Signal, at: NDArray[np.intp], size: int) -> Signal:
     """Return the centre of energy of each windowed frame (n_frames,) [samples], which is late while the level rises."""
-    energy = (sliding_window_view(x, size)[at] * np.hanning(size + 2)[1:-1]) ** 2 + 1e-30
+    energy = (sliding_window_view(x, size)[at] * hann(size)) ** 2 + 1e-30
     return np.asarray(energy @ np.arange(size) / energy.sum(axis=1))
 
 
@@ -107,7 +108,7 @@ def _scores(x: Signal, at: NDArray[np.intp], size: int, rate: float, lines_hz: S
     """Return the score of each frame and speed (n_frames, n_speeds) [dB]."""
     n = scipy.fft.next_fast_len(_PADDING * size, real=True)
     frames = sliding_window_view(x, size)[at]
-    window = np.hanning(size + 2)[1:-1]
+    window = hann(size)
     spectrum = np.abs(scipy.fft.rfft((frames - frames.mean(axis=1, keepdims=True)) * window, n, axis=1))
     top = min(spectrum.shape[1], int(1.2 * LINES_HZ[1] * n / rate) + 1)
     level_db = 20 * np.log10(np.maximum(spectrum[:, :top], 1e-12))

@@ -22,7 +22,7 @@ from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
 from scene2hap.calls import clear_call
-from scene2hap.counted import counted
+from scene2hap.counted import counted, first_of
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.llm.chain import UNKNOWN, Inference, infer_scene
@@ -267,10 +267,9 @@ def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
     """Return True if every loop has a fingerprint. Warns: BundleWarning: loops without one."""
     unknown = [key for key, states in loops.items() if not all(loop.fingerprint for loop in states.values())]
     if unknown:
-        some = ", ".join(unknown[:3]) + (", ..." if len(unknown) > 3 else "")
         warnings.warn(
-            f"the loops of {counted(len(unknown), 'source')} ({some}) have no fingerprint, as in older bundles, and "
-            "stay as they are. Give actuator or tactile to make them again.",
+            f"the loops of {counted(len(unknown), 'source')} ({first_of(unknown, 3)}) have no fingerprint, as in "
+            "older bundles, and stay as they are. Give actuator or tactile to make them again.",
             BundleWarning,
             stacklevel=3,
         )

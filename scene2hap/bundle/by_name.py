@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import NoReturn, TypeVar
 
 from scene2hap import checks
+from scene2hap.counted import first_of
 from scene2hap.errors import UnknownObject
 
 Thing = TypeVar("Thing")
@@ -24,8 +25,8 @@ class ByName(dict[str, Thing]):
         self.what, self.of_what = what, of_what
 
     def __missing__(self, key: object) -> NoReturn:
-        known = ", ".join(map(repr, list(self)[:_MOST_NAMED])) or "none"
-        near = checks.did_you_mean(key, self, f"There are {known}{', ...' if len(self) > _MOST_NAMED else ''}.")
+        known = first_of([*map(repr, self)], _MOST_NAMED) or "none"
+        near = checks.did_you_mean(key, self, f"There are {known}.")
         missing = f"{self.what} {checks.represented(key)} {self.of_what}".rstrip()
         raise UnknownObject(f"the bundle has no {missing}. {near}")
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.bounds import joined
+from scene2hap.scene.objects import VERTICAL
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _LETTERS = string.ascii_letters + string.digits
@@ -34,11 +36,10 @@ class Plan:
     @classmethod
     def of(cls, scene: SceneSnapshot, n_columns: int = 64, n_rows: int = 22) -> Plan:
         """Return the plan of a scene. The highest bounding box decides the object of a cell."""
-        up = {"y": 1, "z": 2}[scene.up_axis]
+        up = VERTICAL[scene.up_axis]
         across, deep = (axis for axis in range(3) if axis != up)
         bounds = np.array([item.bounds_m for item in scene.objects]).reshape(-1, 2, 3)
-        low = bounds[:, 0].min(axis=0)[[across, deep]]
-        high = bounds[:, 1].max(axis=0)[[across, deep]]
+        low, high = joined(bounds)[:, [across, deep]]
         cell = np.maximum((high - low) / (n_columns, n_rows), 1e-6)
         x = low[0] + (np.arange(n_columns) + 0.5) * cell[0]
         y = low[1] + (np.arange(n_rows) + 0.5) * cell[1]

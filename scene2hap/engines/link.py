@@ -9,6 +9,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.calls import clear_calls
+from scene2hap.counted import first_of
 from scene2hap.engines.adapter import EngineAdapter
 from scene2hap.engines.changes import Changes
 from scene2hap.errors import ConfigError, SceneError
@@ -85,7 +86,7 @@ def _require_same_scene(poses: Mapping[str, Pose], session: HapticSession) -> No
     here = {item.id: item.pose for item in session.snapshot.objects}
     unknown = sorted(here.keys() - poses.keys())
     if unknown:
-        names = ", ".join(map(repr, unknown[:_MOST_NAMED])) + (", ..." if len(unknown) > _MOST_NAMED else "")
+        names = first_of([*map(repr, unknown)], _MOST_NAMED)
         raise SceneError(
             f"the engine lacks {len(unknown)} of {len(here)} objects of the session: {names}. Make the session of "
             "the engine's own snapshot, or of a bundle that was baked from it."

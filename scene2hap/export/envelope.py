@@ -15,6 +15,7 @@ import scipy.fft
 import scipy.signal
 from numpy.typing import NDArray
 
+from scene2hap.audio.windows import hann
 from scene2hap.export.frequency_ridge import ridge_hz
 
 Signal = NDArray[np.float64]
@@ -67,7 +68,7 @@ class Envelope:
         The analysis smooths the signal again, so some steps of Richardson (1972) and Lucy (1974) undo that. This
         preserves attacks.
         """
-        window = np.hanning(2 * round(SMOOTHED_S / STEP_S) + 3)[1:-1]
+        window = hann(2 * round(SMOOTHED_S / STEP_S) + 1)
         inside = scipy.signal.convolve(np.ones(len(self.times_s)), window, mode="same")
         power = np.maximum(self.amplitude**2, 1e-12)
         found = power.copy()
@@ -102,7 +103,7 @@ def amplitude_of(
     """Return the amplitude of a signal (n_samples,), (n,), and its times (n,) [s]."""
     n = len(samples)
     half = max(1, round(smoothed_s * sample_rate_hz))
-    window = np.hanning(2 * half + 3)[1:-1]
+    window = hann(2 * half + 1)
     pad = half + round(_PADDING_S * sample_rate_hz)
     power = _analytic_power(np.pad(samples, pad, mode="wrap" if is_loop else "constant"))
     near = slice(pad - half, pad + n + half)

@@ -15,20 +15,21 @@ from typing import Any
 import numpy as np
 
 from scene2hap import checks
-from scene2hap.audio.files import read_clip, written_whole
+from scene2hap.audio.files import read_clip
 from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.calls import clear_call
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.devices.memory import MemorySink
-from scene2hap.errors import AudioError, ConfigError, ExportError
+from scene2hap.errors import ConfigError, ExportError
 from scene2hap.export.fidelity import fidelity
 from scene2hap.export.manifest import NAME, manifest_of
 from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
 from scene2hap.export.report import ExportReport, FileReport
 from scene2hap.export.track import Channel, Track
 from scene2hap.session import HapticSession, SessionConfig
+from scene2hap.text_files import write_whole
 from scene2hap.touch_track import TouchTrack
 from scene2hap.track_player import play_track
 
@@ -184,8 +185,6 @@ def _put(folder: Path, name: str, content: bytes) -> None:
         raise ExportError(f"an exporter names a file {name!r}; it must be a name without a folder.")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with written_whole(path) as beside:
-            beside.write_bytes(content)
-    except (OSError, AudioError) as cause:
-        reason = getattr(cause, "strerror", None) or cause
-        raise ExportError(f"{path} cannot be written: {reason}. Choose a folder that is yours.") from cause
+        write_whole(path, content)
+    except OSError as cause:
+        raise ExportError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause

@@ -11,6 +11,8 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
+from scene2hap.audio.windows import hann
+
 Signal = NDArray[np.float64]
 
 WINDOW_S = 0.1
@@ -36,7 +38,7 @@ def _levels(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> tuple[S
     padded = np.pad(samples, half, mode="wrap" if is_loop else "constant")
     hop = max(1, round(STEP_S * sample_rate_hz))
     firsts = np.arange(0, len(samples), hop)
-    frames = np.lib.stride_tricks.sliding_window_view(padded, 2 * half)[firsts] * np.hanning(2 * half + 2)[1:-1]
+    frames = np.lib.stride_tricks.sliding_window_view(padded, 2 * half)[firsts] * hann(2 * half)
     n = scipy.fft.next_fast_len(8 * half, real=True)
     power = np.abs(scipy.fft.rfft(frames, n, axis=1)) ** 2
     bins = np.arange(power.shape[1]) * sample_rate_hz / n

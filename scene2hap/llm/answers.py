@@ -16,6 +16,8 @@ from scene2hap.haptics import LONGEST_PASSAGE_S, LONGEST_TURN_S
 
 MOST_WORDS_IN_SENTENCE = 15
 """Bounds of the paper, section "Vibration Describer"."""
+LONGEST_NAME, LONGEST_REASON = 60, 600
+"""Most characters of a category or of keywords, and of a reason."""
 
 _VIBRATE = re.compile(r"vibrat", re.IGNORECASE)
 
@@ -45,7 +47,7 @@ class SceneAnswer(Answer):
     """Scene Analyzer: what kind of place this is, in one or two words, or "undefined"."""
 
     # Accept one word more than the prompt allows, here and for objects: a repeated question costs more than it gains.
-    scene_category: Annotated[str, _at_most(3)] = Field(min_length=1, max_length=60)
+    scene_category: Annotated[str, _at_most(3)] = Field(min_length=1, max_length=LONGEST_NAME)
 
 
 class StateAnswer(Answer):
@@ -59,20 +61,20 @@ class StateAnswer(Answer):
 class ObjectAnswer(Answer):
     """Object Analyzer: what the object is, of what, for what, and whether it vibrates."""
 
-    object_category: Annotated[str, _at_most(4)] = Field(min_length=1, max_length=60)
-    category_reason: str = Field(max_length=600)
-    material_category: str = Field(min_length=1, max_length=60)
+    object_category: Annotated[str, _at_most(4)] = Field(min_length=1, max_length=LONGEST_NAME)
+    category_reason: str = Field(max_length=LONGEST_REASON)
+    material_category: str = Field(min_length=1, max_length=LONGEST_NAME)
     estimated_length_m: float = Field(ge=0.0, le=1e5)
     estimated_width_m: float = Field(ge=0.0, le=1e5)
     estimated_thickness_m: float = Field(ge=0.0, le=1e5)
-    size_reason: str = Field(max_length=600)
-    usage: str = Field(max_length=600)
+    size_reason: str = Field(max_length=LONGEST_REASON)
+    usage: str = Field(max_length=LONGEST_REASON)
     vibrates: bool
-    vibration_reason: str = Field(max_length=600)
+    vibration_reason: str = Field(max_length=LONGEST_REASON)
     states: list[StateAnswer]
     confidence: float = Field(ge=0.0, le=1.0)
     estimated_mass_kg: float | None = Field(default=None, gt=0.0, le=1e7)
-    feet_material: str | None = Field(default=None, max_length=60)
+    feet_material: str | None = Field(default=None, max_length=LONGEST_NAME)
 
     @model_validator(mode="after")
     def _states_fit(self) -> Self:
@@ -102,7 +104,9 @@ class VibrationAnswer(Answer):
     """Vibration Describer: one state in words, for making and for finding a sound, and how it starts and stops."""
 
     sentence: Annotated[str, _at_most(MOST_WORDS_IN_SENTENCE)] = Field(min_length=1, max_length=200)
-    keywords: Annotated[str, _at_most(6), AfterValidator(_without_vibrate)] = Field(min_length=1, max_length=60)
+    keywords: Annotated[str, _at_most(6), AfterValidator(_without_vibrate)] = Field(
+        min_length=1, max_length=LONGEST_NAME
+    )
     start_up_s: float | None = Field(default=None, ge=0.0, le=LONGEST_PASSAGE_S)
     wind_down_s: float | None = Field(default=None, ge=0.0, le=LONGEST_PASSAGE_S)
     spins: bool | None = None

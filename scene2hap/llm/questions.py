@@ -83,38 +83,26 @@ class Questions:
             temperature=self._temperature,
         )
         async with self._slots:
-            if self.closed_by is not None:
-                raise self.closed_by
-            self.report.calls[component] += 1
-            try:
-                reply = await self._completed(request)
-            except Scene2HapError as problem:
-                if isinstance(problem, chat.UnusableAnswer):  # it was billed although it is unusable
-                    self.report.take(
-                        LLMReply("", problem.model, usage=problem.usage, service_tier=problem.service_tier)
-                    )
-                if not _is_about_one_question(problem):
-                    self.closed_by = problem
-                raise
-        self.report.take(reply)
-        about = chat.about(request)
-        chat.require_willing(chat.Said(reply.text, reply.model, reply.finish_reason), about)
-        if not reply.text.strip():
-            raise BadAnswer(f"{about}: {reply.model} answered without content.", reply.text)
-        if reply.finish_reason != "stop":
-            raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
-        try:
-            answer = shape.model_validate_json(reply.text)
-        except ValidationError as cause:
-            fault = checks.first_problem(cause)
-            given = "" if fault.kind == "missing" else f" is {checks.represented(fault.value)}"
-            raise BadAnswer(
-                f"{about}: {fault.place or 'the answer'}{given}: {fault.reason}. It must be JSON of the request's "
-                "answer_schema.",
-                reply.text,
-            ) from cause
+            reply = await self._counted(request)
+        answer = _validated(reply, shape, chat.about(request))
         kept_as = f", {reply.key[:19]}" if reply.key else ""
         return answer, f"{reply.model}, prompt {self._prompts.version}{kept_as}"
+
+    async def _counted(self, request: LLMRequest) -> LLMReply:
+        """Return the reply, and enter the call into the report. An error may stop all further questions."""
+        if self.closed_by is not None:
+            raise self.closed_by
+        self.report.calls[request.component] += 1
+        try:
+            reply = await self._completed(request)
+        except Scene2HapError as problem:
+            if isinstance(problem, chat.UnusableAnswer):  # it was billed although it is unusable
+                self.report.take(LLMReply("", problem.model, usage=problem.usage, service_tier=problem.service_tier))
+            if not _is_about_one_question(problem):
+                self.closed_by = problem
+            raise
+        self.report.take(reply)
+        return reply
 
     def has_wish(self, subject: str) -> bool:
         """Return True if the user gave a wish for this object alone."""
@@ -131,3 +119,22 @@ def _schema(shape: type[Answer]) -> dict[str, Any]:
 
 def _is_about_one_question(problem: Scene2HapError) -> bool:
     return isinstance(problem, BadAnswer) or (isinstance(problem, BackendUnavailable) and problem.retryable)
+
+
+def _validated(reply: LLMReply, shape: type[AnswerType], about: str) -> AnswerType:
+    """Return the answer in a reply. Raises: BadAnswer, AnswerRefused: see `Questions.ask`."""
+    chat.require_willing(chat.Said(reply.text, reply.model, reply.finish_reason), about)
+    if not reply.text.strip():
+        raise BadAnswer(f"{about}: {reply.model} answered without content.", reply.text)
+    if reply.finish_reason != "stop":
+        raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
+    try:
+        return shape.model_validate_json(reply.text)
+    except ValidationError as cause:
+        fault = checks.first_problem(cause)
+        given = "" if fault.kind == "missing" else f" is {checks.represented(fault.value)}"
+        raise BadAnswer(
+            f"{about}: {fault.place or 'the answer'}{given}: {fault.reason}. It must be JSON of the request's "
+            "answer_schema.",
+            reply.text,
+        ) from cause

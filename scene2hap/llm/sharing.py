@@ -8,7 +8,7 @@ from typing import Any
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.llm.quoting import clean
 from scene2hap.scene.copies import copy_key, name_words
-from scene2hap.scene.objects import Contact
+from scene2hap.scene.objects import VERTICAL, Contact
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _DIGITS = 4
@@ -62,7 +62,7 @@ def reachable(sources: Iterable[str], graph: ContactGraph) -> frozenset[str]:
 
 
 def _supports(scene: SceneSnapshot, contacts: Iterable[Contact]) -> Mapping[str, set[str]]:
-    up = {"y": 1, "z": 2}[scene.up_axis]
+    up = VERTICAL[scene.up_axis]
     found: dict[str, set[str]] = {}
     for contact in contacts:
         rise = contact.normal[up] if contact.normal is not None else 0.0

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SOUND, TOUCH, THRESHOLD, MARK = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
+SOUND, TOUCH, THRESHOLD = "#0072B2", "#D55E00", "#009E73"
 """Colours that are distinct in all common kinds of colour blindness (Okabe and Ito 2008)."""
 MOST_LETTERS = 40
 """Most letters of a name in a figure; a longer one would push the axes off the page."""

@@ -40,7 +40,7 @@ from scene2hap.propagation.domain import (
     off_zero,
     warn_if_thick,
 )
-from scene2hap.propagation.modes import n_rigid_motions, points_on
+from scene2hap.propagation.modes import points_on, receptance_frequencies
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 
@@ -142,8 +142,7 @@ class AutoFidelity:
 
         Parameters, returns, errors and warnings: see `ModalPlate.plate_receptance`.
         """
-        loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
-        f = as_frequencies(frequencies_hz, positive_because=loose)
+        f = receptance_frequencies(plate, frequencies_hz)
         return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
 
     def _receptance(

@@ -101,7 +101,7 @@ class ExponentialPlate:
         """
         require_input(network, excitations, bands)
         price = self._prices(network.bodies, excitations, bands)
-        crossing = [self._crossing_cost(contact.weight) for contact in network.contacts]
+        crossing = [self.crossing_cost(contact.weight) for contact in network.contacts]
         source_ids = tuple(excitation.source_id for excitation in excitations)
         arrivals = cheapest_arrivals(price, network.contacts, crossing, source_ids, self.max_hops)
         dominant = np.array([self._frequency_hz(item) for item in excitations])
@@ -116,7 +116,7 @@ class ExponentialPlate:
         """
         source_ids = tuple(excitation.source_id for excitation in excitations)
         prices = self._prices(bodies, excitations, bands)
-        paths = LivePaths(graph, prices, self._crossing_cost, source_ids, self.max_hops)
+        paths = LivePaths(graph, prices, self.crossing_cost, source_ids, self.max_hops)
         gamma: GammaAt | GammaOver
         if bands.kind == "dominant":
             gamma = GammaAt(np.array([self._frequency_hz(item) for item in excitations]))
@@ -126,15 +126,15 @@ class ExponentialPlate:
 
     def _prices(self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands) -> dict[str, float]:
         """Return the cost of a metre through each body, after checking that thin-plate theory holds for it."""
-        plates = {object_id: body for object_id, body in bodies.items() if isinstance(body, Plate)}
         if self.outside_domain != "ignore":
             top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
-            for object_id, plate in plates.items():
-                check_thin(object_id, plate, top_hz, self.outside_domain)
-        prices = {object_id: plate.wavenumber_per_root_omega for object_id, plate in plates.items()}
-        return {**dict.fromkeys(bodies, 0.0), **prices}
+            for object_id, body in bodies.items():
+                if isinstance(body, Plate):
+                    check_thin(object_id, body, top_hz, self.outside_domain)
+        return {object_id: price_per_m(body) for object_id, body in bodies.items()}
 
-    def _crossing_cost(self, weight: float) -> float:
+    def crossing_cost(self, weight: float) -> float:
+        """Return the cost of crossing a contact of a weight (0..1), beside `price_per_m` [s^(1/2)]; infinite at 0."""
         loss = self.interface_loss_db * math.log(10) / 20
         return (loss - math.log(weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ) if weight > 0 else math.inf
 
@@ -144,6 +144,11 @@ class ExponentialPlate:
 
     def _frequency_hz(self, excitation: Excitation) -> float:
         return excitation.frequency_raw_hz if self.frequency == "raw" else excitation.frequency_tactile_hz
+
+
+def price_per_m(body: Body) -> float:
+    """Return the cost of a metre through a body, k / sqrt(omega) [s^(1/2)/m]; 0 for a rigid body."""
+    return body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -52,7 +52,7 @@ from scene2hap.propagation.lattice.lattice_modes import (
     n_modes_up_to,
 )
 from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper, State, Stepper
-from scene2hap.propagation.modes import n_rigid_motions, points_on
+from scene2hap.propagation.modes import points_on, receptance_frequencies
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.scene.scene_warning import warn_of
@@ -164,8 +164,7 @@ class MassSpringDamper:
         0 Hz is an error for a plate that nothing holds in place.
         Returns: (n_points, n_frequencies) complex128 [m/N].
         """
-        loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
-        f = as_frequencies(frequencies_hz, positive_because=loose)
+        f = receptance_frequencies(plate, frequencies_hz)
         return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
 
     def natural_frequencies_hz(self, plate: Plate, n_modes: int) -> NDArray[np.float64]:

@@ -39,7 +39,7 @@ from scene2hap.propagation.domain import (
     warn_if_thick,
 )
 from scene2hap.propagation.modal_body import modal_body
-from scene2hap.propagation.modes import MARGIN, n_rigid_motions, plate_modes, points_on
+from scene2hap.propagation.modes import MARGIN, plate_modes, points_on, receptance_frequencies
 from scene2hap.propagation.near_field import NearField
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
@@ -118,8 +118,7 @@ class ModalPlate:
         0 Hz is an error for a plate that nothing holds in place.
         Returns: (n_points, n_frequencies) complex128 [m/N].
         """
-        loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
-        f = as_frequencies(frequencies_hz, positive_because=loose)
+        f = receptance_frequencies(plate, frequencies_hz)
         warn_if_thick(plate, f)
         return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
 

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.domain import warn_if_slow
+from scene2hap.propagation.domain import as_frequencies, warn_if_slow
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.ritz import AxisBasis, axis_bases, products, stiffness
@@ -201,6 +201,12 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
 def n_rigid_motions(plate: Plate) -> int:
     """Number of motions without bending that the edges allow: 3 if all are free, 1 about a single hinge, else 0."""
     return {"FFFF": 3, "FFFS": 1}.get("".join(sorted(plate.edges)), 0)
+
+
+def receptance_frequencies(plate: Plate, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
+    """As `as_frequencies`, but 0 Hz is an error for a plate that nothing holds: a constant force moves it away."""
+    loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
+    return as_frequencies(frequencies_hz, positive_because=loose)
 
 
 @lru_cache(maxsize=4096)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +16,7 @@ from scene2hap.plots import add_legend, new_figure, plain, set_title
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import ContactNetwork, PropagationField
+from scene2hap.text_files import draft_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -75,7 +75,8 @@ def plot_field(
     set_title(axes, plain(title, 120) if title else f"{plain(source)} on {plain(object_id)}")
     add_legend(axes, marks, [f"{plain(source)} rests here", "touch"][: len(marks)], loc="upper right")
     if path is not None:
-        _write(figure, Path(path))
+        with draft_of(Path(path)) as draft:
+            figure.savefig(draft)
     return figure
 
 
@@ -101,13 +102,3 @@ def _feet(network: ContactNetwork, object_id: str, source_id: str) -> NDArray[np
 def _new_figure(plate: Plate) -> Figure:
     height = 1.4 + 5.5 * min(1.2, max(0.25, plate.width_m / plate.length_m))
     return new_figure(7.5, height)
-
-
-def _write(figure: Figure, path: Path) -> None:
-    handle, name = tempfile.mkstemp(dir=path.parent, suffix=path.suffix)
-    os.close(handle)
-    try:
-        figure.savefig(name)
-        os.replace(name, path)
-    finally:
-        Path(name).unlink(missing_ok=True)

@@ -167,7 +167,6 @@ class TactileMix:
 
     def __init__(self, bank: LoopBank, n_hands: int, ramp: int, x: Block, *, is_skipping: bool = True) -> None:
         self._bank = bank
-        self._n_hands = n_hands
         self._ramp = ramp
         n_slots = slots_for(ramp, bank.sample_rate_hz)
         self.x = x

@@ -18,6 +18,7 @@ from scene2hap import __version__
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle, Override
 from scene2hap.contact.graph import ContactGraph
+from scene2hap.counted import first_of
 from scene2hap.errors import UnknownMaterial
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.materials import Material, lookup
@@ -308,7 +309,7 @@ def _counters(bundle: HapticBundle) -> list[list[str]]:
         ("sources", str(len(bundle.loops))),
         ("states with a loop", str(n_states)),
         ("corrected by a person", str(len(bundle.overrides))),
-        ("answered by", ", ".join(models[:3]) + (", ..." if len(models) > 3 else "")),
+        ("answered by", first_of(models, 3)),
     ]
     return [list(row) for row in rows if row[1]]
 

@@ -6,7 +6,6 @@ since a source arrives over all paths at once.
 
 from __future__ import annotations
 
-import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +15,7 @@ from numpy.typing import NDArray
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.propagation.controls import FullPropagation, NoPropagation
-from scene2hap.propagation.exponential_plate import REFERENCE_HZ, ExponentialPlate
+from scene2hap.propagation.exponential_plate import ExponentialPlate, price_per_m
 from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
 from scene2hap.report.surface_points import Patch
 from scene2hap.scene.objects import Contact
@@ -70,13 +69,13 @@ class _Search:
     def __init__(self, bundle: HapticBundle, law: ExponentialPlate, contacts: Sequence[Contact]) -> None:
         self._sources = tuple(bundle.loops)
         bodies = {key: body_of(haptics) for key, haptics in bundle.objects.items()}
-        self._price = {key: body.wavenumber_per_root_omega for key, body in bodies.items() if body is not None}
+        self._price = {key: price_per_m(body) for key, body in bodies.items() if body is not None}
         self._contacts = contacts
         self._owner = [owner for contact in contacts for owner in (contact.a, contact.b)]
         self._sides: dict[str, list[int]] = defaultdict(list)
         for side, owner in enumerate(self._owner):
             self._sides[owner].append(side)
-        crossing = [_crossing_cost(law, contact.weight) for contact in contacts]
+        crossing = [law.crossing_cost(contact.weight) for contact in contacts]
         self._by_hops = self._searched(crossing, law.max_hops)
         final = self._by_hops[-1] * (1.0 + _WITHIN)
         self._hops: NDArray[np.intp] = np.argmax([costs <= final for costs in self._by_hops], axis=0)
@@ -153,9 +152,3 @@ class _Search:
                 before = self._chain(row, int(sides[best]), hops - 1)
             self._chains[key] = (*before, here)
         return self._chains[key]
-
-
-def _crossing_cost(law: ExponentialPlate, weight: float) -> float:
-    """Return the cost of crossing a contact, as in `ExponentialPlate`."""
-    loss = law.interface_loss_db * math.log(10) / 20
-    return (loss - math.log(weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ) if weight > 0 else math.inf

@@ -9,7 +9,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.bounds import joined
+from scene2hap.scene.objects import VERTICAL, SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
 Direction = tuple[float, float, float]
@@ -32,9 +33,9 @@ def shells(scene: SceneSnapshot) -> frozenset[str]:
     if len(scene.objects) < 2:
         return frozenset()
     boxes = np.array([item.bounds_m for item in scene.objects])
-    up = _up(scene)
+    up = VERTICAL[scene.up_axis]
     sizes = np.ptp(boxes, axis=1)
-    whole = boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)
+    whole = np.ptp(joined(boxes), axis=0)
     level = [axis for axis in range(3) if axis != up]
     is_wide = (sizes[:, level] >= _SHELL_SHARE * whole[level]).all(axis=1)
     # A floor is as wide too, but it hides nothing.
@@ -57,7 +58,7 @@ def walls(scene: SceneSnapshot, sources: Collection[str] = ()) -> dict[str, Dire
     whole = shells(scene)
     boxes = [_OwnBox(item) for item in scene.objects]
     corners_m = np.concatenate([box.corners_m for box in boxes])
-    up = np.eye(3)[_up(scene)]
+    up = np.eye(3)[VERTICAL[scene.up_axis]]
     others = [box for box in boxes if box.id not in whole and box.id not in sources]
     at_rim = [side for box in others if (side := _at_rim(box, corners_m)) is not None]
     upright = [
@@ -140,10 +141,6 @@ def _share(box: _OwnBox, axis: NDArray[np.float64], corners_m: NDArray[np.float6
     """Return the size of a box along an axis as a share of the scene's."""
     size = float(np.ptp(corners_m @ axis))
     return float(np.ptp(box.corners_m @ axis)) / size if size > 0.0 else 0.0
-
-
-def _up(scene: SceneSnapshot) -> int:
-    return {"y": 1, "z": 2}[scene.up_axis]
 
 
 def _direction(vector: NDArray[np.float64]) -> Direction:

@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.bounds import joined
+from scene2hap.scene.objects import VERTICAL
 from scene2hap.scene.snapshot import SceneSnapshot
 
 Floats = NDArray[np.float64]
@@ -59,13 +61,13 @@ class TopView:
             out only ceilings and roofs that hide most of the objects.
         """
         bounds = np.array([item.bounds_m for item in scene.objects])
-        up = {"y": 1, "z": 2}[scene.up_axis]
+        up = VERTICAL[scene.up_axis]
         lowest = float(bounds[:, 0, up].min())
         if up_to_m is not None:
             return cls._up_to(scene, n_cells, np.full(len(bounds), lowest + up_to_m))
         limits = np.full(len(bounds), np.inf)
         view = best = cls._up_to(scene, n_cells, limits)
-        is_wide = np.ptp(bounds, axis=1) >= _WIDE_SHARE * (bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0))
+        is_wide = np.ptp(bounds, axis=1) >= _WIDE_SHARE * np.ptp(joined(bounds), axis=0)
         wide = np.flatnonzero(is_wide[:, view.level].all(axis=1))
         for _ in range(_MOST_LAYERS):
             is_cover = np.isin(view.top, wide) & (view.height_m >= lowest + _HEADROOM_M)
@@ -81,7 +83,7 @@ class TopView:
     @classmethod
     def _up_to(cls, scene: SceneSnapshot, n_cells: int, limits_m: Floats) -> TopView:
         """Return the view of the surfaces up to a height (n_objects,) [m] for each object."""
-        up = {"y": 1, "z": 2}[scene.up_axis]
+        up = VERTICAL[scene.up_axis]
         across, deep = (axis for axis in range(3) if axis != up)
         order = [across, deep, up]
         bounds = np.array([item.bounds_m for item in scene.objects])[:, :, order]
@@ -144,12 +146,12 @@ def _frame(bounds_m: Floats) -> tuple[Floats, Floats]:
 
     A ground that is far larger than the rest, such as the endless floor of a simulator, is drawn around the rest only.
     """
-    low, high = bounds_m[:, 0].min(axis=0), bounds_m[:, 1].max(axis=0)
+    low, high = joined(bounds_m)
     largest = np.ptp(bounds_m, axis=1).prod(axis=1).argmax()
     rest = np.delete(bounds_m, largest, axis=0)
     if not len(rest):
         return low, high
-    inner_low, inner_high = rest[:, 0].min(axis=0), rest[:, 1].max(axis=0)
+    inner_low, inner_high = joined(rest)
     margin = max(float((inner_high - inner_low).max()), _AROUND_M)
     inner_low, inner_high = np.maximum(inner_low - margin, low), np.minimum(inner_high + margin, high)
     is_far_larger = (high - low).max() > _FAR_LARGER * (inner_high - inner_low).max()

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene import limits
+from scene2hap.scene.bounds import Bounds, bounds_of, distances, joined
 from scene2hap.scene.tree import Matrix, Piece
 
 # Two boxes are separate if the gap exceeds this share of the group's diagonal (assumed).
@@ -51,10 +52,10 @@ class Member:
     pieces: tuple[Piece, ...]
 
     @cached_property
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lowest and highest corner in the world [file unit]."""
+    def box(self) -> Bounds:
+        """Lowest and highest corner (2, 3) in the world [file unit]."""
         points = np.concatenate([piece.vertices for piece in self.pieces]) @ self.frame[:3, :3].T + self.frame[:3, 3]
-        return points.min(axis=0), points.max(axis=0)
+        return bounds_of(points)
 
 
 def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
@@ -65,11 +66,11 @@ def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
         return [list(members)]
     limits.at_most(f"the number of items in the group {group_name[:80]!r}", len(items), "MAX_OBJECTS")
     found = [[item] for item in items]
-    lows, highs = _boxes(items)
+    boxes = _boxes(items)
     is_item = {id(item) for item in items}
     for member in some:
         if id(member) not in is_item:
-            found[int(_gaps(member, lows, highs).argmin())].append(member)
+            found[int(distances(boxes, member.box).argmin())].append(member)
     return found
 
 
@@ -83,26 +84,18 @@ def has_own_noun(name: str, group_name: str) -> bool:
 
 def _stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
     """Return True if the boxes of the items form at least two separate sets."""
-    lows, highs = _boxes(members)
-    reach = _APART * float(np.linalg.norm(highs.max(axis=0) - lows.min(axis=0)))
-    lows, highs = _boxes(items)
-    joined, left = [0], np.arange(1, len(items))
-    for one in joined:
-        is_near = _gaps(items[one], lows[left], highs[left]) <= reach
-        joined += left[is_near].tolist()
+    reach = _APART * float(np.linalg.norm(np.ptp(joined(_boxes(members)), axis=0)))
+    boxes = _boxes(items)
+    linked, left = [0], np.arange(1, len(items))
+    for one in linked:
+        is_near = distances(boxes[left], boxes[one]) <= reach
+        linked += left[is_near].tolist()
         left = left[~is_near]
         if not len(left):
             return False
     return True
 
 
-def _boxes(members: Sequence[Member]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return lowest and highest corners (n, 3) in the world."""
-    return np.array([member.box[0] for member in members]), np.array([member.box[1] for member in members])
-
-
-def _gaps(one: Member, lows: NDArray[np.float64], highs: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the distances (n,) of a member's bounding box from others, given by their corners (n, 3)."""
-    a, b = one.box
-    gaps: NDArray[np.float64] = np.linalg.norm(np.maximum(np.maximum(a - highs, lows - b), 0.0), axis=1)
-    return gaps
+def _boxes(members: Sequence[Member]) -> NDArray[np.float64]:
+    """Return the boxes (n, 2, 3) in the world."""
+    return np.array([member.box for member in members])

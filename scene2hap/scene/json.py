@@ -21,7 +21,7 @@ from scene2hap.errors import SceneError
 from scene2hap.printable import read_json
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX
-from scene2hap.scene.objects import SceneData, SceneObject, with_relative_heights
+from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.shapes import DominantSurface, Geometry
@@ -176,7 +176,7 @@ def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
     objects = []
     for item in scene.objects:
         if item.surface is _UNMEASURED:
-            up = item.pose.rotation.T[:, {"y": 1, "z": 2}[scene.up_axis]]
+            up = item.pose.rotation.T[:, VERTICAL[scene.up_axis]]
             item = replace(item, surface=surfaces.of(item.geometry.mesh, up, f"object {item.id!r}", turns=True))
         objects.append(item)
     above = with_relative_heights(objects, scene.up_axis)

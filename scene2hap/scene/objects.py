@@ -14,6 +14,7 @@ from pydantic import InstanceOf
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
+from scene2hap.scene.bounds import bounds_of
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.pose import Pose
@@ -21,6 +22,8 @@ from scene2hap.scene.shapes import DominantSurface, Geometry, geometry_of
 
 UpAxis = Literal["y", "z"]
 """The up axis of a scene: "y" as in glTF, "z" as in MuJoCo."""
+VERTICAL: Mapping[UpAxis, int] = {"y": 1, "z": 2}
+"""Index of the vertical coordinate for each up axis."""
 
 _LEAST_WEIGHT = 1e-30
 _AT_ORIGIN = Pose()
@@ -146,15 +149,14 @@ class SceneObject:
         Height is along the axis nearest to the vertical, so the size does not change with rotation about the vertical.
         """
         edges = np.ptp(self.geometry.mesh.vertices_m, axis=0)
-        upright = int(np.abs(self.pose.rotation[{"y": 1, "z": 2}[up_axis]]).argmax())
+        upright = int(np.abs(self.pose.rotation[VERTICAL[up_axis]]).argmax())
         shorter, longer = sorted(float(edge) for edge in np.delete(edges, upright))
         return (longer, shorter, float(edges[upright]))
 
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
         """Lowest and highest corner (2, 3) [m] in the world."""
-        points = self.pose.to_world(self.geometry.mesh.vertices_m)
-        return np.array([points.min(axis=0), points.max(axis=0)])
+        return bounds_of(self.pose.to_world(self.geometry.mesh.vertices_m))
 
     def plate_coordinates(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Return world points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.
@@ -170,7 +172,7 @@ class SceneObject:
 
 def measured_surface(geometry: Geometry, pose: Pose, up_axis: UpAxis) -> DominantSurface:
     """Return the dominant surface of an object at this rotation, cached for equal meshes."""
-    up = pose.rotation[{"y": 1, "z": 2}[up_axis]].round(6)
+    up = pose.rotation[VERTICAL[up_axis]].round(6)
     return _measured(geometry, tuple(up.tolist()))
 
 
@@ -205,7 +207,7 @@ def unknown_object(object_id: object, known: Mapping[str, object]) -> str:
 
 def with_relative_heights(objects: list[SceneObject], up_axis: UpAxis) -> tuple[SceneObject, ...]:
     """Return the objects with `relative_height_m` measured from the lowest of them."""
-    up = {"y": 1, "z": 2}[up_axis]
+    up = VERTICAL[up_axis]
     bottoms = [float(item.bounds_m[0, up]) for item in objects]
     ground = min(bottoms, default=0.0)
     return tuple(

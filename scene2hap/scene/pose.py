@@ -16,6 +16,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
 from scene2hap.scene.scene_warning import warn_of
+from scene2hap.scene.vectors import vector
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical.
 _UNIT_TOLERANCE = 1e-9
@@ -168,7 +169,7 @@ class Pose:
         front, side = front / np.linalg.norm(front), side / np.linalg.norm(side)
         over = np.cross(front, side)
         columns = (side, over, front) if up == 1 else (front, side, over)
-        return cls(_triple(at), _quaternion(np.stack(columns, axis=1)))
+        return cls(vector(at), _quaternion(np.stack(columns, axis=1)))
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> Pose:
@@ -187,7 +188,7 @@ class Pose:
                 f"matrix has {tuple(m[3].tolist())} in its last row; it must be (0, 0, 0, 1), with the position [m] in "
                 "the last column. Give matrix.T if the position stands in the last row."
             )
-        return cls(_triple(m[:3, 3]), _quaternion(r))
+        return cls(vector(m[:3, 3]), _quaternion(r))
 
 
 def _warn_of_length(rotation: Sequence[float], length: float) -> None:
@@ -208,7 +209,7 @@ def _warn_of_degrees(name: str, angle_rad: float) -> None:
 
 
 def _given(position_m: Sequence[float]) -> tuple[float, float, float]:
-    return _triple(checks.vector("position_m", position_m, "m", size=3, error=SceneError))
+    return vector(checks.vector("position_m", position_m, "m", size=3, error=SceneError))
 
 
 def _axis(value: object, name: str, letters: str) -> int:
@@ -229,10 +230,6 @@ def _points(name: str, value: ArrayLike) -> NDArray[np.float64]:
     if points.shape[-1:] != (3,):
         raise SceneError(f"{name} has shape {points.shape}; it must be (n, 3) [m].")
     return points
-
-
-def _triple(values: Sequence[float] | NDArray[np.float64]) -> tuple[float, float, float]:
-    return (float(values[0]), float(values[1]), float(values[2]))
 
 
 def _quaternion(r: NDArray[np.float64]) -> tuple[float, float, float, float]:

@@ -14,6 +14,7 @@ from pydantic import PlainSerializer, PlainValidator
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
+from scene2hap.scene.bounds import bounds_of
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.surface import plate_sizes
 from scene2hap.scene.surface.outline import Outline
@@ -119,8 +120,7 @@ class TriMesh:
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
         """Lowest and highest corner (2, 3) [m] in the own frame, of the vertices that faces use."""
-        used = self.corners_m
-        return np.array([used.min(axis=0), used.max(axis=0)])
+        return bounds_of(self.corners_m)
 
 
 Geometry = Box | TriMesh

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -121,6 +121,21 @@ class AuthoredScene:
     up_axis: UpAxis = "y"
     unit_m: float | None = None
     left_out: tuple[str, ...] = ()
+
+
+def with_own_keys(roots: Sequence[AuthoredNode], file: Hashable) -> tuple[AuthoredNode, ...]:
+    """Return the nodes of a file with keys of pieces that no other file has. A piece that nodes share stays shared."""
+    seen: dict[int, Piece] = {}
+
+    def own(piece: Piece) -> Piece:
+        if id(piece) not in seen:
+            seen[id(piece)] = replace(piece, key=(file, piece.key))
+        return seen[id(piece)]
+
+    def copied(node: AuthoredNode) -> AuthoredNode:
+        return replace(node, pieces=tuple(map(own, node.pieces)), children=tuple(map(copied, node.children)))
+
+    return tuple(map(copied, roots))
 
 
 def digest(*parts: str) -> str:

@@ -5,9 +5,6 @@ from __future__ import annotations
 import math
 import time
 
-LAST_S = 2.0
-"""Longest time [s] for which Python waits at its end for what a worker is doing."""
-
 
 class Deadline:
     """A time `timeout_s` [s] from now; never if None."""

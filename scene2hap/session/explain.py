@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.counted import first_of
 from scene2hap.html_tables import html_table
-from scene2hap.propagation.exponential_plate import REFERENCE_HZ, ExponentialPlate
-from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.exponential_plate import ExponentialPlate, price_per_m
 from scene2hap.propagation.protocol import Body, Carrier, CarryingField
 from scene2hap.scene.objects import Contact
 from scene2hap.session.frame import HapticFrame, Touch
@@ -199,7 +199,7 @@ class Explainer:
             silent.setdefault(_why_silent(self._sources[source_id]), []).append(source_id)
         for why, remedy in _REMEDIES.items():
             if several := silent.get(why):
-                named = ", ".join(map(repr, several[:MOST_NAMED])) + (" and others" * (len(several) > MOST_NAMED))
+                named = first_of([*map(repr, several)], MOST_NAMED)
                 yield f"Connected, but {why}: {named}; call set_source(id, {remedy})."
 
     def _felt(self, source_id: str, band: int, touches: Sequence[Touch]) -> FeltSource:
@@ -308,11 +308,10 @@ def loudest_path(
     if source_id == target_id:
         return LoudestPath((source_id,))
     law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
-    loss = law.interface_loss_db * math.log(10) / 20
     beside: dict[str, list[tuple[str, Point, float]]] = defaultdict(list)
     for contact in contacts:
         if contact.weight > 0:
-            crossing = (loss - math.log(contact.weight)) / math.sqrt(2 * math.pi * REFERENCE_HZ)
+            crossing = law.crossing_cost(contact.weight)
             beside[contact.a].append((contact.b, contact.point_m, crossing))
             beside[contact.b].append((contact.a, contact.point_m, crossing))
     waiting: list[tuple[float, int, LoudestPath]] = [(0.0, 0, LoudestPath((source_id,)))]
@@ -333,11 +332,7 @@ def loudest_path(
         end = [(_END, point_m, 0.0)] if here == target_id else []
         for other, leave, crossing in (*onward, *end):
             # A path inside the source costs nothing, since the source moves as a whole.
-            through = 0.0 if entry is None else _price_per_m(bodies[here]) * math.dist(entry, leave)
+            through = 0.0 if entry is None else price_per_m(bodies[here]) * math.dist(entry, leave)
             n_pushed += 1
             heapq.heappush(waiting, (cost + through + crossing, n_pushed, way.on(other, leave)))
     return None
-
-
-def _price_per_m(body: Body) -> float:
-    return body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0

@@ -20,6 +20,7 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.counted import counted
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
+from scene2hap.scene.bounds import bounds_of, distances
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -131,9 +132,8 @@ class LikelyMistakes:
 
     def _off_m(self, touch: Touch) -> float:
         """Distance of a touch from the box around its object [m]. Searching the surface would take too long."""
-        low, high = self._state.objects[touch.object_id].geometry.mesh.bounds_m
-        at = self._state.graph.pose(touch.object_id).to_own([touch.point_m])[0]
-        return float(np.linalg.norm(np.maximum(np.maximum(low - at, at - high), 0.0)))
+        own_m = self._state.graph.pose(touch.object_id).to_own([touch.point_m])
+        return float(distances(bounds_of(own_m), self._state.objects[touch.object_id].geometry.mesh.bounds_m))
 
     def _warn_of_touch(self, touch: Touch, off_m: float) -> None:
         point = ", ".join(f"{x:g}" for x in touch.point_m)

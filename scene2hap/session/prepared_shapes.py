@@ -6,21 +6,20 @@ Contacts that need it earlier build it themselves, with the same result.
 
 from __future__ import annotations
 
-import atexit
 from collections.abc import Iterable, Sequence
+from functools import partial
 from threading import Event, Thread
-from weakref import WeakSet
 
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.scene.shapes import TriMesh
-from scene2hap.session.deadline import LAST_S, Deadline
+from scene2hap.session.deadline import Deadline
+from scene2hap.session.worker_threads import start_worker
 
 FEW_TRIANGLES = 1000
 """A mesh of fewer is prepared when it is needed, which takes 2 to 6 ms, once. Many small ones in the background would
 hold Python's interpreter lock, and so delay the frames of a game that has begun."""
 
 _ENDING = Event()
-_WORKERS: WeakSet[Thread] = WeakSet()
 
 
 class PreparedShapes:
@@ -38,10 +37,7 @@ class PreparedShapes:
         waiting = sorted((one for one in shapes if not one.is_prepared), key=lambda one: -one.triangles.shape[2])
         self._workers = [worker for worker in self._workers if worker.is_alive()]
         if waiting:
-            worker = Thread(target=_prepare, args=[waiting], name="scene2hap shapes", daemon=True)
-            _WORKERS.add(worker)
-            self._workers.append(worker)
-            worker.start()
+            self._workers.append(start_worker(partial(_prepare, waiting), "shapes", _ENDING.set))
 
     def wait(self, end: Deadline) -> bool:
         """Wait for the workers; false after the deadline."""
@@ -55,12 +51,3 @@ def _prepare(shapes: Sequence[Shape]) -> None:
         if _ENDING.is_set():
             return
         shape.prepare()
-
-
-@atexit.register
-def _end_all() -> None:
-    """End the workers, since a thread that computes while Python exits may crash it."""
-    _ENDING.set()
-    end = Deadline(LAST_S)
-    for worker in list(_WORKERS):
-        worker.join(end.left_s)

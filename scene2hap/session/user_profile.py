@@ -18,15 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, field_validator
 
 from scene2hap import checks
-from scene2hap.audio.files import written_whole
 from scene2hap.devices.protocol import Block
-from scene2hap.errors import AudioError, ConfigError
+from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.render.limiter import soft_limit
 from scene2hap.session.frame import Gains
 from scene2hap.session.hand_gains import HandGains
 from scene2hap.session.mix.sources import LoopRow
 from scene2hap.settings import Settings
+from scene2hap.text_files import write_whole
 
 MOST_DB = 40.0
 """Bound on every level of a profile: a factor of 100."""
@@ -106,10 +106,11 @@ class UserProfile(Comfort):
         if file.suffix != ".json":
             raise ConfigError(f"path is {str(file)!r}; a profile is saved as JSON, in a file that ends in .json.")
         try:
-            with written_whole(file) as beside:
-                beside.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-        except AudioError as cause:
-            raise ConfigError(str(cause)) from cause
+            write_whole(file, json.dumps(document, indent=1, ensure_ascii=False) + "\n")
+        except OSError as cause:
+            raise ConfigError(
+                f"{file}: cannot be written ({cause.strerror}). Choose a folder that exists and is yours."
+            ) from cause
 
     def _special(self, hand: str, device: str) -> Sequence[Comfort]:
         tables: tuple[tuple[Mapping[str, Comfort], str], ...] = ((self.hands, hand), (self.devices, device))

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-import numpy as np
-
 from scene2hap.engines.adapter import EngineAdapter
+from scene2hap.scene.bounds import bounds_of, distances
 from scene2hap.scene.engines.motion import moved
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
@@ -77,9 +76,8 @@ def _hold_near(
 ) -> None:
     if object_id not in poses:  # the engine has this object, but the scene does not
         return
-    corners = scene.object(object_id).geometry.mesh.vertices_m
-    own = poses[object_id].to_own(np.array(point_m))
-    off_m = float(np.linalg.norm(np.maximum(0.0, np.maximum(corners.min(axis=0) - own, own - corners.max(axis=0)))))
+    own_m = poses[object_id].to_own([point_m])
+    off_m = float(distances(bounds_of(own_m), scene.object(object_id).geometry.mesh.bounds_m))
     assert off_m <= _NEAR_M, (
         f"{method}() has a point {off_m:.3g} m off {object_id!r}; points are in the world, in metres"
     )

@@ -37,7 +37,7 @@ def main(kind: str, where: str) -> None:
 
         schema = {"type": "object", "properties": {"scene_category": {"type": "string"}}, "additionalProperties": False}
         request = LLMRequest("scene_analyzer", "", "What kind of place is this?", {}, schema, "1")
-        backend = LocalBackend("m", base_url=where, dialect=kind, timeout_s=2.0, api_key=KEY)  # type: ignore[arg-type]  # a text of the command line
+        backend = LocalBackend("m", base_url=where, dialect=kind, timeout_s=2.0, api_key=KEY)
         print(printable(asyncio.run(backend.complete(request)).text[:1000]))
 
 

@@ -17,7 +17,7 @@ class Raising:
     def __float__(self) -> float:
         raise RuntimeError("no number")
 
-    __int__ = __index__ = __len__ = __iter__ = __float__  # type: ignore[assignment]  # they never return
+    __int__ = __index__ = __len__ = __iter__ = __float__  # they never return
 
     def __array__(self, *_: object, **__: object) -> Any:
         raise RuntimeError("no array")

@@ -132,15 +132,15 @@ class Idle(MemorySink):
 
 
 class Uncounted(MemorySink):
-    stats = SinkStats()  # type: ignore[assignment]
+    stats = SinkStats()
 
 
 class Wordless(MemorySink):
-    stats = None  # type: ignore[assignment]
+    stats = None
 
 
 class OpensAlone(MemorySink):
-    def open(self) -> None:  # type: ignore[override]
+    def open(self) -> None:
         pass
 
 
@@ -178,7 +178,7 @@ class Converter:
         self._change, self._end, self._whole = change, end, CONVERTERS.build("lowpass")
 
     def stream(self, sample_rate_hz: int, context: Any) -> Any:
-        guest, stream = self, self._whole.stream(sample_rate_hz, context)  # type: ignore[attr-defined]
+        guest, stream = self, self._whole.stream(sample_rate_hz, context)
 
         class Stream:
             def process(self, block: Any) -> Any:
@@ -285,7 +285,7 @@ def only(component: str, text: str) -> Callable[[LLMReply, LLMRequest], LLMReply
 
 
 def spoiled(reply: LLMReply, request: LLMRequest) -> LLMReply:
-    request.facts["object_name"] = "spoon"  # type: ignore[index]
+    request.facts["object_name"] = "spoon"
     return reply
 
 

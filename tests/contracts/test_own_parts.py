@@ -33,19 +33,19 @@ SETTINGS: dict[str, dict[str, Any]] = {"mass_spring_damper": {"resolution": 8}}
 @pytest.mark.parametrize("kind", MODELS.kinds())
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
 def test_own_propagation_models_pass_the_contract(kind: str) -> None:
-    check_propagation_model(MODELS.build({"kind": kind, **SETTINGS.get(kind, {})}))  # type: ignore[arg-type]
+    check_propagation_model(MODELS.build({"kind": kind, **SETTINGS.get(kind, {})}))
 
 
 @pytest.mark.parametrize("hand", ["palm", "fingertip"])
 @pytest.mark.parametrize("kind", ["infinite_plate", "modal_plate", "auto", "mass_spring_damper"])
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.ThinPlateWarning")
 def test_propagation_models_under_a_hand(kind: str, hand: str) -> None:
-    check_propagation_model(MODELS.build({"kind": kind, "hand": hand}))  # type: ignore[arg-type]
+    check_propagation_model(MODELS.build({"kind": kind, "hand": hand}))
 
 
 @pytest.mark.parametrize("kind", CONVERTERS.kinds())
 def test_own_converters_pass_the_contract(kind: str) -> None:
-    check_tactile_converter(CONVERTERS.build(kind))  # type: ignore[arg-type]
+    check_tactile_converter(CONVERTERS.build(kind))
 
 
 def test_own_sinks_pass_the_contract(tmp_path: Path) -> None:
@@ -69,9 +69,9 @@ def test_own_renderers_pass_the_contract(kind: str) -> None:
     pytest.importorskip({"embree": "embreex", "panda3d": "panda3d.core"}[kind], exc_type=ImportError)
     if kind == "panda3d" and (problem := rasteriser_problem()):
         pytest.skip(problem)
-    check_renderer(RENDERERS.load(kind))  # type: ignore[arg-type]
+    check_renderer(RENDERERS.load(kind))
 
 
 @pytest.mark.parametrize("kind", EXPORTS.kinds())
 def test_own_exporters_pass_the_contract(kind: str) -> None:
-    check_exporter(EXPORTS.build(kind))  # type: ignore[arg-type]
+    check_exporter(EXPORTS.build(kind))

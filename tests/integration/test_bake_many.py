@@ -261,10 +261,10 @@ def test_invalid_requests_get_an_error_message(
         (([scenes[0], scenes[0]], tmp_path), "twice; give each scene once"),
     ):
         with pytest.raises(ConfigError, match=told):
-            bake_many(*given)  # type: ignore[arg-type]
+            bake_many(*given)
     for executor, told in (("threads", "'processes', 'processes:N'"), ("processes:0", "from 1 to 256"), (3, "submit")):
         with pytest.raises(ConfigError, match=told):
-            bake_many(scenes, tmp_path, executor=executor)  # type: ignore[arg-type]
+            bake_many(scenes, tmp_path, executor=executor)
     assert main(["bake-many", str(tmp_path / "*.glb"), "-o", str(tmp_path / "out")]) == 1
     assert "no file matches" in capsys.readouterr().err
 

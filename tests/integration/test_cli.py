@@ -11,6 +11,7 @@ import soundfile
 import trimesh
 from PIL import Image
 
+from files_of import files_of
 from scene2hap import Box, Pose, SceneObject, SceneSnapshot
 from scene2hap.cli import main
 from scene2hap.demo import kitchen_path
@@ -49,13 +50,13 @@ def test_demo_writes_bundle_wav_and_picture(demo: tuple[Path, dict[str, object]]
 
 def test_demo_finds_the_seven_sources_and_no_other(demo: tuple[Path, dict[str, object]]) -> None:
     _, outcome = demo
-    assert {key for key, said in outcome["objects"].items() if said["vibrates"]} == SOURCES  # type: ignore[attr-defined]  # JSON
+    assert {key for key, said in outcome["objects"].items() if said["vibrates"]} == SOURCES
     assert outcome["scene_category"] == "kitchen"
 
 
 def test_demo_tour_lets_hands_feel_its_sources(demo: tuple[Path, dict[str, object]]) -> None:
     _, outcome = demo
-    felt: list[dict] = outcome["felt"]  # type: ignore[assignment]  # JSON
+    felt: list[dict] = outcome["felt"]
     touched = {row["on"] for row in felt if row["felt_db"].get(row["on"]) == 0.0}
     assert touched == SOURCES
     worktop = [row["felt_db"]["microwave"] for row in felt if row["on"] == "worktop"]
@@ -70,9 +71,7 @@ def test_demo_tour_lets_hands_feel_its_sources(demo: tuple[Path, dict[str, objec
 def test_demo_twice_gives_the_same_bytes(demo: tuple[Path, dict[str, object]], tmp_path: Path) -> None:
     folder, _ = demo
     assert main(["demo", "-o", str(tmp_path / "again"), "--quiet"]) == 0
-    first = {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
-    again = tmp_path / "again"
-    assert {str(p.relative_to(again)): p.read_bytes() for p in sorted(again.rglob("*")) if p.is_file()} == first
+    assert files_of(tmp_path / "again") == files_of(folder)
 
 
 @pytest.fixture

@@ -158,8 +158,8 @@ def test_lists_show_the_accepted_settings(capsys: pytest.CaptureFixture[str]) ->
         rows = lists[name]
         assert isinstance(rows, list)
         assert all(isinstance(row, dict) and all(key[0] != ">" for key in row) for row in rows)
-    assert {"lra", "voice_coil"} <= {row["actuator"] for row in lists["actuators"]}  # type: ignore[attr-defined]
-    kinds = {(row["setting"], row["kind"]) for row in lists["kinds"]}  # type: ignore[attr-defined]
+    assert {"lra", "voice_coil"} <= {row["actuator"] for row in lists["actuators"]}
+    kinds = {(row["setting"], row["kind"]) for row in lists["kinds"]}
     assert {("llm", "lexicon"), ("tactile", "adaptive"), ("propagation", "modal_plate"), ("sink", "wav")} <= kinds
 
 

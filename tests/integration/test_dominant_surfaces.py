@@ -1,23 +1,16 @@
 """Dominant surfaces of real objects, against dimensions read by hand from the files (tests/data)."""
 
-import importlib.util
-from pathlib import Path
 from statistics import median
 from types import ModuleType
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from scripts import script
 
 
 @pytest.fixture(scope="module")
 def surfaces() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("surfaces", ROOT / "benchmarks" / "surfaces.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("benchmarks/surfaces.py")
 
 
 def test_the_median_error_is_small_and_no_error_is_large(surfaces: ModuleType) -> None:

@@ -88,7 +88,7 @@ def test_the_report_is_text_and_json(exported: tuple[Path, dict[str, Any]]) -> N
 
 def test_one_clip_is_turned_into_other_formats_and_back(tmp_path: Path) -> None:
     points = [{"time": t, "amplitude": a} for t, a in ((0.0, 0.1), (0.4, 0.9), (1.0, 0.2))]
-    points[1]["emphasis"] = {"amplitude": 1.0, "frequency": 0.5}  # type: ignore[assignment]
+    points[1]["emphasis"] = {"amplitude": 1.0, "frequency": 0.5}
     envelopes = {"amplitude": points, "frequency": [{"time": 0.0, "frequency": 0.25}]}
     clip = tmp_path / "kettle.haptic"
     clip.write_text(json.dumps({"version": {"major": 1}, "signals": {"continuous": {"envelopes": envelopes}}}))
@@ -118,7 +118,7 @@ def test_invalid_requests_get_an_error_and_write_nothing(
         ([], "it must name a kind"),
     ):
         with pytest.raises(ConfigError, match=told):
-            export_bundle(bundle, out, to)  # type: ignore[arg-type]
+            export_bundle(bundle, out, to)
     assert not out.exists()
     (tmp_path / "file").write_text("")
     with pytest.raises(ExportError, match="cannot be written"):

@@ -50,7 +50,7 @@ def test_firmware_plays_the_sent_samples(amplifier: Path, tmp_path: Path) -> Non
                 with SerialAmplifierSink(port, buffer_s=0.05, on_event=events.append) as sink:
                     sink.open(SinkFormat(4000, ("left", "right")))
                     sink.start(counting)
-                    assert eventually(lambda sink=sink: sink.stats.frames >= 4000)  # type: ignore[misc]  # bound early
+                    assert eventually(lambda sink=sink: sink.stats.frames >= 4000)  # bound early
                     assert sink.stats.latency_s is not None
             time.sleep(0.2)  # for the firmware's ramp to zero
         finally:

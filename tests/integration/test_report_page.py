@@ -6,8 +6,6 @@ import base64
 import hashlib
 import json
 import re
-import shutil
-import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -17,29 +15,17 @@ from typing import Any, TypeVar
 import numpy as np
 import pytest
 
+from browser_page import NEEDS_CHROMIUM, TIMEOUT_MS, chromium, launched
 from others import SCENES, needed
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake, load_scene, rebake
 from scene2hap.demo import kitchen_path
 from scene2hap.report import report_document, write_report
 from scene2hap.report.page import assemble
+from server_thread import running
 
 Result = TypeVar("Result")
 
-_NEEDS = "needs chromium: apt-get install chromium, and pip install playwright"
-_FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
 _STRANGE = "<script>alert(1)</script>\x1b[31m \u202e\"'"
-_TIMEOUT_MS = 20_000
 
 
 def _scene() -> SceneSnapshot:
@@ -62,14 +48,11 @@ def html() -> str:
 @pytest.fixture(scope="module")
 def browser(html: str) -> Iterator[Any]:
     # The page is made first: playwright runs an event loop, and `bake` refuses to block an event loop.
-    api = pytest.importorskip("playwright.sync_api", reason=_NEEDS)
-    path = shutil.which("chromium") or shutil.which("chromium-browser")
-    if path is None:
-        pytest.skip(_NEEDS)
-    with api.sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=path, headless=True, args=_FLAGS)
+    pytest.importorskip("playwright.sync_api", reason=NEEDS_CHROMIUM)
+    if chromium() is None:
+        pytest.skip(NEEDS_CHROMIUM)
+    with launched() as found:
         yield found
-        found.close()
 
 
 class Opened:
@@ -84,7 +67,7 @@ class Opened:
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", lambda said: self.errors.append(said.text) if said.type == "error" else None)
         self.page.on("dialog", lambda dialog: (self.errors.append(dialog.message), dialog.dismiss()))
-        self.page.set_default_timeout(_TIMEOUT_MS)
+        self.page.set_default_timeout(TIMEOUT_MS)
         self.page.goto(address)
         self.page.wait_for_selector("html[data-ready='1']")
 
@@ -271,7 +254,7 @@ def test_page_works_without_webgl(browser: Any, html: str, tmp_path: Path) -> No
     )
     page = context.new_page()
     page.goto(path.as_uri())
-    page.wait_for_selector("html[data-ready='1']", timeout=_TIMEOUT_MS)
+    page.wait_for_selector("html[data-ready='1']", timeout=TIMEOUT_MS)
     assert page.locator("#no-webgl").is_visible()
     page.locator("table.list tbody tr").first.click()
     assert page.evaluate("window.scene2hapReport.selected()") == "floor"
@@ -299,20 +282,13 @@ def test_a_served_page_saves_to_its_server(browser: Any, html: str) -> None:
         def log_message(self, format: str, *args: object) -> None:
             pass
 
-    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    thread = threading.Thread(target=server.serve_forever)
-    thread.start()
-    try:
+    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as server, running(server):
         opened = Opened(browser, f"http://127.0.0.1:{server.server_port}/")
         opened.report("select('table')")
         opened.page.locator("[data-field=material]").fill("steel")
         opened.page.get_by_role("button", name="Save changes").click()
         opened.page.get_by_text("Saved as kept.json.").wait_for()
         opened.context.close()
-    finally:
-        server.shutdown()
-        thread.join()
-        server.server_close()
     assert opened.errors == []
     assert posted == [
         ("/overrides", {"format": "scene2hap/overrides", "version": 1, "overrides": {"table": {"material": "steel"}}})

@@ -189,7 +189,7 @@ def test_unplugged_device_is_reconnected(tmp_path: Path, events: list[SinkEvent]
             assert eventually(lambda: plug.device.accepted_frames > 200)
             position = mix.position
             plug.pull_out()
-            assert eventually(lambda position=position: mix.position > position + 400)  # type: ignore[misc]
+            assert eventually(lambda position=position: mix.position > position + 400)
             assert not sink.stats.connected
     finally:
         plug.pull_out()
@@ -241,7 +241,7 @@ def test_devices_at_the_port_are_identified(
     def told(words: str, make: Kept | None = None, **settings: object) -> None:
         events.clear()
         with Plug(tmp_path, make or Kept()) as plug:
-            sink = SerialAmplifierSink(str(plug.path), on_event=events.append, **settings)  # type: ignore[arg-type]
+            sink = SerialAmplifierSink(str(plug.path), on_event=events.append, **settings)
             with sink:
                 sink.open(FORMAT)
                 sink.start(Counting())

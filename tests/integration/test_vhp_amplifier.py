@@ -124,4 +124,4 @@ def test_board_that_never_requests_is_reported(events: list[SinkEvent]) -> None:
 
 def test_unknown_board_is_refused() -> None:
     with pytest.raises(ConfigError, match="sleeve"):
-        VhpSink("/dev/none", board="fat")  # type: ignore[arg-type]
+        VhpSink("/dev/none", board="fat")

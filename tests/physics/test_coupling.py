@@ -35,7 +35,7 @@ class Lump:
     def dynamic(self, f: float) -> NDArray[np.complex128]:
         return self.stiffness * (1 + 1j * LOSS) - (2 * np.pi * f) ** 2 * self.mass
 
-    def receptance(self, points_m, forces_m, frequencies_hz):  # type: ignore[no-untyped-def]
+    def receptance(self, points_m, forces_m, frequencies_hz):
         at, by = points_m[:, 0].astype(int), forces_m[:, 0].astype(int)
         return np.array([np.linalg.inv(self.dynamic(f))[np.ix_(at, by)] for f in frequencies_hz])
 
@@ -52,12 +52,12 @@ class Weight:
     def dynamic(self, f: float) -> NDArray[np.complex128]:
         return (-((2 * np.pi * f) ** 2) * self.mass).astype(np.complex128)
 
-    def receptance(self, points_m, forces_m, frequencies_hz):  # type: ignore[no-untyped-def]
+    def receptance(self, points_m, forces_m, frequencies_hz):
         shape = (1, len(points_m), len(forces_m))
         return np.ones(shape) / self.dynamic(1.0)[0, 0] / (frequencies_hz**2)[:, None, None]
 
 
-def assembled(bodies, joints, source_id, f):  # type: ignore[no-untyped-def]
+def assembled(bodies, joints, source_id, f):
     """Deflection of every mass of every body, for a force that would move the free source by 1."""
     offset, total = {}, 0
     for name, body in bodies.items():
@@ -107,7 +107,7 @@ def three_contacts(rng: np.random.Generator) -> SimpleNamespace:
 
 @pytest.mark.parametrize("build", [pair, chain, loop, three_contacts])
 @pytest.mark.parametrize("seed", range(4))
-def test_equal_to_one_assembled_system(build, seed: int) -> None:  # type: ignore[no-untyped-def]
+def test_equal_to_one_assembled_system(build, seed: int) -> None:
     made = build(np.random.default_rng(seed))
     sources = [name for name, body in made.bodies.items() if isinstance(body, Weight)]
     solved = couple(made.bodies, made.joints, sources, FREQUENCIES_HZ)
@@ -123,7 +123,7 @@ def test_equal_to_one_assembled_system(build, seed: int) -> None:  # type: ignor
 
 
 @pytest.mark.parametrize("build", [pair, chain, loop, three_contacts])
-def test_solution_does_not_depend_on_the_order_of_bodies_and_joints(build) -> None:  # type: ignore[no-untyped-def]
+def test_solution_does_not_depend_on_the_order_of_bodies_and_joints(build) -> None:
     made = build(np.random.default_rng(1))
     plain = couple(made.bodies, made.joints, ["s"], FREQUENCIES_HZ)
     turned = [
@@ -153,7 +153,7 @@ def scaled(made: SimpleNamespace, stiffness_n_m: float) -> list[Joint]:
 
 
 @pytest.mark.parametrize("build", [pair, chain, loop, three_contacts])
-def test_soft_joints_decouple_and_stiff_ones_are_rigid(build) -> None:  # type: ignore[no-untyped-def]
+def test_soft_joints_decouple_and_stiff_ones_are_rigid(build) -> None:
     made = build(np.random.default_rng(2))
     points = np.array([[0.0, 0.0], [0.0, 0.0]])
 
@@ -183,7 +183,7 @@ def test_statically_indeterminate_rigid_feet_give_the_right_motion() -> None:
 
 @settings(max_examples=40)
 @given(st.integers(0, 10**6), st.sampled_from([pair, chain, loop, three_contacts]))
-def test_reciprocal_and_passive(seed: int, build) -> None:  # type: ignore[no-untyped-def]
+def test_reciprocal_and_passive(seed: int, build) -> None:
     """The coupled receptance between masses attached anywhere is symmetric and creates no energy at any frequency."""
     rng = np.random.default_rng(seed)
     made = build(rng)

@@ -263,4 +263,4 @@ def test_settings_out_of_bounds() -> None:
     with pytest.raises(ConfigError, match="max_hops is 0"):
         ExponentialPlate(max_hops=0)
     with pytest.raises(ConfigError, match="frequency is 'loud'"):
-        ExponentialPlate(frequency="loud")  # type: ignore[arg-type]
+        ExponentialPlate(frequency="loud")

@@ -38,7 +38,7 @@ class HandBody:
     def __init__(self, hand: Hand) -> None:
         self.hand = hand
 
-    def receptance(self, points_m, forces_m, frequencies_hz):  # type: ignore[no-untyped-def]
+    def receptance(self, points_m, forces_m, frequencies_hz):
         stiffness = 2j * np.pi * frequencies_hz * self.hand.impedance_n_s_m(frequencies_hz)
         return np.ones((1, len(points_m), len(forces_m))) / stiffness[:, None, None]
 

@@ -203,7 +203,7 @@ def test_invalid_requests_are_refused() -> None:
         MassSpringDamper(200).plate_receptance(replace(plate, length_m=3.0), [0.1, 0.1], [0.2, 0.2], [100.0])
     for wrong in ({"resolution": 3}, {"resolution": 8.5}, {"resolution": 10**9}, {"loss_floor": -1.0}):
         with pytest.raises(ConfigError, match=next(iter(wrong))):
-            MassSpringDamper(**wrong)  # type: ignore[arg-type]
+            MassSpringDamper(**wrong)
 
 
 def test_resolution_is_refined_for_short_waves() -> None:
@@ -264,4 +264,4 @@ def test_refused_motions() -> None:
     with pytest.raises(ModelDomainError, match="sample_rate_hz is -1 Hz"):
         MassSpringDamper(16).plate_motion(*ask, np.zeros(2), -1.0)
     with pytest.raises(ConfigError, match="stepper is 'euler'"):
-        MassSpringDamper(16).plate_motion(*ask, np.zeros(2), 8000.0, max_frequency_hz=100.0, stepper="euler")  # type: ignore[arg-type]
+        MassSpringDamper(16).plate_motion(*ask, np.zeros(2), 8000.0, max_frequency_hz=100.0, stepper="euler")

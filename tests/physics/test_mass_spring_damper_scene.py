@@ -130,7 +130,7 @@ def test_gains_agree_with_the_modal_plate() -> None:
 
 @pytest.mark.filterwarnings("ignore::scene2hap.propagation.domain.SlowPlateWarning")
 def test_model_is_chosen_by_kind_and_refines_thin_plates() -> None:
-    model: MassSpringDamper = MODELS.build({"kind": "mass_spring_damper", "resolution": 8})  # type: ignore[assignment]
+    model: MassSpringDamper = MODELS.build({"kind": "mass_spring_damper", "resolution": 8})
     foil = Plate(0.4, 0.3, 0.0005, materials.lookup("steel"))
     body = model.elastic_body(foil, 1000.0)
     assert body.modes.lattice.cell_m[1] < foil.width_m / 8

@@ -1,30 +1,20 @@
 """A short form of the campaign `stress/propagation.py`: extreme plates, scenes and steps cause no fault."""
 
-import importlib.util
 import signal
-import sys
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 from scene2hap import Material, Plate
 from scene2hap.errors import ModelDomainError
-
-SCRIPT = Path(__file__).parents[2] / "stress" / "propagation.py"
+from scripts import script
 
 
 @pytest.fixture(scope="module")
 def campaign() -> ModuleType:
     if not hasattr(signal, "SIGPROF"):
         pytest.skip("the campaign limits processor time by SIGPROF, which this system lacks")
-    spec = importlib.util.spec_from_file_location("stress_propagation", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # its dataclasses look up their annotations there
-    spec.loader.exec_module(module)
-    return module
+    return script("stress/propagation.py")
 
 
 def test_every_model_answers_or_refuses(campaign: ModuleType) -> None:

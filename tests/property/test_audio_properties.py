@@ -146,7 +146,7 @@ def test_selection_does_not_depend_on_order_or_level(picks: list[int], levels: l
 @given(seed=seeds, n=st.integers(1, 500), channels=st.integers(1, 3))
 @quick
 def test_a_wav_file_comes_back_within_half_a_step(tmp_path_factory: object, seed: int, n: int, channels: int) -> None:
-    path = tmp_path_factory.mktemp("wav") / "a.wav"  # type: ignore[attr-defined]
+    path = tmp_path_factory.mktemp("wav") / "a.wav"
     x = np.random.default_rng(seed).uniform(-1, 1, (n, channels)).astype(np.float32)
     write_wav(path, x, RATE)
     np.testing.assert_allclose(read_clip(path).samples, x.mean(axis=1, dtype=float), rtol=0, atol=2**-23)

@@ -21,7 +21,7 @@ TURNS = st.sampled_from([(0, 0, 0, 1), (0, 1, 0, 3), (1, 0, 0, 40), (0.5, 0.5, 0
 def poses(draw: st.DrawFn) -> Pose:
     x, level, z = draw(PLACES)
     rotation = draw(TURNS)
-    return Pose((x, 0.013 * level, z), tuple(float(q) for q in rotation))  # type: ignore[arg-type]
+    return Pose((x, 0.013 * level, z), tuple(float(q) for q in rotation))
 
 
 MOVES = st.dictionaries(st.sampled_from(sorted(SIZES)), poses(), min_size=1, max_size=2)
@@ -110,7 +110,7 @@ def test_contacts_at_a_stated_tolerance_are_invariant_under_rigid_motion(
 @settings(max_examples=20)
 def test_contacts_do_not_depend_on_object_order(objects: list[SceneObject], random: "object") -> None:
     shuffled = list(objects)
-    random.shuffle(shuffled)  # type: ignore[attr-defined]
+    random.shuffle(shuffled)
     assert ContactGraph(scene(*shuffled)).contacts == ContactGraph(scene(*objects)).contacts
 
 
@@ -121,7 +121,7 @@ def test_points_lie_between_the_two_surfaces(objects: list[SceneObject], toleran
     for contact in ContactGraph(scene(*objects), tolerance_m=tolerance_m).contacts:
         assert 0.0 < contact.weight <= 1.0
         for name in (contact.a, contact.b):
-            half = np.asarray(by_id[name].geometry.size_m) / 2  # type: ignore[union-attr]
+            half = np.asarray(by_id[name].geometry.size_m) / 2
             beyond = np.abs(by_id[name].pose.to_own([contact.point_m])[0]) - half
             # On the box, or off it by at most half of the fall reach of objects of this size.
             assert np.linalg.norm(np.maximum(beyond, 0.0)) <= 0.09 / 2 + 0.001

@@ -76,12 +76,12 @@ REFUSED: dict[str, Callable[[], object]] = {
     "an up axis of 5000 digits": lambda: load_scene("room.glb", up_axis=HUGE),
     "an axis of numpy": lambda: load_scene("room.glb", up_axis=VOID),
     "a number that raises": lambda: Pose((Raising(1.0), 0, 0)),
-    "a number of 5000 digits as a vector": lambda: Pose(10**5000),  # type: ignore[arg-type]
-    "a number of 5000 digits as a name": lambda: Material(10**5000, 1.0, 1.0, 0.3),  # type: ignore[arg-type]
-    "a vector without end": lambda: Pose(range(10**18)),  # type: ignore[arg-type]
-    "a vector that raises": lambda: Pose(NoSequence()),  # type: ignore[arg-type]
-    "points of texts": lambda: Pose().to_world(["x", "y", "z"]),  # type: ignore[list-item]
-    "ragged points": lambda: Pose().to_own([[0.0, 1.0, 2.0], [0.0]]),  # type: ignore[list-item]
+    "a number of 5000 digits as a vector": lambda: Pose(10**5000),
+    "a number of 5000 digits as a name": lambda: Material(10**5000, 1.0, 1.0, 0.3),
+    "a vector without end": lambda: Pose(range(10**18)),
+    "a vector that raises": lambda: Pose(NoSequence()),
+    "points of texts": lambda: Pose().to_world(["x", "y", "z"]),
+    "ragged points": lambda: Pose().to_own([[0.0, 1.0, 2.0], [0.0]]),
     "points of huge numbers": lambda: Pose().to_world([10**400, 0, 0]),
     "complex points": lambda: Pose().to_world(np.array([1j, 0, 0])),
     "masked points": lambda: Pose().to_world(np.ma.masked_all((2, 3))),
@@ -93,37 +93,33 @@ REFUSED: dict[str, Callable[[], object]] = {
     "poses of huge numbers": lambda: PoseTable(["a"], [[10**400, 0, 0]], [[0, 0, 0, 1]]),
     "samples of texts": lambda: AudioClip(np.array(["a"]), 48_000),
     "masked samples": lambda: AudioClip(np.ma.masked_all(9), 48_000),
-    "an id that is a list": lambda: playing(lambda session: session.snapshot.object([])),  # type: ignore[arg-type]
-    "a contact of numbers": lambda: Contact(1, 2, (0, 0, 0)),  # type: ignore[arg-type]
-    "an axis of 5000 digits": lambda: SceneSnapshot("a", 10**5000, ()),  # type: ignore[arg-type]
+    "an id that is a list": lambda: playing(lambda session: session.snapshot.object([])),
+    "a contact of numbers": lambda: Contact(1, 2, (0, 0, 0)),
+    "an axis of 5000 digits": lambda: SceneSnapshot("a", 10**5000, ()),
     "a plate thicker than the earth": lambda: plate(thickness_m=1e200),
     "a plate thinner than anything": lambda: plate(thickness_m=1e-320),
     "edges that are no text": lambda: plate(boundary=[]),
     "frequencies of texts": lambda: plate().wavenumber_rad_m(["x"]),
     "a frequency beyond any": lambda: plate().wavenumber_rad_m(1e308),
     "modes up to a frequency beyond any": lambda: plate_modes(plate(), max_frequency_hz=1e308),
-    "points of dicts": lambda: ModalPlate().plate_transfer(plate(), (0.1, 0.1), [{}], [100.0]),  # type: ignore[list-item]
-    "hops of texts": lambda: ExponentialPlate(max_hops="x"),  # type: ignore[arg-type]
-    "hops that are not a number": lambda: ExponentialPlate(max_hops=float("nan")),  # type: ignore[arg-type]
+    "points of dicts": lambda: ModalPlate().plate_transfer(plate(), (0.1, 0.1), [{}], [100.0]),
+    "hops of texts": lambda: ExponentialPlate(max_hops="x"),
+    "hops that are not a number": lambda: ExponentialPlate(max_hops=float("nan")),
     "bands from almost nothing": lambda: Bands.third_octaves(1e-320, 1000.0),
-    "a response that is a number": lambda: ActuatorProfile(response_db=1.0),  # type: ignore[arg-type]
-    "neighbours that are a number": lambda: ConversionContext(neighbours_hz=1.0),  # type: ignore[arg-type]
-    "a need that is a number": lambda: SourceState("on", 0.5, "", "", 1.0),  # type: ignore[arg-type]
-    "settings that are a number": lambda: SessionConfig.parse(1.0),  # type: ignore[arg-type]
-    "an address that is a number": lambda: LocalBackend("m", base_url=1.0),  # type: ignore[arg-type]
+    "a response that is a number": lambda: ActuatorProfile(response_db=1.0),
+    "neighbours that are a number": lambda: ConversionContext(neighbours_hz=1.0),
+    "a need that is a number": lambda: SourceState("on", 0.5, "", "", 1.0),
+    "settings that are a number": lambda: SessionConfig.parse(1.0),
+    "an address that is a number": lambda: LocalBackend("m", base_url=1.0),
     "an address without its bracket": lambda: LocalBackend("m", base_url="http://[::1"),
     "frames below 0": lambda: playing(lambda session: session.render(-1)),
     "frames beyond any": lambda: playing(lambda session: session.render(10**12)),
-    "frames that are a text": lambda: playing(lambda session: session.render("x")),  # type: ignore[arg-type]
-    "a sample that is not a number": lambda: playing(
-        lambda session: session.update(at_sample=float("nan"))  # type: ignore[arg-type]
-    ),
+    "frames that are a text": lambda: playing(lambda session: session.render("x")),
+    "a sample that is not a number": lambda: playing(lambda session: session.update(at_sample=float("nan"))),
     "a time that is not a number": lambda: playing(lambda session: session.wait_prepared(float("nan"))),
-    "a source that is a list": lambda: playing(lambda session: session.set_source([], on=True)),  # type: ignore[arg-type]
-    "a state that is a list": lambda: playing(
-        lambda session: session.set_source("phone", state=[])  # type: ignore[arg-type]
-    ),
-    "touches that raise": lambda: playing(lambda session: session.update({}, NoSequence())),  # type: ignore[arg-type]
+    "a source that is a list": lambda: playing(lambda session: session.set_source([], on=True)),
+    "a state that is a list": lambda: playing(lambda session: session.set_source("phone", state=[])),
+    "touches that raise": lambda: playing(lambda session: session.update({}, NoSequence())),
 }
 
 

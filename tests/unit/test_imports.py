@@ -61,14 +61,14 @@ def test_unknown_name_is_an_attribute_error() -> None:
     import scene2hap
 
     with pytest.raises(AttributeError, match="no attribute 'Haptic'"):
-        _ = scene2hap.Haptic  # type: ignore[attr-defined]
+        _ = scene2hap.Haptic
 
 
 def test_misspelt_import_suggests_a_name() -> None:
     with pytest.raises(ImportError, match=r"scene2hap has no 'HapticSesion' to import. Did you mean 'HapticSession'"):
-        from scene2hap import HapticSesion  # type: ignore[attr-defined]  # noqa: F401
+        from scene2hap import HapticSesion  # noqa: F401
     with pytest.raises(UnknownImport, match="lists its names"):
-        from scene2hap import Qqqqqq  # type: ignore[attr-defined]  # noqa: F401
+        from scene2hap import Qqqqqq  # noqa: F401
     assert not hasattr(__import__("scene2hap"), "HapticSesion")
 
 

@@ -130,6 +130,6 @@ def test_invalid_key_is_not_in_local_variables_of_the_traceback() -> None:
     secret = Secret(f"{KEY}\n{KEY}")
     with pytest.raises(ConfigError) as caught:
         secret.reveal()
-    within = caught.value.__traceback__.tb_next  # type: ignore[union-attr]
+    within = caught.value.__traceback__.tb_next
     shown = traceback.TracebackException(ConfigError, caught.value, within, capture_locals=True)
     assert KEY not in "".join(shown.format())

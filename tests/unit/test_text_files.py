@@ -1,11 +1,11 @@
-"""Reading small user files: limited in size, and without waiting for pipes or devices."""
+"""Reading small user files, limited in size and without waiting for pipes; writing files whole or not at all."""
 
 import os
 from pathlib import Path
 
 import pytest
 
-from scene2hap.text_files import read_small, read_small_text
+from scene2hap.text_files import draft_of, read_small, read_small_text, write_whole
 
 
 def test_file_size_limit_is_exact(tmp_path: Path) -> None:
@@ -38,3 +38,21 @@ def test_a_device_without_end_is_refused() -> None:
 def test_a_folder_is_refused(tmp_path: Path) -> None:
     with pytest.raises((OSError, ValueError)):
         read_small(tmp_path)
+
+
+def test_a_failed_write_leaves_the_earlier_file_and_no_draft(tmp_path: Path) -> None:
+    path = tmp_path / "a.json"
+    write_whole(path, "before")
+    with pytest.raises(KeyError), draft_of(path) as draft:
+        draft.write_text("half")
+        raise KeyError
+    assert path.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_draft_has_the_suffix_of_its_file(tmp_path: Path) -> None:
+    """Some libraries choose the format by the suffix."""
+    with draft_of(tmp_path / "a.png") as draft:
+        draft.write_bytes(b"x")
+        assert draft.suffix == ".png"
+    assert (tmp_path / "a.png").read_bytes() == b"x"

@@ -38,7 +38,7 @@ time_s,hand,touch,x_m,y_m,z_m,glide_s,move,by_x_m,by_y_m,by_z_m,source,on,lift
 
 
 def changed(step: int, **fields: object) -> dict[str, object]:
-    steps = [dict(item) for item in DOCUMENT["steps"]]  # type: ignore[union-attr]
+    steps = [dict(item) for item in DOCUMENT["steps"]]
     steps[step].update(fields)
     return {**DOCUMENT, "steps": steps}
 

@@ -14,6 +14,7 @@ from typing import Any
 
 from scene2hap.audio.conversion.stream import FORMATS, Conversion, LevelWarning, convert, settled
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
+from scene2hap.counted import first_of
 from scene2hap.errors import AudioError, Scene2HapError
 
 _MOST_NAMED = 3
@@ -63,9 +64,8 @@ def convert_files(
     settings |= {"converter": converter, "actuator": actuator, "intensity": intensity}
     jobs, failures = _planned([Path(source) for source in sources], Path(output), suffix)
     if not jobs and not failures:
-        given = ", ".join(repr(str(source)) for source in sources[:_MOST_NAMED]) or "an empty list"
-        more = f" and {len(sources) - _MOST_NAMED} more" if len(sources) > _MOST_NAMED else ""
-        raise AudioError(f"no sound file in {given}{more}. Give WAV, FLAC, Ogg or MP3, or a folder of them.")
+        given = first_of([repr(str(source)) for source in sources], _MOST_NAMED) or "an empty list"
+        raise AudioError(f"no sound file in {given}. Give WAV, FLAC, Ogg or MP3, or a folder of them.")
     outcomes: dict[int, Conversion | Failure] = dict(failures)
     tell = progress or (lambda name, done, total: None)
     for index, outcome in _outcomes(jobs, workers, pictures, settings):
@@ -97,7 +97,7 @@ def _result(future: Future[Conversion | Failure], job: _Job) -> Conversion | Fai
     try:
         return future.result()
     except BrokenProcessPool:
-        for litter in job.output.parent.glob(f".{job.output.name}.*.part"):
+        for litter in job.output.parent.glob(f".{job.output.name}.*.part*"):
             litter.unlink(missing_ok=True)
         return Failure(job.source, f"{job.source}: a process died while files were converted. Try with --workers 1.")
 

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from scene2hap.audio.clip import AudioClip
-from scene2hap.audio.protocol import ConversionContext, TactileConverter, one_channel, opened_stream
-from scene2hap.errors import AudioError
+from scene2hap.audio.protocol import ConversionContext, TactileConverter, one_channel, opened_stream, require_in_step
 
 PRE_ROLL_S = 1.0
 """Length of the pre-roll before the clip [s]: a band-pass with Q = 100 at 250 Hz settles to -68 dB in it."""
@@ -30,9 +29,5 @@ def convert_clip(
         fed[:n_before] = 0.0
     stream = opened_stream(converter, clip.sample_rate_hz, context)
     felt = np.concatenate([one_channel(converter, stream.process(fed)), one_channel(converter, stream.finish())])
-    if len(felt) != len(fed):
-        raise AudioError(
-            f"{type(converter).__name__} made {len(felt)} samples of {len(fed)}; touch must stay in step with sound. "
-            "Its stream must return as many samples as it was given, counting finish()."
-        )
+    require_in_step(converter, len(felt), len(fed))
     return replace(clip, samples=felt[n_before:])

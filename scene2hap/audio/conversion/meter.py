@@ -7,6 +7,7 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from scene2hap.audio import analysis
+from scene2hap.audio.windows import hann
 
 Block = NDArray[np.float32]
 """Samples (n, channels)."""
@@ -34,7 +35,7 @@ class Meter:
         n_segments = int(np.clip(self.n_expected // size, 1, MOST_SEGMENTS))
         self._starts = np.linspace(0, max(0, self.n_expected - size), n_segments).astype(int).tolist()
         self._segment = np.zeros((channels, size), dtype=np.float32)
-        self._window = np.hanning(size + 2)[1:-1].astype(np.float32)
+        self._window = hann(size).astype(np.float32)
         self._filled = 0
         self._power = np.zeros(size // 2 + 1)
         self._is_measured = False
@@ -67,7 +68,7 @@ class Meter:
         """
         if not self._is_measured and self._filled > 1:
             rest = self._segment[:, : self._filled]
-            window = np.hanning(self._filled + 2)[1:-1].astype(np.float32)
+            window = hann(self._filled).astype(np.float32)
             rest = (rest - rest.mean(axis=1, keepdims=True)) * window
             self._add(np.pad(rest, ((0, 0), (0, self._segment.shape[1] - self._filled))))
         if not self._power[1:].any():

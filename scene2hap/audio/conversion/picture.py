@@ -15,6 +15,7 @@ from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import opened_sound
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.audio.levels import drive_db
+from scene2hap.audio.windows import hann
 from scene2hap.haptics import ActuatorProfile
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
@@ -79,7 +80,7 @@ def _spectrogram(path: Path, n_frames: int) -> tuple[NDArray[np.float64], int]:
     with opened_sound(path) as file:
         rate = int(file.samplerate)
         size = max(2, round(WINDOW_S * rate))
-        window = np.hanning(size + 2)[1:-1]
+        window = hann(size)
         f = np.geomspace(min(HIGHEST_HZ, 0.5 * rate), LOWEST_HZ, LANE)
         bins = np.clip(np.round(f * size / rate).astype(int), 0, size // 2)
         powers = np.zeros((LANE, WIDTH))

@@ -37,6 +37,7 @@ from scene2hap.audio.protocol import (
     follows_anchor,
     one_channel,
     opened_stream,
+    require_in_step,
 )
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.sections import through_sections
@@ -255,7 +256,7 @@ class _Felt:
         )
         self._raw = raw
         self.follows_anchor = follows_anchor(converter, context)
-        self._converter, self._name = converter, type(converter).__name__
+        self._converter = converter
         self._mono, self._only = mono, only
         self._streams: list[TactileStream] = [
             opened_stream(converter, self.rate, context) for _ in range(self.channels)
@@ -279,11 +280,7 @@ class _Felt:
         if n_read < stated and file.format != "MP3":  # the length of an MP3 is an estimate
             raise AudioError(f"{source} is cut short: {n_read} of {stated} frames. Copy it again.")
         yield self._felt([stream.finish() for stream in self._streams])
-        if self._n_made != n_read:
-            raise AudioError(
-                f"{self._name} made {self._n_made} samples of {n_read}; touch must stay in step with sound. "
-                "Its stream must return as many samples as it was given, counting finish()."
-            )
+        require_in_step(self._converter, self._n_made, n_read)
 
     def _offsets(self, file: soundfile.SoundFile) -> list[float]:
         """Return the offset of each channel at the beginning of the file."""
@@ -304,8 +301,9 @@ class _Felt:
 
     def _felt(self, channels: list[NDArray[np.float32]]) -> Block:
         channels = [one_channel(self._converter, channel) for channel in channels]
-        if len({len(channel) for channel in channels}) > 1:
-            raise AudioError(f"{self._name} made {[len(channel) for channel in channels]} samples of equal channels.")
+        lengths = [*map(len, channels)]
+        if len(set(lengths)) > 1:
+            raise AudioError(f"{type(self._converter).__name__} made {lengths} samples of equal channels.")
         self._n_made += len(channels[0])
         return np.stack(channels, axis=1).astype(np.float32, copy=False)
 

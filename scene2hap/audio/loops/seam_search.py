@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.audio.loops.seam import QUIET, Seam
+from scene2hap.audio.windows import hann
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
@@ -113,7 +114,7 @@ def find_seam(samples: ArrayLike, sample_rate_hz: float, *others: ArrayLike) -> 
 def _mean_power(x: Signal, width: int) -> Signal:
     """Return the mean power spectrum (width // 2 + 1,) of stretches of `width` samples, without offset, maximum 1."""
     frames = sliding_window_view(x, width)[:: max(1, width // 2)]
-    power = np.mean(np.abs(scipy.fft.rfft(frames * np.hanning(width + 2)[1:-1], axis=1)) ** 2, axis=0)
+    power = np.mean(np.abs(scipy.fft.rfft(frames * hann(width), axis=1)) ** 2, axis=0)
     power[0] = 0.0
     return np.asarray(power / power.max() if power.any() else np.ones_like(power))
 

@@ -10,7 +10,6 @@ import hashlib
 import json
 import os
 import re
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -23,6 +22,7 @@ from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.errors import AudioError, ConfigError
+from scene2hap.text_files import draft_of
 
 MAX_CLIP_S = 60.0
 """Longest sound from a service [s] (assumed: a loop needs 10 s)."""
@@ -106,22 +106,13 @@ class Store:
 
     @contextmanager
     def _draft(self, name: str) -> Iterator[Path]:
-        """Yield a draft beside the target. It replaces the target when the block ends, unless the block raises."""
+        """Yield a draft of a file, as `text_files.draft_of`. Raises: ConfigError: the folder cannot be written."""
         target = self.folder / name
-        draft: Path | None = None
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
-            descriptor, text = tempfile.mkstemp(dir=target.parent, prefix=".", suffix=f".part{target.suffix}")
-            os.close(descriptor)
-            draft = Path(text)
-            yield draft
-            with draft.open("rb+") as file:
-                os.fsync(file.fileno())
-            os.replace(draft, target)
+            with draft_of(target) as draft:
+                yield draft
         except OSError as cause:
             raise ConfigError(
                 f"cannot write the cache {self.folder}: {cause.strerror or cause}. Set `cache` to a folder of yours."
             ) from cause
-        finally:
-            if draft is not None:
-                draft.unlink(missing_ok=True)

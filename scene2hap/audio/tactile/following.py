@@ -23,6 +23,7 @@ from scipy.signal import lfilter
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
+from scene2hap.audio.windows import hann
 from scene2hap.compiled import compiled
 
 STEP_S = 0.01
@@ -53,7 +54,7 @@ class Following:
         self._heard = StepEnergies(self._step), StepEnergies(self._step)
         # Of sound and bed, by steps, from half a window before.
         self._energies = np.zeros((2, _STEPS // 2))
-        window = np.hanning(_STEPS + 2)[1:-1]
+        window = hann(_STEPS)
         self._window = window / window.sum()
         self._forget = float(np.exp(-STEP_S / _MEAN_S))
         self._means = np.zeros((2, 1))

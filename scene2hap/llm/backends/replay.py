@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import os
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -19,8 +19,9 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss
-from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
+from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
+from scene2hap.llm.wrappers.stack import Spec, Wrapper, identity
 from scene2hap.text_files import read_small
 
 MAX_RECORDING_BYTES = 1 << 28
@@ -95,14 +96,14 @@ class ReplayBackend:
 
 
 @clear_construction
-class RecordingBackend:
+class RecordingBackend(Wrapper):
     """Pass requests on to `inner`, and write each answer to a file before returning it.
 
     Raises: ConfigError: the file cannot be written. BadAnswer: the file exists and has a broken line.
     """
 
-    def __init__(self, inner: LLMBackend, path: str | os.PathLike[str]) -> None:
-        self.inner = inner
+    def __init__(self, inner: Spec, path: str | os.PathLike[str]) -> None:
+        super().__init__(inner)
         self._path = checks.path("path", path, error=ConfigError)
         self._turn = threading.Lock()
         try:
@@ -110,20 +111,6 @@ class RecordingBackend:
         except OSError as cause:
             raise _cannot_write(self._path, cause) from cause
         _read(self._path)
-
-    @property
-    def identity(self) -> Mapping[str, Any]:
-        """The inner backend's identity, which affects answers. Raises: ConfigError: it has none."""
-        identity = getattr(self.inner, "identity", None)
-        if not isinstance(identity, Mapping):
-            raise ConfigError(f"{self.inner!r} has no `identity` (model, address); no cache can tell it apart.")
-        return identity
-
-    async def ready(self) -> None:
-        """Let the inner backend complete its `identity`. Raises: as the inner backend."""
-        ready = getattr(self.inner, "ready", None)
-        if ready is not None:
-            await ready()
 
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return the inner backend's answer, after recording it."""
@@ -139,17 +126,11 @@ class RecordingBackend:
             model=reply.model,
             finish_reason=reply.finish_reason,
             usage=dict(reply.usage),
-            asked_model=self._requested_model() or reply.model,
+            asked_model=str(identity(self.inner).get("model") or reply.model),
             parts=part_names(request),
         )
         await asyncio.to_thread(self._append, canonical(entry.model_dump()).encode() + b"\n")
         return replace(reply, key=key)
-
-    def _requested_model(self) -> str:
-        try:
-            return str(self.identity.get("model", ""))
-        except ConfigError:  # a recording does not need the identity
-            return ""
 
     def _append(self, line: bytes) -> None:
         try:

@@ -122,7 +122,7 @@ class BatchFolder:
     def discard_unfinished(self) -> None:
         """Remove files of requests without a row: their run ended before the files were complete."""
         known = {self.input_path(row) for row in self.rows()}
-        for path in (*self.path.glob("*.input.jsonl"), *self.path.glob(".*.part")):
+        for path in (*self.path.glob("*.input.jsonl"), *self.path.glob(".*.part*")):
             if path not in known:
                 path.unlink(missing_ok=True)
 

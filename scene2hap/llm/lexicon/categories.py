@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from scene2hap.llm.answers import ObjectAnswer, StateAnswer
+from scene2hap.llm.answers import LONGEST_REASON, ObjectAnswer, StateAnswer
 from scene2hap.llm.lexicon.masses import usual_mass_kg
 from scene2hap.llm.lexicon.materials import make, painted_with
 from scene2hap.llm.lexicon.name_checks import fit, owner_of_part
@@ -24,7 +24,6 @@ _GIANT = 3.0
 _MINIATURE_TRUST = 0.8
 _GIANT_TRUST = 0.5
 
-_LONGEST_REASON = 600  # letters, as in ObjectAnswer
 _MOST_SHOWN = 100  # letters of a name in a reason
 _LARGEST_M = 1e5  # the bound of ObjectAnswer; only a scene in a wrong unit has larger objects
 _THINNEST_M = 1e-3  # a thinner plate is assumed to be modelled without thickness
@@ -170,7 +169,7 @@ def _shown(name: str) -> str:
 
 def _cut(reason: str) -> str:
     """Cut a reason to the length that an answer allows, since names can have any length."""
-    return reason if len(reason) <= _LONGEST_REASON else f"{reason[: _LONGEST_REASON - 3]}..."
+    return reason if len(reason) <= LONGEST_REASON else f"{reason[: LONGEST_REASON - 3]}..."
 
 
 def _thickness(item: Measured, plausible_m: float, category: str) -> tuple[float, str]:

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from scene2hap.llm.answers import VibrationAnswer
+from scene2hap.llm.answers import LONGEST_NAME, VibrationAnswer
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.places import UNDEFINED
 from scene2hap.llm.lexicon.start_times import starting_of
 from scene2hap.llm.lexicon.table import StateRow
 
-MAX_WORDS = 15
-"""Most words of a sentence; paper, section "Vibration Describer"."""
-
-_MAX_KEYWORDS = 60  # letters, as in VibrationAnswer
 _CATEGORY_WORDS, _STATE_WORDS, _PLACE_WORDS = 4, 2, 2
 _MAX_LETTERS = 24  # of one word; a longer string is not a word and would exceed the answer's bound
 _ANYTHING = StateRow("", 0.0, "humming")
@@ -40,7 +36,7 @@ def describe(category: str, state_name: str, scene_category: str = "") -> Vibrat
     place = _words(scene_category, _PLACE_WORDS)
     if place and place != UNDEFINED:
         parts.append(f"in the {place}")
-    keywords = f"{thing[: _MAX_KEYWORDS - len(verb) - 1].rstrip()} {verb}"
+    keywords = f"{thing[: LONGEST_NAME - len(verb) - 1].rstrip()} {verb}"
     starting = starting_of(read_name(category).row, verb)
     return VibrationAnswer(sentence=" ".join(parts), keywords=keywords, **starting)
 

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.blas_threads import one_blas_thread
+from scene2hap.contact.junction import Pair
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.coupling import ElasticBody
@@ -30,7 +31,6 @@ from scene2hap.propagation.inclined_body import InclinedBody
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-Pair = tuple[str, str]
 """Ids of a touched object and of a struck object."""
 
 IMPACT_BANDS = Bands((20.0, 40.0, 80.0, 160.0, 320.0, 480.0))

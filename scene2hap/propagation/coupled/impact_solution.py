@@ -12,9 +12,10 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.contact.junction import Pair
 from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, JointForces, couple, ends_of
 from scene2hap.propagation.coupled.hand import Hand
-from scene2hap.propagation.coupled.impact_scene import IMPACT_BANDS, HeldBody, Pair, StruckScene
+from scene2hap.propagation.coupled.impact_scene import IMPACT_BANDS, HeldBody, StruckScene
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

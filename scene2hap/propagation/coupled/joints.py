@@ -18,6 +18,7 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.vectors import dot
 
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are closer than this are merged."""
@@ -134,7 +135,7 @@ def _level_axis(network: ContactNetwork, object_id: str, contacts: Sequence[Cont
     if not isinstance(body, Plate) or pose is None:
         return None
     x, y, z = pose.rotation[:, 2].tolist()
-    is_level = all(one.normal is None or abs(_dot((x, y, z), one.normal)) >= LEVEL for one in contacts)
+    is_level = all(one.normal is None or abs(dot((x, y, z), one.normal)) >= LEVEL for one in contacts)
     return (x, y, z) if is_level else None
 
 
@@ -154,13 +155,9 @@ def _directions(
         # Both signs give the same spring, but both of its bodies must use the same sign: `NORMAL` is that of the plate.
         normal = contact.normal or z
         plate = level.get(contact.a) or level.get(contact.b)
-        sign = math.copysign(1.0, max(normal, key=abs) if plate is None else _dot(plate, normal))
-        found.append(Along(sign * _dot(x, normal), sign * _dot(y, normal), sign * _dot(z, normal), height_m))
+        sign = math.copysign(1.0, max(normal, key=abs) if plate is None else dot(plate, normal))
+        found.append(Along(sign * dot(x, normal), sign * dot(y, normal), sign * dot(z, normal), height_m))
     return found
-
-
-def _dot(one: Sequence[float], other: Sequence[float]) -> float:
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
 def _merged(joints: Sequence[Joint]) -> list[Joint]:

@@ -26,6 +26,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from scene2hap.contact.junction import Pair, pair_of
 from scene2hap.propagation.coupled.contact_stiffness import STANDARD_GRAVITY_M_S2, ContactLaw
 from scene2hap.propagation.coupled.hollow import no_heavier_than_object
 from scene2hap.propagation.coupled.rigid import is_compact
@@ -33,6 +34,7 @@ from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.vectors import Vector, dot
 
 UNEVEN_M = 1e-3
 """Distance of two surfaces that touch at their highest points [m]. Assumed; flatness tolerances of finished floors are
@@ -40,8 +42,6 @@ UNEVEN_M = 1e-3
 _OPPOSITE = 0.9  # Part of one normal along the other.
 _SLACK = 1e-6  # of a side
 
-Pair = tuple[str, str]
-Point = tuple[float, float, float]
 Spring = tuple[float, float]
 """Stiffness [N/m] and loss factor."""
 
@@ -67,27 +67,27 @@ def pressed_through(
         if plate is None:
             continue
         least_n = _sagging_n(plate)
-        if max(preloads_n[_sorted(key, other)] for other in others) >= least_n:
+        if max(preloads_n[pair_of(key, other)] for other in others) >= least_n:
             layers[key], sagging_n[key] = plate, least_n
     beds = {
         (layer, under): bed
         for layer in layers
         for under in beside[layer]
-        if (bed := _Bed.of(network, layer, under, contacts[_sorted(layer, under)])) is not None
+        if (bed := _Bed.of(network, layer, under, contacts[pair_of(layer, under)])) is not None
     }
     waiting = deque(
-        (by, layer, contact, preloads_n[_sorted(by, layer)])
+        (by, layer, contact, preloads_n[pair_of(by, layer)])
         for layer in sorted(layers)
         for by in sorted(beside[layer])
-        if preloads_n[_sorted(by, layer)] >= sagging_n[layer]
-        for contact in contacts[_sorted(by, layer)]
+        if preloads_n[pair_of(by, layer)] >= sagging_n[layer]
+        for contact in contacts[pair_of(by, layer)]
     )
     found: dict[Pair, list[tuple[Contact, Spring]]] = {}
-    seen: set[tuple[Pair, Point]] = set()
+    seen: set[tuple[Pair, Vector]] = set()
     while waiting:
         by, layer, contact, force_n = waiting.popleft()
         for under in sorted(beside[layer]):
-            bed, pair = beds.get((layer, under)), _sorted(layer, under)
+            bed, pair = beds.get((layer, under)), pair_of(layer, under)
             point_m = bed.below(contact) if bed is not None and under != by else None
             if bed is None or point_m is None or (pair, point_m) in seen:
                 continue
@@ -143,7 +143,7 @@ class _Bed:
 
     layer_id: str
     pose: Pose
-    away: Point
+    away: Vector
     low_m: tuple[float, float]
     high_m: tuple[float, float]
     height_m: float
@@ -159,7 +159,7 @@ class _Bed:
             return None
         for one in contacts:
             normal = _outwards(layer, one)
-            if normal is None or _dot(normal, away) < _OPPOSITE:
+            if normal is None or dot(normal, away) < _OPPOSITE:
                 return None
         own = pose.to_own([one.point_m for one in contacts])
         if (np.abs(own[:, 2]) > body.thickness_m).any():
@@ -167,17 +167,17 @@ class _Bed:
         facing = None
         if isinstance(other, Plate) and under in network.poses and not is_compact(other):
             facing = network.poses[under], other.length_m, other.width_m
-            if abs(_dot(facing[0].rotation[:, 2].tolist(), away)) < _OPPOSITE:
+            if abs(dot(facing[0].rotation[:, 2].tolist(), away)) < _OPPOSITE:
                 return None  # a wall, which carries at its edge alone
         (x0, y0, _), (x1, y1, _) = own.min(axis=0).tolist(), own.max(axis=0).tolist()
         slack = _SLACK * max(body.extent_m)
         low, high = (x0 - slack, y0 - slack), (x1 + slack, y1 + slack)
         return cls(layer, pose, away, low, high, float(own[:, 2].mean()), body.thickness_m, facing)
 
-    def below(self, pressing: Contact) -> Point | None:
+    def below(self, pressing: Contact) -> Vector | None:
         """Return where the layer is pressed onto the object; None if it is not."""
         towards = _outwards(self.layer_id, pressing)
-        if towards is None or _dot(towards, self.away) > -_OPPOSITE:
+        if towards is None or dot(towards, self.away) > -_OPPOSITE:
             return None
         x, y, z = self.pose.to_own([pressing.point_m])[0].tolist()
         is_around = self.low_m[0] <= x <= self.high_m[0] and self.low_m[1] <= y <= self.high_m[1]
@@ -193,20 +193,12 @@ class _Bed:
         return (a, b, c)
 
 
-def _outwards(object_id: str, contact: Contact) -> Point | None:
+def _outwards(object_id: str, contact: Contact) -> Vector | None:
     return _turned(contact.normal, contact.a != object_id)
 
 
-def _turned(normal: Point | None, is_turned: bool) -> Point | None:
+def _turned(normal: Vector | None, is_turned: bool) -> Vector | None:
     if normal is None or not is_turned:
         return normal
     x, y, z = normal
     return (-x, -y, -z)
-
-
-def _sorted(a: str, b: str) -> Pair:
-    return (a, b) if a < b else (b, a)
-
-
-def _dot(one: Sequence[float], other: Sequence[float]) -> float:
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]

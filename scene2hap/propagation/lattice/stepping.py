@@ -179,13 +179,6 @@ class NewmarkStepper:
         return force
 
 
-def newmark_frequency_rad_s(omega_rad_s: ArrayLike, dt_s: float) -> NDArray[np.float64]:
-    """Frequency of an undamped mode in `NewmarkStepper`: (2/dt) atan(omega dt/2) [rad/s]."""
-    dt = _step(dt_s)
-    turned: NDArray[np.float64] = 2 / dt * np.arctan(np.asarray(omega_rad_s, dtype=np.float64) * dt / 2)
-    return turned
-
-
 def viscous_difference_db(loss_factor: ArrayLike, frequency_ratio: ArrayLike) -> NDArray[np.float64]:
     """Magnitude of a mode with viscous damping eta/2 over that with complex stiffness 1 + j eta [dB].
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections import OrderedDict
 from pathlib import Path
 from threading import Lock
 
 from scene2hap.errors import ConfigError
+from scene2hap.text_files import write_whole
 
 MEMORY_BYTES = 256 * 2**20
 """Bound of this process's LRU cache [bytes]: about 2000 pictures of 512 pixels (assumed)."""
@@ -74,14 +73,7 @@ class FolderCache:
         path = self._path(key)
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            handle, unfinished = tempfile.mkstemp(dir=path.parent, suffix=".part")
-            try:
-                with os.fdopen(handle, "wb") as file:
-                    file.write(png)
-                os.replace(unfinished, path)
-            except BaseException:
-                Path(unfinished).unlink(missing_ok=True)
-                raise
+            write_whole(path, png)
         except OSError as cause:
             raise ConfigError(f"cache_dir {str(self._folder)!r} cannot be written: {cause}. Name another.") from cause
 

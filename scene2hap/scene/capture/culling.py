@@ -30,10 +30,10 @@ from scene2hap.scene.capture.protocol import Ids, Renderer, Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import containers, near, shells, supports
 from scene2hap.scene.capture.views import Camera
+from scene2hap.scene.vectors import Vector, vector
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-Triple = tuple[float, float, float]
 
 _GRID_PX = 64
 """Rays along each side of the picture, or of the target's frame, that find hiding objects (tuned: 1 ms a view)."""
@@ -92,12 +92,12 @@ class Culler:
     def overview(self, wide: Camera) -> Selection:
         """Select the objects of a picture of the whole scene."""
         low, high = self.stage.box_m
-        focus = _triple((low + high) / 2)
+        focus = vector((low + high) / 2)
         opened = self._hiding_shells(self.shells, wide, focus)
         culled = self._on_the_way(wide, np.asarray(focus)) - self.shells
         return Selection(self.stage.everyone - culled, opened, focus)
 
-    def _hiding_shells(self, shells: frozenset[int], wide: Camera, focus: Triple) -> frozenset[int]:
+    def _hiding_shells(self, shells: frozenset[int], wide: Camera, focus: Vector) -> frozenset[int]:
         """Return the shells, if opening them uncovers much of the other objects in the picture; else none."""
         if not shells:
             return shells
@@ -128,7 +128,7 @@ class _Aim:
 
     def __init__(self, culler: Culler, target: int, close: Camera) -> None:
         self._culler, self._target, self._close = culler, target, close
-        self.focus_m = _triple(culler.stage.actors[target].box_m.mean(axis=0))
+        self.focus_m = vector(culler.stage.actors[target].box_m.mean(axis=0))
         self.is_target = self._ids(frozenset({target})) == target
         self._masks: dict[tuple[int, bool], Mask] = {}
 
@@ -163,7 +163,3 @@ def _segment_meets(low: Floats, high: Floats, start: Floats, end: Floats) -> boo
         to_low, to_high = (low - start) / way, (high - start) / way
     enters, leaves = np.fmin(to_low, to_high).max(), np.fmax(to_low, to_high).min()
     return bool(enters <= min(leaves, 1.0) and leaves >= 0.0)
-
-
-def _triple(point: Floats) -> Triple:
-    return (float(point[0]), float(point[1]), float(point[2]))

@@ -90,7 +90,7 @@ class EmbreeRenderer:
         self._cut: tuple[object, list[_Tree]] = (None, [])
         # All rays of a picture share an eye, but Embree needs an origin for each ray, so the array is reused.
         self._origins = np.empty((0, 3), np.float32)
-        self._step = float(np.linalg.norm(np.ptp(stage.box_m, axis=0))) * _STEP_OF_SCENE
+        self._step = stage.diagonal_m * _STEP_OF_SCENE
 
     def identify(self, camera: Camera, selection: Selection) -> Ids:
         """Return the object at the middle of each pixel."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from scene2hap.scene.objects import SceneObject, UpAxis
+from scene2hap.scene.objects import VERTICAL, SceneObject, UpAxis
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -26,7 +26,7 @@ def by_itself(item: SceneObject, up_axis: UpAxis) -> SceneSnapshot:
 
 def _upright(pose: Pose, up_axis: UpAxis) -> Pose:
     """Return the smallest rotation that leaves the same side of the object up."""
-    vertical = {"y": 1, "z": 2}[up_axis]
+    vertical = VERTICAL[up_axis]
     up = np.eye(3)[vertical]
     side = pose.rotation.T @ up
     # Quaternion from `side` to `up`, not normalised. For opposite vectors, any perpendicular axis is right.

@@ -56,7 +56,7 @@ class Panda3DRenderer:
         self._codes[:, :2] = digits + palette.is_cutout[material, None]
         self._opacity = (digits[:, 1] + palette.is_patterned[material]).astype(np.uint8)
         self._lit_along: dict[bytes, Bytes] = {}
-        self._screen = Screen(float(np.linalg.norm(np.ptp(stage.box_m, axis=0))))
+        self._screen = Screen(stage.diagonal_m)
         self._painted = {row: self._look(row) for row in np.flatnonzero(palette.is_patterned).tolist()}
         self._holed = {row: self._look(row, only_holes=True) for row in np.flatnonzero(palette.is_cutout).tolist()}
         self._paint_row = np.where(palette.is_patterned, np.arange(len(palette.rgb)), -1)[material]

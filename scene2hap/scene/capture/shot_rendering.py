@@ -48,8 +48,7 @@ class Photographer:
         close = frame(actor.points_m, *angles, config.fill, config.size_px)
         if shot.kind == "isolated":
             return close, Selection(frozenset({target}))
-        scene_diagonal_m = float(np.linalg.norm(np.ptp(self.stage.box_m, axis=0)))
-        widest = max(_LEAST_FACTOR, _LEAST_FACTOR * scene_diagonal_m / max(actor.diagonal_m, 1e-9))
+        widest = max(_LEAST_FACTOR, _LEAST_FACTOR * self.stage.diagonal_m / max(actor.diagonal_m, 1e-9))
         wide = close.widened(min(config.context_factor, widest))
         return wide, self.culler.around(target, close, wide)
 

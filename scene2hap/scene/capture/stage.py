@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
+from scene2hap.scene.bounds import bounds_of, joined
 from scene2hap.scene.capture.colour_table import Palette, PaletteBuilder, neutral
 from scene2hap.scene.capture.views import axes_of
 from scene2hap.scene.looks.appearance import Appearance
@@ -42,8 +43,7 @@ class Actor:
     @cached_property
     def box_m(self) -> Vector:
         """Lowest and highest corner (2, 3) [m]."""
-        corners = self.triangles_m.reshape(-1, 3)
-        return np.array([corners.min(axis=0), corners.max(axis=0)], dtype=np.float64)
+        return bounds_of(self.triangles_m.reshape(-1, 3))
 
     @cached_property
     def points_m(self) -> Vector:
@@ -56,7 +56,7 @@ class Actor:
     @property
     def diagonal_m(self) -> float:
         """Diagonal of the object's box [m]."""
-        return float(np.linalg.norm(self.box_m[1] - self.box_m[0]))
+        return float(np.linalg.norm(np.ptp(self.box_m, axis=0)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,8 +75,7 @@ class Stage:
     @classmethod
     def of(cls, scene: SceneSnapshot) -> Stage:
         """Prepare a scene."""
-        bounds = np.array([item.bounds_m for item in scene.objects])
-        low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
+        low, high = joined([item.bounds_m for item in scene.objects])
         origin = (low + high) / 2
         palette = PaletteBuilder()
         inset_m = _INSET * float(np.linalg.norm(high - low))
@@ -96,8 +95,12 @@ class Stage:
     @cached_property
     def box_m(self) -> Vector:
         """Lowest and highest corner (2, 3) [m] of all objects."""
-        boxes = np.array([actor.box_m for actor in self.actors])
-        return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+        return joined([actor.box_m for actor in self.actors])
+
+    @property
+    def diagonal_m(self) -> float:
+        """Diagonal of the scene's box [m]."""
+        return float(np.linalg.norm(np.ptp(self.box_m, axis=0)))
 
     @property
     def up(self) -> Vector:

@@ -10,9 +10,11 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.bounds import distances
 from scene2hap.scene.capture.stage import Actor, Stage
 from scene2hap.scene.copies import copy_key
-from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.objects import VERTICAL, SceneObject
+from scene2hap.scene.vectors import cross_2d
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +36,7 @@ def shells(stage: Stage) -> frozenset[int]:
     A shell spans `_SHELL_SPAN` of the scene along two axes, or is a piece of wall. A piece of wall spans this share of
     the scene's height, is thin, and is at the scene's boundary.
     """
-    up = {"y": 1, "z": 2}[stage.up_axis]
+    up = VERTICAL[stage.up_axis]
     low, high = stage.box_m
     extent = np.maximum(high - low, 1e-12)
     found = set()
@@ -51,11 +53,9 @@ def shells(stage: Stage) -> frozenset[int]:
 
 def near(stage: Stage, target: int, share: float) -> frozenset[int]:
     """Return the objects whose box is within `share` of the target's diagonal from the target's box."""
-    low, high = stage.actors[target].box_m
     reach = share * stage.actors[target].diagonal_m
     boxes = np.array([actor.box_m for actor in stage.actors])
-    gaps = np.maximum(np.maximum(boxes[:, 0] - high, low - boxes[:, 1]), 0.0)
-    return frozenset(np.flatnonzero(np.linalg.norm(gaps, axis=1) <= reach).tolist()) - {target}
+    return frozenset(np.flatnonzero(distances(boxes, boxes[target]) <= reach).tolist()) - {target}
 
 
 def containers(stage: Stage, target: int) -> frozenset[int]:
@@ -71,7 +71,7 @@ def containers(stage: Stage, target: int) -> frozenset[int]:
 
 def supports(stage: Stage) -> tuple[int | None, ...]:
     """Return the support of each object: the first object below most of its footprint; None for none."""
-    up = {"y": 1, "z": 2}[stage.up_axis]
+    up = VERTICAL[stage.up_axis]
     level = [axis for axis in range(3) if axis != up]
     return tuple(_support(stage, number, up, level) for number in range(len(stage.actors)))
 
@@ -105,20 +105,15 @@ def _heights_under(actor: Actor, feet: Floats, below: float, up: int, level: lis
     triangles = triangles[reaches & (triangles[:, :, up].min(axis=1) <= below)].astype(np.float64)
     a, b, c = np.moveaxis(triangles[:, :, level], 1, 0)
     height = triangles[:, :, up]
-    area = _cross(b - a, c - a)
+    area = cross_2d(b - a, c - a)
     with np.errstate(divide="ignore", invalid="ignore"):
         foot = feet[:, None]
-        of_b = _cross(foot - a, c - a) / area
-        of_c = _cross(b - a, foot - a) / area
+        of_b = cross_2d(foot - a, c - a) / area
+        of_c = cross_2d(b - a, foot - a) / area
         at = height[:, 0] + of_b * (height[:, 1] - height[:, 0]) + of_c * (height[:, 2] - height[:, 0])
         is_met = (of_b >= 0) & (of_c >= 0) & (of_b + of_c <= 1) & (at <= below)
     heights: Floats = np.where(is_met, at, -np.inf).max(axis=1, initial=-np.inf)
     return heights
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    product: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return product
 
 
 class Copies:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.bounds import bounds_of
 from scene2hap.scene.objects import UpAxis
 
 Floats = NDArray[np.float64]
@@ -98,7 +99,7 @@ def frame(
     Parameters: points_m : (n, 3) [m], n >= 1; fill : larger of the width and height of their projection, as a share of
         the picture's edge [-].
     """
-    low, high = points_m.min(axis=0), points_m.max(axis=0)
+    low, high = bounds_of(points_m)
     middle = (low + high) / 2
     radius = max(float(np.linalg.norm(high - low)) / 2, 1e-9)
     azimuth, elevation = np.deg2rad(azimuth_deg), np.deg2rad(elevation_deg)
@@ -110,6 +111,6 @@ def frame(
     eye = middle + away * radius * _DISTANCE_RADII
     placed = (points_m - eye) @ axes.T
     plane = placed[:, :2] / placed[:, 2:]
-    low, high = plane.min(axis=0), plane.max(axis=0)
+    low, high = bounds_of(plane)
     half = max(float((high - low).max()) / 2 / fill, 1e-9)
     return Camera(eye, axes, (low + high) / 2, half, size_px)

@@ -29,7 +29,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
@@ -37,17 +37,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.counted import first_of
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
+from scene2hap.scene.bounds import Bounds, bounds_of, joined
 from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object
 from scene2hap.scene.formats.habitat_names import Names, ObjectNames
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
-
-_Box = NDArray[np.float64]
-"""Lowest and highest corner (2, 3) of a box."""
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, with_own_keys
 
 _INSTANCES: dict[Kind, str] = {
     "objects": "object_instances",
@@ -208,25 +207,24 @@ class _Reader:
         # Many models may use one picture. Each sentence names the model that lacks the picture.
         for sentence in authored.left_out:
             self.left_out[f"{file.name}: {sentence}"] = None
-        number, seen = len(self._models), dict[int, Piece]()
-        roots = tuple(_keyed(root, number, seen) for root in authored.roots)
+        roots = with_own_keys(authored.roots, len(self._models))
         nodes = [node for root in roots for node in root.walk()]
-        n_triangles = sum(len(piece.faces) for node in nodes for piece in node.pieces)
+        pieces = [piece for node in nodes for piece in node.pieces]
         self._stored.stored += sum(one.stat().st_size for one in _with_parts(file))
-        self._stored.spend(sum(len(piece.faces) for piece in seen.values()), place)
-        return _Model(roots, n_triangles, len(nodes))
+        self._stored.spend(sum(len(piece.faces) for piece in set(pieces)), place)
+        return _Model(roots, sum(len(piece.faces) for piece in pieces), len(nodes))
 
     def warn(self) -> None:
         """Warn of everything that is left out."""
         if self._bent:
             warn_of(
                 f"{self._name!r} has {self._bent.total()} articulated objects that begin with joints turned "
-                f"({_some(self._bent)}); they are read with all joints at 0."
+                f"({first_of(self._bent, _MOST_NAMED)}); they are read with all joints at 0."
             )
         if self._primitives:
             warn_of(
                 f"{self._name!r} is read without {self._primitives.total()} shapes that have no model file "
-                f"({_some(self._primitives)}): Habitat makes these itself."
+                f"({first_of(self._primitives, _MOST_NAMED)}): Habitat makes these itself."
             )
 
 
@@ -332,39 +330,24 @@ def _mass(row: Json, place: str, mass_kg: float | None, volume: float) -> float 
 # -- models ----------------------------------------------------------------------------------------------------------
 
 
-def _keyed(node: AuthoredNode, number: int, seen: dict[int, Piece]) -> AuthoredNode:
-    """Copy a node so that the keys of its pieces differ from the keys in other files."""
-    pieces = []
-    for piece in node.pieces:
-        if id(piece) not in seen:
-            seen[id(piece)] = replace(piece, key=(number, piece.key))
-        pieces.append(seen[id(piece)])
-    children = tuple(_keyed(child, number, seen) for child in node.children)
-    return replace(node, pieces=tuple(pieces), children=children)
-
-
-def _node_box(node: AuthoredNode) -> _Box | None:
+def _node_box(node: AuthoredNode) -> Bounds | None:
     """Return the box of a node and all nodes below it, in the node's own frame."""
-    boxes: list[_Box | None] = [
-        np.array([piece.vertices.min(axis=0), piece.vertices.max(axis=0)]) for piece in node.pieces
-    ]
-    return _joined_box([*boxes, *(_turned_box(_node_box(child), child.matrix) for child in node.children)])
+    own = [bounds_of(piece.vertices) for piece in node.pieces]
+    return _joined_box([*own, *(_turned_box(_node_box(child), child.matrix) for child in node.children)])
 
 
-def _turned_box(box: _Box | None, matrix: Matrix) -> _Box | None:
+def _turned_box(box: Bounds | None, matrix: Matrix) -> Bounds | None:
     """Return the box around the corners of a transformed box."""
     if box is None:
         return None
     corners = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
     moved = corners @ matrix[:3, :3].T + matrix[:3, 3]
-    return np.array([moved.min(axis=0), moved.max(axis=0)])
+    return bounds_of(moved)
 
 
-def _joined_box(boxes: list[_Box | None]) -> _Box | None:
+def _joined_box(boxes: list[Bounds | None]) -> Bounds | None:
     there = [box for box in boxes if box is not None]
-    if not there:
-        return None
-    return np.array([np.min([box[0] for box in there], axis=0), np.max([box[1] for box in there], axis=0)])
+    return joined(there) if there else None
 
 
 def _with_parts(file: Path) -> list[Path]:
@@ -394,8 +377,3 @@ def _is_pointer(file: Path) -> bool:
             return opened.read(len(_LFS)) == _LFS
     except OSError:
         return False
-
-
-def _some(names: Counter[str]) -> str:
-    more = len(names) - _MOST_NAMED
-    return ", ".join(list(names)[:_MOST_NAMED]) + (f" and {more} more" if more > 0 else "")

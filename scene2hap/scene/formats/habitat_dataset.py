@@ -205,23 +205,31 @@ class Dataset:
     def _index(self, kind: Kind) -> _Index:
         if kind not in self._indices:
             index = self._indices[kind] = _Index()
-            section = _section(self._document, kind, self._file)
-            for i, row in enumerate(_list(section, "configs", f"{self._file}: {kind}")):
-                place = f"{self._file}: {kind}.configs[{i}]"
-                if not isinstance(row, dict) or not isinstance(row.get("attributes", {}), dict):
-                    raise SceneFormatError(f"{place} must be an object whose attributes are an object.")
-                handle = row.get("template_handle", row.get("original_file"))
-                if not isinstance(handle, str):
-                    raise SceneFormatError(f"{place} has no template_handle; give it a name.")
-                index.add(_plain(handle), _Source(None, row, place))
-            patterns = _patterns(self._document, kind, self._file)
-            for suffix, ones in sorted(patterns.items(), key=lambda pair: pair[0] != ".json"):
-                wanted = _CONFIG_SUFFIX[kind] if suffix == ".json" else suffix
-                if suffix == ".json" or suffix in _models(kind):
-                    for pattern in dict.fromkeys(ones):
-                        for handle, file in self._files_of(pattern, wanted):
-                            index.add(handle.removesuffix(wanted), _Source(file))
+            for handle, source in (*self._written(kind), *self._matched(kind)):
+                index.add(handle, source)
         return self._indices[kind]
+
+    def _written(self, kind: Kind) -> Iterator[tuple[str, _Source]]:
+        """Yield the configurations that the dataset's own file holds."""
+        section = _section(self._document, kind, self._file)
+        for i, row in enumerate(_list(section, "configs", f"{self._file}: {kind}")):
+            place = f"{self._file}: {kind}.configs[{i}]"
+            if not isinstance(row, dict) or not isinstance(row.get("attributes", {}), dict):
+                raise SceneFormatError(f"{place} must be an object whose attributes are an object.")
+            handle = row.get("template_handle", row.get("original_file"))
+            if not isinstance(handle, str):
+                raise SceneFormatError(f"{place} has no template_handle; give it a name.")
+            yield _plain(handle), _Source(None, row, place)
+
+    def _matched(self, kind: Kind) -> Iterator[tuple[str, _Source]]:
+        """Yield the files that the dataset's patterns match, configurations first."""
+        patterns = _patterns(self._document, kind, self._file)
+        for suffix, ones in sorted(patterns.items(), key=lambda pair: pair[0] != ".json"):
+            wanted = _CONFIG_SUFFIX[kind] if suffix == ".json" else suffix
+            if suffix == ".json" or suffix in _models(kind):
+                for pattern in dict.fromkeys(ones):
+                    for handle, file in self._files_of(pattern, wanted):
+                        yield handle.removesuffix(wanted), _Source(file)
 
     def _all_below(self) -> _Index:
         """Return an index of all models below the dataset's folder. Configurations and URDF files keep their suffix in

@@ -32,7 +32,7 @@ from scene2hap.scene.formats.urdf_files import UrdfFiles
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, with_own_keys
 
 MAX_XML_BYTES = 1 << 24
 """Largest size of a URDF file [bytes] (assumed: a hundred times a large robot)."""
@@ -286,16 +286,9 @@ class _Reader:
                 raise type(cause)(f"{place}, mesh {name!r}: {cause}") from cause
             self._left_out += scene.left_out
             unit = scene.unit_m or 1.0
-            node = AuthoredNode("", np.diag([unit, unit, unit, 1.0]), (), scene.roots)
-            # Piece keys are unique only within one file.
-            self._meshes[path] = _with_keys(node, str(path))
+            roots = with_own_keys(scene.roots, str(path))
+            self._meshes[path] = AuthoredNode("", np.diag([unit, unit, unit, 1.0]), (), roots)
         return self._meshes[path]
-
-
-def _with_keys(node: AuthoredNode, file: str) -> AuthoredNode:
-    """Return the node with piece keys that no other file has."""
-    pieces = tuple(replace(piece, key=(file, piece.key)) for piece in node.pieces)
-    return replace(node, pieces=pieces, children=tuple(_with_keys(child, file) for child in node.children))
 
 
 def _origin(row: Element, place: str) -> Matrix:

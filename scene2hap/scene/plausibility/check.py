@@ -12,8 +12,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.counted import first_of
+from scene2hap.scene.bounds import distances
 from scene2hap.scene.copies import name_words
-from scene2hap.scene.objects import SceneData, SceneObject
+from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
 from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
 
@@ -77,7 +79,7 @@ def findings(scene: SceneData) -> Iterator[Finding]:
         if heavy:
             yield Finding("mass", (item.id,), heavy)
     boxes = np.array([item.bounds_m for item in scene.objects])
-    up = {"y": 1, "z": 2}[scene.up_axis]
+    up = VERTICAL[scene.up_axis]
     resting, other = _resting_share(boxes, up), _resting_share(boxes, 3 - up)
     is_doubtful = len(ids) >= _FEW and other >= max(_MOST_RESTING, _MORE_RESTING * resting)
     if is_doubtful and not _has_level_ground(scene, boxes, up):
@@ -155,8 +157,7 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
         return
     nearest = np.empty(len(ids))
     for some in _batches(len(ids)):
-        gaps = np.maximum(boxes[some, None, 0] - boxes[None, :, 1], boxes[None, :, 0] - boxes[some, None, 1]).clip(0.0)
-        apart = np.linalg.norm(gaps, axis=2)
+        apart = distances(boxes[some, None], boxes)
         rows = np.arange(len(apart))
         apart[rows, some.start + rows] = np.inf
         nearest[some] = apart.min(axis=1)
@@ -241,5 +242,4 @@ def _them(rows: NDArray[np.intp]) -> str:
 
 
 def _named(ids: tuple[str, ...], rows: NDArray[np.intp]) -> str:
-    names = ", ".join(repr(ids[k]) for k in rows[:_MOST_NAMED])
-    return names if len(rows) <= _MOST_NAMED else f"{names} and {len(rows) - _MOST_NAMED} more"
+    return first_of([repr(ids[k]) for k in rows], _MOST_NAMED)

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.objects import SceneData, SceneObject
+from scene2hap.scene.bounds import joined
+from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, usual
 
 
@@ -86,9 +87,9 @@ def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: b
 
 def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     """Return why the sizes of a scene, read at `unit_m` metres per unit, cannot be metres; None if they can."""
-    up = {"y": 1, "z": 2}[snapshot.up_axis]
+    up = VERTICAL[snapshot.up_axis]
     bounds = np.array([item.bounds_m for item in snapshot.objects])
-    low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
+    low, high = joined(bounds)
     extents = np.ptp(bounds, axis=1)
     evidence = _evidence_of(snapshot.objects, bounds[:, 1, up] - low[up], extents)
     by_name = _by_names(evidence) if evidence else None

@@ -6,16 +6,15 @@ slot. Neither side waits for the other.
 
 from __future__ import annotations
 
-import atexit
 import contextlib
 import dataclasses
 from collections import deque
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum, auto
+from functools import partial
 from queue import Empty, SimpleQueue
 from threading import Event, Thread
-from weakref import WeakKeyDictionary
 
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
@@ -27,8 +26,8 @@ from scene2hap.propagation.protocol import (
     checked_field,
 )
 from scene2hap.scene.pose import Pose
-from scene2hap.session.deadline import LAST_S, Deadline
 from scene2hap.session.scene_state import ModelInput
+from scene2hap.session.worker_threads import start_worker
 
 AT_REST_S = 0.05
 """Time without a change after which the whole scene is prepared, not only the objects near the hands [s]."""
@@ -149,23 +148,6 @@ class Desk:
         return next((one for one in reversed(waiting) if isinstance(one, Situation)), order), len(waiting)
 
 
-_WORKERS: WeakKeyDictionary[Thread, Desk] = WeakKeyDictionary()
-
-
 def put_to_work(desk: Desk, newest: Prepared) -> Thread:
     """Start a worker thread for a desk; `newest` is the field that is in use."""
-    worker = Thread(target=desk.work, args=[newest], name="scene2hap propagation", daemon=True)
-    _WORKERS[worker] = desk
-    worker.start()
-    return worker
-
-
-@atexit.register
-def _end_all() -> None:
-    """Wait for the workers, since Python reports an error if it exits while a worker is in a sparse solver."""
-    end = Deadline(LAST_S)
-    workers = list(_WORKERS.items())
-    for _, desk in workers:
-        desk.orders.put(Sign.END)
-    for worker, _ in workers:
-        worker.join(end.left_s)
+    return start_worker(partial(desk.work, newest), "propagation", partial(desk.orders.put, Sign.END))

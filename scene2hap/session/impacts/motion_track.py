@@ -13,6 +13,7 @@ from types import MappingProxyType
 
 from scene2hap.contact.junction import Junction
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.vectors import Vector, dot
 
 WINDOW_S, MOST_STEPS = 0.05, 8
 """Time and number of steps over which a speed is measured."""
@@ -25,7 +26,6 @@ LONGEST_GAP_S, MOST_GAP = 0.12, 12
 GAP_DECAYS = 0.1
 """Decrease of the remembered gap with each step [updates]: at 60 Hz, physics at 50 Hz misses every sixth frame."""
 
-Vector = tuple[float, float, float]
 _ZERO = (0.0, 0.0, 0.0)
 NOTHING: Mapping[str, Junction] = MappingProxyType({})
 
@@ -137,8 +137,3 @@ def in_world(own_m: Vector, pose: Pose) -> Vector:
     x, y, z, s = pose.rotation_xyzw
     d, e, f = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
     return u + a + s * d + y * f - z * e, v + b + s * e + z * d - x * f, w + c + s * f + x * e - y * d
-
-
-def dot(one: Vector, other: Vector) -> float:
-    """Return the dot product."""
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]

@@ -9,7 +9,6 @@ import shutil
 import socket
 import struct
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -22,10 +21,12 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
+from bridge_clients import hex_of_page, start_server
 from scene2hap import Box, SceneSnapshot, TriMesh
 from scene2hap.bridge import BridgeServer
 from scene2hap.bridge.frames import Frame, Gains, decode_frame, encode_gains
 from scene2hap.testing.bridge_client import check_bridge_client, expected_gains
+from server_thread import running
 
 MAIN = Path(__file__).parents[3]
 CLIENT = MAIN / "clients" / "c"
@@ -71,14 +72,6 @@ def build(tmp_path_factory: pytest.TempPathFactory) -> Build:
 @pytest.fixture
 def game(build: Build) -> Path:
     return build(CLIENT / "example_game.c")
-
-
-def hex_of_page(before: str) -> str:
-    """The hexadecimal block that follows a sentence on the protocol page."""
-    page = (MAIN / "docs" / "bridge-protocol.md").read_text(encoding="utf-8")
-    found = re.search(re.escape(before) + r".*?```\n(.*?)```", page, re.DOTALL)
-    assert found
-    return re.sub(r"\s", "", found[1])
 
 
 # ---- The example ----
@@ -185,22 +178,6 @@ def test_c_client_continues_after_a_server_restart(game: Path, tmp_path: Path) -
     assert [int(row[0]) for row in rows] == [*range(1, n_frames + 1)]
     heard = np.array([[float(cell) for cell in row[1:]] for row in rows])
     np.testing.assert_allclose(heard, expected_gains(n_frames).reshape(n_frames, -1), atol=1e-6)
-
-
-def start_server(port: int) -> "subprocess.Popen[bytes]":
-    """Start a bridge process and wait until it listens."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    for _ in range(400):
-        with socket.socket() as trial:
-            if not trial.connect_ex(("127.0.0.1", port)):
-                return process
-        time.sleep(0.05)
-    process.kill()
-    raise AssertionError("the bridge does not listen")
 
 
 # ---- Random and mutated bytes ----
@@ -491,17 +468,13 @@ def scripted(handle: Callable[[ServerConnection, int], object], port: int = 0, *
             failures.append(error)
             raise
 
-    with serve(handler, "127.0.0.1", port, compression=None, max_size=None) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
+    with serve(handler, "127.0.0.1", port, compression=None, max_size=None) as server, running(server):
         try:
             yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
         finally:
             for ws in connections:  # or the server would wait for replies to its close frames
                 with suppress(OSError):
                     ws.socket.shutdown(socket.SHUT_RDWR)
-            server.shutdown()
-            thread.join()
     assert not failures, failures
 
 

@@ -11,7 +11,6 @@ import shutil
 import socket
 import struct
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -22,9 +21,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from bridge_clients import start_server
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.testing import check_bridge_client
 from scene2hap.testing.bridge_client import serving
+from server_thread import running
 
 pytest.importorskip("websockets", reason="no WebSocket server; pip install websockets")
 from websockets.exceptions import ConnectionClosed
@@ -84,14 +85,8 @@ def mock(take: Callable[[ServerConnection, str | bytes], None]) -> Iterator[str]
         except ConnectionClosed:
             pass
 
-    with serve(serve_one, "127.0.0.1", 0, compression=None, max_size=None) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        try:
-            yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
-        finally:
-            server.shutdown()
-            thread.join()
+    with serve(serve_one, "127.0.0.1", 0, compression=None, max_size=None) as server, running(server):
+        yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
 
 
 def order(kind: str, n_moving: int, **more: object) -> str:
@@ -201,7 +196,7 @@ def test_every_request(trial: Callable[..., list[str]]) -> None:
 
 def test_session_restarts_after_a_server_restart(programs: Path) -> None:
     port = free_port()
-    server = bridge_process(port)
+    server = start_server(port)
     command = [str(RUNTIME), str(programs / "trials.exe"), "play", f"ws://127.0.0.1:{port}/", "90"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as game:
         try:
@@ -700,21 +695,6 @@ def free_port() -> int:
     with socket.socket() as one:
         one.bind(("127.0.0.1", 0))
         return int(one.getsockname()[1])
-
-
-def bridge_process(port: int) -> subprocess.Popen[bytes]:
-    """Start a bridge in a separate process and wait until it listens."""
-    command = [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    for _ in range(300):
-        try:
-            socket.create_connection(("127.0.0.1", port), 1).close()
-        except OSError:
-            time.sleep(0.1)
-        else:
-            return process
-    process.kill()
-    raise AssertionError("the bridge does not listen")
 
 
 def until(lines: Any, begin: str) -> list[str]:

@@ -7,7 +7,6 @@ import shutil
 import socket
 import struct
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -20,10 +19,12 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
+from bridge_clients import hex_of_page, start_server
 from scene2hap import SceneSnapshot
 from scene2hap.bridge import BridgeServer
 from scene2hap.bridge.frames import Frame, Gains, decode_frame, encode_gains
 from scene2hap.testing.bridge_client import check_bridge_client
+from server_thread import running
 
 MAIN = Path(__file__).parents[3]
 CLIENT = MAIN / "clients" / "godot3"
@@ -62,14 +63,6 @@ def events_of(said: str) -> list[dict[str, Any]]:
 
 def values(events: list[dict[str, Any]], name: str) -> list[list[Any]]:
     return [one["values"] for one in events if one["event"] == name]
-
-
-def hex_of_page(before: str) -> str:
-    """The hexadecimal block that follows a sentence on the protocol page."""
-    page = (MAIN / "docs" / "bridge-protocol.md").read_text(encoding="utf-8")
-    found = re.search(re.escape(before) + r".*?```\n(.*?)```", page, re.DOTALL)
-    assert found
-    return re.sub(r"\s", "", found[1])
 
 
 def test_frames_and_gains_equal_the_examples_of_the_page() -> None:
@@ -115,23 +108,6 @@ def test_godot_client_continues_after_a_server_restart(tmp_path: Path) -> None:
             process.wait()
     sequences = [int(line.split(",")[0]) for line in out.read_text().split()]
     assert sequences == [*range(1, 61)]
-
-
-def start_server(port: int) -> "subprocess.Popen[str]":
-    """Start a bridge process and wait until it listens."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
-    for _ in range(800):
-        with socket.socket() as trial:
-            if not trial.connect_ex(("127.0.0.1", port)):
-                return process
-        time.sleep(0.05)
-    process.kill()
-    raise AssertionError("the bridge does not listen")
 
 
 def test_a_wrong_token_is_an_error_that_does_not_show_it(bridge: Callable[..., BridgeServer]) -> None:
@@ -251,14 +227,8 @@ def scripted(handle: Callable[[ServerConnection], None], port: int = 0) -> Itera
             failures.append(error)
             raise
 
-    with serve(handler, "127.0.0.1", port, compression=None) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        try:
-            yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
-        finally:
-            server.shutdown()
-            thread.join()
+    with serve(handler, "127.0.0.1", port, compression=None) as server, running(server):
+        yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
     assert not failures, failures
 
 

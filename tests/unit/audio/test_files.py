@@ -126,7 +126,7 @@ def test_wrong_shapes_rates_and_subtypes_are_refused(tmp_path: Path) -> None:
     with pytest.raises(AudioError, match="sample_rate_hz is 0 Hz"):
         write_wav(tmp_path / "a.wav", tone(), 0)
     with pytest.raises(AudioError, match="subtype is 'FLOAT'"):
-        write_wav(tmp_path / "a.wav", tone(), RATE, "FLOAT")  # type: ignore[arg-type]
+        write_wav(tmp_path / "a.wav", tone(), RATE, "FLOAT")
 
 
 def test_failed_write_keeps_the_old_file_and_no_temporary_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -79,7 +79,10 @@ def test_changed_setting_rebuilds_every_source_with_a_reason(
     bundle: HapticBundle, settings: dict[str, Any], why: str
 ) -> None:
     lines: list[str] = []
-    tell = lambda stage, what, done, total: lines.append(f"{stage}: {what}")  # noqa: E731
+
+    def tell(stage: str, what: str, done: int, total: int) -> None:
+        lines.append(f"{stage}: {what}")
+
     again, told = remade(bundle.override("desk_fan", clip=own_tone()), settings, progress=tell)
     assert set(told) == set(bundle.loops) == set(NAMES)
     for name in NAMES[1:]:

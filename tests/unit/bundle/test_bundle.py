@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from files_of import files_of
 from scene2hap import Box, Credit, HapticBundle, HapticLoop
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, UnknownObject
@@ -49,7 +50,7 @@ def assert_same(a: HapticBundle, b: HapticBundle) -> None:
 
 @pytest.mark.parametrize("make", [lambda: table_with_two_phones()[1], with_meshes])
 def test_round_trip(tmp_path: Path, make: object) -> None:
-    bundle = make()  # type: ignore[operator]
+    bundle = make()
     assert_same(HapticBundle.load(bundle.save(tmp_path / "b")), bundle)
 
 
@@ -60,14 +61,11 @@ def test_instances_share_a_mesh_file_and_names_stay_apart(tmp_path: Path) -> Non
 
 
 def test_saving_again_gives_the_same_bytes(tmp_path: Path) -> None:
-    def content(folder: Path) -> dict[str, bytes]:
-        return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
-
     bundle = with_meshes()
-    first = content(bundle.save(tmp_path / "one"))
-    assert content(bundle.save(tmp_path / "two")) == first
-    assert content(bundle.save(tmp_path / "one")) == first
-    assert content(HapticBundle.load(tmp_path / "one").save(tmp_path / "three")) == first
+    first = files_of(bundle.save(tmp_path / "one"))
+    assert files_of(bundle.save(tmp_path / "two")) == first
+    assert files_of(bundle.save(tmp_path / "one")) == first
+    assert files_of(HapticBundle.load(tmp_path / "one").save(tmp_path / "three")) == first
     assert sorted(path.name for path in tmp_path.iterdir()) == ["one", "three", "two"]
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from files_of import files_of
 from scene2hap import HapticBundle
 from scene2hap.bundle import folder_replacement, read_overrides
 from scene2hap.bundle.checking import BundleWarning
@@ -19,10 +20,6 @@ from scenes import table_with_two_phones
 
 def a_bundle() -> HapticBundle:
     return table_with_two_phones()[1]
-
-
-def content(folder: Path) -> dict[str, bytes]:
-    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
 @pytest.fixture(params=["exchange", "renames"])
@@ -57,21 +54,21 @@ def test_folder_with_a_foreign_bundle_json_is_not_replaced(tmp_path: Path, manif
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "bundle.json").write_text(manifest)
     (tmp_path / "mine" / "thesis.txt").write_text("ten years")
-    before = content(tmp_path)
+    before = files_of(tmp_path)
     with pytest.raises(BundleError, match="mine"):
         a_bundle().save(tmp_path / "mine")
-    assert content(tmp_path) == before
+    assert files_of(tmp_path) == before
 
 
 def test_a_newer_bundle_is_neither_replaced_nor_half_read(tmp_path: Path) -> None:
     folder = a_bundle().override("phone", gain_db=3.0).save(tmp_path / "room")
     manifest = json.loads((folder / "bundle.json").read_text())
     (folder / "bundle.json").write_text(json.dumps({**manifest, "version": 2}))
-    before = content(tmp_path)
+    before = files_of(tmp_path)
     for attempt in (lambda: a_bundle().save(folder), lambda: HapticBundle.load(folder), lambda: read_overrides(folder)):
         with pytest.raises(BundleVersionError, match="bundle version 2"):
             attempt()
-    assert content(tmp_path) == before
+    assert files_of(tmp_path) == before
 
 
 def test_overrides_of_a_foreign_folder_are_not_read(tmp_path: Path) -> None:
@@ -272,7 +269,7 @@ def test_missing_bundle_is_restored_by_the_next_reader(tmp_path: Path, look: obj
         process.communicate()
     assert not folder.exists()
     with pytest.warns(BundleWarning, match="being replaced when that process died"):
-        look(folder)  # type: ignore[operator]
+        look(folder)
     assert HapticBundle.load(folder).gain_db("phone") == -7.0
     assert (folder / "thesis.txt").read_text() == "ten years"
     assert [path.name for path in tmp_path.iterdir()] == ["room"]

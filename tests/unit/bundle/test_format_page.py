@@ -26,7 +26,7 @@ def named(part: str) -> set[str]:
 @pytest.mark.parametrize("kind", [ObjectHaptics, Material, SourceState, RunCurve, Override])
 def test_tables_have_the_fields_of_their_class(kind: type) -> None:
     part = TEXT.partition(f"<!-- fields: {kind.__name__} -->\n")[2].partition("\n\n")[0]
-    assert named(part) == {field.name for field in fields(kind)}  # type: ignore[arg-type]
+    assert named(part) == {field.name for field in fields(kind)}
 
 
 def test_files_have_the_fields_that_are_written(tmp_path: Path) -> None:

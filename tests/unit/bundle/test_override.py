@@ -92,7 +92,7 @@ def test_invalid_override_is_refused(
     bundle: HapticBundle, wish: dict[str, object], error: type[Exception], sentence: str
 ) -> None:
     with pytest.raises(error, match=sentence):
-        bundle.override("table", **wish)  # type: ignore[arg-type]
+        bundle.override("table", **wish)
 
 
 def test_override_of_a_missing_object_is_refused(bundle: HapticBundle) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from files_of import files_of
 from scene2hap import AudioClip, HapticBundle
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.errors import BundleError
@@ -45,11 +46,8 @@ def test_equal_sounds_are_one_file(tmp_path: Path) -> None:
 
 
 def test_saving_again_gives_the_same_bytes(tmp_path: Path) -> None:
-    def content(folder: Path) -> dict[str, bytes]:
-        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-
     first = fans().save(tmp_path / "a")
-    assert content(HapticBundle.load(first).save(tmp_path / "b")) == content(first)
+    assert files_of(HapticBundle.load(first).save(tmp_path / "b")) == files_of(first)
 
 
 def test_one_source_alone_keeps_its_plain_name(tmp_path: Path) -> None:

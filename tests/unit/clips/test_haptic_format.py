@@ -105,7 +105,7 @@ WRONG: dict[str, tuple[object, str]] = {
         r"frequency\[0\].time is 2 s, which lies outside of the amplitude curve, 0 to 1 s",
     ),
     "an hour": (document(points((0, 1), (3600, 1))), r"amplitude\[1\].time is 3600 s; it must be at most 600"),
-    "points that are none": (document([1, 2]), r"amplitude\[0\] is 1; it must be an object"),  # type: ignore[list-item]
+    "points that are none": (document([1, 2]), r"amplitude\[0\] is 1; it must be an object"),
 }
 
 

@@ -102,7 +102,7 @@ def test_tolerance_zero_finds_exact_contacts_only() -> None:
 @pytest.mark.parametrize("tolerance", [-0.001, float("nan"), float("inf"), "wide", True])
 def test_a_tolerance_that_is_no_length_is_refused(tolerance: object) -> None:
     with pytest.raises(SceneError, match="tolerance_m"):
-        ContactGraph(scene(TABLE), tolerance_m=tolerance)  # type: ignore[arg-type]
+        ContactGraph(scene(TABLE), tolerance_m=tolerance)
 
 
 def test_update_returns_appeared_shifted_and_vanished_pairs() -> None:
@@ -214,7 +214,7 @@ def test_poses_are_read_only_and_not_changed_by_later_updates() -> None:
     graph = room()
     poses = graph.poses
     with pytest.raises(TypeError):
-        poses["cup"] = Pose()  # type: ignore[index]
+        poses["cup"] = Pose()
     graph.update({"cup": Pose((0.0, 0.75, 0.0))})
     assert poses["cup"] == CUP.pose
 

@@ -15,7 +15,7 @@ CUP: Triple = (0.08, 0.1, 0.08)
 
 def floating_weight(item: SceneObject, lift_m: float, other: str = "floor") -> float:
     x, y, z = item.pose.position_m
-    graph = ContactGraph(scene(floor(), box(item.id, item.geometry.size_m, (x, y + lift_m, z))))  # type: ignore[union-attr]
+    graph = ContactGraph(scene(floor(), box(item.id, item.geometry.size_m, (x, y + lift_m, z))))
     return weight(graph, *sorted((item.id, other)))
 
 

@@ -104,7 +104,7 @@ def test_a_new_object_may_take_the_place_of_a_removed_one() -> None:
 )
 def test_invalid_pose_table_is_refused(ids: list[str], positions: object, rotations: object, words: str) -> None:
     with pytest.raises(SceneError, match=words):
-        PoseTable(ids, positions, rotations)  # type: ignore[arg-type]
+        PoseTable(ids, positions, rotations)
 
 
 def test_an_id_twice_or_unknown_is_refused_and_changes_nothing() -> None:

@@ -21,7 +21,7 @@ ON_PHONE = Touch("left", "phone", (0.1, 0.73, 0.4))
 
 
 def session(sink: object) -> HapticSession:
-    return HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink)  # type: ignore[arg-type]
+    return HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink)
 
 
 def test_two_sessions_cannot_play_on_one_sink() -> None:
@@ -129,7 +129,7 @@ def test_tee_refuses_duplicate_sinks() -> None:
     sink = MemorySink()
     for wrong in ("memory", {"kind": "memory"}, sink):
         with pytest.raises(ConfigError, match="must be a list of sinks"):
-            TeeSink(wrong)  # type: ignore[arg-type]
+            TeeSink(wrong)
     for wrong in ([sink, sink], [sink, TeeSink([sink])]):
         with pytest.raises(ConfigError, match="one sink twice"):
             TeeSink(wrong)

@@ -49,7 +49,7 @@ def test_gain_messages_are_sent_per_hand_and_clip() -> None:
 )
 def test_settings_out_of_bounds_are_refused(settings: dict[str, object], words: str) -> None:
     with pytest.raises(ConfigError, match=words):
-        UdpSink(**settings)  # type: ignore[arg-type]
+        UdpSink(**settings)
 
 
 @pytest.mark.parametrize(
@@ -57,7 +57,7 @@ def test_settings_out_of_bounds_are_refused(settings: dict[str, object], words: 
 )
 def test_serial_settings_out_of_bounds_are_refused(settings: dict[str, object]) -> None:
     with pytest.raises(ConfigError, match=next(iter(settings))):
-        SerialAmplifierSink("/dev/none", **settings)  # type: ignore[arg-type]
+        SerialAmplifierSink("/dev/none", **settings)
 
 
 def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -66,7 +66,7 @@ def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     def without(name: str, *args: object) -> object:
         if name.split(".")[0] in ("serial", "pythonosc"):
             raise ImportError(name)
-        return real(name, *args)  # type: ignore[arg-type]
+        return real(name, *args)
 
     for name in [name for name in sys.modules if name.split(".")[0] in ("serial", "pythonosc")]:
         monkeypatch.delitem(sys.modules, name)

@@ -22,32 +22,32 @@ def _installed(monkeypatch: pytest.MonkeyPatch) -> None:
     [(None, [0, 1]), ([3, 4], [2, 3]), ({"right": 1, "left": 2}, [1, 0]), ({"left": 4, "right": 3, "toe": 1}, [3, 2])],
 )
 def test_channel_maps_route_hands_to_channels(channels: object, columns: list[int]) -> None:
-    sink = SoundCardSink(channels=channels)  # type: ignore[arg-type]
+    sink = SoundCardSink(channels=channels)
     assert sink._card_line.columns(FORMAT) == columns
 
 
 @pytest.mark.parametrize("channels", [[0, 1], [1, 1], [1.5, 2], {"left": True}, ["1"], [1, 300]])
 def test_invalid_channels_are_refused(channels: object) -> None:
     with pytest.raises(ConfigError, match="channel"):
-        SoundCardSink(channels=channels)  # type: ignore[arg-type]
+        SoundCardSink(channels=channels)
 
 
 def test_every_hand_needs_a_channel() -> None:
     for channels in ({"left": 1}, [1]):
         with pytest.raises(ConfigError, match="none for the hand 'right'"):
-            SoundCardSink(channels=channels).open(FORMAT)  # type: ignore[arg-type]
+            SoundCardSink(channels=channels).open(FORMAT)
 
 
 @pytest.mark.parametrize("latency", ["medium", 0.0, -1.0, 2.0, float("nan"), None])
 def test_invalid_latencies_are_refused(latency: object) -> None:
     with pytest.raises(ConfigError, match="latency"):
-        SoundCardSink(latency=latency)  # type: ignore[arg-type]
+        SoundCardSink(latency=latency)
 
 
 @pytest.mark.parametrize("frames", [0, 8, 10_000, 64.0, True, None])
 def test_invalid_block_sizes_are_refused(frames: object) -> None:
     with pytest.raises(ConfigError, match="block_frames is .* 16 to 8192 frames"):
-        SoundCardSink(block_frames=frames)  # type: ignore[arg-type]
+        SoundCardSink(block_frames=frames)
 
 
 def test_error_names_the_extra_when_sounddevice_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -70,5 +70,5 @@ def test_tee_has_a_clock_if_one_of_its_sinks_has() -> None:
     def tee(*sinks: object) -> object:
         return SINKS.build({"kind": "tee", "sinks": sinks})
 
-    assert has_clock(tee(MemorySink(), SoundCardSink()))  # type: ignore[arg-type]
-    assert not has_clock(tee(MemorySink(), MemorySink()))  # type: ignore[arg-type]
+    assert has_clock(tee(MemorySink(), SoundCardSink()))
+    assert not has_clock(tee(MemorySink(), MemorySink()))

@@ -141,4 +141,4 @@ def test_tee_is_built_from_settings(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="at least one sink"):
         TeeSink([])
     with pytest.raises(ConfigError, match="3 is given; it must be a kind"):
-        TeeSink([3])  # type: ignore[list-item]
+        TeeSink([3])

@@ -117,7 +117,7 @@ def test_parts_of_a_long_export_join_without_a_gap(long: Track) -> None:
     played = exported.played[""]
     t = np.linspace(0.0, 69.9, 7000)
     intensity = checker.ahap_intensity(documents[0], t)
-    np.testing.assert_allclose(intensity**2, played.amplitude.at(t), atol=0.02)  # type: ignore[union-attr]
+    np.testing.assert_allclose(intensity**2, played.amplitude.at(t), atol=0.02)
 
     (content,) = made({"kind": "openxr_envelope", "step_s": 0.005}, long).files.values()
     calls = json.loads(content)["calls"]

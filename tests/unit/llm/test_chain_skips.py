@@ -87,7 +87,7 @@ class Camera:
 
 def pictured(camera: Camera) -> SceneSnapshot:
     def shots(kind: str, subject: str | None, n: int) -> ImageSet:
-        return ImageSet(camera, [Shot(kind, subject, 45.0 * i, 45.0) for i in range(n)])  # type: ignore[arg-type]
+        return ImageSet(camera, [Shot(kind, subject, 45.0 * i, 45.0) for i in range(n)])
 
     objects = [
         replace(item, images=ObjectImages(shots("isolated", item.id, 8), shots("context", item.id, 8)))

@@ -109,7 +109,7 @@ def test_no_traceback_holds_the_header_in_a_local_variable() -> None:
 
     with pytest.raises(BackendUnavailable) as caught:
         post(fail)
-    frames = caught.value.__traceback__.tb_next.tb_next  # type: ignore[union-attr]
+    frames = caught.value.__traceback__.tb_next.tb_next
     shown = traceback.TracebackException(BackendUnavailable, caught.value, frames, capture_locals=True)
     text = "".join(shown.format())
     assert "after 35 characters" in text

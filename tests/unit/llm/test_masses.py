@@ -39,7 +39,7 @@ def box(name: str, size_m: tuple[float, float, float], at_m: tuple[float, float,
 
 
 def room(**changes: object) -> SceneSnapshot:
-    oven = replace(box("microwave", (0.5, 0.3, 0.4), (0.0, 0.87, 0.0)), **changes)  # type: ignore[arg-type]
+    oven = replace(box("microwave", (0.5, 0.3, 0.4), (0.0, 0.87, 0.0)), **changes)
     return SceneSnapshot.build([box("wooden table", (1.2, 0.02, 0.7), (0.0, 0.71, 0.0)), oven])
 
 
@@ -91,7 +91,7 @@ def test_feet_are_taken_from_lexicon_and_override(tmp_path: Path) -> None:
     assert loaded.objects["microwave"].feet == materials.lookup("felt")
     assert loaded.objects["microwave"].provenance["feet"] == "user"
     with pytest.raises(BundleError, match="feet"):
-        bundle.override("microwave", feet=3)  # type: ignore[arg-type]
+        bundle.override("microwave", feet=3)
 
 
 def test_every_foot_of_the_table_is_of_a_known_material() -> None:
@@ -151,12 +151,12 @@ def test_mass_of_the_scene_outranks_inference_and_override_outranks_both(tmp_pat
 def test_invalid_mass_is_refused(wrong: object) -> None:
     scene, bundle = table_with_two_phones()
     with pytest.raises(BundleError, match="mass_kg"):
-        bundle.override("table", mass_kg=wrong)  # type: ignore[arg-type]
+        bundle.override("table", mass_kg=wrong)
     with pytest.raises(ConfigError, match="mass_kg"):
-        replace(bundle.objects["table"], mass_kg=wrong)  # type: ignore[arg-type]
+        replace(bundle.objects["table"], mass_kg=wrong)
     if wrong != 1e9:
         with pytest.raises(SceneError, match="mass_kg"):
-            replace(scene.object("table"), mass_kg=wrong)  # type: ignore[arg-type]
+            replace(scene.object("table"), mass_kg=wrong)
 
 
 def test_force_of_a_heavy_source_on_a_compliant_table_grows_with_its_mass() -> None:
@@ -198,4 +198,4 @@ def test_engine_masses_are_used_on_request() -> None:
     assert mujoco_adapter.snapshot(model, data, masses="engine").object("fan").mass_kg == pytest.approx(3.5)
     assert mujoco_adapter.snapshot(model, data).object("fan").mass_kg is None
     with pytest.raises(SceneError, match="masses"):
-        mujoco_adapter.snapshot(model, data, masses="all")  # type: ignore[arg-type]
+        mujoco_adapter.snapshot(model, data, masses="all")

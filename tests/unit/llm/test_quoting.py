@@ -72,7 +72,7 @@ def test_names_and_answers_cannot_add_lines_to_a_prompt() -> None:
             "vibrates": True,
         },
     )
-    asyncio.run(infer_scene(hostile_scene(), backend))  # type: ignore[arg-type]
+    asyncio.run(infer_scene(hostile_scene(), backend))
     assert {request.component for request in backend.asked} == {
         "scene_analyzer",
         "object_analyzer",
@@ -88,7 +88,7 @@ def test_names_and_answers_cannot_add_lines_to_a_prompt() -> None:
 
 def test_prompts_round_lengths_to_millimetres() -> None:
     backend = Scripted()
-    asyncio.run(infer_scene(hostile_scene(), backend))  # type: ignore[arg-type]
+    asyncio.run(infer_scene(hostile_scene(), backend))
     told = next(r for r in backend.asked if r.component == "object_analyzer" and r.subject == "a")
     assert "length 1.237 m" in told.prompt
     assert "1.2366" not in told.prompt
@@ -109,7 +109,7 @@ def test_lexicon_accepts_hostile_names() -> None:
     names = ("lamp" + "\x01" * 500, "lamp" + "'\"\\" * 500, "\udcff lamp", "\ud800")
     room = scene(*(replace(box(str(i), (0.5, 0.5, 0.5), (i, 0.25, 0)), name=name) for i, name in enumerate(names)))
     assert not asyncio.run(infer_scene(room, LexiconBackend())).report.errors
-    found = asyncio.run(infer_scene(hostile_scene(), LexiconBackend()))  # type: ignore[arg-type]
+    found = asyncio.run(infer_scene(hostile_scene(), LexiconBackend()))
     assert not found.report.errors
 
 

@@ -64,7 +64,7 @@ def test_a_refusal_is_not_repaired(text: str) -> None:
         ask(RepairBackend(backend), request(images=(b"a", b"b")))
     assert backend.n_calls == 1
     assert caught.value.raw_text
-    assert caught.value.usage == {"prompt_tokens": 10}  # type: ignore[attr-defined]
+    assert caught.value.usage == {"prompt_tokens": 10}
     assert "JSON" not in str(caught.value)
 
 
@@ -97,8 +97,8 @@ def test_answers_beyond_repair_cost_one_call(text: str, reason: str, sentence: s
     ],
 )
 def test_a_served_refusal_costs_one_request(build: object, script: object) -> None:
-    with serving(script, said()) as server:  # type: ignore[arg-type]
-        backend = standard_stack(build(server), None)  # type: ignore[operator]
+    with serving(script, said()) as server:
+        backend = standard_stack(build(server), None)
         with pytest.raises(AnswerRefused):
             asyncio.run(backend.complete(request()))
         assert len(server.asked) == 1

@@ -27,7 +27,7 @@ def nodes(schema: Any) -> Iterator[dict[str, Any]]:
 
 @pytest.mark.parametrize("component", SCHEMAS)
 def test_strict_schemas_use_only_the_allowed_subset(component: str) -> None:
-    for node in nodes(strict_schema(SCHEMAS[component])):  # type: ignore[index]
+    for node in nodes(strict_schema(SCHEMAS[component])):
         assert not {"title", "default", "minLength", "maxLength", "allOf", "oneOf"} & set(node)
         assert "$ref" not in node or len(node) == 1
         if node.get("type") == "object":
@@ -37,7 +37,7 @@ def test_strict_schemas_use_only_the_allowed_subset(component: str) -> None:
 
 @pytest.mark.parametrize("component", GOOD)
 def test_strict_schemas_accept_only_valid_answers(component: str) -> None:
-    strict = strict_schema(SCHEMAS[component])  # type: ignore[index]
+    strict = strict_schema(SCHEMAS[component])
     validator = jsonschema.Draft202012Validator(strict)
     assert validator.is_valid(GOOD[component])
     assert not validator.is_valid({**GOOD[component], "more": 1})
@@ -155,7 +155,7 @@ def test_schemas_stay_within_the_limits_of_strict_output(
 
 @pytest.mark.parametrize("component", GOOD)
 def test_schemas_for_local_servers_are_equivalent_without_references(component: str) -> None:
-    local = local_schema(SCHEMAS[component])  # type: ignore[index]
+    local = local_schema(SCHEMAS[component])
     assert "$ref" not in json.dumps(local)
     assert "$defs" not in local
     validator = jsonschema.Draft202012Validator(local)

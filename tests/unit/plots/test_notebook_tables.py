@@ -45,7 +45,7 @@ class Reader(HTMLParser):
 
 
 def read(thing: object) -> Reader:
-    return Reader(thing._repr_html_())  # type: ignore[attr-defined]
+    return Reader(thing._repr_html_())
 
 
 def test_a_material_is_a_table() -> None:

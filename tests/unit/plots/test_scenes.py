@@ -35,7 +35,7 @@ def session(model: str = "exponential_plate", **more: object) -> HapticSession:
 
 def shown_levels(figure: object) -> tuple[np.ndarray, tuple[float, float, float, float]]:
     """The image of levels (n_rows, n_columns) [dB] of a figure, and its edges [m]."""
-    image = figure.axes[0].images[1]  # type: ignore[attr-defined]  # the first image shows the surfaces
+    image = figure.axes[0].images[1]  # the first image shows the surfaces
     return np.ma.filled(image.get_array(), np.nan), image.get_extent()
 
 
@@ -97,7 +97,7 @@ def test_drawing_does_not_start_the_worker() -> None:
     s = session("modal_plate", prepare="background")
     assert s.wait_prepared(60.0)
     s.plot_felt("phone", cells=10)
-    assert not s._hand_frames.keeper.in_use.expected  # type: ignore[union-attr]
+    assert not s._hand_frames.keeper.in_use.expected
 
 
 def test_units_legend_and_axes_of_ones_own() -> None:
@@ -181,7 +181,7 @@ def test_names_are_drawn_as_plain_text() -> None:
 
 
 def view_of(*objects: SceneObject, up_to_m: float | None = None, up_axis: str = "y", cells: int = 40) -> TopView:
-    return TopView.of(SceneSnapshot.build(objects, up_axis=up_axis), cells, up_to_m)  # type: ignore[arg-type]
+    return TopView.of(SceneSnapshot.build(objects, up_axis=up_axis), cells, up_to_m)
 
 
 def test_view_from_above_shows_the_uppermost_surface() -> None:

@@ -30,12 +30,12 @@ def tone(hertz: float, seconds: float = 0.5, amplitude: float = 0.25, title: str
 
 def drawn(figure: object) -> bytes:
     written = io.BytesIO()
-    figure.savefig(written, format="png", dpi=40)  # type: ignore[attr-defined]
+    figure.savefig(written, format="png", dpi=40)
     return written.getvalue()
 
 
 def labels(figure: object) -> list[str]:
-    axes = figure.axes  # type: ignore[attr-defined]
+    axes = figure.axes
     return [label for one in axes for label in (one.get_xlabel(), one.get_ylabel()) if label]
 
 

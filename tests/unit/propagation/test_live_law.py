@@ -165,7 +165,7 @@ def test_no_path_exceeds_max_hops(limits: list[float] | None) -> None:
 PlainPaths, _ = KERNELS["scene2hap.propagation.paths.contact_paths.ContactPaths"]
 
 
-class Noted(PlainPaths):  # type: ignore[misc, valid-type]
+class Noted(PlainPaths):
     """The plain search; records the objects that it leaves."""
 
     left: tuple[str, ...] = ()

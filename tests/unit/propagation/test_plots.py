@@ -1,6 +1,7 @@
 """`plot_field`: levels on a plate, marks of contacts and touches, and refused arguments."""
 
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -32,12 +33,14 @@ def test_the_map_is_the_field() -> None:
     np.testing.assert_allclose([loudest[1] / n_x * 0.8, loudest[0] / n_y * 0.4], foot, atol=0.03)
 
 
-def test_map_is_written_to_a_file(tmp_path) -> None:  # type: ignore[no-untyped-def]
+def test_map_is_written_to_a_file(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib", reason="matplotlib is not installed; run: pip install 'scene2hap[plots]'")
     field = ModalPlate().prepare(NETWORK, [Excitation("phone", 150.0, 150.0, 0.2)], Bands.dominant())
     plot_field(field, NETWORK, "top", path=tmp_path / "map.png")
     assert [item.name for item in tmp_path.iterdir()] == ["map.png"]
     assert (tmp_path / "map.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    (tmp_path / "plain").touch()
+    assert (tmp_path / "map.png").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
 
 def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

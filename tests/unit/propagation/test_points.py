@@ -12,7 +12,7 @@ INF, NAN = float("inf"), float("nan")
 @pytest.mark.parametrize("bad", [[INF, -INF, 0.0], [NAN, 0.0, 0.0], [[0.0, 1.0, 2.0], [0.0, 0.0, INF]]])
 def test_non_finite_points_are_refused_without_a_numpy_warning(bad: object) -> None:
     with pytest.raises(ModelDomainError, match="not finite"):
-        as_points(bad, 3)  # type: ignore[arg-type]  # any nesting of lists
+        as_points(bad, 3)
 
 
 def test_coordinates_whose_squares_overflow_are_accepted() -> None:
@@ -22,4 +22,4 @@ def test_coordinates_whose_squares_overflow_are_accepted() -> None:
 @pytest.mark.parametrize("bad", [[1.0, 2.0], [[[1.0, 2.0, 3.0]]], 4.0])
 def test_points_of_wrong_shape_are_refused(bad: object) -> None:
     with pytest.raises(ModelDomainError, match="must be"):
-        as_points(bad, 3)  # type: ignore[arg-type]  # any nesting of lists
+        as_points(bad, 3)

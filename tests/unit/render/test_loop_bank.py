@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from loop_reading import read_loop
 from scene2hap import AudioClip, Bands
 from scene2hap.render.loop_bank import CELL, LoopBank
 
@@ -17,14 +18,6 @@ TACTILE = 8000
 def tone(cycles: int, n: int, rate: int) -> AudioClip:
     samples = 0.3 * np.sin(2 * np.pi * cycles * np.arange(n) / n)
     return AudioClip(samples.astype(np.float32), rate)
-
-
-def read(bank: LoopBank, loop: int, begin: int, n: int) -> NDArray[np.float32]:
-    """Read n samples of a loop from a position, cell by cell."""
-    cells = [np.zeros((bank.n_bands, CELL), dtype=np.float32) for _ in range(-(-n // CELL))]
-    for i, cell in enumerate(cells):
-        bank.read([loop], begin + i * CELL, cell)
-    return np.concatenate(cells, axis=1)[:, :n]
 
 
 def phase_of(x: NDArray[np.float32], begin: int, frequency_hz: float) -> complex:
@@ -37,14 +30,14 @@ def test_loops_wrap_by_themselves_even_when_shorter_than_a_cell() -> None:
     bank = LoopBank(clips, Bands.dominant(), TACTILE)
     for loop, clip in enumerate(clips):
         n = len(clip.samples)
-        np.testing.assert_array_equal(read(bank, loop, 70, 200)[0], clip.samples[(70 + np.arange(200)) % n])
+        np.testing.assert_array_equal(read_loop(bank, loop, 70, 200)[0], clip.samples[(70 + np.arange(200)) % n])
 
 
 @pytest.mark.parametrize("rate", [4000, 11025, 22050, 44100, 48000, 96000])
 def test_a_loop_of_another_rate_keeps_its_sound(rate: int) -> None:
     bank = LoopBank([tone(32, rate * 2 // 5, rate)], Bands.dominant(), TACTILE)
     expected = 0.3 * np.sin(2 * np.pi * 80 * np.arange(4000) / TACTILE)
-    np.testing.assert_allclose(read(bank, 0, 0, 4000)[0], expected, atol=1e-6)
+    np.testing.assert_allclose(read_loop(bank, 0, 0, 4000)[0], expected, atol=1e-6)
 
 
 # Lengths at which no number of samples at 8 kHz fits: about 5, 1.3, 0.2 and 0.003 s.
@@ -58,13 +51,13 @@ def test_tactile_position_stays_within_a_sample_of_the_audible_loop(n: int, rate
     frequency_hz = cycles * rate / n
     bank = LoopBank([tone(cycles, n, rate)], Bands.dominant(), TACTILE)
     begin = minutes * 60 * TACTILE + 7
-    turn = phase_of(read(bank, 0, begin, 2400)[0], begin, frequency_hz) * 1j
+    turn = phase_of(read_loop(bank, 0, begin, 2400)[0], begin, frequency_hz) * 1j
     lag_samples = -np.angle(turn) / (2 * np.pi * frequency_hz) * TACTILE
     assert abs(lag_samples) <= 1.0
 
 
 def played(bank: LoopBank) -> NDArray[np.float32]:
-    return read(bank, 0, 0, 120_000)[0]
+    return read_loop(bank, 0, 0, 120_000)[0]
 
 
 def taken(bank: LoopBank) -> NDArray[np.float32]:
@@ -100,7 +93,7 @@ def test_bands_of_a_loop_are_rows_that_add_up() -> None:
     clip = AudioClip(np.random.default_rng(1).uniform(-0.5, 0.5, 4000).astype(np.float32), TACTILE)
     bank = LoopBank([clip, clip], Bands.third_octaves(), TACTILE)
     assert (len(bank), bank.n_bands, bank.n_rows) == (2, 20, 40)
-    np.testing.assert_allclose(read(bank, 0, 0, 4000).sum(axis=0), clip.samples, atol=1e-5)
+    np.testing.assert_allclose(read_loop(bank, 0, 0, 4000).sum(axis=0), clip.samples, atol=1e-5)
 
 
 def test_loop_bank_stores_one_second_per_row() -> None:

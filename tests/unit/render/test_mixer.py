@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
+from loop_reading import read_loop
 from scene2hap import AudioClip, Bands
 from scene2hap.errors import ConfigError, SessionError
-from scene2hap.render.loop_bank import CELL, LoopBank
+from scene2hap.render.loop_bank import LoopBank
 from scene2hap.render.mixer import Mixer
 from slow_mixer import Changes, slow_mix
 
@@ -105,7 +106,7 @@ def test_true_bands_at_a_kilohertz_of_updates() -> None:
     clips = [AudioClip(rng.uniform(-0.1, 0.1, n).astype(np.float32), TACTILE) for n in (4000, 3001)]
     bands = Bands.third_octaves()
     stored = LoopBank(clips, bands, TACTILE)
-    rows = [row for loop in range(2) for row in read(stored, loop, 0, len(clips[loop].samples))]
+    rows = [row for loop in range(2) for row in read_loop(stored, loop, 0, len(clips[loop].samples))]
     changes = [(frame, rng.uniform(0, 1, (2, 40)).astype(np.float32)) for frame in range(0, 4800, 48)]
     mixer = Mixer(stored, 2, sample_rate_hz=48000, ramp_s=RAMP_S)
     for frame, gains in changes:
@@ -115,13 +116,6 @@ def test_true_bands_at_a_kilohertz_of_updates() -> None:
     )
     np.testing.assert_allclose(mixer.render(4800), expected, atol=1e-6)
     assert mixer.stats.changes_merged == 0
-
-
-def read(stored: LoopBank, loop: int, start: int, n: int) -> NDArray[np.float32]:
-    cells = [np.zeros((stored.n_bands, CELL), dtype=np.float32) for _ in range(-(-n // CELL))]
-    for i, cell in enumerate(cells):
-        stored.read([loop], start + i * CELL, cell)
-    return np.concatenate(cells, axis=1)[:, :n]
 
 
 def test_skipped_silent_loops_are_counted_and_change_nothing_felt() -> None:

@@ -304,7 +304,7 @@ def test_budgets_out_of_bounds() -> None:
         {"max_frequency_hz": math.nan},
     ):
         with pytest.raises(ConfigError, match=next(iter(wrong))):
-            Budget(**wrong)  # type: ignore[arg-type]
+            Budget(**wrong)
     for watchdog_s in (0.0, 0.019, 1.01, math.nan):
         with pytest.raises(ConfigError, match=r"watchdog_s is .*\[s\]"):
             SafetyLayer(ActuatorProfile(), RATE, 1, watchdog_s=watchdog_s)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from files_of import files_of
 from scene2hap import HapticBundle, bake
 from scene2hap.bundle.account import account_path, read_account, write_account
 from scene2hap.errors import BundleError, ConfigError
@@ -33,7 +34,7 @@ def bundle() -> HapticBundle:
 
 
 def told(bundle: HapticBundle, account: object) -> tuple[dict[str, list[str]], list[list[str]]]:
-    found = document(bundle, most_points=50, account=account)["account"]  # type: ignore[arg-type]  # wrong ones too
+    found = document(bundle, most_points=50, account=account)["account"]
     rows: dict[str, list[str]] = {}
     for label, text in found["rows"]:
         rows.setdefault(label, []).append(text)
@@ -72,11 +73,11 @@ def test_invalid_account_is_refused(wrong: dict[str, object], bundle: HapticBund
 
 def test_account_file_is_written_beside_the_bundle(bundle: HapticBundle, tmp_path: Path) -> None:
     folder = bundle.save(tmp_path / "room.bundle")
-    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    before = files_of(folder)
     assert read_account(folder) is None
     path = write_account(folder, ACCOUNT)
     assert path == account_path(f"{folder}/") == tmp_path / "room.bundle.account.json"
-    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
+    assert files_of(folder) == before
     found = report_document(folder, most_points=50)["account"]["rows"]
     assert found[0][0] == "baked"
     assert ["answered from a cache", "2"] in found

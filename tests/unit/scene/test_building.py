@@ -28,7 +28,7 @@ ROOM = [
 
 
 def moved(item: SceneObject, **changes: object) -> SceneObject:
-    return replace(item, **changes)  # type: ignore[arg-type]  # fields by name
+    return replace(item, **changes)
 
 
 def test_object_measures_its_surface() -> None:
@@ -95,7 +95,7 @@ def test_meshes_of_other_packages_are_accepted() -> None:
 )
 def test_invalid_scenes_are_refused(make: object, words: str) -> None:
     with pytest.raises(SceneError, match=words):
-        make()  # type: ignore[operator]  # a function of the table
+        make()
 
 
 def test_check_finds_nothing_in_a_valid_room() -> None:
@@ -129,7 +129,7 @@ def test_check_finds_nothing_in_a_valid_room() -> None:
                 moved(
                     item,
                     pose=Pose(tuple(1000 * x for x in item.pose.position_m)),
-                    geometry=Box(tuple(1000 * x for x in item.geometry.size_m)),  # type: ignore[union-attr]  # boxes
+                    geometry=Box(tuple(1000 * x for x in item.geometry.size_m)),
                     surface=None,
                 )
                 for item in ROOM

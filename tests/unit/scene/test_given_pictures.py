@@ -243,7 +243,7 @@ def test_a_picture_of_an_unknown_object_names_the_nearest() -> None:
 
 def test_list_instead_of_mapping_is_refused() -> None:
     with pytest.raises(SceneError, match="it must be a dict of files"):
-        GivenPictures([file()])  # type: ignore[arg-type]
+        GivenPictures([file()])
 
 
 ROW = {"object": "phone", "kind": "isolated", "view": "front", "file": "0.png"}
@@ -289,5 +289,5 @@ def test_a_file_that_changed_since_is_checked_again(tmp_path: Path) -> None:
 
 def test_given_pictures_have_a_contact_sheet() -> None:
     given = {("phone", kind, view): file() for kind in ("isolated", "context") for view in ("front", "back")}
-    scene = GivenPictures(given).attach_to(SCENE)  # type: ignore[arg-type]
+    scene = GivenPictures(given).attach_to(SCENE)
     assert len(pixels(contact_sheet(scene.object("phone")))) > 0

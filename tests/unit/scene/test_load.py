@@ -35,7 +35,7 @@ def test_axis_unit_and_grouping_are_refused_for_json(tmp_path: Path, options: di
     path = tmp_path / "scene.json"
     path.write_text(scene(box("table", (1, 1, 1), (0, 0, 0))).to_json(), encoding="utf-8")
     with pytest.raises(SceneError, match="leave up_axis, unit_m and group out"):
-        load_scene(path, **options)  # type: ignore[arg-type]
+        load_scene(path, **options)
 
 
 def test_binary_json_file_is_refused(tmp_path: Path) -> None:
@@ -91,7 +91,7 @@ def test_a_text_without_shapes_is_an_empty_scene(tmp_path: Path) -> None:
 def test_invalid_options_are_refused(tmp_path: Path, options: dict[str, object], sentence: str) -> None:
     path = one_cube().write(tmp_path / "scene.glb")
     with pytest.raises(SceneError, match=sentence):
-        load_scene(path, **options)  # type: ignore[arg-type]
+        load_scene(path, **options)
 
 
 def test_up_axis_changes_heights_but_not_coordinates(tmp_path: Path) -> None:

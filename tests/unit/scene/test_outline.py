@@ -97,7 +97,7 @@ def test_notches_are_corners_that_point_inwards() -> None:
 )
 def test_invalid_outlines_are_refused(rings: object, words: str) -> None:
     with pytest.raises(SceneError, match=words):
-        Outline(rings)  # type: ignore[arg-type]
+        Outline(rings)
 
 
 def mesh_of(mesh: trimesh.Trimesh) -> TriMesh:

@@ -91,7 +91,7 @@ def test_unit_quaternion_is_kept_bit_exactly() -> None:
 )
 def test_invalid_pose_is_refused(arguments: dict[str, object], sentence: str) -> None:
     with pytest.raises(SceneError, match=sentence):
-        Pose(**arguments)  # type: ignore[arg-type]
+        Pose(**arguments)
 
 
 @pytest.mark.parametrize("matrix", [2 * np.eye(4), np.diag([-1.0, 1.0, 1.0, 1.0]), np.eye(3)])

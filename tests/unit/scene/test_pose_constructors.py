@@ -24,7 +24,7 @@ def test_from_wxyz_takes_w_first() -> None:
 @pytest.mark.parametrize(("up_axis", "front"), [("y", (1.0, 0.0, 0.0)), ("z", (0.0, 1.0, 0.0))])
 def test_a_quarter_turn_about_the_vertical(up_axis: str, front: tuple[float, float, float]) -> None:
     """Counter-clockwise from above: z turns to x if y is up, and x turns to y if z is up."""
-    pose = Pose.from_yaw(AT, math.pi / 2, up_axis=up_axis)  # type: ignore[arg-type]  # a parameter of the test
+    pose = Pose.from_yaw(AT, math.pi / 2, up_axis=up_axis)
     own = (0.0, 0.0, 1.0) if up_axis == "y" else (1.0, 0.0, 0.0)
     np.testing.assert_allclose(pose.rotation @ own, front, atol=1e-12)
 
@@ -45,7 +45,7 @@ def test_look_at_points_the_front_at_the_target_without_roll(target: tuple[float
     way = np.array(target) - AT
     if np.linalg.norm(np.delete(way, up)) < 1e-3:
         return
-    pose = Pose.look_at(AT, target, up_axis=up_axis)  # type: ignore[arg-type]  # drawn by the test
+    pose = Pose.look_at(AT, target, up_axis=up_axis)
     front, side = ((0, 0, 1), (1, 0, 0)) if up_axis == "y" else ((1, 0, 0), (0, 1, 0))
     np.testing.assert_allclose(pose.rotation @ front, way / np.linalg.norm(way), atol=1e-9)
     assert abs((pose.rotation @ side)[up]) < 1e-9
@@ -60,7 +60,7 @@ def test_look_at_points_the_front_at_the_target_without_roll(target: tuple[float
         (lambda: Pose.from_euler(AT, (0, 0, 0), order="xYz"), "order is 'xYz'"),
         (lambda: Pose.from_euler(AT, (0, 0), order="xyz"), "angles_rad"),
         (lambda: Pose.from_yaw(AT, math.nan), "yaw_rad"),
-        (lambda: Pose.from_yaw(AT, 0.1, up_axis="x"), "up_axis is 'x'"),  # type: ignore[arg-type]  # wrong on purpose
+        (lambda: Pose.from_yaw(AT, 0.1, up_axis="x"), "up_axis is 'x'"),
         (lambda: Pose.from_wxyz(AT, (1, 0, 0)), "rotation_wxyz"),
         (lambda: Pose.look_at(AT, (0.1, 5.0, 0.3)), "straight above"),
         (lambda: Pose.look_at(AT, AT), "is at or straight above"),
@@ -68,4 +68,4 @@ def test_look_at_points_the_front_at_the_target_without_roll(target: tuple[float
 )
 def test_invalid_rotations_are_refused(make: object, words: str) -> None:
     with pytest.raises(SceneError, match=words):
-        make()  # type: ignore[operator]  # a function of the table
+        make()

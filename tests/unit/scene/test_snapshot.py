@@ -46,7 +46,7 @@ def test_mesh_copies_its_arrays_and_is_read_only() -> None:
     with pytest.raises(ValueError, match="read-only"):
         mesh.vertices_m[0] = 1.0
     with pytest.raises(FrozenInstanceError):
-        mesh.faces = mesh.faces  # type: ignore[misc]
+        mesh.faces = mesh.faces
 
 
 @pytest.mark.parametrize(
@@ -67,7 +67,7 @@ def test_mesh_copies_its_arrays_and_is_read_only() -> None:
         (lambda: Contact("a", "b", (0.0, np.nan, 0.0)), r"point_m\[1\] is nan m"),
         (lambda: replace(box("a", (1, 1, 1), (0, 0, 0)), id=""), "'a' has an empty id"),
         (lambda: SceneSnapshot("void", "y", ()), "'void' has no object"),
-        (lambda: SceneSnapshot("s", "x", (box("a", (1, 1, 1), (0, 0, 0)),)), "up_axis is 'x'"),  # type: ignore[arg-type]
+        (lambda: SceneSnapshot("s", "x", (box("a", (1, 1, 1), (0, 0, 0)),)), "up_axis is 'x'"),
         (
             lambda: scene(box("a", (1, 1, 1), (0, 0, 0)), box("a", (1, 1, 1), (5, 0, 0))),
             "id 'a' is used more than once",

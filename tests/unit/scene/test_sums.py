@@ -131,8 +131,8 @@ def member(name: str, x: float) -> Member:
 
 def test_items_of_a_group_are_compared_by_table(monkeypatch: pytest.MonkeyPatch) -> None:
     calls = []
-    gaps = group_split._gaps
-    monkeypatch.setattr(group_split, "_gaps", lambda *given: calls.append(1) or gaps(*given))
+    distances = group_split.distances
+    monkeypatch.setattr(group_split, "distances", lambda *given: calls.append(1) or distances(*given))
     members = [member("tea_cup", 0.0), member("tea_lid", 0.1), *(member("tea_spoon", 9.0 + i) for i in range(20))]
     found = split("tea", members)
     assert [len(item) for item in found] == [2, *[1] * 20]

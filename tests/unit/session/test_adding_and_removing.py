@@ -195,7 +195,7 @@ def test_hands_keep_to_the_channels_of_a_sink_that_runs() -> None:
 class Device(MemorySink):
     """A sink that looks to a session like a device with its own clock; tests decide when it takes a block."""
 
-    pull = property()  # type: ignore[assignment]
+    pull = property()
 
     def __init__(self) -> None:
         super().__init__()
@@ -203,8 +203,8 @@ class Device(MemorySink):
         self.is_running = False
 
     def open(self, format: object) -> None:
-        super().open(format)  # type: ignore[arg-type]
-        self.opened.append(format.channels)  # type: ignore[attr-defined]
+        super().open(format)
+        self.opened.append(format.channels)
 
     def __getattribute__(self, name: str) -> object:
         if name == "pull":
@@ -273,7 +273,7 @@ def test_invalid_changes_are_refused() -> None:
     with pytest.raises(SceneError, match="'phone' is already in the scene"):
         s.add(s.snapshot.object("phone"))
     with pytest.raises(SessionError, match=r"loops\['on'\] of 'fan' is 3; it must be a HapticLoop"):
-        s.add(fan()[0], None, {"on": 3})  # type: ignore[arg-type,dict-item]
+        s.add(fan()[0], None, {"on": 3})
     with pytest.raises(UnknownObject, match="no object 'fan'"):
         s.remove("fan")
     with pytest.raises(ConfigError, match="hands is"):

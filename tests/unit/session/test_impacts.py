@@ -490,4 +490,4 @@ def test_strike_on_a_missing_object_is_refused() -> None:
     with pytest.raises(SessionError, match="the struck object itself"):
         made.strike("table", STRUCK, with_object="table")
     with pytest.raises(SessionError, match="point_m"):
-        made.strike("table", (0.0, 1.0))  # type: ignore[arg-type]
+        made.strike("table", (0.0, 1.0))

@@ -1,26 +1,16 @@
 """One simulated minute of stress/session.py: a game at 1 kHz that calls everything a session offers."""
 
-import importlib.util
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 from edge_scenes import EDGE_SCENES
+from scripts import script
 
 
 @pytest.fixture(scope="module")
 def stress() -> ModuleType:
-    path = Path(__file__).parents[3] / "stress" / "session.py"
-    spec = importlib.util.spec_from_file_location("stress_session", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    import sys
-
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+    return script("stress/session.py")
 
 
 def test_a_minute_without_an_exception_or_drift(stress: ModuleType) -> None:

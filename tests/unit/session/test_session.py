@@ -187,7 +187,7 @@ def test_gain_limit_caps_and_counts() -> None:
             self.value = value
 
         def prepare(self, network: object, excitations: list[object], bands: Bands) -> "Loud":
-            self.source_ids = tuple(e.source_id for e in excitations)  # type: ignore[attr-defined]
+            self.source_ids = tuple(e.source_id for e in excitations)
             return self
 
         def attenuation(self, object_id: str, points_m: object) -> np.ndarray:

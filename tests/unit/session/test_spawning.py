@@ -63,7 +63,7 @@ def test_a_prefab_is_baked_saved_and_loaded_as_any_bundle(tmp_path: Path) -> Non
     assert "fan_1" in s.source_ids
     assert s.wait_prepared(10)
     with pytest.raises(SceneError, match="must be a SceneObject"):
-        bake_object("fan.glb")  # type: ignore[arg-type]
+        bake_object("fan.glb")
 
 
 def test_copy_of_a_passive_prefab_is_no_source() -> None:
@@ -84,9 +84,9 @@ def test_used_id_and_invalid_prefab_are_refused_without_change() -> None:
     with pytest.raises(SessionError, match="has 5 objects; it must have one"):
         s.spawn(table_with_two_phones()[1], "fan_2", AT)
     with pytest.raises(SessionError, match="must be a HapticBundle"):
-        s.spawn("fan.bundle", "fan_2", AT)  # type: ignore[arg-type]
+        s.spawn("fan.bundle", "fan_2", AT)
     with pytest.raises(SessionError, match="must be a Pose"):
-        s.spawn(prefab, "fan_2", (1.0, 0.0, 0.0))  # type: ignore[arg-type]
+        s.spawn(prefab, "fan_2", (1.0, 0.0, 0.0))
     assert s.snapshot == before
 
 

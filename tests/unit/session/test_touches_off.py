@@ -19,7 +19,7 @@ def bundle() -> object:
 
 @pytest.fixture
 def session(bundle: object) -> HapticSession:
-    return HapticSession(bundle)  # type: ignore[arg-type]  # a bundle
+    return HapticSession(bundle)
 
 
 @pytest.mark.parametrize(

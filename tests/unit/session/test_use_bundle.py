@@ -112,12 +112,12 @@ def test_another_scene_is_refused(bundle: HapticBundle) -> None:
     with pytest.raises(BundleError, match="another scene"):
         session.use_bundle(HapticBundle(other, "room", {}, {}))
     with pytest.raises(BundleError, match="must be a HapticBundle"):
-        session.use_bundle("kitchen.bundle")  # type: ignore[arg-type]
+        session.use_bundle("kitchen.bundle")
 
 
 def until(condition: object, watch: BundleWatch) -> None:
     end = time.monotonic() + 30
-    while not condition():  # type: ignore[operator]
+    while not condition():
         assert time.monotonic() < end, watch.problem
         time.sleep(0.01)
 

@@ -28,7 +28,7 @@ def touches(bundle: HapticBundle, *hands: str) -> list[Touch]:
 
 
 def gains(bundle: HapticBundle, user: object, config: object = None) -> np.ndarray:
-    session = HapticSession(bundle, config=config, user=user)  # type: ignore[arg-type]
+    session = HapticSession(bundle, config=config, user=user)
     return session.update(touches=touches(bundle, "left", "right")).gains
 
 
@@ -73,7 +73,7 @@ def test_sources_amplified_by_a_profile_are_mixed(bundle: HapticBundle) -> None:
     faint = bundle.override(source, gain_db=-60.0)
 
     def peak(user: object) -> float:
-        session = HapticSession(faint, hands=("left",), user=user)  # type: ignore[arg-type]
+        session = HapticSession(faint, hands=("left",), user=user)
         for _ in range(3):
             session.update(touches=touches(bundle, "left"))
             mix = session.render(9600)
@@ -160,10 +160,10 @@ def test_profile_round_trips_through_a_file(tmp_path: Path) -> None:
 )
 def test_invalid_profile_is_refused(bundle: HapticBundle, wrong: object, says: str) -> None:
     with pytest.raises(ConfigError, match=re.escape(says)):
-        HapticSession(bundle, user=wrong)  # type: ignore[arg-type]
+        HapticSession(bundle, user=wrong)
     session = HapticSession(bundle)
     with pytest.raises(ConfigError):
-        session.set_user(gain_db=-3.0, profile=wrong)  # type: ignore[arg-type]
+        session.set_user(gain_db=-3.0, profile=wrong)
     assert session._sources.user.factor == 1.0  # a refused call changes nothing
 
 

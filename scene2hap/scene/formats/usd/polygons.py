@@ -12,6 +12,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.vectors import cross_2d
+
 MAX_EAR_CORNERS = 512
 """A concave face of more corners is cut as a fan (assumed; time grows with the square)."""
 _MAX_EAR_WORK = 4_000_000
@@ -86,13 +88,15 @@ def _ears(outline: Floats) -> Ints:
     while len(left) > 3:
         points = outline[left]
         before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
-        turns = _cross(points - before, after - points)
+        turns = cross_2d(points - before, after - points)
         reflex = np.flatnonzero(turns <= 0)
         for at in np.flatnonzero(turns > 0).tolist():
             a, b, c = before[at], points[at], after[at]
             near = reflex[(reflex != (at - 1) % len(left)) & (reflex != (at + 1) % len(left))]
             p = points[near]
-            if not ((_cross(b - a, p - a) >= 0) & (_cross(c - b, p - b) >= 0) & (_cross(a - c, p - c) >= 0)).any():
+            if not (
+                (cross_2d(b - a, p - a) >= 0) & (cross_2d(c - b, p - b) >= 0) & (cross_2d(a - c, p - c) >= 0)
+            ).any():
                 break
         else:
             break
@@ -106,8 +110,3 @@ def _cross_3d(a: Floats, b: Floats) -> Floats:
     # Five times faster than numpy's own function, which matters for thousands of small meshes.
     product: Floats = a[..., [1, 2, 0]] * b[..., [2, 0, 1]] - a[..., [2, 0, 1]] * b[..., [1, 2, 0]]
     return product
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    z: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return z

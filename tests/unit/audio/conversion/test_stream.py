@@ -219,7 +219,7 @@ def test_error_names_an_output_path_that_cannot_be_written(tmp_path: Path) -> No
 def test_invalid_settings_are_refused(tmp_path: Path, settings: dict[str, object], reason: str) -> None:
     source = write(tmp_path / "a.wav", sound())
     with pytest.raises(ConfigError, match=reason):
-        audio.convert(source, tmp_path / "b.wav", **settings)  # type: ignore[arg-type]
+        audio.convert(source, tmp_path / "b.wav", **settings)
 
 
 def test_memory_does_not_grow_with_length(tmp_path: Path) -> None:
@@ -291,7 +291,7 @@ def felt_of(
 ) -> tuple[np.ndarray, float]:
     """Convert a file. Returns its samples, and its felt level over the threshold on the actuator [dB]."""
     source = write(tmp_path / "a.wav", samples, subtype="FLOAT")
-    made = audio.convert(source, tmp_path / name, overwrite=True, **settings)  # type: ignore[arg-type]
+    made = audio.convert(source, tmp_path / name, overwrite=True, **settings)
     felt, rate = soundfile.read(made.output)
     one = felt if felt.ndim == 1 else felt[:, 0]
     whole_seconds = one[: len(one) // rate * rate]
@@ -376,7 +376,7 @@ def test_conversion_reports_the_reached_level_and_its_limit(tmp_path: Path) -> N
     clicks[RATE] = 1.0
     bounded = audio.convert(write(tmp_path / "c.wav", clicks), tmp_path / "d.wav", converter="svf_bandpass")
     assert bounded.level_db is not None
-    assert bounded.level_db < bounded.asked_level_db - 3.0  # type: ignore[operator]
+    assert bounded.level_db < bounded.asked_level_db - 3.0
     assert bounded.peak_out == pytest.approx(0.501, abs=0.001)
     assert bounded.n_clipped == 0
     raw = audio.convert(source, tmp_path / "e.wav", converter="svf_bandpass", raw=True)

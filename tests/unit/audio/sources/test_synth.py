@@ -42,7 +42,7 @@ EVERYDAY = {
 
 def describe(category: str, keywords: str, **changes: object) -> VibrationDescription:
     fields = {"intensity": 0.5, "size_m": (0.0, 0.0, 0.0), "seed": 7} | changes
-    return VibrationDescription(category, "on", f"{category} at work", keywords, **fields)  # type: ignore[arg-type]
+    return VibrationDescription(category, "on", f"{category} at work", keywords, **fields)
 
 
 def make(category: str, keywords: str, **changes: object) -> AudioClip:
@@ -186,7 +186,7 @@ def test_synthesized_clips_can_be_selected_and_looped() -> None:
 def test_impossible_requests_are_refused() -> None:
     for takes in (0, 6, 1.5):
         with pytest.raises(ConfigError, match="takes is"):
-            Synthesizer(takes)  # type: ignore[arg-type]
+            Synthesizer(takes)
     with pytest.raises(AudioError, match="intensity is 1.5"):
         make("fan", "fan", intensity=1.5)
     with pytest.raises(AudioError, match=r"size_m\[0\] is -1 m"):

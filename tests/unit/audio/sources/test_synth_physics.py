@@ -229,7 +229,7 @@ def test_speed_of_unregulated_motors_grows_with_drive_and_falls_with_size(voice:
 @pytest.mark.parametrize("voice", [compressor, pump])
 def test_speed_of_mains_driven_motors_does_not_depend_on_drive(voice: object) -> None:
     idle, driven, american = (
-        line_hz(voice(take(drive, mains_hz=mains)), 30.0, 400.0)  # type: ignore[operator]
+        line_hz(voice(take(drive, mains_hz=mains)), 30.0, 400.0)
         for drive, mains in ((0.0, 50.0), (1.0, 50.0), (0.5, 60.0))
     )
     assert idle == pytest.approx(driven, rel=1e-3)

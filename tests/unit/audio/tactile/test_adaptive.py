@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from amplitudes import amplitude
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive, clear_of
@@ -17,12 +18,6 @@ RATE = 8000
 def tones(seconds: float, **amplitudes: float) -> np.ndarray:
     t = np.arange(round(RATE * seconds)) / RATE
     return sum(a * np.sin(2 * np.pi * float(name[1:]) * t) for name, a in amplitudes.items()).astype(np.float32)
-
-
-def amplitude(y: np.ndarray, frequency_hz: float) -> float:
-    """Amplitude of the component at a whole number of hertz, over the last second."""
-    last = y[-RATE:].astype(float)
-    return float(2 * abs(np.mean(last * np.exp(-2j * np.pi * frequency_hz * np.arange(RATE) / RATE))))
 
 
 def test_adaptive_converter_finds_the_pitch_and_filters_around_it() -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import hilbert
 
+from amplitudes import amplitude
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
 from scene2hap.audio.protocol import ConversionContext
@@ -28,11 +29,6 @@ def tone(frequency_hz: float, seconds: float = 3.0, a: float = 0.5) -> np.ndarra
 def rough(t: np.ndarray) -> np.ndarray:
     """A buzz: 24 partials 44 Hz apart, which beat with each other."""
     return 0.04 * sum(np.sin(2 * np.pi * 44 * k * t + k * k) for k in range(5, 29))
-
-
-def amplitude(y: np.ndarray, frequency_hz: float) -> float:
-    last = y[-RATE:].astype(float)
-    return float(2 * abs(np.mean(last * np.exp(-2j * np.pi * frequency_hz * np.arange(RATE) / RATE))))
 
 
 @pytest.mark.parametrize(("frequency_hz", "gain_db"), [(50, 0.0), (250, -3.01), (500, -24.1), (1000, -48.2)])

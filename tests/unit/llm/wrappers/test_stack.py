@@ -43,7 +43,7 @@ def test_configuration_builds_a_whole_stack(tmp_path: Path) -> None:
 @pytest.mark.parametrize("inner", [3, object(), {"kind": "no such"}, "no such", {"model": "m"}])
 def test_inner_must_be_a_backend(inner: object) -> None:
     with pytest.raises(ConfigError):
-        RetryBackend(inner)  # type: ignore[arg-type]
+        RetryBackend(inner)
 
 
 def test_each_repair_is_a_call_within_the_budget() -> None:
@@ -104,7 +104,7 @@ def test_wrappers_compose_in_every_sensible_order(order: tuple[str, ...], tmp_pa
     assert first.text == second.text == json.dumps(GOOD["scene_analyzer"])
     assert len(inner.requests) == 1
     assert asyncio.run(ReplayBackend(tmp_path / "tape.jsonl").complete(request())).text == first.text
-    assert stack.identity == {"model": "function"}  # type: ignore[attr-defined]
+    assert stack.identity == {"model": "function"}
 
 
 def test_error_names_a_wrapper_order_that_breaks_the_cache(tmp_path: Path) -> None:
@@ -153,7 +153,7 @@ def test_chain_through_the_whole_stack_is_paid_once(tmp_path: Path) -> None:
     lexicon = BACKENDS.build("lexicon")
 
     async def answer(asked: LLMRequest) -> str:
-        return (await lexicon.complete(asked)).text  # type: ignore[attr-defined,no-any-return]
+        return (await lexicon.complete(asked)).text
 
     kitchen = scene(box("table", (1.6, 0.02, 0.8), (0.8, 0.71, 0.4)), box("phone", (0.1, 0.01, 0.1), (0.1, 0.725, 0.4)))
     inner = FunctionBackend(answer)

@@ -144,7 +144,7 @@ def test_context_frames_are_wider_but_not_beyond_the_scene() -> None:
     man = photographer(*ROOM, TABLE, CUP)
     factors = {}
     for name in ("cup", "floor"):
-        close, wide = (man.aim(Shot(kind, name, 0.0, 45.0))[0] for kind in ("isolated", "context"))  # type: ignore[arg-type]
+        close, wide = (man.aim(Shot(kind, name, 0.0, 45.0))[0] for kind in ("isolated", "context"))
         np.testing.assert_array_equal(close.eye_m, wide.eye_m)
         factors[name] = wide.half / close.half
     assert factors["cup"] == pytest.approx(2.5)

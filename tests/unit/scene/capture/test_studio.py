@@ -98,7 +98,6 @@ def test_copies_share_images_and_statistics_count_them() -> None:
     # Distinct objects: floor, table, cup. Distinct contexts: floor, table on floor, cup on table, cup on floor.
     assert stats.rendered == CountingRenderer.drawn == 4 + 8 * 3 + 8 * 4
     cups = [shot.object(key).images for key in ("cup", "cup#2", "cup#3")]
-    assert cups[0] is not None and cups[1] is not None and cups[2] is not None  # noqa: PT018
     assert cups[0].isolated[5] is cups[1].isolated[5] is cups[2].isolated[5]
     assert cups[0].context[5] is cups[1].context[5] is not cups[2].context[5]
     assert capture_stats(shot) == stats
@@ -155,7 +154,9 @@ def test_changed_settings_render_new_pictures(change: dict[str, object]) -> None
 def test_a_folder_keeps_pictures_between_runs(tmp_path: Path) -> None:
     before = captured(cache_dir=tmp_path)
     render_all(before)
-    assert not list(tmp_path.rglob("*.part"))
+    assert not list(tmp_path.rglob(".*"))
+    (tmp_path / "plain").touch()
+    assert next(tmp_path.rglob("*.png")).stat().st_mode == (tmp_path / "plain").stat().st_mode, "others cannot share it"
     MEMORY.clear()
     after = captured(cache_dir=tmp_path)
     stats = render_all(after)
@@ -246,7 +247,7 @@ def test_error_names_unknown_objects() -> None:
 )
 def test_settings_out_of_bounds_are_refused(settings: dict[str, object], sentence: str) -> None:
     with pytest.raises(ConfigError, match=sentence):
-        capture_images(cups_on_tables(), **settings)  # type: ignore[arg-type]
+        capture_images(cups_on_tables(), **settings)
 
 
 def test_error_for_an_unknown_renderer_lists_the_known_ones() -> None:

@@ -31,8 +31,8 @@ def test_larger_extent_fills_the_requested_share_and_is_centred(shape: str, elev
 @pytest.mark.parametrize("up_axis", ["y", "z"])
 @pytest.mark.parametrize("elevation", [45.0, -45.0])
 def test_camera_has_the_requested_angle_and_up_direction(up_axis: str, elevation: float) -> None:
-    right, up, front = axes_of(up_axis)  # type: ignore[arg-type]
-    camera = frame(SHAPES["cube"], 0.0, elevation, up_axis, 0.75, 100)  # type: ignore[arg-type]
+    right, up, front = axes_of(up_axis)
+    camera = frame(SHAPES["cube"], 0.0, elevation, up_axis, 0.75, 100)
     away = camera.eye_m / np.linalg.norm(camera.eye_m)
     assert away @ up == pytest.approx(np.sin(np.deg2rad(elevation)))
     assert away @ front == pytest.approx(np.cos(np.deg2rad(elevation)))

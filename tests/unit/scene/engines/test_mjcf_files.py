@@ -272,7 +272,7 @@ def test_load_scene_reads_xml(home: Path) -> None:
     assert load_scene(path, unit_m=1, up_axis="z").object("ball").bounds_m[1, 2] == pytest.approx(0.1)
     for wrong in ({"up_axis": "y"}, {"group": "leaf"}):
         with pytest.raises(SceneError, match="leave up_axis and group out"):
-            load_scene(path, **wrong)  # type: ignore[arg-type]
+            load_scene(path, **wrong)
 
 
 # -- kitchens --------------------------------------------------------------------------------------------------------

@@ -216,7 +216,7 @@ def test_wrong_arguments_are_refused() -> None:
     with pytest.raises(SceneError, match="call mujoco.mj_forward"):
         snapshot(model, mujoco.MjData(model))
     with pytest.raises(SceneError, match="contacts is 'all'; it must be 'engine'"):
-        snapshot(model, data, contacts="all")  # type: ignore[arg-type]
+        snapshot(model, data, contacts="all")
     with pytest.raises(SceneError, match="unit_m is 0 m; it must be above 0"):
         snapshot(model, data, unit_m=0)
     with pytest.raises(SceneError, match="the model has no geoms"):

@@ -315,7 +315,7 @@ def test_wrong_arguments_are_refused() -> None:
     with pytest.raises(SceneError, match="'render' draws no triangles"):
         snapshot(core.NodePath("render"))
     with pytest.raises(SceneError, match="up_axis is 'x'"):
-        snapshot(graph(), up_axis="x")  # type: ignore[arg-type]
+        snapshot(graph(), up_axis="x")
 
 
 def test_error_names_broken_vertices() -> None:
