@@ -107,11 +107,10 @@ class Output:
         """Fade out, stop the sink and release it; may be called twice."""
         if self._sink is not None and self._safety is not None:
             self._fade_out()
-            try:
+            with contextlib.ExitStack() as last:  # of which each runs even if the one before it raises
+                last.callback(give_back_sink, self._sink, self)
+                last.callback(self._sink.close)
                 self._sink.stop()
-                self._sink.close()
-            finally:
-                give_back_sink(self._sink, self)
 
     def abort(self) -> None:
         """Stop after a failure. A sink with a method `abort` can then discard a half-written file."""
