@@ -85,3 +85,19 @@ def test_unknown_object_is_of_the_material_that_its_name_says(
     answer = judge(Measured(name, (0.3, 0.2, 0.1), material_names=painted))
     assert (answer.object_category, answer.material_category) == ("unknown", material)
     assert not answer.vibrates
+
+
+@pytest.mark.parametrize(
+    ("name", "material"),
+    [
+        ("steel ball", "steel"),
+        ("oak plank", "oak"),
+        ("plastic fork", "plastic"),
+        ("fork", "stainless steel"),
+        ("stone_fruit", "firm food"),
+        ("wood frog", "soft tissue"),
+        ("metal saw", "steel"),
+    ],
+)
+def test_name_says_the_material_of_small_things_but_not_of_food_and_animals(name: str, material: str) -> None:
+    assert judge(Measured(name, (0.2, 0.1, 0.1))).material_category == material
