@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import ExitStack
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,9 @@ from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError
 
 MAX_LAG_S = 0.1
+LONGEST_STOP_S = 2 * MAX_LAG_S
+"""Longest time for which `stop` waits for the slowest device [s]; a device that requests no samples is not awaited
+longer."""
 
 
 @clear_calls
@@ -73,7 +77,7 @@ class TeeSink(Pulled):
         self._buffer = buffer = _Buffer(fill, self._format, [sink for sink in self.sinks if not has_clock(sink)])
         for sink in self.sinks:
             if has_clock(sink):
-                sink.start(_Reader(buffer, self._format).read)
+                sink.start(buffer.reader().read)
 
     def pull(self, n_frames: int) -> Block:
         """Request the next frames and pass them on. Raises: DeviceError: not started, or a sink has a clock."""
@@ -82,24 +86,28 @@ class TeeSink(Pulled):
         return self._buffer.advance(n_frames)
 
     def stop(self) -> None:
-        """Stop all sinks."""
-        for sink in self.sinks:
-            sink.stop()
-        self._buffer = None
+        """Stop all sinks, each after it has read the present mix, which ends with the fade-out.
+
+        If a sink raises, the others are stopped all the same.
+        """
+        if self._buffer is not None:
+            self._buffer.wait_read(LONGEST_STOP_S)
+            self._buffer = None
+        self._each("stop")
 
     def close(self) -> None:
         """Close all sinks."""
-        self.stop()
-        for sink in self.sinks:
-            sink.close()
         self._format = None
+        with ExitStack() as last:
+            last.callback(self._each, "close")
+            self.stop()
 
     def abort(self) -> None:
         """Stop all sinks, and let sinks that support it delete their files."""
-        self.stop()
-        for sink in self.sinks:
-            getattr(sink, "abort", sink.close)()
         self._format = None
+        with ExitStack() as last:
+            last.callback(self._each, "abort", "close")
+            self.stop()
 
     def show(self, frame: object) -> None:
         """Pass the gains of an update to the sinks that play gains."""
@@ -122,6 +130,12 @@ class TeeSink(Pulled):
             latency_s=max(latencies, default=None),
         )
 
+    def _each(self, *names: str) -> None:
+        """Call the first of these methods that a sink has, for all sinks, even if one raises."""
+        with ExitStack() as calls:
+            for sink in reversed(self.sinks):
+                calls.callback(next(getattr(sink, name) for name in names if hasattr(sink, name)))
+
     def _pass_on(self, event: SinkEvent) -> None:
         if self.on_event is not None:
             self.on_event(event)
@@ -136,13 +150,26 @@ class _Buffer:
     def __init__(self, fill: Fill, format: SinkFormat, recorders: Sequence[ActuatorSink]) -> None:
         self._fill = fill
         self._recorders = recorders
-        self._keep = 2 * round(MAX_LAG_S * format.sample_rate_hz)
+        self._most_lag = round(MAX_LAG_S * format.sample_rate_hz)
+        self._keep = 2 * self._most_lag
         self._samples = np.zeros((0, len(format.channels)), dtype=np.float32)
-        self.lock = threading.Lock()
+        self._readers: list[_Reader] = []
+        self.lock = threading.Condition()
         self.head = 0
         self._block = self._samples
         for recorder in recorders:
             recorder.start(lambda n_frames: self._block)
+
+    def reader(self) -> _Reader:
+        """Return the reader of one more device."""
+        self._readers.append(_Reader(self, self._most_lag))
+        return self._readers[-1]
+
+    def wait_read(self, timeout_s: float) -> None:
+        """Wait until every reader has read the frames up to the present one, but at most `timeout_s` [s]."""
+        with self.lock:
+            head = self.head
+            self.lock.wait_for(lambda: all(reader.position >= head for reader in self._readers), timeout_s)
 
     def advance(self, n_frames: int) -> Block:
         """Render and store the next frames."""
@@ -165,22 +192,23 @@ class _Buffer:
 class _Reader:
     """The read position of one device in the buffer."""
 
-    def __init__(self, buffer: _Buffer, format: SinkFormat) -> None:
+    def __init__(self, buffer: _Buffer, most_lag: int) -> None:
         self._buffer = buffer
-        self._most = round(MAX_LAG_S * format.sample_rate_hz)
-        self._position = 0
+        self._most = most_lag
+        self.position = 0
 
     def read(self, n_frames: int) -> Block:
         with self._buffer.lock:
-            late = self._buffer.head - self._position
+            self._buffer.lock.notify_all()  # `wait_read` looks once this block has been read
+            late = self._buffer.head - self.position
             if late <= self._most:
-                block = self._buffer.read(self._position, n_frames)
-                self._position += n_frames
+                block = self._buffer.read(self.position, n_frames)
+                self.position += n_frames
                 return block
-            old = self._buffer.read(self._position, n_frames) if late < 2 * self._most else None
-            self._position = self._buffer.head
-            block = self._buffer.read(self._position, n_frames).copy()
-            self._position += n_frames
+            old = self._buffer.read(self.position, n_frames) if late < 2 * self._most else None
+            self.position = self._buffer.head
+            block = self._buffer.read(self.position, n_frames).copy()
+            self.position += n_frames
         rising = (np.arange(1, n_frames + 1, dtype=np.float32) / np.float32(n_frames))[:, None]
         block *= rising
         if old is not None:

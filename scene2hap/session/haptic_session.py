@@ -197,11 +197,11 @@ class HapticSession:
 
         Parameters: moved : new poses of objects that moved; touches : all touches of this frame (a hand that is not
         among them is lifted; one with several feels the largest gain per source); contacts : contacts that an engine
-        reports, instead of those found from geometry; at_sample : the position on `render`'s clock from which the gains
-        change, None for the next block.
+        reports, with normals from `a` to `b`, instead of those found from geometry; at_sample : the position on
+        `render`'s clock from which the gains change, None for the next block.
         A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are accepted too.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
-        vibrates.
+        vibrates; normals of contacts that point from `b` to `a`.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
         before that of the last update, or another type than poses, touches and contacts.
         """
@@ -675,7 +675,12 @@ class HapticSession:
     def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
         self._mistakes.in_moves(moved)
         try:
-            return self._state.graph.update(moved, contacts=None if contacts is None else given_contacts(contacts))
+            if contacts is None:
+                return self._state.graph.update(moved)
+            contacts = given_contacts(contacts)
+            change = self._state.graph.update(moved, contacts=contacts)
+            self._mistakes.in_contacts(contacts)
+            return change
         except SceneError:
             for object_id, pose in moved.items():
                 self._state.require(object_id)

@@ -2,6 +2,7 @@
 
 - Loops that were made for another actuator than the session's.
 - First poses whose quaternions begin with w: (1, 0, 0, 0) is upright with w first, and upside down with w last.
+- Contacts of an engine whose normals point from `b` to `a`: nothing would land.
 - Touches far from the box around their object. Almost always the point is in other units, in the object's own frame,
   or from another frame of the game.
 - Added objects that will not be felt, a scene in which nothing vibrates, a user's profile for other hands.
@@ -21,6 +22,8 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.counted import counted
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
 from scene2hap.scene.bounds import bounds_of, distances
+from scene2hap.scene.contact_normals import are_reversed
+from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -59,7 +62,7 @@ class LikelyMistakes:
         self._hands_named: set[str] = set()
         self._n_updates = 0
         self._n_silent_named = 0
-        self._has_moved = self._is_silence_named = False
+        self._has_moved = self._is_silence_named = self._knows_normals = False
         self.n_touches_off = 0
 
     def in_moves(self, moved: Mapping[str, Pose]) -> None:
@@ -84,6 +87,22 @@ class LikelyMistakes:
             warn_of(
                 f"the first poses turn all {len(some)} moved objects over, as quaternions do that begin with w: "
                 f"rotation_xyzw of {x!r} is ({parts}). Make poses by Pose.from_wxyz(position_m, rotation_wxyz)."
+            )
+
+    def in_contacts(self, contacts: Sequence[Contact]) -> None:
+        """Warn if the normals of the first contacts point the wrong way. Call it after the objects have moved.
+
+        Warns: SceneWarning.
+        """
+        if self._knows_normals:
+            return
+        is_wrong = are_reversed(contacts, self._state.objects, self._state.graph.pose)
+        self._knows_normals = is_wrong is not None
+        if is_wrong:
+            one = next(contact for contact in contacts if contact.normal is not None)
+            warn_of(
+                f"all normals of {counted(len(contacts), 'contact')} point from b to a, such as that of {one.a!r} and "
+                f"{one.b!r}; a normal points from a to b. Swap a and b, or no object lands."
             )
 
     def in_touches(self, felt: Felt) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from scene2hap.engines.adapter import EngineAdapter
 from scene2hap.scene.bounds import bounds_of, distances
+from scene2hap.scene.contact_normals import are_reversed
 from scene2hap.scene.engines.motion import moved
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
@@ -68,6 +69,10 @@ def _held(adapter: EngineAdapter, scene: SceneSnapshot) -> dict[str, Pose]:
             assert end in poses, f"contacts() has {end!r}, which poses() has not"
         for end in (contact.a, contact.b):
             _hold_near("contacts", contact.point_m, end, scene, found)
+    objects = {item.id: item for item in scene.objects}
+    assert not are_reversed(contacts or (), objects, found.__getitem__), (
+        "contacts() has normals that point from b to a; a normal points from a to b, so swap a and b"
+    )
     return found
 
 

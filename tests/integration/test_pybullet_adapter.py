@@ -41,8 +41,9 @@ class PyBullet:
         return [Touch("left", self.names[point[2]], point[6]) for point in points]
 
     def contacts(self) -> list[Contact]:
+        # PyBullet's normals point from its second body to its first one.
         points = pybullet.getContactPoints(physicsClientId=self.client)
-        return [Contact(self.names[point[1]], self.names[point[2]], point[6], point[7]) for point in points]
+        return [Contact(self.names[point[2]], self.names[point[1]], point[6], point[7]) for point in points]
 
     def step(self) -> None:
         for _ in range(24):
@@ -67,6 +68,17 @@ def test_the_adapter_keeps_the_contract(engine: PyBullet) -> None:
     check_engine_adapter(engine, scene_of(engine), step=engine.step, moves="finger")
 
 
+def test_the_contract_finds_normals_that_point_the_wrong_way(engine: PyBullet) -> None:
+    def reversed_contacts() -> list[Contact]:
+        return [Contact(one.b, one.a, one.point_m, one.normal) for one in PyBullet.contacts(engine)]
+
+    for _ in range(10):
+        engine.step()
+    engine.contacts = reversed_contacts
+    with pytest.raises(AssertionError, match="swap a and b"):
+        check_engine_adapter(engine, scene_of(engine), step=engine.step)
+
+
 def test_a_falling_finger_feels_the_phone_through_the_table(engine: PyBullet) -> None:
     scene = scene_of(engine)
     session = HapticSession(scene, bake(scene))
@@ -77,3 +89,15 @@ def test_a_falling_finger_feels_the_phone_through_the_table(engine: PyBullet) ->
         felt.append(link.update().gain("left", "smartphone"))
     assert felt[0] == 0.0
     assert felt[-1] > 0.05
+
+
+def test_a_finger_that_drops_onto_the_table_is_felt(engine: PyBullet) -> None:
+    scene = scene_of(engine)
+    session = HapticSession(scene, bake(scene))
+    link = EngineLink(engine, session)
+    for _ in range(30):
+        for _ in range(4):  # 60 frames a second
+            pybullet.stepSimulation(physicsClientId=engine.client)
+        link.update()
+        session.render_s(1 / 60)
+    assert [{impact.object_id, impact.with_object} for impact in session.impacts] == [{"finger", "wooden table"}]

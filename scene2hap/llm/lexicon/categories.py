@@ -81,7 +81,7 @@ def _unknown(item: Measured, reading: NameReading) -> ObjectAnswer:
         category_reason=_cut(
             f"the table of {len(table())} objects cannot tell: the name {_shown(item.name)} holds {words}."
         ),
-        material_category=painted_with(item.material_names) or UNKNOWN,
+        material_category=reading.material or painted_with(item.material_names) or UNKNOWN,
         estimated_length_m=item.size_m[0],
         estimated_width_m=item.size_m[1],
         estimated_thickness_m=thickness,

@@ -11,6 +11,9 @@ from scene2hap.llm.lexicon.table import ObjectRow
 _TILED = frozenset({"kitchen", "bathroom", "laundry"})
 _TILE, _TILE_THICKNESS_M = "ceramic", 0.008  # floor tiles of 8 mm; assumed
 
+_GROWN = frozenset({"baked food", "firm food", "soft food", "soft tissue", "plant"})
+"""Materials that a word for another one does not replace: a "stone fruit" is food."""
+
 
 def painted_with(material_names: Sequence[str]) -> str | None:
     """Return the material that all names of surface materials agree on ("M_Wood_Oak": oak); None if they differ.
@@ -31,7 +34,7 @@ def make(reading: NameReading, row: ObjectRow, scene_category: str, material_nam
     """Return material and plate thickness [m], from the table, and for a part from the table's row of its owner.
 
     Name, surface materials or place can replace them. A machine keeps the table's material: an adjective names the
-    material that it works on (wood chipper, metal saw).
+    material that it works on (wood chipper, metal saw). Food, animals and plants keep it too.
     """
     whole = reading.whole
     material, thickness_m = row.material, row.thickness_m
@@ -39,6 +42,6 @@ def make(reading: NameReading, row: ObjectRow, scene_category: str, material_nam
         material, thickness_m = whole.material, whole.thickness_m
     elif row.noun == "floor" and _TILED & {*places_named(reading.name), *places_named(scene_category)}:
         material, thickness_m = _TILE, _TILE_THICKNESS_M
-    if not row.vibrates and row.role != "content":
+    if not row.vibrates and material not in _GROWN:
         material = reading.material or painted_with(material_names) or material
     return material, thickness_m

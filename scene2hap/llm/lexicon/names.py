@@ -72,7 +72,7 @@ def read_name(name: str) -> NameReading:
     tokens, trust = word_split.read_words(name)
     trust *= _ALL_READ
     unread = tuple(word for word in tokens if not word_split.is_known(word))
-    unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread)
+    unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread, material=_material_in(tokens))
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
     nouns = [noun for noun in _nouns(tokens) if not _is_of_robot(tokens, noun)]
@@ -97,7 +97,7 @@ def read_name(name: str) -> NameReading:
         round(trust, 3),
         head=" ".join(tokens[head.start : head.end]),
         unread=before + behind,
-        material=next((words.MATERIAL_WORDS[word] for word in rest if word in words.MATERIAL_WORDS), None),
+        material=_material_in(rest),
         toy=any(word in words.TOY_WORDS for word in tokens[: head.start]),
         whole=_whole(tokens, head, nouns),
     )
@@ -107,6 +107,10 @@ def places_named(name: str) -> tuple[str, ...]:
     """Return the kinds of place in a name's words, each once."""
     found = (words.PLACE_WORDS.get(word) for word in word_split.read_words(name)[0])
     return tuple(dict.fromkeys(place for place in found if place is not None))
+
+
+def _material_in(tokens: Sequence[str]) -> str | None:
+    return next((words.MATERIAL_WORDS[word] for word in tokens if word in words.MATERIAL_WORDS), None)
 
 
 def _nouns(tokens: Sequence[str]) -> list[_Noun]:

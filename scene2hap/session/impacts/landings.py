@@ -22,7 +22,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.vectors import Vector, dot
-from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, NOTHING, MotionTrack, in_world
+from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, NOTHING, MotionTrack, in_world
 
 LEAST_SPEED_M_S = 0.1
 """A cup put down more slowly is as good as not felt, and trackers shake as fast."""
@@ -39,6 +39,9 @@ not approach the floor."""
 MOST_MOVING = 100
 """Objects followed at once; among so many moving objects a single landing is not noticed."""
 _SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
+_LEAST_CHANGE = _SUDDEN * (LEAST_TRAVEL_M / MOST_STEPS) ** 2
+"""Square of the smallest change of a step at a landing [m2]: the steps of a fall are not shorter."""
+_STILL = (0.0, 0.0, 0.0)
 
 
 class Landing(NamedTuple):
@@ -85,7 +88,7 @@ class Landings:
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """Find the objects that landed in this update. Call it after the graph is updated."""
         self._n_updates = now = self._n_updates + 1
-        moving: list[tuple[MotionTrack, Pose, Vector, Vector]] = []
+        moving: dict[str, tuple[MotionTrack, Pose, Vector, Vector]] = {}
         stopped: list[str] = []
         at_rest: list[str] = []
         beside = self._graph.beside  # an object without contacts has not landed
@@ -93,15 +96,14 @@ class Landings:
             pose = moved.get(object_id)
             step = track.step_to(pose)
             if pose is not None and step is not None:
-                moving.append((track, pose, *step))
-                if _is_sudden(track, step[0]) and (beside.get(object_id) or (track.near and _bounces(track, step[0]))):
-                    stopped.append(object_id)
+                moving[object_id] = track, pose, *step
             elif track.has_stopped(now) and beside.get(object_id) and track.is_falling:
                 stopped.append(object_id)
             elif track.is_at_rest(now):
                 at_rest.append(object_id)
+        stopped += [object_id for object_id, (track, *_) in moving.items() if self._is_sudden(object_id, track, moving)]
         found = [one for object_id in stopped for one in self._landing(object_id, self._tracks[object_id], time_s)]
-        for track, pose, step_m, middle_m in moving:
+        for track, pose, step_m, middle_m in moving.values():
             track.follow(now, time_s, pose, step_m, middle_m)
         for object_id in at_rest:
             del self._tracks[object_id]
@@ -112,6 +114,30 @@ class Landings:
         # Two objects that met each other landed once.
         met = {(one.object_id, one.onto) for one in found}
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
+
+    def _is_sudden(
+        self, object_id: str, track: MotionTrack, moving: Mapping[str, tuple[MotionTrack, Pose, Vector, Vector]]
+    ) -> bool:
+        """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle.
+
+        The check of the own step runs for every moved object in every frame, the rest for few of them.
+        """
+        (x, y, z), (u, v, w) = moving[object_id][2], track.step_m
+        if (x - u) ** 2 + (y - v) ** 2 + (z - w) ** 2 < _LEAST_CHANGE or not track.is_falling:
+            return False
+        beside = self._graph.beside.get(object_id)
+        for other in beside or track.near:
+            a, b, c = moving[other][2] if other in moving else _STILL
+            theirs = self._tracks.get(other)
+            d, e, f = theirs.step_m if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0] else _STILL
+            now, before = (x - a, y - b, z - c), (u - d, v - e, w - f)
+            change = (now[0] - before[0], now[1] - before[1], now[2] - before[2])
+            # Without a contact now, only an object that turned back may have met the other one.
+            if (beside or dot(now, before) < 0) and dot(change, change) >= max(
+                _LEAST_CHANGE, _SUDDEN * dot(before, before)
+            ):
+                return True
+        return False
 
     def _landing(self, object_id: str, track: MotionTrack, time_s: float) -> list[Landing]:
         """The landing on the touched object that was approached the fastest; empty if there is none."""
@@ -129,7 +155,7 @@ class Landings:
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
                 onward = dot(self._nearing(object_id, other, point, last, now), normal)
-                if onward > LEFT * step * shorter or self._rolls(object_id, track, normal, closing):
+                if onward > LEFT * step * shorter or self._rolls(object_id, other, point, normal, closing):
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
@@ -153,13 +179,16 @@ class Landings:
             speed, lasted_s = now, lasts_s
         return False
 
-    def _rolls(self, object_id: str, track: MotionTrack, normal: Vector, closing_m: float) -> bool:
-        """Whether an object turned while its middle hardly approached. The motion of the other object is ignored."""
-        begin, end = track.pose_at(track.run()[0][0]), self._graph.pose(object_id)
+    def _rolls(self, object_id: str, other: str, point_m: Vector, normal: Vector, closing_m: float) -> bool:
+        """Whether an object turned while its middle hardly approached another object."""
+        track = self._tracks[object_id]
+        since = track.run()[0][0]
+        begin, end = track.pose_at(since), self._graph.pose(object_id)
         if begin.rotation_xyzw == end.rotation_xyzw:
             return False
         (x, y, z), (u, v, w) = in_world(track.own_m, end), in_world(track.own_m, begin)
-        return dot((x - u, y - v, z - w), normal) < ROLLS * closing_m
+        a, b, c = self._travel(other, point_m, since, self._n_updates)
+        return dot((x - u - a, y - v - b, z - w - c), normal) < ROLLS * closing_m
 
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
         """Travel of a point of an object between two updates, relative to another object [m]."""
@@ -190,18 +219,6 @@ class Landings:
         x, y, z = (np.array(point_m) - middle).tolist()
         length = math.hypot(x, y, z)
         return (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 0.0)
-
-
-def _is_sudden(track: MotionTrack, step_m: Vector) -> bool:
-    """Whether a fall changes abruptly with this step. Runs for every moved object in every frame."""
-    (x, y, z), (u, v, w) = step_m, track.step_m
-    x, y, z = x - u, y - v, z - w
-    return x * x + y * y + z * z >= _SUDDEN * (u * u + v * v + w * w) and track.is_falling
-
-
-def _bounces(track: MotionTrack, step_m: Vector) -> bool:
-    """Whether an object turns back: a fast one may be out of reach of the other object by the next frame."""
-    return dot(step_m, track.step_m) < 0
 
 
 def _middle(junction: Junction) -> Vector:

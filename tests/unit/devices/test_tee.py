@@ -1,5 +1,7 @@
 """TeeSink: one mix is sent to several sinks."""
 
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -142,3 +144,52 @@ def test_tee_is_built_from_settings(tmp_path: Path) -> None:
         TeeSink([])
     with pytest.raises(ConfigError, match="3 is given; it must be a kind"):
         TeeSink([3])
+
+
+class Slow(Device):
+    """A device that takes 10 frames every 10 ms, on a thread of its own."""
+
+    def start(self, fill: Fill) -> None:
+        super().start(fill)
+        self.got: list[NDArray[np.float32]] = []
+        self._runs = True
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    def _run(self) -> None:
+        while self._runs:
+            self.got.append(self.take(10))
+            time.sleep(0.01)
+
+    def stop(self) -> None:
+        self._runs = False
+        self._thread.join()
+        super().stop()
+
+
+def test_a_slow_device_reads_the_fade_out_before_it_is_stopped() -> None:
+    fast, slow = Device(), Slow()
+    tee = TeeSink([slow, fast])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    fast.take(80)  # the mix ends here
+    tee.stop()
+    assert np.concatenate(slow.got)[:80].tolist() == [*range(80)]
+
+
+class Stuck(Device):
+    """A device whose driver raises when it is stopped and when it is closed."""
+
+    def stop(self) -> None:
+        raise DeviceError("it was unplugged")
+
+
+@pytest.mark.parametrize("call", ["stop", "close", "abort"])
+def test_all_devices_stop_if_one_raises(call: str) -> None:
+    stuck, sound = Stuck(), Device()
+    tee = TeeSink([stuck, sound])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    with pytest.raises(DeviceError, match="unplugged"):
+        getattr(tee, call)()
+    assert sound.fill is None

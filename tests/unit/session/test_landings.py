@@ -314,3 +314,72 @@ def test_object_lands_among_many_that_rest_and_are_given_in_every_frame() -> Non
     resting = {one.id: one.pose for one in standing}
     frames = [(i * PERIOD_S, {**resting, "cup": Pose(at)}) for i, at in enumerate(fall(0.4, PERIOD_S))]
     assert [(one.object_id, one.onto) for one in landings_in(graph, frames)] == [("cup", "table")]
+
+
+Motion = Callable[[float], Triple]
+
+
+def aboard(vehicle: Motion, in_it: Motion, times: Iterable[float]) -> list[Landing]:
+    """The landings in a room that moves as a whole, while the cup moves in it along a path of its own."""
+    graph = room()
+    at_first = {object_id: graph.pose(object_id) for object_id in ("floor", "table", "wall", "cup", "book")}
+
+    def frame(time_s: float) -> dict[str, Pose]:
+        x, y, z = vehicle(time_s)
+        inside = {object_id: pose.position_m for object_id, pose in at_first.items()} | {"cup": in_it(time_s)}
+        return {object_id: Pose((x + u, y + v, z + w)) for object_id, (u, v, w) in inside.items()}
+
+    return landings_in(graph, [(time_s, frame(time_s)) for time_s in times])
+
+
+def dropped(time_s: float) -> Triple:
+    """At rest 0.3 m above the table, dropped after half a second."""
+    return 0.0, RESTS_M + max(0.0, 0.3 - 9.81 * max(0.0, time_s - 0.5) ** 2 / 2), 0.0
+
+
+def carried(time_s: float) -> Triple:
+    return 0.0, RESTS_M + lowered_m(time_s - 0.5 if time_s > 0.5 else 0.0), 0.0
+
+
+VEHICLES: dict[str, Motion] = {
+    "train": lambda t: (0.0, 0.0, 30.0 * t),
+    "train that brakes": lambda t: (0.0, 0.0, 30.0 * min(t, 0.9)),
+    "lift up": lambda t: (0.0, 2.5 * t, 0.0),
+    "lift down": lambda t: (0.0, -2.5 * t, 0.0),
+    "boat": lambda t: (0.0, 0.3 * math.sin(3 * t), 8.0 * t),
+    "bumpy road": lambda t: (0.0, 0.01 * math.sin(50 * t), 15.0 * t),
+}
+
+
+def unequal_times(seed: int) -> list[float]:
+    times: list[float] = np.cumsum(np.random.default_rng(seed).uniform(0.7, 1.3, 170) * PERIOD_S).tolist()
+    return times
+
+
+@pytest.mark.parametrize("vehicle", VEHICLES)
+def test_object_dropped_in_a_vehicle_lands_once(vehicle: str) -> None:
+    for seed in range(5):
+        found = aboard(VEHICLES[vehicle], dropped, unequal_times(seed))
+        assert [{one.object_id, one.onto} for one in found] == [{"cup", "table"}]
+        assert found[0].speed_m_s == pytest.approx(math.sqrt(2 * 9.81 * 0.3), rel=0.3)
+
+
+@pytest.mark.parametrize("vehicle", VEHICLES)
+@pytest.mark.parametrize("in_it", [carried, lambda t: (0.0, RESTS_M, 0.0)])
+def test_object_put_down_or_at_rest_in_a_vehicle_does_not_land(vehicle: str, in_it: Motion) -> None:
+    assert [aboard(VEHICLES[vehicle], in_it, unequal_times(seed)) for seed in range(5)] == [[]] * 5
+
+
+@pytest.mark.parametrize("rises_m_s", [-2.5, 0.0, 2.5])
+def test_object_that_tumbles_in_a_lift_lands(rises_m_s: float) -> None:
+    times = [i * PERIOD_S for i in range(90)]
+    frames = []
+    graph = room()
+    for t in times:
+        rest = {one: graph.pose(one).position_m for one in ("floor", "table", "wall", "book")}
+        turns = about_z(3.0 * min(t, 0.5 + math.sqrt(2 * 0.3 / 9.81)))
+        poses = {one: Pose((x, y + rises_m_s * t, z)) for one, (x, y, z) in rest.items()}
+        x, y, z = dropped(t)
+        frames.append((t, {**poses, "cup": Pose((x, y + rises_m_s * t + 0.005, z), turns)}))
+    first, *_ = landings_in(graph, frames)
+    assert {first.object_id, first.onto} == {"cup", "table"}

@@ -368,6 +368,26 @@ def test_duplicate_hand_names_are_refused() -> None:
         HapticSession(*table_with_two_phones(), hands=("left", "left"))
 
 
+class Unplugged(MemorySink):
+    """A sink that raises when it is stopped."""
+
+    is_closed = False
+
+    def stop(self) -> None:
+        raise DeviceError("it was unplugged")
+
+    def close(self) -> None:
+        self.is_closed = True
+
+
+def test_sink_that_raises_at_its_stop_is_closed() -> None:
+    scene, bundle = table_with_two_phones()
+    sink = Unplugged()
+    with pytest.raises(DeviceError, match="unplugged"), HapticSession(scene, bundle, sink=sink):
+        pass
+    assert sink.is_closed
+
+
 def test_start_without_a_sink() -> None:
     with pytest.raises(SessionError, match="no sink"):
         session().start()

@@ -67,3 +67,37 @@ def test_names_of_any_length_are_answered() -> None:
     for name in ("table " * 200, "x" * 100_000, "fridge_" + "z" * 700, "toy car " + "y" * 700):
         answer = judge(Measured(name, (0.5, 0.5, 0.02)))
         assert len(answer.category_reason) <= 600
+
+
+@pytest.mark.parametrize(
+    ("name", "painted", "material"),
+    [
+        ("wooden block", (), "wood"),
+        ("steel_platform_03", (), "steel"),
+        ("Cube_wood_01", ("M_steel",), "wood"),
+        ("Cube_01", ("M_Wood_Oak",), "oak"),
+        ("Cube_01", (), "unknown"),
+    ],
+)
+def test_unknown_object_is_of_the_material_that_its_name_says(
+    name: str, painted: tuple[str, ...], material: str
+) -> None:
+    answer = judge(Measured(name, (0.3, 0.2, 0.1), material_names=painted))
+    assert (answer.object_category, answer.material_category) == ("unknown", material)
+    assert not answer.vibrates
+
+
+@pytest.mark.parametrize(
+    ("name", "material"),
+    [
+        ("steel ball", "steel"),
+        ("oak plank", "oak"),
+        ("plastic fork", "plastic"),
+        ("fork", "stainless steel"),
+        ("stone_fruit", "firm food"),
+        ("wood frog", "soft tissue"),
+        ("metal saw", "steel"),
+    ],
+)
+def test_name_says_the_material_of_small_things_but_not_of_food_and_animals(name: str, material: str) -> None:
+    assert judge(Measured(name, (0.2, 0.1, 0.1))).material_category == material
