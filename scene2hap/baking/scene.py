@@ -198,9 +198,11 @@ async def arebake(
     inference = await _infer(
         bundle.snapshot, config, wishes, user_prompt, progress, on_report, again, bundle.scene_category
     )
-    said = {
-        key: _as_wished(haptics, wishes.get(key)) for key, haptics in {**bundle.objects, **inference.objects}.items()
+    answers = {
+        key: haptics if key in objects else _with_vibration(bundle.objects[key], haptics)
+        for key, haptics in inference.objects.items()
     }
+    said = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in {**bundle.objects, **answers}.items()}
     earlier = Earlier(
         bundle.loops,
         bundle.choices,
@@ -301,6 +303,20 @@ async def _infer(
     if on_report is not None:
         on_report(inference.report)
     return inference
+
+
+def _with_vibration(before: ObjectHaptics, asked: ObjectHaptics) -> ObjectHaptics:
+    """Return an object with the vibration of another answer. The rest stays: a bundle has no colours and pictures, from
+    which the material was inferred, and a person may have edited it."""
+    by = {name: who for name, who in asked.provenance.items() if name == "vibrates" or name.startswith("states.")}
+    why = {name: reason for name, reason in asked.reasons.items() if name == "vibration"}
+    return replace(
+        before,
+        vibrates=asked.vibrates,
+        states=asked.states,
+        provenance={**before.provenance, **by},
+        reasons={**before.reasons, **why},
+    )
 
 
 def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
