@@ -27,6 +27,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.audio.files import read_clip, write_wav
+from scene2hap.bundle.checking import warn_of_unknown_fields
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.folder_replacement import recover, replaced
 from scene2hap.bundle.made_with import MadeWith
@@ -153,7 +154,9 @@ def _read(folder: Path) -> BundleContents:
     with _reading(folder / "scene.json"):
         scene = _read_scene(folder)
     with _reading(folder / "objects.json"):
-        objects = _objects.validate_python(read_json(folder, "objects.json"))
+        answers = read_json(folder, "objects.json")
+        objects = _objects.validate_python(answers)
+        warn_of_unknown_fields(folder / "objects.json", answers)
     with _reading(folder / "loops.json"):
         rows, sounds = read_json(folder, "loops.json"), SoundReader(folder)
         loops = {key: {state: sounds.loop(row) for state, row in states.items()} for key, states in rows.items()}

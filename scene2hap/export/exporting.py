@@ -186,6 +186,7 @@ def _put(folder: Path, name: str, content: bytes) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         with written_whole(path) as beside:
             beside.write_bytes(content)
-    except (OSError, AudioError) as cause:
-        reason = getattr(cause, "strerror", None) or cause
-        raise ExportError(f"{path} cannot be written: {reason}. Choose a folder that is yours.") from cause
+    except AudioError as cause:  # its message names the file and the remedy
+        raise ExportError(str(cause)) from cause
+    except OSError as cause:
+        raise ExportError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause
