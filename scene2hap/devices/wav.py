@@ -62,7 +62,7 @@ class WavSink(Pulled):
             give_back(self._key, self)
             with contextlib.suppress(OSError):
                 self._draft.unlink()  # on a full disk it exists, and is empty
-            raise DeviceError(f"{self.path} cannot be written: {cause}.") from cause
+            raise DeviceError(f"{self.path} cannot be written: {str(cause).rstrip('.')}.") from cause
 
     def start(self, fill: Fill) -> None:
         """Set `fill` as the source of blocks."""
@@ -78,8 +78,9 @@ class WavSink(Pulled):
         try:
             self._file.write(block)
         except (OSError, soundfile.SoundFileError) as cause:
+            reason = str(cause).rstrip(".")
             raise DeviceError(
-                f"{self.path} cannot be written after {self._frames} frames: {cause}. The disk may be full; make room, "
+                f"{self.path} cannot be written after {self._frames} frames: {reason}. The disk may be full; make room, "
                 "or choose another folder."
             ) from cause
         self._frames += len(block)
