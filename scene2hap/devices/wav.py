@@ -80,8 +80,8 @@ class WavSink(Pulled):
         except (OSError, soundfile.SoundFileError) as cause:
             reason = str(cause).rstrip(".")
             raise DeviceError(
-                f"{self.path} cannot be written after {self._frames} frames: {reason}. The disk may be full; make room, "
-                "or choose another folder."
+                f"{self.path} cannot be written after {self._frames} frames: {reason}. The disk may be full; make "
+                "room, or choose another folder."
             ) from cause
         self._frames += len(block)
         return block

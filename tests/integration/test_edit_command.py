@@ -275,3 +275,18 @@ def test_audition_writes_ten_minutes(kitchen: Callable[..., Path], tmp_path: Pat
     wav = tmp_path / "fan.wav"
     assert main(["audition", str(kitchen()), "fan", "-o", str(wav), "--seconds", "600", "-q"]) == 0
     assert soundfile.info(str(wav)).duration == pytest.approx(600.0, abs=1.0)
+
+
+def test_locked_loops_stay_when_the_scene_is_baked_again(kitchen: Callable[..., Path], tmp_path: Path) -> None:
+    """Also for another actuator, which changes all other loops."""
+    folder = kitchen()
+    assert main(["edit", str(folder), "pitch", "fan", "97", "-q"]) == 0
+    assert main(["edit", str(folder), "lock", "fan", "-q"]) == 0
+    before = HapticBundle.load(folder)
+    assert main(["bake", room(tmp_path), "-o", str(folder), "--actuator", "lra", "-q"]) == 0
+    after = HapticBundle.load(folder)
+    for state, loop in before.loops["fan"].items():
+        np.testing.assert_array_equal(after.loops["fan"][state].tactile.samples, loop.tactile.samples)
+    assert after.objects["fan"].states == before.objects["fan"].states
+    radio = next(iter(before.loops["radio"]))
+    assert not np.array_equal(after.loops["radio"][radio].tactile.samples, before.loops["radio"][radio].tactile.samples)
