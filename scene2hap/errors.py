@@ -123,6 +123,10 @@ class BundleVersionError(BundleError):
     """A bundle folder written by a newer scene2hap."""
 
 
+class BundleChanged(BundleError):
+    """A bundle folder that another process has replaced since it was read."""
+
+
 class ExportError(Scene2HapError, ValueError):
     """An export that cannot be made: a signal, a setting or a folder that does not fit."""
 

@@ -10,6 +10,7 @@ import os
 import warnings
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
@@ -54,6 +55,7 @@ def bake(
     progress: Progress | None = None,
     on_report: OnReport | None = None,
     overrides: Mapping[str, Override] | None = None,
+    earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Infer each object's material and vibration, and make the loops of each source. Returns the bundle.
 
@@ -65,10 +67,19 @@ def bake(
     user_prompt : instruction to the model, with priority over all others.
     on_report : receives the report of the inference: calls, skipped calls, tokens, errors of single objects.
     overrides : a person's corrections by id, for example of an earlier bundle; they replace inferred values.
+    earlier : a bundle of this scene; the states and loops of objects that `overrides` lock are taken from it.
 
     Raises: ConfigError; BackendError: inference failed; AudioError: no source has a sound for a vibrating object.
     """
-    baking = abake(scene, config, user_prompt=user_prompt, progress=progress, on_report=on_report, overrides=overrides)
+    baking = abake(
+        scene,
+        config,
+        user_prompt=user_prompt,
+        progress=progress,
+        on_report=on_report,
+        overrides=overrides,
+        earlier=earlier,
+    )
     return run_waiting(baking, "abake")
 
 
@@ -81,6 +92,7 @@ async def abake(
     progress: Progress | None = None,
     on_report: OnReport | None = None,
     overrides: Mapping[str, Override] | None = None,
+    earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Bake a scene, awaitable; see `bake`."""
     scene = given_scene(scene)
@@ -88,7 +100,7 @@ async def abake(
     config = BakeConfig.parse(config)
     wishes = _of_this_scene(overrides or {}, scene)
     inference = await _infer(scene, config, wishes, user_prompt, progress, on_report)
-    return await with_sounds(scene, inference.scene_category, inference.objects, wishes, config, progress)
+    return await with_sounds(scene, inference.scene_category, inference.objects, wishes, config, progress, earlier)
 
 
 async def with_sounds(
@@ -98,10 +110,17 @@ async def with_sounds(
     wishes: Mapping[str, Override],
     config: BakeConfig,
     progress: Progress | None = None,
+    earlier: HapticBundle | None = None,
 ) -> HapticBundle:
     """Make the sounds of an inferred scene. Returns its bundle, as `bake` after inference. Raises: AudioError."""
-    objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
-    sounds = await make_loops(objects, wishes, config, progress or _say_nothing)
+    locked = {} if earlier is None else {key: earlier.loops[key] for key in earlier.loops if _is_locked(key, wishes)}
+    kept = {
+        key: _with_vibration(haptics, earlier.objects[key]) if earlier is not None and key in locked else haptics
+        for key, haptics in inferred.items()
+    }
+    objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in kept.items()}
+    before = Earlier(locked, earlier.choices if earlier is not None else {})
+    sounds = await make_loops(objects, wishes, config, progress or _say_nothing, before)
     objects = _as_recorded(objects, sounds.loops, {}, wishes)
     _warn_of(scene, objects)
     return HapticBundle(scene, scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config))
@@ -198,9 +217,11 @@ async def arebake(
     inference = await _infer(
         bundle.snapshot, config, wishes, user_prompt, progress, on_report, again, bundle.scene_category
     )
-    said = {
-        key: _as_wished(haptics, wishes.get(key)) for key, haptics in {**bundle.objects, **inference.objects}.items()
+    answers = {
+        key: haptics if key in objects else _with_vibration(bundle.objects[key], haptics)
+        for key, haptics in inference.objects.items()
     }
+    said = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in {**bundle.objects, **answers}.items()}
     earlier = Earlier(
         bundle.loops,
         bundle.choices,
@@ -300,6 +321,30 @@ async def _infer(
     if on_report is not None:
         on_report(inference.report)
     return inference
+
+
+def with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:
+    """Return the bundle in a folder if a person has locked loops in it, None otherwise. Raises: BundleError."""
+    return HapticBundle.load(folder) if any(_is_locked(key, overrides) for key in overrides) else None
+
+
+def _is_locked(object_id: str, overrides: Mapping[str, Override]) -> bool:
+    wish = overrides.get(object_id)
+    return wish is not None and wish.locked
+
+
+def _with_vibration(before: ObjectHaptics, asked: ObjectHaptics) -> ObjectHaptics:
+    """Return an object with the vibration of another answer. The rest stays: a bundle has no colours and pictures, from
+    which the material was inferred, and a person may have edited it."""
+    by = {name: who for name, who in asked.provenance.items() if name == "vibrates" or name.startswith("states.")}
+    why = {name: reason for name, reason in asked.reasons.items() if name == "vibration"}
+    return replace(
+        before,
+        vibrates=asked.vibrates,
+        states=asked.states,
+        provenance={**before.provenance, **by},
+        reasons={**before.reasons, **why},
+    )
 
 
 def _as_wished(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:

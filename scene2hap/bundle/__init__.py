@@ -2,8 +2,8 @@
 
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.differences import Difference, differences
-from scene2hap.bundle.folder import read_overrides
-from scene2hap.bundle.folder_replacement import require_replaceable
+from scene2hap.bundle.folder import read_overrides, write_bundle
+from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
@@ -19,4 +19,6 @@ __all__ = [
     "file_stem",
     "read_overrides",
     "require_replaceable",
+    "save_stamp",
+    "write_bundle",
 ]

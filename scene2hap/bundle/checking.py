@@ -3,16 +3,37 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
+from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 from scene2hap.bundle.contents import BundleContents
+from scene2hap.checks import did_you_mean
 from scene2hap.errors import BundleError
-from scene2hap.haptics import unmet_needs
+from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
+from scene2hap.materials import Material
 from scene2hap.scene.surface import plate_sizes
 
 
 class BundleWarning(UserWarning):
     """A bundle has a value that is probably wrong, or lacks data that `rebake` needs."""
+
+
+def warn_of_unknown_fields(path: Path, answers: Mapping[str, Any]) -> None:
+    """Warn about fields of objects, materials and states that do not exist: typing mistakes of an edit by hand.
+
+    Warns: BundleWarning: a field has no effect.
+    """
+    for object_id, answer in answers.items():
+        parts: list[tuple[type[ObjectHaptics | Material | SourceState], Any]] = [(ObjectHaptics, answer)]
+        parts += [(Material, answer.get(name)) for name in ("material", "feet")]
+        parts += [(SourceState, state) for state in answer.get("states", ())]
+        for kind, part in parts:
+            known = [field.name for field in fields(kind)]
+            for name in [name for name in part or () if name not in known]:
+                wrong = f"{path}: {object_id!r} has a field {name!r}, which does not exist and has no effect."
+                warnings.warn(f"{wrong} {did_you_mean(name, known)}".rstrip(), BundleWarning, stacklevel=6)
 
 
 def require_plausible(bundle: BundleContents, folder: Path) -> None:

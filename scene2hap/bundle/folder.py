@@ -27,6 +27,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.audio.files import read_clip, write_wav
+from scene2hap.bundle.checking import warn_of_unknown_fields
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.folder_replacement import recover, replaced
 from scene2hap.bundle.made_with import MadeWith
@@ -44,6 +45,7 @@ from scene2hap.bundle.own_files import (
 )
 from scene2hap.bundle.sounds import SoundReader, file_stem, read_credit, write_loops
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError
+from scene2hap.file_stamp import Stamp
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material
 from scene2hap.scene import json as scene_json
@@ -59,14 +61,15 @@ _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, R
 """Errors that Python raises for documents of the wrong shape, for huge numbers, and for files that disappear."""
 
 
-def write_bundle(bundle: BundleContents, target: Path) -> Path:
+def write_bundle(bundle: BundleContents, target: Path, since: Stamp | None = None) -> Path:
     """Write the folder whole or not at all. An older bundle there is replaced, and foreign files are kept.
 
-    Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleError: the folder is not a bundle, is the
-    working folder of this process, or cannot be written.
+    `since` : replace the older bundle only if this is still its `save_stamp`.
+    Raises: BundleVersionError: a bundle of a newer scene2hap is there; BundleChanged: the older bundle was replaced in
+    the meantime; BundleError: the folder is not a bundle, is the working folder of this process, or cannot be written.
     """
     try:
-        with replaced(target) as draft:
+        with replaced(target, since) as draft:
             _write(bundle, draft)
     except OSError as cause:
         raise BundleError(f"{target} cannot be written: {cause}.") from cause
@@ -151,7 +154,9 @@ def _read(folder: Path) -> BundleContents:
     with _reading(folder / "scene.json"):
         scene = _read_scene(folder)
     with _reading(folder / "objects.json"):
-        objects = _objects.validate_python(read_json(folder, "objects.json"))
+        answers = read_json(folder, "objects.json")
+        objects = _objects.validate_python(answers)
+        warn_of_unknown_fields(folder / "objects.json", answers)
     with _reading(folder / "loops.json"):
         rows, sounds = read_json(folder, "loops.json"), SoundReader(folder)
         loops = {key: {state: sounds.loop(row) for state, row in states.items()} for key, states in rows.items()}

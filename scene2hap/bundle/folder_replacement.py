@@ -29,7 +29,8 @@ from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.folder_swap import exchange
 from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.own_files import MANIFEST, our_files
-from scene2hap.errors import BundleError, BundleIncomplete
+from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete
+from scene2hap.file_stamp import Stamp, file_stamp
 
 try:
     import fcntl
@@ -71,12 +72,19 @@ def require_replaceable(target: Path) -> None:
         ) from cause
 
 
+def save_stamp(target: Path) -> Stamp | None:
+    """Return a stamp that changes whenever a bundle is saved at the target; None if there is no bundle."""
+    return file_stamp(target / MANIFEST)
+
+
 @contextmanager
-def replaced(target: Path) -> Iterator[Path]:
+def replaced(target: Path, since: Stamp | None = None) -> Iterator[Path]:
     """Provide a folder to write to. It replaces `target` if the block succeeds, else it is removed.
 
-    Foreign files in the replaced folder are kept.
-    Raises: BundleError: as `require_replaceable`; OSError: a folder cannot be made or moved.
+    Foreign files in the replaced folder are kept. `since` : the target is replaced only if this is still its
+    `save_stamp`; None to replace it in any case.
+    Raises: BundleError: as `require_replaceable`; BundleChanged: another process has saved a bundle there; OSError: a
+    folder cannot be made or moved.
     Warns: BundleWarning: an earlier save was completed, or the old folder cannot be removed.
     """
     recover(target)
@@ -88,7 +96,7 @@ def replaced(target: Path) -> Iterator[Path]:
         draft = _new_draft(place, held)
         try:
             yield draft
-            _put(draft, place, target, held)
+            _put(draft, place, target, held, since)
         finally:
             # Keep the draft if the target is missing: the next load moves it there.
             if _is_draft(draft) and not os.path.lexists(draft.with_suffix(".old")):
@@ -126,7 +134,7 @@ def recover(target: Path) -> None:
         return
 
 
-def _put(draft: Path, place: Path, target: Path, held: ExitStack) -> None:
+def _put(draft: Path, place: Path, target: Path, held: ExitStack, since: Stamp | None) -> None:
     os.chmod(draft, 0o755)  # the draft was made private, but a bundle is as readable as any folder
     while True:
         if not os.path.lexists(place):
@@ -141,6 +149,8 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack) -> None:
             if _lock(place, old_held, wait=True) is False:
                 continue  # it has been replaced in the meantime
             require_replaceable(target)
+            if since is not None and save_stamp(place) != since:
+                raise BundleChanged(f"{target} was saved by another process since it was read. Read it again.")
             carry_over(place, draft)
             shutil.copymode(place, draft)
             old = draft if exchange(draft, place) else _move_in(draft, place)

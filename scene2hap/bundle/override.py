@@ -9,6 +9,7 @@ from typing import Any
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.files import as_stored
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.calls import clear_construction
 from scene2hap.clips.haptic_clip import HapticClip
@@ -105,6 +106,8 @@ class Override:
             raise BundleError(
                 f"clip is {checks.described(self.clip)}; it must be an AudioClip, a HapticClip, or the path of a file."
             )
+        if self.clip is not None:  # The intensity sets the level, so a sound beyond full scale is only scaled.
+            object.__setattr__(self, "clip", as_stored(self.clip))
 
     def changed(self, changes: Mapping[str, Any]) -> Override:
         """Replace the fields that are not None. Numbers by state are added to earlier ones."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.audio.plots import draw_loop
@@ -19,10 +20,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
+Floats = NDArray[np.float64]
 MOST_SOURCES = 8
 """Most sources drawn by default: more do not fit on a page."""
 _MOST_LISTED = 24
 _CELLS = 320
+_MARK_CELLS = 12
+"""Distance of sources that share a mark, such as a loudspeaker on another: about the size of a mark."""
 
 
 def plot_bundle(
@@ -70,8 +74,24 @@ def _chosen(bundle: BundleContents, sources: Sequence[str] | None) -> list[str]:
     return list(chosen)
 
 
+def _marks(middles: Sequence[Floats], apart_m: float) -> list[tuple[str, Floats]]:
+    """Return marks with the numbers of the sources, from 1, and their places. Sources less than `apart_m` from the
+    first of a mark share this mark."""
+    marks: list[tuple[list[str], Floats]] = []
+    for k, middle in enumerate(middles, start=1):
+        for numbers, place in marks:
+            if np.linalg.norm(middle - place) < apart_m:
+                numbers.append(str(k))
+                break
+        else:
+            marks.append(([str(k)], middle))
+    return [(", ".join(numbers), place) for numbers, place in marks]
+
+
 def _draw_plan(axes: Axes, beside: Axes, bundle: BundleContents, up_to_m: float | None) -> None:
     """Draw surfaces by their height above the lowest point, darker if lower; number the sources, and list them."""
+    from matplotlib.lines import Line2D
+
     scene = bundle.snapshot
     view = TopView.of(scene, _CELLS, up_to_m)
     height = np.where(view.top == NOTHING, np.nan, view.height_m)
@@ -86,17 +106,16 @@ def _draw_plan(axes: Axes, beside: Axes, bundle: BundleContents, up_to_m: float 
     number = {item.id: k for k, item in enumerate(scene.objects)}
     is_source = np.isin(view.top, [number[key] for key in sources])
     draw_edges(axes, view, is_source, colors=TOUCH, linewidths=1.6)
-    handles = []
-    for k, object_id in enumerate(sources, start=1):
-        middle = scene.object(object_id).bounds_m.mean(axis=0)[list(view.level)]
-        (mark,) = axes.plot(*middle, "o", color=TOUCH, markeredgecolor="white", markersize=11)
-        axes.annotate(str(k), middle, color="white", fontsize=7, ha="center", va="center_baseline")
-        handles.append(mark)
+    middles = [scene.object(key).bounds_m.mean(axis=0)[list(view.level)] for key in sources]
+    for numbers, (x, y) in _marks(middles, _MARK_CELLS * view.cell_m):
+        mark = {"boxstyle": "round,pad=0.25", "facecolor": TOUCH, "edgecolor": "white"}
+        axes.annotate(numbers, (x, y), color="white", fontsize=7, ha="center", va="center_baseline", bbox=mark)
+    handles = [Line2D([], [], marker="o", linestyle="none", color=TOUCH) for _ in sources]
     labels = [f"{k}  {plain(key, 28)}" for k, key in enumerate(sources, start=1)]
     if handles:
         more = len(handles) - _MOST_LISTED
         title = f"sources ({more} more not listed)" if more > 0 else "sources"
-        add_legend(beside, handles[:_MOST_LISTED], labels[:_MOST_LISTED], title=title, loc="center", markerscale=0.5)
+        add_legend(beside, handles[:_MOST_LISTED], labels[:_MOST_LISTED], title=title, loc="center")
     beside.set_axis_off()
     below = ", below the ceiling" if view.is_uncovered else ""
     set_title(axes, f"{plain(scene.name)} from above{below}")

@@ -28,6 +28,8 @@ HELP = "play one source of a bundle alone"
 
 HAND = "right"
 MOST_S = 600.0
+_AT_ONCE_S = 60.0
+"""Length of the parts that are rendered into a file [s]: some ten megabytes."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -57,7 +59,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         if not frame.gain(HAND, arguments.id):
             console.warn(f"{arguments.id!r} is silent: {_why_silent(bundle.objects[arguments.id], arguments.state)}.")
         if wav is not None:
-            wav.pull_s(seconds)
+            for start in np.arange(0.0, seconds, _AT_ONCE_S):
+                wav.pull_s(min(_AT_ONCE_S, seconds - start))
         else:
             _play(session, touch, actuator, seconds)
     if actuator.problem or not actuator.has_played:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
+from scene2hap.baking.scene import with_locked
 from scene2hap.bundle import read_overrides, require_replaceable
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
@@ -126,6 +127,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             progress=tell,
             on_report=accounts.append,
             overrides=overrides,
+            earlier=with_locked(target, overrides),
         )
     folder = bundle.save(arguments.output)
     write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})

@@ -34,9 +34,9 @@ from typing import Any
 
 from scene2hap.baking import rebake
 from scene2hap.baking.scene import OnRemade
-from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable
+from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable, save_stamp, write_bundle
 from scene2hap.cli.console import Console
-from scene2hap.errors import BundleError, Scene2HapError
+from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
 from scene2hap.file_stamp import file_stamp
 
 HELP = "correct one object of a bundle"
@@ -120,6 +120,15 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     require_replaceable(_kept(arguments.bundle))
+    while True:
+        try:
+            return _edit_once(arguments, console)
+        except BundleChanged:
+            continue  # Another process has edited the bundle in the meantime. Both edits must be kept.
+
+
+def _edit_once(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+    read = save_stamp(Path(arguments.bundle))
     before = HapticBundle.load(arguments.bundle)
     remade: dict[str, dict[str, list[str]]] = {}
 
@@ -132,7 +141,7 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         # Saving would replace the kept bundle, so that `undo` could no longer take back the edit before.
         console.say(f"nothing changed; {arguments.bundle} stays as it was")
         return {"bundle": str(arguments.bundle), "remade": remade}
-    folder = after.save(arguments.bundle)
+    folder = write_bundle(after, Path(arguments.bundle), since=read)
     before.save(_kept(arguments.bundle))
     # A table of its own shows loops, and "loops made again" the actuator.
     changes = [row for row in all_changes if row.what != "actuator" and not row.what.startswith("loop ")]

@@ -8,6 +8,8 @@ of the vibration: "80 from 98" was moved from 98 Hz, "rough 49" adds roughness a
 threshold of touch at the object itself; "17 of 22" stays below the planned 22 dB, because the actuator or full scale
 allows no more. "starts, stops s" are the times of start and stop.
 
+Warnings name likely mistakes, such as objects that float.
+
 --pictures writes the pictures that a multimodal model would see into a folder: a contact sheet per object, and a plan
 of the scene with names. This needs the extra `pictures`.
 """
@@ -50,6 +52,10 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
         scene = read_scene(arguments)
         outcome = scene_outcome(scene)
         show_scene(console, scene)
+    # Units are left out: `load_scene` warns about them, and the units of a bundle were given or accepted before.
+    outcome["warnings"] = [str(found) for found in scene.check() if found.kind != "units"]
+    for warning in outcome["warnings"]:
+        console.warn(warning)
     if arguments.pictures:
         outcome["pictures"] = write_pictures(scene, Path(arguments.pictures), console)
     return outcome

@@ -48,7 +48,7 @@ def show_scene(console: Console, scene: SceneSnapshot) -> None:
         (
             (
                 item.id,
-                *(f"{edge:.3f}" for edge in item.size_m),
+                *(f"{edge:.3f}" if edge >= 0.01 else f"{edge:.3g}" for edge in item.size_m),
                 f"{item.relative_height_m:.2f}",
                 str(len(item.geometry.mesh.faces)),
                 ", ".join(item.surface.flags) or "well",

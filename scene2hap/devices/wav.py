@@ -60,7 +60,9 @@ class WavSink(Pulled):
             )
         except (OSError, soundfile.SoundFileError) as cause:
             give_back(self._key, self)
-            raise DeviceError(f"{self.path} cannot be written: {cause}.") from cause
+            with contextlib.suppress(OSError):
+                self._draft.unlink()  # on a full disk it exists, and is empty
+            raise DeviceError(f"{self.path} cannot be written: {str(cause).rstrip('.')}.") from cause
 
     def start(self, fill: Fill) -> None:
         """Set `fill` as the source of blocks."""
@@ -69,11 +71,18 @@ class WavSink(Pulled):
         self._fill = fill
 
     def pull(self, n_frames: int) -> Block:
-        """Request, write and return the next frames."""
+        """Request, write and return the next frames. Raises: DeviceError: they cannot be written, as on a full disk."""
         if self._fill is None or self._file is None:
             raise DeviceError(f"WavSink {self.path} is not started; start the session that it belongs to first.")
         block = self._fill(n_frames)
-        self._file.write(block)
+        try:
+            self._file.write(block)
+        except (OSError, soundfile.SoundFileError) as cause:
+            reason = str(cause).rstrip(".")
+            raise DeviceError(
+                f"{self.path} cannot be written after {self._frames} frames: {reason}. The disk may be full; make "
+                "room, or choose another folder."
+            ) from cause
         self._frames += len(block)
         return block
 

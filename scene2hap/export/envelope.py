@@ -56,6 +56,7 @@ class Envelope:
     amplitude: Signal
     frequency_hz: Signal
     pulses: tuple[Pulse, ...] = ()
+    is_loop: bool = False
 
     @property
     def duration_s(self) -> float:
@@ -69,13 +70,18 @@ class Envelope:
         preserves attacks.
         """
         window = hann(2 * round(SMOOTHED_S / STEP_S) + 1)
-        inside = scipy.signal.convolve(np.ones(len(self.times_s)), window, mode="same")
+        half = len(window) // 2
+
+        def smooth(values: Signal) -> Signal:
+            # The two ends of a loop are one instant.
+            padded = np.pad(values[:-1], (half, half + 1), mode="wrap") if self.is_loop else np.pad(values, half)
+            return np.asarray(scipy.signal.convolve(padded, window, mode="valid", method="direct"))
+
+        inside = smooth(np.ones(len(self.times_s)))
         power = np.maximum(self.amplitude**2, 1e-12)
         found = power.copy()
         for _ in range(_SHARPENING_STEPS):
-            found *= np.clip(
-                power / (scipy.signal.convolve(found, window, mode="same", method="direct") / inside), 0.1, 10.0
-            )
+            found *= np.clip(power / (smooth(found) / inside), 0.1, 10.0)
         return np.sqrt(found)
 
     def without_pulses(self) -> Signal:
@@ -94,7 +100,7 @@ def analyse(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> Envelop
     """Return the envelope of a signal (n_samples,). A loop is analysed as a periodic signal."""
     amplitude, times = amplitude_of(samples, sample_rate_hz, is_loop=is_loop)
     frequency = ridge_hz(samples, sample_rate_hz, times, is_loop=is_loop)
-    return Envelope(times, amplitude, frequency, _pulses(times, amplitude, frequency))
+    return Envelope(times, amplitude, frequency, _pulses(times, amplitude, frequency), is_loop)
 
 
 def amplitude_of(

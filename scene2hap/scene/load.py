@@ -153,7 +153,7 @@ def _from_json(path: Path, up_axis: UpAxis | None, unit_m: float | None, group: 
             "a scene in JSON states its own axis, metres and objects; leave up_axis, unit_m and group out."
         )
     try:
-        text = read_bytes(path).decode("utf-8")
+        text = read_bytes(path).decode("utf-8-sig")
     except UnicodeDecodeError as cause:
         raise SceneFormatError(f"{path.name!r} is not text: {cause}.") from cause
     return SceneSnapshot.from_json(text)

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
+_LABEL_IN = 0.5
+"""Height of the ticks and the label of an axis [inch]."""
 RANGE_DB = 60.0
 """Range of the colours below the highest level [dB]: full scale is 45 dB over the threshold of touch."""
 CELLS = 96
@@ -78,6 +80,7 @@ def _gains(view: TopView, hand: str, gains_of: Callable[[Sequence[Touch]], NDArr
 
 def _draw_legend(axes: Axes, view: TopView, source_id: str, *, has_silence: bool) -> None:
     from matplotlib.patches import Patch
+    from matplotlib.transforms import ScaledTranslation
 
     item = view.scene.object(source_id)
     of_source = view.top == next(k for k, one in enumerate(view.scene.objects) if one.id == source_id)
@@ -89,7 +92,9 @@ def _draw_legend(axes: Axes, view: TopView, source_id: str, *, has_silence: bool
     if has_silence:
         handles.append(Patch(facecolor=EMPTY, edgecolor=LINES))
         labels.append("nothing arrives (below -140 dB)")
-    add_legend(axes, handles, labels, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
+    # Below the label of the axis, whose distance in inches does not depend on the height of the axes.
+    below = axes.transAxes + ScaledTranslation(0.0, -_LABEL_IN, axes.figure.dpi_scale_trans)
+    add_legend(axes, handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), bbox_transform=below, ncols=2)
 
 
 def _of_one(colour: str) -> object:

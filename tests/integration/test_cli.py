@@ -199,3 +199,19 @@ def test_wrong_usage_is_status_2(capsys: pytest.CaptureFixture[str]) -> None:
         main(["bake"])
     assert caught.value.code == 2
     assert "usage: scene2hap bake" in capsys.readouterr().err
+
+
+def test_inspect_names_likely_mistakes_and_thin_sheets(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    things = [
+        SceneObject("floor", pose=Pose((0, 0, 0)), geometry=Box((4, 0.0004, 4))),
+        SceneObject("lamp", pose=Pose((0, 2, 0)), geometry=Box((0.3, 0.3, 0.3))),
+    ]
+    path = tmp_path / "room.json"
+    path.write_text(SceneSnapshot.build(things, name="room").to_json(), encoding="utf-8")
+    assert main(["inspect", str(path)]) == 0
+    out, err = capsys.readouterr()
+    assert "'lamp' floats" in err
+    assert "0.0004" in out
+    assert main(["inspect", str(path), "--json", "-q"]) == 0
+    (warning,) = json.loads(capsys.readouterr().out)["warnings"]
+    assert "'lamp' floats" in warning

@@ -8,11 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import soundfile
 
-from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot
+from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.audio.files import write_wav
 from scene2hap.cli import main
 from scene2hap.cli.play import silence
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.session import HapticSession
 
 THINGS = {
@@ -231,3 +233,60 @@ def test_commands_play_on_the_actuator_of_the_bundle(
     assert main(["render", folder, "--touches", str(touches), "-o", str(tmp_path / "a.wav")]) == 0
     assert main(["report", folder, "-o", str(tmp_path / "a.html")]) == 0
     assert "actuator" not in capsys.readouterr().err
+
+
+def test_an_edit_keeps_an_edit_of_another_process_during_it(
+    kitchen: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another terminal lowers the radio after this edit has read the bundle."""
+    folder, load, loaded = kitchen(), HapticBundle.load, []
+
+    def load_and_be_overtaken(path: str | Path) -> HapticBundle:
+        loaded.append(load(path))
+        if len(loaded) == 1:
+            loaded[0].override("radio", gain_db=-5.0).save(path)
+        return loaded[-1]
+
+    monkeypatch.setattr("scene2hap.cli.edit.HapticBundle.load", load_and_be_overtaken)
+    assert main(["edit", str(folder), "gain", "fan", "-6", "-q"]) == 0
+    edited = load(folder)
+    assert (edited.gain_db("radio"), edited.gain_db("fan")) == (-5.0, -6.0)
+    before = load(folder.with_name(f"{folder.name}.before"))
+    assert (before.gain_db("radio"), before.gain_db("fan")) == (-5.0, 0.0)
+
+
+def test_vibrate_keeps_the_material_that_was_inferred_from_colours(tmp_path: Path) -> None:
+    """The name of the box says nothing; its material was inferred from the name of a texture, as in a glTF file."""
+    looks = Appearance((FaceMaterial((0.4, 0.3, 0.1, 1.0), name="walnut"),), np.zeros(12, np.int32))
+    thing = SceneObject("Object_7", pose=Pose((0, 0.3, 0)), geometry=Box((0.6, 0.6, 0.6)), appearance=looks)
+    fan = SceneObject("fan", pose=Pose((1, 0.3, 0)), geometry=Box((0.4, 0.6, 0.3)))
+    folder = bake(SceneSnapshot.build([thing, fan], name="room")).save(tmp_path / "room.bundle")
+    inferred = HapticBundle.load(folder).objects["Object_7"]
+    assert inferred.material is not None
+    assert inferred.material.name == "walnut"
+    assert main(["edit", str(folder), "vibrate", "Object_7", "-q"]) == 0
+    edited = HapticBundle.load(folder)
+    assert edited.objects["Object_7"].material == inferred.material
+    assert edited.objects["Object_7"].vibrates
+    assert edited.loops["Object_7"]
+
+
+def test_audition_writes_ten_minutes(kitchen: Callable[..., Path], tmp_path: Path) -> None:
+    wav = tmp_path / "fan.wav"
+    assert main(["audition", str(kitchen()), "fan", "-o", str(wav), "--seconds", "600", "-q"]) == 0
+    assert soundfile.info(str(wav)).duration == pytest.approx(600.0, abs=1.0)
+
+
+def test_locked_loops_stay_when_the_scene_is_baked_again(kitchen: Callable[..., Path], tmp_path: Path) -> None:
+    """Also for another actuator, which changes all other loops."""
+    folder = kitchen()
+    assert main(["edit", str(folder), "pitch", "fan", "97", "-q"]) == 0
+    assert main(["edit", str(folder), "lock", "fan", "-q"]) == 0
+    before = HapticBundle.load(folder)
+    assert main(["bake", room(tmp_path), "-o", str(folder), "--actuator", "lra", "-q"]) == 0
+    after = HapticBundle.load(folder)
+    for state, loop in before.loops["fan"].items():
+        np.testing.assert_array_equal(after.loops["fan"][state].tactile.samples, loop.tactile.samples)
+    assert after.objects["fan"].states == before.objects["fan"].states
+    radio = next(iter(before.loops["radio"]))
+    assert not np.array_equal(after.loops["radio"][radio].tactile.samples, before.loops["radio"][radio].tactile.samples)

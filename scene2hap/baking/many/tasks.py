@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.scene import bake, with_sounds
+from scene2hap.baking.scene import bake, with_locked, with_sounds
 from scene2hap.baking.sound import N_THREADS
 from scene2hap.bundle import HapticBundle, Override, read_overrides
 from scene2hap.llm.chain import UNKNOWN
@@ -47,7 +47,14 @@ def bake_scene(
         snapshot = load_scene(scene, **options)
         accounts: list[InferenceReport] = []
         wishes = wishes_at(Path(target), snapshot)
-        bundle = bake(snapshot, config, user_prompt=user_prompt, overrides=wishes, on_report=accounts.append)
+        bundle = bake(
+            snapshot,
+            config,
+            user_prompt=user_prompt,
+            overrides=wishes,
+            earlier=with_locked(Path(target), wishes),
+            on_report=accounts.append,
+        )
         bundle.save(target)
     return _counted(bundle, watch, calls=sum(accounts[0].calls.values()))
 
@@ -63,7 +70,14 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
     with _watched(n_threads) as watch:
         inferred = HapticBundle.load(draft)
         wishes = wishes_at(Path(target), inferred.snapshot)
-        baking = with_sounds(inferred.snapshot, inferred.scene_category, inferred.objects, wishes, config)
+        baking = with_sounds(
+            inferred.snapshot,
+            inferred.scene_category,
+            inferred.objects,
+            wishes,
+            config,
+            earlier=with_locked(Path(target), wishes),
+        )
         bundle = asyncio.run(baking)
         bundle.save(target)
     return _counted(bundle, watch)

@@ -184,9 +184,15 @@ class EmbreeRenderer:
 
     def _colors(self, camera: Camera, hits: _Hits) -> NDArray[np.uint8]:
         """Return the colour of each ray."""
-        # The light comes along the view, so each triangle has one brightness per view. The last row is for no triangle.
-        paint = np.vstack((self._paint * light(self._normals, camera.axes[2], self._stage.up)[:, None], BACKGROUND_RGB))
-        colors = paint.astype(np.uint8).take(hits.triangle, axis=0)
+        # The light comes along the view, so each triangle has one brightness per view. Only triangles that are hit get
+        # a colour, since a picture shows few triangles of a large scene. The last row is for no triangle.
+        is_hit = np.zeros(len(self._paint) + 1, bool)
+        is_hit[hits.triangle] = True
+        hit = np.flatnonzero(is_hit[:-1])
+        paint = np.empty((len(is_hit), 3))
+        paint[hit] = self._paint[hit] * light(self._normals[hit], camera.axes[2], self._stage.up)[:, None]
+        paint[-1] = BACKGROUND_RGB
+        colors = paint.take(hits.triangle, axis=0).astype(np.uint8)
         patterned = np.flatnonzero(self._is_patterned.take(hits.triangle))
         triangle = hits.triangle[patterned]
         pattern = self._stage.palette.pattern(

@@ -6,10 +6,11 @@ from io import BytesIO
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
 from scene2hap.errors import ConfigError
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
+from scene2hap.scene.capture.fonts import lettering
 from scene2hap.scene.capture.png import png
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import shells
@@ -38,14 +39,14 @@ def contact_sheet(item: SceneObject, *, thumb_px: int = _THUMB_PX) -> bytes:
     sheet = Image.new("RGB", (columns * (thumb_px + _MARGIN) + _MARGIN, 4 * (thumb_px + _LABEL) + _TITLE), _PAPER)
     draw = ImageDraw.Draw(sheet)
     size = " x ".join(f"{edge:.3g}" for edge in np.ptp(item.bounds_m, axis=0))
-    draw.text((_MARGIN, 8), f"{item.id}   ({item.name}; {size} m)", fill=_INK, font=ImageFont.load_default(17))
+    _write(draw, (_MARGIN, 8), f"{item.id}   ({item.name}; {size} m)", 17)
     cells = [(kind, images, k) for kind, images in _rows(item) for k in range(len(images))]
     for cell, (kind, images, k) in enumerate(cells):
         left = _MARGIN + cell % columns * (thumb_px + _MARGIN)
         top = _TITLE + cell // columns * (thumb_px + _LABEL)
         picture = Image.open(BytesIO(images[k])).resize((thumb_px, thumb_px), Image.Resampling.BOX)
         sheet.paste(picture, (left, top + _LABEL))
-        draw.text((left, top + 2), f"{kind}, {images.shots[k].label}", fill=_INK, font=ImageFont.load_default(13))
+        _write(draw, (left, top + 2), f"{kind}, {images.shots[k].label}", 13)
     return png(np.asarray(sheet))
 
 
@@ -81,9 +82,14 @@ def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
     for number in shown[np.argsort(heights[shown], kind="stable")]:
         color = tuple(int(channel) for channel in colors[number] * light[number])
         draw.polygon([(float(x), float(y)) for x, y in flat[number]], fill=color)
-    draw.text((_MARGIN, 8), f"{scene.name}, seen from above", fill=_INK, font=ImageFont.load_default(17))
+    _write(draw, (_MARGIN, 8), f"{scene.name}, seen from above", 17)
     _write_names(draw, stage, to_plan, origin, scale, plan.size)
     return png(np.asarray(plan))
+
+
+def _write(draw: ImageDraw.ImageDraw, corner: tuple[float, float], text: str, size_px: int) -> None:
+    shown, font = lettering(text, size_px)
+    draw.text(corner, shown, fill=_INK, font=font)
 
 
 def _flat_colors(stage: Stage, number: int) -> NDArray[np.float32]:
@@ -101,18 +107,22 @@ def _write_names(
     size_px: tuple[int, int],
 ) -> None:
     """Write each object's id over it, shifted down until no ids overlap. Walls and floors get no id."""
-    font = ImageFont.load_default(12)
     written: list[tuple[float, float, float, float]] = []
+    names = []
     for number, actor in enumerate(stage.actors):
         if number in shells(stage):
             continue
         x, y = (actor.box_m.mean(axis=0) @ to_plan.T - origin) * scale + (_MARGIN, _MARGIN + _TITLE)
-        width = draw.textlength(actor.id, font=font)
+        shown, font = lettering(actor.id, 12)
+        width = draw.textlength(shown, font=font)
         left, top = min(max(x - width / 2, 2), max(size_px[0] - width - 2, 2)), y - 7
         while any(left < x1 and x0 < left + width and top < y1 and y0 < top + 14 for x0, y0, x1, y1 in written):
             top += 14
         written.append((left, top, left + width, top + 14))
+        names.append((shown, font))
         if top > y:
             draw.line([(x, y), (left + width / 2, top + 7)], fill=_INK)
-        draw.rectangle([left - 1, top, left + width + 1, top + 14], fill=_PAPER)
-        draw.text((left, top), actor.id, fill=_INK, font=font)
+    # After all lines, so that no line crosses a name.
+    for (left, top, right, bottom), (shown, font) in zip(written, names, strict=True):
+        draw.rectangle([left - 1, top, right + 1, bottom], fill=_PAPER)
+        draw.text((left, top), shown, fill=_INK, font=font)

@@ -11,6 +11,7 @@ import pytest
 from files_of import files_of
 from scene2hap import Box, Credit, HapticBundle, HapticLoop
 from scene2hap.audio.haptic_loop import Sensation
+from scene2hap.bundle import BundleWarning
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, UnknownObject
 from scenes import box, haptics, scene, table_with_two_phones, tone_loop
 
@@ -185,3 +186,25 @@ def test_sensation_of_a_loop_round_trips(tmp_path: Path) -> None:
     (folder / "loops.json").write_text(json.dumps(rows), encoding="utf-8")
     with pytest.raises(BundleError, match="level_db"):
         HapticBundle.load(folder)
+
+
+def test_a_misspelt_field_is_named(folder: Path) -> None:
+    path = folder / "objects.json"
+    document = json.loads(path.read_text())
+    document["table"]["materal"] = "oak"
+    document["table"]["material"]["los_factor"] = 0.1
+    document["phone"]["states"][0]["spin"] = True
+    path.write_text(json.dumps(document))
+    with pytest.warns(BundleWarning) as found:
+        HapticBundle.load(folder)
+    warnings = [str(one.message) for one in found]
+    assert len(warnings) == 3
+    for name, right in (("materal", "material"), ("los_factor", "loss_factor"), ("spin", "spins")):
+        assert any(f"field {name!r}, which" in one and f"Did you mean {right!r}" in one for one in warnings), warnings
+
+
+def test_a_byte_order_mark_of_a_windows_editor_is_read_over(folder: Path) -> None:
+    for name in ("objects.json", "overrides.json", "bundle.json", "loops.json", "scene.json"):
+        path = folder / name
+        path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert HapticBundle.load(folder).objects

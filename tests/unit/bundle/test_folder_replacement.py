@@ -11,10 +11,10 @@ import pytest
 
 from files_of import files_of
 from scene2hap import HapticBundle
-from scene2hap.bundle import folder_replacement, read_overrides
+from scene2hap.bundle import folder_replacement, read_overrides, save_stamp, write_bundle
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.folder_swap import exchange
-from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError
+from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, BundleVersionError
 from scenes import table_with_two_phones
 
 
@@ -339,3 +339,14 @@ def test_exchange_swaps_two_folders(tmp_path: Path) -> None:
 def test_exchange_returns_false_where_unsupported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "platform", "win32")
     assert not exchange(tmp_path / "a", tmp_path / "b")
+
+
+def test_a_bundle_that_another_process_saved_is_not_replaced_unseen(tmp_path: Path) -> None:
+    target = tmp_path / "b"
+    a_bundle().save(target)
+    read = save_stamp(target)
+    write_bundle(a_bundle().override("phone", gain_db=-1.0), target, since=read)
+    with pytest.raises(BundleChanged, match="another process"):
+        write_bundle(a_bundle().override("phone", gain_db=-2.0), target, since=read)
+    assert HapticBundle.load(target).gain_db("phone") == -1.0
+    assert [path.name for path in tmp_path.iterdir()] == ["b"]

@@ -109,3 +109,12 @@ def test_invalid_overrides_file_is_refused(bundle: HapticBundle, tmp_path: Path,
     (folder / "overrides.json").write_text(json.dumps({"table": row}))
     with pytest.raises(BundleError, match=r"overrides\.json"):
         HapticBundle.load(folder)
+
+
+def test_a_sound_beyond_full_scale_is_scaled_down(bundle: HapticBundle, tmp_path: Path) -> None:
+    """Editors export float files beyond full scale. The intensity sets the level, so only the shape counts."""
+    shape = np.sin(2 * np.pi * 120 * np.arange(RATE) / RATE).astype(np.float32)
+    bundle.override("phone", clip=AudioClip(5.0 * shape, RATE)).save(tmp_path / "b")
+    clip = HapticBundle.load(tmp_path / "b").overrides["phone"].clip
+    assert clip is not None
+    np.testing.assert_allclose(clip.samples, shape / np.abs(shape).max(), atol=1e-6)

@@ -77,3 +77,21 @@ def test_path_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(DeviceError, match="cannot be written"):
         WavSink(tmp_path / "file" / "out.wav").open(FORMAT)
+
+
+def test_a_full_disk_is_an_error_of_the_sink_and_leaves_no_file(tmp_path: Path) -> None:
+    """A limit on the size of files stands for the full disk."""
+    resource = pytest.importorskip("resource", reason="Windows has no limit on the size of files")
+    sink = WavSink(tmp_path / "touch.wav")
+    sink.open(SinkFormat(48_000, ("left",)))
+    sink.start(lambda n: np.zeros((n, 1), np.float32))
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, before[1]))
+    try:
+        with pytest.raises(DeviceError, match=r"touch\.wav cannot be written after \d+ frames: .*disk may be full"):
+            for _ in range(10):
+                sink.pull(9_600)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    sink.abort()
+    assert not list(tmp_path.iterdir())

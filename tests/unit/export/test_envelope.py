@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from scene2hap.export.curves import CurveSettings, curves_of
 from scene2hap.export.envelope import analyse
 from scene2hap.export.track import ANALYSIS_HZ as RATE, Channel
 
@@ -74,3 +75,12 @@ def test_a_loop_is_resampled_without_a_seam(rate: float) -> None:
     loop = Channel(0.5 * np.sin(2 * np.pi * 100 * t), 48_000, is_loop=True)
     expected = 0.5 * np.sin(2 * np.pi * 100 * np.arange(int(rate)) / rate)
     np.testing.assert_allclose(loop.at_rate(rate), expected, atol=1e-6)
+
+
+def test_the_curve_of_a_loop_with_an_attack_at_its_seam_has_equal_ends() -> None:
+    """A player that repeats the clip would step from the last value to the first."""
+    blows = np.exp(-6.0 * (T % 0.5)) * np.sin(2 * np.pi * 100 * T)
+    curve = curves_of(Channel(0.5 * blows, RATE, True), CurveSettings()).amplitude
+    assert curve.values[0] == curve.values[-1]
+    at = {round(float(time), 3): value for time, value in zip(curve.times_s, curve.values, strict=True)}
+    assert curve.values[0] == pytest.approx(np.interp(0.5, list(at), list(at.values())), rel=0.1)

@@ -285,3 +285,22 @@ def test_flat_upright_and_tiny_things_have_a_view() -> None:
     assert (view.top == NOTHING).all()
     assert len(view.points_m()[0]) == 0
     assert len(view.edges_m()) == 0
+
+
+def test_sources_above_each_other_share_a_mark() -> None:
+    """A loudspeaker on a subwoofer, and a third source apart."""
+    at = {"subwoofer": (0.0, 0.3, 0.0), "speaker": (0.0, 0.9, 0.0), "fan": (3.0, 0.3, 1.0)}
+    snapshot = scene(*(box(name, (0.5, 0.6, 0.5), middle) for name, middle in at.items()))
+    objects = {name: haptics("oak", (0.6, 0.5, 0.5), "on") for name in at}
+    bundle = HapticBundle(snapshot, "room", objects, {name: {"on": tone_loop(100.0)} for name in at})
+    assert [text.get_text() for text in bundle.plot().axes[0].texts] == ["1, 2", "3"]
+
+
+def test_the_legend_of_a_flat_map_is_below_the_label_of_its_axis() -> None:
+    snapshot = scene(box("shelf", (9.0, 0.1, 1.5), (0, 0, 0)), box("phone", (8.0, 0.02, 0.1), (0, 0.06, 0)))
+    objects = {"shelf": haptics("oak", (9.0, 1.5, 0.1)), "phone": haptics("glass", (8.0, 0.1, 0.02), "on")}
+    s = HapticSession(HapticBundle(snapshot, "room", objects, {"phone": {"on": tone_loop(100.0)}}), config=BLOCKING)
+    figure = s.plot_felt("phone", cells=20)
+    figure.savefig(io.BytesIO(), format="png")
+    axes = figure.axes[0]
+    assert axes.get_legend().get_window_extent().y1 < axes.xaxis.label.get_window_extent().y0

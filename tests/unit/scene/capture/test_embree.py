@@ -16,6 +16,7 @@ from scene2hap import SceneSnapshot
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.capture.cache import MEMORY
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
+from scene2hap.scene.capture.fonts import lettering
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import frame
@@ -183,3 +184,25 @@ def test_a_plan_needs_no_renderer_and_names_everything_but_the_floor(monkeypatch
 @pytest.fixture(autouse=True)
 def _no_memory() -> None:
     MEMORY.clear()
+
+
+def crop_of_plan(*names: str) -> np.ndarray:
+    """The plan's pixels around the name in the middle, for a floor with boxes above each other there."""
+    floor = box("floor", (4, 0.1, 2), (0, -0.05, 0))
+    room = scene(floor, *(box(name, (0.2, 0.2, 0.2), (0, 0.1 + 0.2 * k, 0)) for k, name in enumerate(names)))
+    plan = pixels(plan_view(room, width_px=816))
+    middle = 34 + 8 + 200
+    return plan[middle - 6 : middle + 6, 408 - 20 : 408 + 20]
+
+
+def test_no_line_of_a_plan_crosses_a_name() -> None:
+    np.testing.assert_array_equal(crop_of_plan("cupboard", "radio"), crop_of_plan("cupboard"))
+
+
+@pytest.mark.parametrize("name", ["Lüfter", "Motor №1", "Куб", "電話_1", "\u202egnp"])
+def test_names_are_drawn_without_missing_glyphs(name: str) -> None:
+    """Every letter differs from the glyph of a code that is no character."""
+    shown, font = lettering(name, 12)
+    none = bytes(font.getmask("\U0010ffff"))
+    assert all(bytes(font.getmask(letter)) != none for letter in shown)
+    assert shown == name or "\\u" in shown or "\\x" in shown
