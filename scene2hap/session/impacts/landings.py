@@ -88,22 +88,32 @@ class Landings:
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """Find the objects that landed in this update. Call it after the graph is updated."""
         self._n_updates = now = self._n_updates + 1
-        moving: dict[str, tuple[MotionTrack, Pose, Vector, Vector]] = {}
+        moving: dict[str, tuple[MotionTrack, Pose, tuple[Vector, Vector]]] = {}
         stopped: list[str] = []
+        changed: list[str] = []
         at_rest: list[str] = []
         beside = self._graph.beside  # an object without contacts has not landed
         for object_id, track in self._tracks.items():
             pose = moved.get(object_id)
             step = track.step_to(pose)
             if pose is not None and step is not None:
-                moving[object_id] = track, pose, *step
+                moving[object_id] = track, pose, step
+                # Few objects pass this check, which runs for all moved ones in every frame.
+                change, before = _change(step[0], track.step_m), track.step_m
+                if change >= _LEAST_CHANGE and (
+                    change >= _SUDDEN * dot(before, before)
+                    or not self._tracks.keys().isdisjoint(beside.get(object_id) or track.near)
+                ):
+                    changed.append(object_id)
             elif track.has_stopped(now) and beside.get(object_id) and track.is_falling:
                 stopped.append(object_id)
             elif track.is_at_rest(now):
                 at_rest.append(object_id)
-        stopped += [object_id for object_id, (track, *_) in moving.items() if self._is_sudden(object_id, track, moving)]
+        if changed:
+            steps_m = {object_id: step_m for object_id, (_, _, (step_m, _)) in moving.items()}
+            stopped += [x for x in changed if self._tracks[x].is_falling and self._is_sudden(x, steps_m)]
         found = [one for object_id in stopped for one in self._landing(object_id, self._tracks[object_id], time_s)]
-        for track, pose, step_m, middle_m in moving.values():
+        for track, pose, (step_m, middle_m) in moving.values():
             track.follow(now, time_s, pose, step_m, middle_m)
         for object_id in at_rest:
             del self._tracks[object_id]
@@ -115,25 +125,23 @@ class Landings:
         met = {(one.object_id, one.onto) for one in found}
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
-    def _is_sudden(
-        self, object_id: str, track: MotionTrack, moving: Mapping[str, tuple[MotionTrack, Pose, Vector, Vector]]
-    ) -> bool:
+    def _is_sudden(self, object_id: str, steps_m: Mapping[str, Vector]) -> bool:
         """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle.
 
-        The check of the own step runs for every moved object in every frame, the rest for few of them.
+        Parameters: steps_m : of all objects that moved in this update.
         """
-        (x, y, z), (u, v, w) = moving[object_id][2], track.step_m
-        if (x - u) ** 2 + (y - v) ** 2 + (z - w) ** 2 < _LEAST_CHANGE or not track.is_falling:
-            return False
+        track = self._tracks[object_id]
         beside = self._graph.beside.get(object_id)
         for other in beside or track.near:
-            a, b, c = moving[other][2] if other in moving else _STILL
-            theirs = self._tracks.get(other)
-            d, e, f = theirs.step_m if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0] else _STILL
-            now, before = (x - a, y - b, z - c), (u - d, v - e, w - f)
-            change = (now[0] - before[0], now[1] - before[1], now[2] - before[2])
+            theirs, their_m = self._tracks.get(other), _STILL
+            if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0]:
+                their_m = theirs.step_m
+            now, before = (
+                _difference(steps_m[object_id], steps_m.get(other, _STILL)),
+                _difference(track.step_m, their_m),
+            )
             # Without a contact now, only an object that turned back may have met the other one.
-            if (beside or dot(now, before) < 0) and dot(change, change) >= max(
+            if (beside or dot(now, before) < 0) and _change(now, before) >= max(
                 _LEAST_CHANGE, _SUDDEN * dot(before, before)
             ):
                 return True
@@ -219,6 +227,17 @@ class Landings:
         x, y, z = (np.array(point_m) - middle).tolist()
         length = math.hypot(x, y, z)
         return (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 0.0)
+
+
+def _difference(one: Vector, other: Vector) -> Vector:
+    return one[0] - other[0], one[1] - other[1], one[2] - other[2]
+
+
+def _change(one: Vector, other: Vector) -> float:
+    """Square of the distance of two vectors."""
+    (x, y, z), (u, v, w) = one, other
+    x, y, z = x - u, y - v, z - w
+    return x * x + y * y + z * z
 
 
 def _middle(junction: Junction) -> Vector:
