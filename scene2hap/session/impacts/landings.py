@@ -136,10 +136,8 @@ class Landings:
             theirs, their_m = self._tracks.get(other), _STILL
             if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0]:
                 their_m = theirs.step_m
-            now, before = (
-                _difference(steps_m[object_id], steps_m.get(other, _STILL)),
-                _difference(track.step_m, their_m),
-            )
+            now = _difference(steps_m[object_id], steps_m.get(other, _STILL))
+            before = _difference(track.step_m, their_m)
             # Without a contact now, only an object that turned back may have met the other one.
             if (beside or dot(now, before) < 0) and _change(now, before) >= max(
                 _LEAST_CHANGE, _SUDDEN * dot(before, before)
