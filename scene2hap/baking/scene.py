@@ -167,7 +167,8 @@ def rebake(
 
     Parameters:
     bundle : a HapticBundle, or the path of its folder.
-    objects : ids to infer again, with `user_prompt`; a cache answers repeated requests.
+    objects : ids to infer again, with `user_prompt`; a cache answers repeated requests. A bundle has the names of
+        objects and materials, but no pictures; a model that should see them needs `bake`.
     corrections : a file of corrections saved in a report's viewer; applied first, as by `HapticBundle.corrected`.
     on_remade : receives the loops that were made, by id and state, with the inputs that differed: "sound",
         "converter", "actuator", "intensity", "plan" (the source's place among the others), "new", or
@@ -334,8 +335,8 @@ def _is_locked(object_id: str, overrides: Mapping[str, Override]) -> bool:
 
 
 def _with_vibration(before: ObjectHaptics, asked: ObjectHaptics) -> ObjectHaptics:
-    """Return an object with the vibration of another answer. The rest stays: a bundle has no colours and pictures, from
-    which the material was inferred, and a person may have edited it."""
+    """Return an object with the vibration of another answer. The rest stays: a bundle has no pictures, from which the
+    material may have been inferred, and a person may have edited it."""
     by = {name: who for name, who in asked.provenance.items() if name == "vibrates" or name.startswith("states.")}
     why = {name: reason for name, reason in asked.reasons.items() if name == "vibration"}
     return replace(
