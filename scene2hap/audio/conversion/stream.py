@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -143,9 +143,9 @@ def convert(
     source, output = Path(source), Path(output)
     built, context = settled(converter, actuator, intensity)
     drawn = Path(picture) if picture is not None else None
-    _check_target(source, output, overwrite=overwrite)
+    _check_target(source, output, FORMATS, overwrite=overwrite)
     if drawn is not None:
-        _check_target(source, drawn, overwrite=overwrite)
+        _check_target(source, drawn, [".png"], overwrite=overwrite)
     with opened_sound(source) as file, written_whole(output) as beside:
         if not raw and getattr(built, "follows_target", False):
             context = _looked_at(file, context)
@@ -392,10 +392,12 @@ def _opened_for_writing(output: Path, beside: Path, felt: _Felt) -> soundfile.So
         ) from cause
 
 
-def _check_target(source: Path, output: Path, *, overwrite: bool) -> None:
-    known = {*FORMATS, ".png"}
-    if output.suffix.lower() not in known:
-        raise AudioError(f"{output} has no suffix of a known format; it must end in one of {', '.join(FORMATS)}.")
+def _check_target(source: Path, output: Path, suffixes: Collection[str], *, overwrite: bool) -> None:
+    if output.suffix.lower() not in suffixes:
+        known = ", ".join(suffixes)
+        raise AudioError(
+            f"{output} has no suffix of a known format; it must end in one of {known}, or be a folder that exists."
+        )
     if output.exists() and source.exists() and output.samefile(source):
         raise AudioError(f"{output} is the sound itself. Choose another name for what is made of it.")
     if output.is_dir():
