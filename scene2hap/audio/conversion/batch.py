@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from scene2hap.audio.conversion.stream import FORMATS, Conversion, LevelWarning, convert, settled
+from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, settled
+from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.counted import first_of
 from scene2hap.errors import AudioError, Scene2HapError

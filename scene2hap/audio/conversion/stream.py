@@ -28,7 +28,7 @@ from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import Mixdown, opened_sound, require_finite, written_whole
-from scene2hap.audio.haptic_loop import NOTICED_DB, Sensation
+from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
@@ -69,10 +69,6 @@ _LARGEST_WAV_BYTES = 0xFFFF_0000
 """Lengths in a WAV header have 32 bits. Longer files become RF64 (EBU Tech 3306), which most programs read."""
 
 
-class LevelWarning(UserWarning):
-    """A converted file is felt weaker than planned for its intensity."""
-
-
 @dataclass(frozen=True)
 class Conversion:
     """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
@@ -102,13 +98,9 @@ class Conversion:
     @property
     def level_doubt(self) -> str:
         """The sentence that says by how much the planned level is missed; empty within `NOTICED_DB`."""
-        missing_db = 0.0 if self.level_db is None else (self.asked_level_db or 0.0) - self.level_db
-        if missing_db <= NOTICED_DB:
+        if self.level_db is None:
             return ""
-        return (
-            f"{self.output} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks or the "
-            "actuator allow no more. Give a smaller intensity, or a sound that is steadier."
-        )
+        return level_doubt(str(self.output), self.level_db, self.asked_level_db or 0.0)
 
 
 def convert(
