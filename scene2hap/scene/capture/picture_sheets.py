@@ -83,8 +83,20 @@ def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
     plan = Image.fromarray(pixels)
     draw = ImageDraw.Draw(plan)
     _write(draw, (_MARGIN, 8), f"{scene.name}, seen from above", 17)
+    _draw_scale(draw, scale, plan.width)
     _write_names(draw, stage, to_plan, origin, scale, plan.size)
     return png(np.asarray(plan))
+
+
+def _draw_scale(draw: ImageDraw.ImageDraw, px_per_m: float, width_px: int) -> None:
+    """Draw a bar of a round length [m] beside the title, the longest of at most a fifth of the width."""
+    longest_m = width_px / 5 / px_per_m
+    power = 10.0 ** np.floor(np.log10(longest_m))
+    length_m = power * max(digit for digit in (1, 2, 5) if digit * power <= longest_m * (1 + 1e-9))
+    right, middle = width_px - _MARGIN, _TITLE // 2
+    left = right - round(length_m * px_per_m)
+    draw.rectangle((left, middle + 4, right - 1, middle + 7), fill=_INK)
+    _write(draw, (left, middle - 13), f"{length_m:g} m", 13)
 
 
 def _outlines(stage: Stage, highest: HighestSurface) -> NDArray[np.bool_]:

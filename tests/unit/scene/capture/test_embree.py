@@ -196,6 +196,16 @@ def test_a_plan_shows_what_is_on_top_at_each_place() -> None:
     assert 0.85 * whole < is_blue.sum() < whole
 
 
+@pytest.mark.parametrize(("width_m", "bar_m"), [(4.0, 0.5), (5.1, 1.0), (0.3, 0.05), (260.0, 50.0)])
+def test_a_plan_has_a_bar_of_a_round_length(width_m: float, bar_m: float) -> None:
+    """The bar ends at the margin on the right; 800 pixels show the whole width."""
+    plan = pixels(plan_view(scene(box("floor", (width_m, 0.1 * width_m, 0.5 * width_m), (0, 0, 0))), width_px=816))
+    row = (plan[17 + 5] == (0x22, 0x31, 0x3F)).all(axis=1)
+    bar = np.flatnonzero(row[400:]) + 400  # the title is on the left
+    assert bar[-1] == 816 - 8 - 1
+    assert len(bar) == bar[-1] - bar[0] + 1 == pytest.approx(bar_m / width_m * 800, abs=1)
+
+
 def test_a_plan_outlines_white_on_white() -> None:
     white = painted((1.0, 1.0, 1.0, 1.0))
     floor = replace(box("floor", (4, 0.1, 2), (0, 0, 0)), appearance=white)
