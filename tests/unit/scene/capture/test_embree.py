@@ -202,7 +202,7 @@ def test_a_plan_has_a_bar_of_a_round_length(width_m: float, bar_m: float) -> Non
     plan = pixels(plan_view(scene(box("floor", (width_m, 0.1 * width_m, 0.5 * width_m), (0, 0, 0))), width_px=816))
     row = (plan[17 + 5] == (0x22, 0x31, 0x3F)).all(axis=1)
     bar = np.flatnonzero(row[400:]) + 400  # the title is on the left
-    assert bar[-1] == 816 - 8 - 1
+    assert bar[-1] == plan.shape[1] - 8 - 1
     assert len(bar) == bar[-1] - bar[0] + 1 == pytest.approx(bar_m / width_m * 800, abs=1)
 
 
