@@ -254,6 +254,16 @@ def items(name: str, value: object, *, at_most: int = 10_000, error: type[Scene2
     return found
 
 
+def texts(name: str, value: object, *, error: type[Scene2HapError]) -> tuple[str, ...]:
+    """Return the texts of a sequence. Raises: `error`: any other value, including one text."""
+    found = value if isinstance(value, list | tuple) else ()
+    wrong = [item for item in found if not isinstance(item, str)]
+    if wrong or not isinstance(value, list | tuple):
+        given = represented(wrong[0] if wrong else value)
+        raise error(f"{name} is or has {given}; it must be a list of texts, as ['oak'].")
+    return tuple(found)
+
+
 def names(name: str, value: object, *, error: type[Scene2HapError] = ConfigError) -> tuple[str, ...]:
     """Return one or more distinct names from a sequence. Raises: `error`: any other value, including one string."""
     if isinstance(value, str):

@@ -206,3 +206,11 @@ class DeviceLost(DeviceError):
 
 class DeviceTimeout(DeviceError, TimeoutError):
     """A device did not answer in time."""
+
+
+def reason_of(cause: BaseException) -> str:
+    """Return the reason of a caught error for a message that names the file.
+
+    The text of an OSError repeats the file and has a number: "[Errno 2] No such file or directory: 'a.csv'".
+    """
+    return cause.strerror if isinstance(cause, OSError) and cause.strerror else str(cause)

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap import checks
 from scene2hap.calls import clear_attributes
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, reason_of
 from scene2hap.text_files import read_small_text
 
 
@@ -107,7 +107,7 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
     except (OSError, ValueError, RecursionError) as cause:
         near = checks.near_files(Path(path)) if isinstance(cause, FileNotFoundError) else ""
         raise ConfigError(
-            f"settings {path} cannot be read: {cause}. {near or 'They are TOML, or JSON in a .json file.'}"
+            f"settings {path} cannot be read: {reason_of(cause)}. {near or 'They are TOML, or JSON in a .json file.'}"
         ) from cause
     if not isinstance(document, dict):
         raise ConfigError(f"settings {path}: it must hold tables of settings, {', '.join(SECTIONS)}.")

@@ -16,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, Validatio
 
 from scene2hap import checks
 from scene2hap.calls import clear_attributes
-from scene2hap.errors import SessionError
+from scene2hap.errors import SessionError, reason_of
 from scene2hap.text_files import read_small_text
 
 FORMAT: Literal["scene2hap/touches"] = "scene2hap/touches"
@@ -142,7 +142,7 @@ class TouchTrack(BaseModel):
             text = read_small_text(path)
             document = _from_csv(text) if path.suffix.lower() == ".csv" else json.loads(text)
         except (OSError, ValueError, RecursionError, csv.Error) as cause:
-            raise SessionError(f"{path} cannot be read as touches: {cause}. See docs/touches.md.") from cause
+            raise SessionError(f"{path} cannot be read as touches: {reason_of(cause)}. See docs/touches.md.") from cause
         return cls.parse(document, str(path))
 
     @classmethod

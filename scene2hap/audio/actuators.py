@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.audio.clip import Samples
 from scene2hap.calls import misfit
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, reason_of
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.text_files import read_small_text
 
@@ -73,7 +73,9 @@ def read_response_csv(path: str | Path) -> ActuatorProfile:
         table = csv.reader(read_small_text(path).splitlines())
         rows = [row for row in table if row and not row[0].lstrip().startswith("#")]
     except (OSError, ValueError, csv.Error) as cause:
-        raise ConfigError(f"{path} cannot be read: {cause}. Give a CSV file with columns Hz and dB.") from cause
+        raise ConfigError(
+            f"{path} cannot be read: {reason_of(cause)}. Give a CSV file with columns Hz and dB."
+        ) from cause
     if rows and not _is_number(rows[0][0]):
         rows = rows[1:]
     try:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
-from scene2hap.errors import AudioError
+from scene2hap.errors import AudioError, reason_of
 from scene2hap.text_files import draft_of
 
 PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
@@ -140,7 +140,9 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     except OSError as cause:
         raise AudioError(f"{path} cannot be read ({cause.strerror}). Choose a file that is yours.") from cause
     except (soundfile.SoundFileError, TypeError) as cause:  # TypeError: a headerless file, for which a rate is needed
-        raise AudioError(f"{path}: not a readable sound ({cause}). Use a WAV, FLAC, Ogg or MP3 file.") from cause
+        raise AudioError(
+            f"{path}: not a readable sound ({reason_of(cause)}). Use a WAV, FLAC, Ogg or MP3 file."
+        ) from cause
 
 
 def require_finite(path: Path, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]], start: int = 0) -> None:

@@ -56,6 +56,21 @@ NOTICED_DB = 3.0
 """Level error that is mentioned [dB]: about the least difference that is felt."""
 
 
+class LevelWarning(UserWarning):
+    """A vibration is felt weaker than planned for its intensity."""
+
+
+def level_doubt(name: str, level_db: float, asked_level_db: float) -> str:
+    """Return the sentence that says by how much the planned level is missed; empty within `NOTICED_DB`."""
+    missing_db = asked_level_db - level_db
+    if missing_db <= NOTICED_DB:
+        return ""
+    return (
+        f"{name} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks or the "
+        "actuator allow no more. Give a smaller intensity, or a sound that is steadier."
+    )
+
+
 @clear_construction
 @dataclass(frozen=True, eq=False)
 class HapticLoop:

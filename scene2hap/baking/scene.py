@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
-from scene2hap.audio.haptic_loop import HapticLoop
+from scene2hap.audio.haptic_loop import HapticLoop, LevelWarning, level_doubt
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings
@@ -167,13 +167,15 @@ def rebake(
 
     Parameters:
     bundle : a HapticBundle, or the path of its folder.
-    objects : ids to infer again, with `user_prompt`; a cache answers repeated requests.
+    objects : ids to infer again, with `user_prompt`; a cache answers repeated requests. A bundle has the names of
+        objects and materials, but no pictures; a model that should see them needs `bake`.
     corrections : a file of corrections saved in a report's viewer; applied first, as by `HapticBundle.corrected`.
     on_remade : receives the loops that were made, by id and state, with the inputs that differed: "sound",
         "converter", "actuator", "intensity", "plan" (the source's place among the others), "new", or
         "no fingerprint". `progress` receives the same.
     Raises: as `bake`; UnknownObject. ConfigError: the bundle's converter was given ready made; give it again.
-    Warns: BundleWarning: loops of an older bundle, which have no fingerprint, stay unchanged.
+    Warns: BundleWarning: loops of an older bundle, which have no fingerprint, stay unchanged. LevelWarning: a loop from
+    your own sound is felt more than 3 dB weaker than planned.
     """
     return run_waiting(
         arebake(
@@ -232,6 +234,7 @@ async def arebake(
     sounds = await make_loops(said, wishes, config, progress or _say_nothing, earlier)
     if on_remade is not None:
         on_remade(sounds.remade)
+    _warn_of_weak(sounds.loops, sounds.remade, wishes)
     made_with = _made_with(config) if _all_are_known(sounds.loops) else None
     said = _as_recorded(said, sounds.loops, bundle.loops, wishes)
     return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
@@ -297,6 +300,21 @@ def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
     return not unknown
 
 
+def _warn_of_weak(
+    loops: Mapping[str, Mapping[str, HapticLoop]],
+    remade: Mapping[str, Mapping[str, object]],
+    wishes: Mapping[str, Override],
+) -> None:
+    """Warn of loops that were made from a person's own sounds and miss their level. Warns: LevelWarning."""
+    for key, states in remade.items():
+        clip = wishes[key].clip if key in wishes else None
+        for state in states if clip is not None and not clip.is_vibration else ():
+            felt = loops[key][state].felt
+            doubt = level_doubt(f"{key}, {state},", felt.level_db, felt.asked_level_db) if felt is not None else ""
+            if doubt:
+                warnings.warn(doubt, LevelWarning, stacklevel=3)
+
+
 async def _infer(
     scene: SceneSnapshot,
     config: BakeConfig,
@@ -334,8 +352,8 @@ def _is_locked(object_id: str, overrides: Mapping[str, Override]) -> bool:
 
 
 def _with_vibration(before: ObjectHaptics, asked: ObjectHaptics) -> ObjectHaptics:
-    """Return an object with the vibration of another answer. The rest stays: a bundle has no colours and pictures, from
-    which the material was inferred, and a person may have edited it."""
+    """Return an object with the vibration of another answer. The rest stays: a bundle has no pictures, from which the
+    material may have been inferred, and a person may have edited it."""
     by = {name: who for name, who in asked.provenance.items() if name == "vibrates" or name.startswith("states.")}
     why = {name: reason for name, reason in asked.reasons.items() if name == "vibration"}
     return replace(

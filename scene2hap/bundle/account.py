@@ -17,7 +17,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from scene2hap.errors import BundleError
+from scene2hap.errors import BundleError, reason_of
 from scene2hap.printable import read_json
 from scene2hap.text_files import read_small_text, write_whole
 
@@ -53,7 +53,7 @@ def read_account(folder: str | os.PathLike[str]) -> dict[str, Any] | None:
     try:
         document = read_json(read_small_text(path))
     except (OSError, ValueError, RecursionError) as cause:
-        raise BundleError(f"{path} cannot be read: {cause}. Remove it, or bake again.") from cause
+        raise BundleError(f"{path} cannot be read: {reason_of(cause)}. Remove it, or bake again.") from cause
     if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
         raise BundleError(f'{path} is no account: it must have "format": "{FORMAT}" and version {VERSION}. Remove it.')
     return document

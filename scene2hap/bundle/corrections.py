@@ -12,7 +12,7 @@ from typing import Any
 
 from scene2hap import checks
 from scene2hap.bundle.override import BY_STATE
-from scene2hap.errors import BundleError
+from scene2hap.errors import BundleError, reason_of
 from scene2hap.printable import read_json
 from scene2hap.text_files import read_small_text
 
@@ -30,7 +30,7 @@ def read_corrections(path: Path) -> dict[str, dict[str, Any]]:
     try:
         document = read_json(read_small_text(path))
     except (OSError, ValueError, RecursionError) as cause:
-        raise BundleError(f"{path} cannot be read: {cause}. Save it again from the viewer.") from cause
+        raise BundleError(f"{path} cannot be read: {reason_of(cause)}. Save it again from the viewer.") from cause
     return parsed_corrections(document, str(path))
 
 

@@ -44,7 +44,7 @@ from scene2hap.bundle.own_files import (
     require_folder,
 )
 from scene2hap.bundle.sounds import SoundReader, file_stem, read_credit, write_loops
-from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError
+from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, reason_of
 from scene2hap.file_stamp import Stamp
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material
@@ -72,7 +72,7 @@ def write_bundle(bundle: BundleContents, target: Path, since: Stamp | None = Non
         with replaced(target, since) as draft:
             _write(bundle, draft)
     except OSError as cause:
-        raise BundleError(f"{target} cannot be written: {cause}.") from cause
+        raise BundleError(f"{target} cannot be written: {reason_of(cause)}.") from cause
     return target
 
 

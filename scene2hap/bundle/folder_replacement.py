@@ -29,7 +29,7 @@ from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.folder_swap import exchange
 from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.own_files import MANIFEST, our_files
-from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete
+from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of
 from scene2hap.file_stamp import Stamp, file_stamp
 
 try:
@@ -158,7 +158,7 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack, since: Stamp |
                 os.chmod(old, 0o700)  # it may be write-protected
                 discard(old, place)
             except (OSError, BundleError) as cause:
-                warning = f"{target} is written, but {old}, which it replaces, cannot be removed: {cause}"
+                warning = f"{target} is written, but {old}, which it replaces, cannot be removed: {reason_of(cause)}"
                 warnings.warn(warning, BundleWarning, stacklevel=6)
         return
 
@@ -261,7 +261,7 @@ def _resolved(target: Path) -> Path:
     try:
         place = target.resolve()
     except (OSError, RuntimeError, ValueError) as cause:
-        raise BundleError(f"{str(target)[:200]!r} cannot be a folder: {cause}.") from cause
+        raise BundleError(f"{str(target)[:200]!r} cannot be a folder: {reason_of(cause)}.") from cause
     if not place.name:
         raise BundleError(f"{target} cannot be replaced by a bundle; name a folder in it.")
     return place

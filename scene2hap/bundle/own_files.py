@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
-from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError
+from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, reason_of
 
 FORMAT = "scene2hap/bundle"
 VERSION = 1
@@ -116,7 +116,7 @@ def inside(folder: Path, name: object) -> Path:
     try:
         path, home = (folder / name).resolve(), folder.resolve()
     except (OSError, RuntimeError, ValueError) as cause:  # a zero byte, a circle of links, a very long name
-        raise BundleError(f"{folder} names a file {name[:80]!r}, which cannot be: {cause}.") from cause
+        raise BundleError(f"{folder} names a file {name[:80]!r}, which cannot be: {reason_of(cause)}.") from cause
     if not path.is_relative_to(home):
         raise BundleError(f"{folder} refers to {name[:80]!r}, outside itself; a bundle only reads its own files.")
     return path

@@ -26,7 +26,9 @@ HELP = "sound files -> tactile files"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap convert``."""
-    parser.add_argument("sources", metavar="IN", nargs="+", help="WAV, FLAC, Ogg or MP3 files, or folders of them")
+    parser.add_argument(
+        "sources", metavar="IN", nargs="+", help="WAV, FLAC, Ogg, MP3 or AIFF files, or folders of them"
+    )
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a file for one file, otherwise a folder")
     parser.add_argument(
         "--converter",

@@ -8,7 +8,7 @@ import socket
 import time
 
 from scene2hap.devices.link import CarryOn
-from scene2hap.errors import DeviceError, DeviceLost, DeviceNotFound
+from scene2hap.errors import DeviceError, DeviceLost, DeviceNotFound, reason_of
 
 PROBES = 2
 _PROBE_S = 0.02
@@ -37,7 +37,9 @@ class Datagrams:
             self._socket.setblocking(False)
             self._socket.connect(address)
         except OSError as cause:
-            raise DeviceNotFound(f"{self._place} cannot be reached: {cause}. Check host and network.") from cause
+            raise DeviceNotFound(
+                f"{self._place} cannot be reached: {reason_of(cause)}. Check host and network."
+            ) from cause
         for _ in range(PROBES):
             try:
                 self.send(probe)
@@ -57,7 +59,7 @@ class Datagrams:
             raise DeviceLost(f"nobody listens at {self._place}. Start the receiver there.") from cause
         except OSError as cause:
             if cause.errno not in _FULL:
-                raise DeviceLost(f"{self._place} cannot be reached: {cause}. Check the network.") from cause
+                raise DeviceLost(f"{self._place} cannot be reached: {reason_of(cause)}. Check the network.") from cause
             self.not_sent += 1
 
     def close(self, *farewell: bytes) -> None:

@@ -13,7 +13,7 @@ from scene2hap.calls import clear_calls
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
-from scene2hap.errors import ConfigError, DeviceError
+from scene2hap.errors import ConfigError, DeviceError, reason_of
 
 
 @clear_calls
@@ -62,7 +62,7 @@ class WavSink(Pulled):
             give_back(self._key, self)
             with contextlib.suppress(OSError):
                 self._draft.unlink()  # on a full disk it exists, and is empty
-            raise DeviceError(f"{self.path} cannot be written: {str(cause).rstrip('.')}.") from cause
+            raise DeviceError(f"{self.path} cannot be written: {reason_of(cause).rstrip('.')}.") from cause
 
     def start(self, fill: Fill) -> None:
         """Set `fill` as the source of blocks."""
@@ -78,7 +78,7 @@ class WavSink(Pulled):
         try:
             self._file.write(block)
         except (OSError, soundfile.SoundFileError) as cause:
-            reason = str(cause).rstrip(".")
+            reason = reason_of(cause).rstrip(".")
             raise DeviceError(
                 f"{self.path} cannot be written after {self._frames} frames: {reason}. The disk may be full; make "
                 "room, or choose another folder."

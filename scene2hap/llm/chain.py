@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from scene2hap import checks
 from scene2hap.calls import clear_call
@@ -40,6 +40,8 @@ from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.copies import material_names
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
+
+_Result = TypeVar("_Result")
 
 UNKNOWN = frozenset({"", "unknown", "undefined"})
 """Words with which a backend reports that something is unknown."""
@@ -170,12 +172,9 @@ class _Chain:
         self._report.skipped["copies"] += len(wanted) - len(firsts)
         done = 0
 
-        async def analyse(item: SceneObject) -> _Analysis | Scene2HapError:
+        async def analyse(item: SceneObject) -> _Analysis:
             nonlocal done
-            try:
-                analysis = await self._analyse(item)
-            except Scene2HapError as problem:
-                return problem
+            analysis = await self._analyse(item)
             if self._settings.inference == "eager":
                 await self._material(analysis.answer.material_category)
             done += len(firsts[item.id])
@@ -184,11 +183,12 @@ class _Chain:
 
         # Objects that are likely to vibrate need more calls, so they go first.
         order = sorted(firsts, key=lambda object_id: not _seems_to_vibrate(self._scene.object(object_id)))
-        found = await asyncio.gather(*(analyse(self._scene.object(object_id)) for object_id in order))
-        analyses = dict(zip(order, found, strict=True))
+        ended = await asyncio.gather(*(analyse(self._scene.object(key)) for key in order), return_exceptions=True)
         if self._questions.closed_by is not None:
             await asyncio.gather(*self._materials.values(), return_exceptions=True)
             raise self._questions.closed_by
+        found = [_known(outcome) for outcome in ended]
+        analyses = dict(zip(order, found, strict=True))
         failed = [problem for problem in found if isinstance(problem, Scene2HapError)]
         if failed and len(failed) == len(found):
             raise failed[0]
@@ -206,7 +206,7 @@ class _Chain:
         if not answer.vibrates:
             self._report.skipped["silent"] += 1
             return _Analysis(answer, analyst, (), ())
-        described = await asyncio.gather(*(self._describe(item, answer, state) for state in answer.states))
+        described = await _all_ended(self._describe(item, answer, state) for state in answer.states)
         states, describers = zip(*described, strict=True)
         return _Analysis(answer, analyst, states, describers)
 
@@ -291,7 +291,7 @@ class _Chain:
         words = {key: _word(found.answer.material_category) for key, found in answered.items()}
         unreached = {word: _unreached(word) for word in words.values() if word not in self._materials}
         self._report.skipped["unreached_material"] += len(unreached)
-        estimates = dict(zip(self._materials, await asyncio.gather(*self._materials.values()), strict=True))
+        estimates = dict(zip(self._materials, await _all_ended(self._materials.values()), strict=True))
         return {key: {**unreached, **estimates}[word] for key, word in words.items()}
 
     def _haptics(
@@ -362,6 +362,26 @@ class _Chain:
             return haptics
         self._report.doubts[object_id] = (*self._report.doubts.get(object_id, ()), *doubts)
         return replace(haptics, reasons={**haptics.reasons, "contact": "; ".join(doubts)})
+
+
+async def _all_ended(running: Iterable[Awaitable[_Result]]) -> list[_Result]:
+    """Return the results in order, or raise the first error after all have ended.
+
+    `asyncio.gather` raises at once. The event loop would then cancel calls that are paid for, or the storing of their
+    answers.
+    """
+    ended = await asyncio.gather(*running, return_exceptions=True)
+    for outcome in ended:
+        if isinstance(outcome, BaseException):
+            raise outcome
+    return cast("list[_Result]", ended)
+
+
+def _known(outcome: _Analysis | BaseException) -> _Analysis | Scene2HapError:
+    """Return the outcome of an analysis. Raises: any error that is not of this library."""
+    if isinstance(outcome, BaseException) and not isinstance(outcome, Scene2HapError):
+        raise outcome
+    return outcome
 
 
 async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from scene2hap import checks
-from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
+from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
 from scene2hap.llm.answers import Answer
 from scene2hap.llm.backends import chat
 from scene2hap.llm.prompts import Prompts
@@ -39,7 +39,7 @@ class Questions:
         wishes: Mapping[str, str] | None = None,
     ) -> None:
         self.report = InferenceReport()
-        self.closed_by: Scene2HapError | None = None
+        self.closed_by: Exception | None = None
         self._backend = backend
         self._prompts = prompts
         self._slots = asyncio.Semaphore(concurrency)
@@ -95,7 +95,7 @@ class Questions:
         self.report.calls[request.component] += 1
         try:
             reply = await self._completed(request)
-        except Scene2HapError as problem:
+        except Exception as problem:  # a backend of a user's own may raise any error
             if isinstance(problem, chat.UnusableAnswer):  # it was billed although it is unusable
                 self.report.take(LLMReply("", problem.model, usage=problem.usage, service_tier=problem.service_tier))
             if not _is_about_one_question(problem):
@@ -117,7 +117,7 @@ def _schema(shape: type[Answer]) -> dict[str, Any]:
     return shape.model_json_schema()
 
 
-def _is_about_one_question(problem: Scene2HapError) -> bool:
+def _is_about_one_question(problem: Exception) -> bool:
     return isinstance(problem, BadAnswer) or (isinstance(problem, BackendUnavailable) and problem.retryable)
 
 

@@ -47,7 +47,7 @@ def material_names(item: SceneObject) -> tuple[str, ...]:
     """
     looks = item.appearance
     if looks is None:
-        return ()
+        return item.material_names
     corners_m = item.geometry.mesh.vertices_m[item.geometry.mesh.faces]
     sides_m = corners_m[:, 1:] - corners_m[:, :1]
     areas_m2 = np.linalg.norm(np.cross(sides_m[:, 0], sides_m[:, 1]), axis=1) / 2

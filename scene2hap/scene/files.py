@@ -6,7 +6,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from scene2hap import checks
-from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 
 HABITAT_SUFFIX = ".scene_instance.json"
@@ -39,7 +39,7 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
         raise
     # A broken address, a zero byte or a cycle of links raises one of these errors.
     except (ValueError, OSError, RuntimeError) as cause:
-        raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {cause}.") from cause
+        raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {reason_of(cause)}.") from cause
     return path
 
 
@@ -60,7 +60,7 @@ def read_bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as cause:
-        raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
+        raise SceneError(f"{str(path)!r} cannot be read: {reason_of(cause)}.") from cause
 
 
 def check_file(path: Path) -> None:
@@ -82,6 +82,6 @@ def check_file(path: Path) -> None:
         raise
     # ValueError: the name contains a zero byte.
     except (OSError, ValueError) as cause:
-        raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
+        raise SceneError(f"{str(path)!r} cannot be read: {reason_of(cause)}.") from cause
     if is_empty:
         raise SceneFormatError(f"{path.name!r} is empty (0 bytes). Export it again.")

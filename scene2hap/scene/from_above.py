@@ -18,8 +18,8 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 Floats = NDArray[np.float64]
 NOTHING = -1
-_MOST_PAIRS = 1_000_000
-"""Pairs of triangle and cell that are tested at once: about 100 MB."""
+_MOST_CELLS = 1_000_000
+"""Cells under triangles that are computed at once: about 100 MB."""
 _HEADROOM_M = 1.8
 """Least height of a ceiling above the lowest point of the scene; assumed. A table that covers its own legs is none."""
 _WIDE_SHARE = 0.7
@@ -92,20 +92,13 @@ class TopView:
         n_columns, n_rows = (int(n) for n in np.maximum(1, np.ceil((high - low) / cell - 1e-9)))
         # The grid extends beyond the frame by the same length on both sides.
         corner = (low + high) / 2 - cell * np.array([n_columns, n_rows]) / 2
-        top = np.full(n_rows * n_columns, NOTHING, dtype=np.intp)
-        height = np.full(n_rows * n_columns, -np.inf)
+        highest = HighestSurface(n_columns, n_rows)
         for number, item in enumerate(scene.objects):
             mesh = item.geometry.mesh
             triangles = item.pose.to_world(mesh.vertices_m)[:, order][mesh.faces]
             triangles[..., :2] = (triangles[..., :2] - corner) / cell
-            for cells, heights in _surface(triangles, n_columns, n_rows):
-                seen = (heights > height[cells]) & (heights <= limits_m[number])
-                cells, heights = cells[seen], heights[seen]
-                # numpy keeps the last of several values for one cell, so the highest must come last
-                rising = np.argsort(heights, kind="stable")
-                top[cells[rising]], height[cells[rising]] = number, heights[rising]
-        shape = (n_rows, n_columns)
-        return cls(scene, top.reshape(shape), height.reshape(shape), corner, cell, (across, deep), up)
+            highest.add(triangles, np.full(len(triangles), number), limits_m[number])
+        return cls(scene, highest.top, highest.height, corner, cell, (across, deep), up)
 
     @property
     def _n_visible(self) -> int:
@@ -141,6 +134,31 @@ class TopView:
         return edges
 
 
+class HighestSurface:
+    """The topmost of all triangles that were added, in the middle of each cell of a grid.
+
+    `top` (n_rows, n_columns) has the number of its triangle, `NOTHING` for none; `height` its height there.
+    """
+
+    def __init__(self, n_columns: int, n_rows: int) -> None:
+        self.top = np.full((n_rows, n_columns), NOTHING, dtype=np.intp)
+        self.height = np.full((n_rows, n_columns), -np.inf)
+
+    def add(self, triangles: Floats, numbers: NDArray[np.intp], limit: float = np.inf) -> None:
+        """Add triangles (n, 3, 3): column and row in cells, and height. Their numbers (n,) need not differ.
+
+        Surface above the limit is left out. A vertical triangle covers no cell.
+        """
+        n_rows, n_columns = self.top.shape
+        top, height = self.top.reshape(-1), self.height.reshape(-1)
+        for which, cells, heights in _surface(triangles, n_columns, n_rows):
+            seen = (heights > height[cells]) & (heights <= limit)
+            which, cells, heights = which[seen], cells[seen], heights[seen]
+            # numpy keeps the last of several values for one cell, so the highest must come last
+            rising = np.argsort(heights, kind="stable")
+            top[cells[rising]], height[cells[rising]] = numbers[which[rising]], heights[rising]
+
+
 def _frame(bounds_m: Floats) -> tuple[Floats, Floats]:
     """Return the corners (2,) [m] of the drawn ground, from the bounds (n_objects, 2, 2) [m] of all objects over it.
 
@@ -158,31 +176,46 @@ def _frame(bounds_m: Floats) -> tuple[Floats, Floats]:
     return (inner_low, inner_high) if is_far_larger else (low, high)
 
 
-def _surface(triangles: Floats, n_columns: int, n_rows: int) -> Iterator[tuple[NDArray[np.intp], Floats]]:
-    """Yield the cells whose middle is below a triangle, and the height there.
+def _surface(
+    triangles: Floats, n_columns: int, n_rows: int
+) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp], Floats]]:
+    """Yield triangles, the cells whose middle is below them, and their height there.
 
-    `triangles` (n, 3, 3) have their first two coordinates in cells. To bound the memory, they are tested in parts.
+    `triangles` (n, 3, 3) have their first two coordinates in cells. A triangle covers one run of cells in each row. To
+    bound the memory, triangles are taken in parts.
     """
     least = np.ceil(triangles[..., :2].min(axis=1) - 0.5).clip(0, [n_columns, n_rows]).astype(np.intp)
     most = np.floor(triangles[..., :2].max(axis=1) - 0.5).clip(-1, [n_columns - 1, n_rows - 1]).astype(np.intp)
     size = np.maximum(most - least + 1, 0)
-    n_pairs = size.prod(axis=1)
-    kept = np.flatnonzero(n_pairs)
-    part = np.cumsum(n_pairs[kept]) // _MOST_PAIRS
+    p, q = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    area = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+    most_cells = size.prod(axis=1)
+    kept = np.flatnonzero((most_cells > 0) & (area != 0))
+    part = np.cumsum(most_cells[kept]) // _MOST_CELLS
     for chosen in np.split(kept, np.flatnonzero(np.diff(part)) + 1):
-        if not len(chosen):
-            continue
-        count = n_pairs[chosen]
-        which = np.repeat(chosen, count)
-        within = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
-        down, right = np.divmod(within, size[which, 0])
-        column, row = least[which, 0] + right, least[which, 1] + down
-        a, b, c = np.moveaxis(triangles[which], 1, 0)
-        x, y = column + 0.5 - a[:, 0], row + 0.5 - a[:, 1]
-        p, q = b - a, c - a
-        area = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+        which, down = _counted_up(size[chosen, 1])
+        which = chosen[which]
+        row = least[which, 1] + down
+        corners = triangles[which]
+        x, y = corners[..., 0], corners[..., 1]
+        x_next, y_next = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
+        middle = (row + 0.5)[:, None]
+        crosses = (np.minimum(y, y_next) <= middle) & (middle <= np.maximum(y, y_next)) & (y != y_next)
         with np.errstate(divide="ignore", invalid="ignore"):
-            s, t = (x * q[:, 1] - y * q[:, 0]) / area, (p[:, 0] * y - p[:, 1] * x) / area
-            inside = (area != 0) & (s >= -1e-9) & (t >= -1e-9) & (s + t <= 1 + 1e-9)
-        height = a[inside, 2] + s[inside] * p[inside, 2] + t[inside] * q[inside, 2]
-        yield (row * n_columns + column)[inside], height
+            at = x + (x_next - x) * ((middle - y) / (y_next - y))
+        first = np.ceil(np.where(crosses, at, np.inf).min(axis=1) - 0.5 - 1e-9).clip(0, n_columns)
+        last = np.floor(np.where(crosses, at, -np.inf).max(axis=1) - 0.5 + 1e-9).clip(-1, n_columns - 1)
+        along = (p[which, 2] * q[which, 1] - q[which, 2] * p[which, 1]) / area[which]
+        across = (q[which, 2] * p[which, 0] - p[which, 2] * q[which, 0]) / area[which]
+        start = corners[:, 0, 2] + along * (first + 0.5 - x[:, 0]) + across * (middle[:, 0] - y[:, 0])
+        run, right = _counted_up(np.maximum(last - first + 1, 0).astype(np.intp))
+        # The plane of a nearly vertical triangle is steep, so that rounding could leave the triangle's heights.
+        lowest, highest = corners[..., 2].min(axis=1), corners[..., 2].max(axis=1)
+        heights = np.clip(start[run] + along[run] * right, lowest[run], highest[run])
+        yield which[run], (row * n_columns + first.astype(np.intp))[run] + right, heights
+
+
+def _counted_up(counts: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the number k of each count, `counts[k]` times, and beside it 0, 1, ... up to `counts[k]` - 1."""
+    which = np.repeat(np.arange(len(counts)), counts)
+    return which, np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)

@@ -20,6 +20,7 @@ from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.printable import read_json
 from scene2hap.scene import limits
+from scene2hap.scene.copies import material_names
 from scene2hap.scene.files import HABITAT_SUFFIX
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
@@ -34,7 +35,7 @@ _scene: TypeAdapter[SceneData] = TypeAdapter(SceneData)
 _geometry: TypeAdapter[Geometry] = TypeAdapter(Geometry)
 _SCENE_FIELDS = frozenset({"format", "version", "name", "up_axis", "objects", "contacts", "geometries"})
 _OBJECT_FIELDS = frozenset(
-    {"id", "name", "pose", "geometry", "surface", "relative_height_m", "instance_key", "mass_kg"}
+    {"id", "name", "pose", "geometry", "surface", "relative_height_m", "instance_key", "mass_kg", "material_names"}
 )
 _POSE_FIELDS = frozenset({"position_m", "rotation_xyzw"})
 # Placeholder for a surface until it is measured.
@@ -77,8 +78,11 @@ def parse(text: str) -> SceneData:
 
 def to_document(scene: SceneData) -> dict[str, Any]:
     """Return the scene as plain JSON values, each object with its geometry."""
-    hidden: Any = {"objects": {"__all__": {"appearance", "images"}}}
+    hidden: Any = {"objects": {"__all__": {"appearance", "images", "material_names"}}}
     document: dict[str, Any] = _scene.dump_python(scene, mode="json", exclude=hidden)
+    for item, row in zip(scene.objects, document["objects"], strict=True):
+        if names := material_names(item):
+            row["material_names"] = list(names)
     return document
 
 

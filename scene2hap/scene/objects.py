@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Literal
@@ -74,8 +74,9 @@ class SceneObject:
     as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured with y up if it is not given;
     `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
-    `mass_kg` is the mass from an engine or an author [kg], None if unknown. `appearance` is used only for pictures,
-    None if unknown; `images` are the pictures from `capture_images`.
+    `mass_kg` is the mass from an engine or an author [kg], None if unknown. `material_names` are the authored names of
+    its materials, that of the largest area first; the names in `appearance` replace them. `appearance` is used for
+    these names and for pictures, None if unknown; `images` are the pictures from `capture_images`.
     """
 
     id: str
@@ -86,6 +87,8 @@ class SceneObject:
     relative_height_m: float = 0.0
     instance_key: str = ""
     mass_kg: float | None = None
+    # Not compared: it may come from the looks, which are not part of a scene's equality.
+    material_names: tuple[str, ...] = field(default=(), compare=False, repr=False)
     appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
     images: InstanceOf[ObjectImages] | None = field(default=None, compare=False, repr=False)
     _CALL_HINT = "As in SceneObject('cup', pose=Pose((x, y, z)), geometry=Box((x, y, z)))."
@@ -103,6 +106,7 @@ class SceneObject:
         mass_kg: float | None = None,
         appearance: Appearance | None = None,
         images: ObjectImages | None = None,
+        material_names: Sequence[str] = (),
     ) -> None:
         given = {
             "id": id,
@@ -112,6 +116,7 @@ class SceneObject:
             "relative_height_m": relative_height_m,
         }
         given |= {"instance_key": instance_key, "mass_kg": mass_kg, "appearance": appearance, "images": images}
+        given["material_names"] = material_names
         for key, value in given.items():
             object.__setattr__(self, key, value)
         if not isinstance(id, str):
@@ -133,6 +138,8 @@ class SceneObject:
             raise SceneError(f"object {checks.represented(self.name)} has an empty id; give every object its own.")
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
+        materials = checks.texts(f"material_names of object {self.id!r}", self.material_names, error=SceneError)
+        object.__setattr__(self, "material_names", materials)
         if self.mass_kg is not None:
             named = f"mass_kg of object {checks.represented(self.id)}"
             mass = checks.number(named, self.mass_kg, "kg", above=0.0, at_most=1e9, error=SceneError)

@@ -252,11 +252,13 @@ class HapticSession:
         a knock; with_object : the striking object, None for a finger.
         Returns: the impact; its `felt` is the largest sample that each hand gets.
         Raises: UnknownObject; SessionError: a speed or impulse that is not above 0, or both.
+        Warns: SceneWarning: the first point that is more than 5 cm off the box around its object.
         """
         self._state.require(object_id)
         if with_object is not None:
             self._state.require(with_object)
         strike = given_strike(object_id, point_m, with_object, speed_m_s, impulse_n_s)
+        self._mistakes.in_strike(object_id, strike.point_m)
         return self._impacts.strike(strike, self._hand_frames.felt, self.hands, self._user, self._now)
 
     def add(

@@ -3,8 +3,8 @@
 - Loops that were made for another actuator than the session's.
 - First poses whose quaternions begin with w: (1, 0, 0, 0) is upright with w first, and upside down with w last.
 - Contacts of an engine whose normals point from `b` to `a`: nothing would land.
-- Touches far from the box around their object. Almost always the point is in other units, in the object's own frame,
-  or from another frame of the game.
+- Touches and strikes far from the box around their object. Almost always the point is in other units, in the object's
+  own frame, or from another frame of the game.
 - Added objects that will not be felt, a scene in which nothing vibrates, a user's profile for other hands.
 """
 
@@ -42,6 +42,8 @@ wrong points continues to do so."""
 MOST_NAMED = 10
 """Most silent objects that a session names: a game may spawn thousands, and Python stores the text of each warning."""
 
+Point = tuple[float, float, float]
+
 _MOST_POSES = 100
 # |cos| of half of 150 and of 30 degrees: no game rotates objects by more in a frame (assumed).
 _FLIPS, _STAYS = 0.26, 0.966
@@ -62,7 +64,7 @@ class LikelyMistakes:
         self._hands_named: set[str] = set()
         self._n_updates = 0
         self._n_silent_named = 0
-        self._has_moved = self._is_silence_named = self._knows_normals = False
+        self._has_moved = self._is_silence_named = self._knows_normals = self._is_strike_named = False
         self.n_touches_off = 0
 
     def in_moves(self, moved: Mapping[str, Pose]) -> None:
@@ -112,12 +114,21 @@ class LikelyMistakes:
             return
         for touches in felt.values():
             for touch in touches:
-                off_m = self._off_m(touch)
+                off_m = self._off_m(touch.object_id, touch.point_m)
                 if off_m > FAR_M:
                     self.n_touches_off += 1
                     if touch.hand not in self._hands_named:
                         self._hands_named.add(touch.hand)
                         self._warn_of_touch(touch, off_m)
+
+    def in_strike(self, object_id: str, point_m: Point) -> None:
+        """Warn about the first strike that is too far off. Warns: SceneWarning."""
+        if self._is_strike_named:
+            return
+        off_m = self._off_m(object_id, point_m)
+        if off_m > FAR_M:
+            self._is_strike_named = True
+            warn_of(f"a strike of {_far(object_id, point_m, off_m)} Further strikes are not checked.")
 
     def in_sources(self, source_ids: Sequence[str]) -> None:
         """Warn once if nothing vibrates. Warns: SceneWarning."""
@@ -149,18 +160,24 @@ class LikelyMistakes:
             f"them, or bake it by bake_object and add it by session.spawn.{last}"
         )
 
-    def _off_m(self, touch: Touch) -> float:
-        """Distance of a touch from the box around its object [m]. Searching the surface would take too long."""
-        own_m = self._state.graph.pose(touch.object_id).to_own([touch.point_m])
-        return float(distances(bounds_of(own_m), self._state.objects[touch.object_id].geometry.mesh.bounds_m))
+    def _off_m(self, object_id: str, point_m: Point) -> float:
+        """Distance of a point from the box around an object [m]. Searching the surface would take too long."""
+        own_m = self._state.graph.pose(object_id).to_own([point_m])
+        return float(distances(bounds_of(own_m), self._state.objects[object_id].geometry.mesh.bounds_m))
 
     def _warn_of_touch(self, touch: Touch, off_m: float) -> None:
-        point = ", ".join(f"{x:g}" for x in touch.point_m)
         warn_of(
-            f"hand {touch.hand!r} touches {touch.object_id!r} at ({point}), {off_m:.3g} m off the box around it, more "
-            f"than {FAR_M} m; point_m is in the world [m], where the object is in this frame. "
+            f"hand {touch.hand!r} touches {_far(touch.object_id, touch.point_m, off_m)} "
             "`session.stats.touches_off_surface` counts such touches."
         )
+
+
+def _far(object_id: str, point_m: Point, off_m: float) -> str:
+    point = ", ".join(f"{x:g}" for x in point_m)
+    return (
+        f"{object_id!r} at ({point}), {off_m:.3g} m off the box around it, more than {FAR_M} m; point_m is in the "
+        "world [m], where the object is in this frame."
+    )
 
 
 def warn_if_other_actuator(bundle: HapticBundle, actuator: ActuatorProfile) -> None:

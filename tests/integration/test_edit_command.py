@@ -290,3 +290,19 @@ def test_locked_loops_stay_when_the_scene_is_baked_again(kitchen: Callable[..., 
     assert after.objects["fan"].states == before.objects["fan"].states
     radio = next(iter(before.loops["radio"]))
     assert not np.array_equal(after.loops["radio"][radio].tactile.samples, before.loops["radio"][radio].tactile.samples)
+
+
+def test_a_sound_that_cannot_reach_its_level_warns_as_convert_does(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A click cannot be amplified to the level of a steady sound; a steady hum needs no warning."""
+    folder, t = kitchen(), np.arange(4 * 44100) / 44100
+    click, hum = tmp_path / "click.wav", tmp_path / "hum.wav"
+    write_wav(click, (0.9 * (np.arange(len(t)) == 44100)).astype(np.float32), 44100)
+    write_wav(hum, (0.5 * np.sin(2 * np.pi * 110.0 * t)).astype(np.float32), 44100)
+    for sound, is_weak in ((click, True), (hum, False)):
+        capsys.readouterr()
+        assert main(["edit", str(folder), "sound", "radio", str(sound), "-q"]) == 0
+        said = " ".join(capsys.readouterr().err.split())
+        assert ("dB weaker than planned for its intensity" in said) == is_weak, said
+        assert ("warning: radio, " in said) == is_weak, said

@@ -2,6 +2,7 @@
 
 from scene2hap.audio.conversion.batch import Failure, convert_files
 from scene2hap.audio.conversion.clips import convert_clip
-from scene2hap.audio.conversion.stream import FORMATS, Conversion, LevelWarning, convert
+from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert
+from scene2hap.audio.haptic_loop import LevelWarning
 
 __all__ = ["FORMATS", "Conversion", "Failure", "LevelWarning", "convert", "convert_clip", "convert_files"]

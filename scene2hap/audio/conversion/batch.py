@@ -12,12 +12,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from scene2hap.audio.conversion.stream import FORMATS, Conversion, LevelWarning, convert, settled
+from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, settled
+from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.counted import first_of
 from scene2hap.errors import AudioError, Scene2HapError
 
 _MOST_NAMED = 3
+_READ = frozenset({*FORMATS, ".aif", ".aiff", ".au", ".caf", ".oga", ".opus", ".rf64", ".w64"})
+"""Suffixes of sound files, which are converted in folders. A file that is given by itself may have any suffix."""
 
 Progress = Callable[[str, int, int], None]
 """Called with (file, number of files done, number of all files)."""
@@ -53,7 +56,7 @@ def convert_files(
     """Convert files, and all files in folders, in the order given.
 
     Parameters:
-    output : a file, if there is one source, which is no folder, and this path ends in a suffix of `FORMATS`; otherwise
+    output : a file, if there is one source, which is no folder, and this path has a suffix and is no folder; otherwise
         a folder. There, files keep their name and their path below the source folder, with the new `suffix`.
     pictures : draw a PNG beside each output file; workers : number of processes, None for one per processor; a script
         that uses several needs ``if __name__ == "__main__":``; the rest : as for `convert`.
@@ -65,7 +68,7 @@ def convert_files(
     jobs, failures = _planned([Path(source) for source in sources], Path(output), suffix)
     if not jobs and not failures:
         given = first_of([repr(str(source)) for source in sources], _MOST_NAMED) or "an empty list"
-        raise AudioError(f"no sound file in {given}. Give WAV, FLAC, Ogg or MP3, or a folder of them.")
+        raise AudioError(f"no sound file in {given}. Give WAV, FLAC, Ogg, MP3 or AIFF, or a folder of them.")
     outcomes: dict[int, Conversion | Failure] = dict(failures)
     tell = progress or (lambda name, done, total: None)
     for index, outcome in _outcomes(jobs, workers, pictures, settings):
@@ -119,10 +122,9 @@ def _planned(sources: Sequence[Path], output: Path, suffix: str) -> tuple[dict[i
     """Return the job of each file, and the failures of files that cannot be converted."""
     if suffix not in FORMATS:
         raise AudioError(f"suffix is {suffix!r}; it must be one of {', '.join(FORMATS)}.")
-    names_a_file = output.suffix.lower() in FORMATS and not output.is_dir()
-    if names_a_file and len(sources) == 1 and not sources[0].is_dir():
+    if len(sources) == 1 and not sources[0].is_dir() and output.suffix and not output.is_dir():
         return {0: _Job(sources[0], output)}, {}
-    if names_a_file or output.is_file():
+    if (output.suffix.lower() in FORMATS and not output.is_dir()) or output.is_file():
         raise AudioError(f"{output} is one file, and there is more than one to make. Give a folder.")
     jobs: dict[int, _Job] = {}
     failures: dict[int, Failure] = {}
@@ -145,5 +147,5 @@ def _found(sources: Sequence[Path], output: Path) -> Iterator[tuple[Path, Path]]
             continue
         for path in sorted(source.rglob("*")):
             is_output = path.resolve().is_relative_to(output.resolve()) and output.resolve() != source.resolve()
-            if path.suffix.lower() in FORMATS and path.is_file() and not is_output:
+            if path.suffix.lower() in _READ and path.is_file() and not is_output:
                 yield path, path.relative_to(source)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -28,7 +28,7 @@ from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import Mixdown, opened_sound, require_finite, written_whole
-from scene2hap.audio.haptic_loop import NOTICED_DB, Sensation
+from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
@@ -69,10 +69,6 @@ _LARGEST_WAV_BYTES = 0xFFFF_0000
 """Lengths in a WAV header have 32 bits. Longer files become RF64 (EBU Tech 3306), which most programs read."""
 
 
-class LevelWarning(UserWarning):
-    """A converted file is felt weaker than planned for its intensity."""
-
-
 @dataclass(frozen=True)
 class Conversion:
     """Result of converting a file. Peaks are absolute samples [re full scale], before clipping.
@@ -102,13 +98,9 @@ class Conversion:
     @property
     def level_doubt(self) -> str:
         """The sentence that says by how much the planned level is missed; empty within `NOTICED_DB`."""
-        missing_db = 0.0 if self.level_db is None else (self.asked_level_db or 0.0) - self.level_db
-        if missing_db <= NOTICED_DB:
+        if self.level_db is None:
             return ""
-        return (
-            f"{self.output} is felt {missing_db:.0f} dB weaker than planned for its intensity, since its peaks or the "
-            "actuator allow no more. Give a smaller intensity, or a sound that is steadier."
-        )
+        return level_doubt(str(self.output), self.level_db, self.asked_level_db or 0.0)
 
 
 def convert(
@@ -143,9 +135,9 @@ def convert(
     source, output = Path(source), Path(output)
     built, context = settled(converter, actuator, intensity)
     drawn = Path(picture) if picture is not None else None
-    _check_target(source, output, overwrite=overwrite)
+    _check_target(source, output, FORMATS, overwrite=overwrite)
     if drawn is not None:
-        _check_target(source, drawn, overwrite=overwrite)
+        _check_target(source, drawn, [".png"], overwrite=overwrite)
     with opened_sound(source) as file, written_whole(output) as beside:
         if not raw and getattr(built, "follows_target", False):
             context = _looked_at(file, context)
@@ -392,10 +384,12 @@ def _opened_for_writing(output: Path, beside: Path, felt: _Felt) -> soundfile.So
         ) from cause
 
 
-def _check_target(source: Path, output: Path, *, overwrite: bool) -> None:
-    known = {*FORMATS, ".png"}
-    if output.suffix.lower() not in known:
-        raise AudioError(f"{output} has no suffix of a known format; it must end in one of {', '.join(FORMATS)}.")
+def _check_target(source: Path, output: Path, suffixes: Collection[str], *, overwrite: bool) -> None:
+    if output.suffix.lower() not in suffixes:
+        known = ", ".join(suffixes)
+        raise AudioError(
+            f"{output} has no suffix of a known format; it must end in one of {known}, or be a folder that exists."
+        )
     if output.exists() and source.exists() and output.samefile(source):
         raise AudioError(f"{output} is the sound itself. Choose another name for what is made of it.")
     if output.is_dir():

@@ -21,7 +21,7 @@ from scene2hap.audio.analysis import trim_silence
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.select import MIN_DURATION_S
-from scene2hap.errors import AudioError, ConfigError
+from scene2hap.errors import AudioError, ConfigError, reason_of
 from scene2hap.text_files import draft_of
 
 MAX_CLIP_S = 60.0
@@ -54,7 +54,7 @@ def read_checked(path: Path, credit: Credit) -> AudioClip:
     try:
         info = soundfile.info(path)
     except (soundfile.SoundFileError, TypeError, OSError) as cause:
-        raise AudioError(f"{credit.title!r} is not a readable sound ({cause}).") from cause
+        raise AudioError(f"{credit.title!r} is not a readable sound ({reason_of(cause)}).") from cause
     low, high = SAMPLE_RATES_HZ
     if not (low <= info.samplerate <= high and info.channels <= MAX_CHANNELS):
         raise AudioError(

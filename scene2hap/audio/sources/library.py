@@ -13,7 +13,7 @@ from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.word_stems import noun_phrase, stems
-from scene2hap.errors import AudioError, ConfigError
+from scene2hap.errors import AudioError, ConfigError, reason_of
 from scene2hap.haptics import VibrationDescription
 from scene2hap.text_files import read_small_text
 
@@ -81,7 +81,9 @@ class FolderLibrary:
             # utf-8-sig: spreadsheets put a byte-order mark in front.
             text = read_small_text(index)
         except (OSError, ValueError) as cause:
-            raise ConfigError(f"{index}: cannot be read as UTF-8 text ({cause}). Save it as CSV in UTF-8.") from cause
+            raise ConfigError(
+                f"{index}: cannot be read as UTF-8 text ({reason_of(cause)}). Save it as CSV in UTF-8."
+            ) from cause
         table = csv.DictReader(text.splitlines())
         try:
             rows = list(table)

@@ -18,7 +18,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
-from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss
+from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
 from scene2hap.llm.wrappers.stack import Spec, Wrapper, identity
@@ -148,7 +148,9 @@ def _read(path: Path) -> list[_Entry]:
     try:
         content = read_small(path, MAX_RECORDING_BYTES)
     except (OSError, ValueError) as cause:
-        raise ConfigError(f"cannot read the recording {path}: {cause}. Make one with RecordingBackend.") from cause
+        raise ConfigError(
+            f"cannot read the recording {path}: {reason_of(cause)}. Make one with RecordingBackend."
+        ) from cause
     return list(_entries(path, content))
 
 
@@ -185,4 +187,4 @@ def _ends_in_newline(file: BinaryIO) -> bool:
 
 
 def _cannot_write(path: Path, cause: OSError) -> ConfigError:
-    return ConfigError(f"cannot write the recording {path}: {cause}. Give a file in a folder that exists.")
+    return ConfigError(f"cannot write the recording {path}: {reason_of(cause)}. Give a file in a folder that exists.")

@@ -18,7 +18,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, BinaryIO, Literal
 
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, reason_of
 from scene2hap.llm.batch.service import COMPLETIONS, MOST_BYTES, MOST_REQUESTS
 from scene2hap.text_files import write_whole
 
@@ -80,8 +80,8 @@ class BatchFolder:
                 row = BatchRow(**{**fields, "requests": tuple(fields["requests"]), "faults": tuple(fields["faults"])})
             except (OSError, ValueError, TypeError, KeyError) as cause:
                 raise ConfigError(
-                    f"{path} cannot be read: {cause}. It lists the questions that are paid for; restore it from a "
-                    "backup, or move the folder away to send all questions again."
+                    f"{path} cannot be read: {reason_of(cause)}. It lists the questions that are paid for; restore "
+                    "it from a backup, or move the folder away to send all questions again."
                 ) from cause
             found.append(row)
         return found
@@ -133,7 +133,9 @@ class BatchFolder:
             raise self._unwritable(cause) from cause
 
     def _unwritable(self, cause: OSError) -> ConfigError:
-        return ConfigError(f"cannot write the batches in {self.path}: {cause}. Give a folder that can be written.")
+        return ConfigError(
+            f"cannot write the batches in {self.path}: {reason_of(cause)}. Give a folder that can be written."
+        )
 
 
 class RequestWriter:
@@ -159,7 +161,9 @@ class RequestWriter:
                 self._file = (self._folder.path / f"{self._number:04d}.input.jsonl").open("wb")
             self._file.write(content)
         except OSError as cause:
-            raise ConfigError(f"cannot write {self._folder.path}: {cause}. Free some space, and run again.") from cause
+            raise ConfigError(
+                f"cannot write {self._folder.path}: {reason_of(cause)}. Free some space, and run again."
+            ) from cause
         self._keys.append(key)
         self._n_bytes += len(content)
         both = (self._estimate_usd, estimate_usd)

@@ -21,7 +21,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, reason_of
 from scene2hap.llm.protocol import COMPONENTS, Component
 from scene2hap.llm.quoting import IS_DATA, as_data
 from scene2hap.text_files import read_small_text
@@ -70,7 +70,9 @@ def _read(path: Path, component: Component) -> str:
         text = read_small_text(path)
         named = placeholders(text)
     except (OSError, ValueError) as cause:
-        raise ConfigError(f"prompt {path} cannot be used: {cause}. Write a brace as {{{{ or }}}}.") from cause
+        raise ConfigError(
+            f"prompt {path} cannot be used: {reason_of(cause)}. Write a brace as {{{{ or }}}}."
+        ) from cause
     known = placeholders(_built_in().templates[component])
     if named - known:
         raise ConfigError(

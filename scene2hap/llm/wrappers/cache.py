@@ -19,7 +19,7 @@ from filelock import AsyncFileLock
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap.calls import clear_construction
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, reason_of
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
 from scene2hap.llm.validation import find_fault
@@ -113,7 +113,7 @@ class CacheBackend(Wrapper):
             await lock.acquire()
         except (OSError, NotImplementedError) as cause:  # NotImplementedError: a file system without locks
             raise ConfigError(
-                f"cannot lock an answer in {self._folder}: {cause}. Give a folder that can be written."
+                f"cannot lock an answer in {self._folder}: {reason_of(cause)}. Give a folder that can be written."
             ) from cause
         try:
             yield
@@ -169,4 +169,4 @@ def _key(request: LLMRequest, identity: dict[str, Any]) -> str:
 
 
 def _cannot_write(folder: Path, cause: OSError) -> ConfigError:
-    return ConfigError(f"cannot write the cache {folder}: {cause}. Give a folder that can be written.")
+    return ConfigError(f"cannot write the cache {folder}: {reason_of(cause)}. Give a folder that can be written.")

@@ -81,7 +81,8 @@ class EmbreeRenderer:
         self._corners = np.concatenate([actor.triangles_m for actor in stage.actors])
         self._material = np.concatenate([actor.material for actor in stage.actors])
         uv = np.concatenate([actor.uv for actor in stage.actors]).transpose(2, 1, 0)
-        self._uv = np.stack((uv[:, 0], uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]), axis=1)
+        # In one piece, since `take` copies the whole of any other array, at each call.
+        self._uv = np.ascontiguousarray(np.stack((uv[:, 0], uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]), axis=1))
         self._paint = stage.palette.rgb[self._material] * 255
         self._is_patterned = np.append(stage.palette.is_patterned[self._material], False)
         self._has_cutouts = bool(stage.palette.is_cutout.any())

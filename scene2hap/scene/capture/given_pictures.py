@@ -24,7 +24,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.calls import clear_calls
-from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.cache import MEMORY
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
@@ -237,7 +237,7 @@ def _rows(index: Path) -> list[Any]:
     except OSError as cause:
         raise SceneError(f"{str(index)!r} cannot be read: {cause.strerror}. Give the folder that holds it.") from cause
     except (ValueError, RecursionError) as cause:
-        raise SceneFormatError(f"{str(index)!r} is no JSON that can be read: {cause}.") from cause
+        raise SceneFormatError(f"{str(index)!r} is no JSON that can be read: {reason_of(cause)}.") from cause
     if not isinstance(rows, list):
         raise SceneFormatError(f"{str(index)!r} holds {checks.described(rows)}; it must be a list of pictures.")
     return rows
@@ -249,7 +249,7 @@ def _content(file: bytes | Path, name: str) -> bytes:
     try:
         return read_small(file, MAX_BYTES)
     except (OSError, ValueError) as cause:
-        raise SceneError(f"{name} cannot be read from {str(file)!r}: {cause}.") from cause
+        raise SceneError(f"{name} cannot be read from {str(file)!r}: {reason_of(cause)}.") from cause
 
 
 def _as_shown(file: bytes, name: str) -> bytes:

@@ -15,6 +15,7 @@ from scene2hap.scene.capture.png import png
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import shells
 from scene2hap.scene.capture.views import axes_of
+from scene2hap.scene.from_above import NOTHING, HighestSurface
 from scene2hap.scene.images import ImageSet
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -69,22 +70,43 @@ def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:
     scale = (width_px - 2 * _MARGIN) / extent.max()
     edges = np.ceil(extent * scale).astype(int) + 2 * _MARGIN
     cut = (low @ up) + _CUT * float((high - low) @ up)
-    plan = Image.new("RGB", (int(edges[0]), int(edges[1]) + _TITLE), BACKGROUND_RGB)
-    draw = ImageDraw.Draw(plan)
     triangles = np.concatenate([actor.triangles_m for actor in stage.actors]).astype(np.float64)
-    colors = np.concatenate([_flat_colors(stage, number) for number in range(len(stage.actors))])
     heights = (triangles @ up).max(axis=1)
-    flat = (triangles @ to_plan.T - origin) * scale + (_MARGIN, _MARGIN + _TITLE)
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    lengths = np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
-    light = 0.6 + 0.4 * np.abs(normals @ up) / lengths
     shown = np.flatnonzero(heights <= cut) if (heights <= cut).any() else np.arange(len(heights))
-    for number in shown[np.argsort(heights[shown], kind="stable")]:
-        color = tuple(int(channel) for channel in colors[number] * light[number])
-        draw.polygon([(float(x), float(y)) for x, y in flat[number]], fill=color)
+    flat = (triangles[shown] @ to_plan.T - origin) * scale + _MARGIN
+    highest = HighestSurface(int(edges[0]), int(edges[1]))
+    highest.add(np.concatenate((flat, (triangles[shown] @ up)[..., None]), axis=2), shown)
+    pixels = np.full((int(edges[1]) + _TITLE, int(edges[0]), 3), BACKGROUND_RGB, np.uint8)
+    seen = highest.top != NOTHING
+    pixels[_TITLE:][seen] = _colors(stage, triangles, up)[highest.top[seen]]
+    pixels[_TITLE:][_outlines(stage, highest)] //= 2
+    plan = Image.fromarray(pixels)
+    draw = ImageDraw.Draw(plan)
     _write(draw, (_MARGIN, 8), f"{scene.name}, seen from above", 17)
+    _draw_scale(draw, scale, plan.width)
     _write_names(draw, stage, to_plan, origin, scale, plan.size)
     return png(np.asarray(plan))
+
+
+def _draw_scale(draw: ImageDraw.ImageDraw, px_per_m: float, width_px: int) -> None:
+    """Draw a bar of a round length [m] beside the title, the longest of at most a fifth of the width."""
+    longest_m = width_px / 5 / px_per_m
+    power = 10.0 ** np.floor(np.log10(longest_m))
+    length_m = power * max(digit for digit in (1, 2, 5) if digit * power <= longest_m * (1 + 1e-9))
+    right, middle = width_px - _MARGIN, _TITLE // 2
+    left = right - round(length_m * px_per_m)
+    draw.rectangle((left, middle + 4, right - 1, middle + 7), fill=_INK)
+    _write(draw, (left, middle - 13), f"{length_m:g} m", 13)
+
+
+def _outlines(stage: Stage, highest: HighestSurface) -> NDArray[np.bool_]:
+    """Return the pixels whose right or lower neighbour shows another object. White things on white would be unseen."""
+    counts = [len(actor.triangles_m) for actor in stage.actors]
+    owner = np.append(np.repeat(np.arange(len(counts)), counts), NOTHING)[highest.top]
+    is_edge = np.zeros(owner.shape, bool)
+    is_edge[:, :-1] |= owner[:, :-1] != owner[:, 1:]
+    is_edge[:-1] |= owner[:-1] != owner[1:]
+    return is_edge
 
 
 def _write(draw: ImageDraw.ImageDraw, corner: tuple[float, float], text: str, size_px: int) -> None:
@@ -92,10 +114,15 @@ def _write(draw: ImageDraw.ImageDraw, corner: tuple[float, float], text: str, si
     draw.text(corner, shown, fill=_INK, font=font)
 
 
-def _flat_colors(stage: Stage, number: int) -> NDArray[np.float32]:
-    """Return one colour (m, 3), 0..255, per face of an object: its paint in the middle of the face."""
-    actor = stage.actors[number]
-    return stage.palette.rgb[actor.material] * stage.palette.pattern(actor.material, actor.uv.mean(axis=1)) * 255
+def _colors(stage: Stage, triangles: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Return one colour (n, 3) per triangle of a stage: its paint in the middle, darker the steeper the triangle is."""
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    lengths = np.maximum(np.linalg.norm(normals, axis=1), 1e-30)
+    light = 0.6 + 0.4 * np.abs(normals @ up) / lengths
+    palette = stage.palette
+    paint = [palette.rgb[one.material] * palette.pattern(one.material, one.uv.mean(axis=1)) for one in stage.actors]
+    colors: NDArray[np.uint8] = (np.concatenate(paint) * (255 * light[:, None])).astype(np.uint8)
+    return colors
 
 
 def _write_names(

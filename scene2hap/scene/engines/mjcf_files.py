@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.parsers import expat
 
-from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import read_bytes
 
@@ -179,7 +179,9 @@ class _Model:
             existing = [path for path in candidates if _is_there(path)]
         # A name that is too long, or a cycle of links, raises one of these errors.
         except (ValueError, OSError, RuntimeError) as cause:
-            raise SceneError(f"{wanted.place} wants {wanted.name!r}, which is no usable file name: {cause}.") from cause
+            raise SceneError(
+                f"{wanted.place} wants {wanted.name!r}, which is no usable file name: {reason_of(cause)}."
+            ) from cause
         beyond = [path for path in existing or candidates if not path.is_relative_to(self.root)]
         if beyond:
             self.outside.append((wanted, beyond[0]))
@@ -316,7 +318,7 @@ def _png_cells(path: Path) -> int:
         with path.open("rb") as file:
             start = file.read(24)
     except OSError as cause:
-        raise SceneError(f"{str(path)!r} cannot be read: {cause}.") from cause
+        raise SceneError(f"{str(path)!r} cannot be read: {reason_of(cause)}.") from cause
     if not start.startswith(b"\x89PNG\r\n\x1a\n"):
         return 0
     return int.from_bytes(start[16:20], "big") * int.from_bytes(start[20:24], "big")

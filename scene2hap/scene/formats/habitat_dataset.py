@@ -36,7 +36,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
-from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.printable import read_json, writable
 from scene2hap.scene import limits
 from scene2hap.scene.files import inside, read_bytes
@@ -486,7 +486,7 @@ def _resolved(path: Path) -> Path:
     try:
         return path.resolve()
     except (OSError, ValueError, RuntimeError) as cause:  # a zero byte, a cycle of links
-        raise SceneError(f"{str(path)!r} is no usable file name: {cause}.") from cause
+        raise SceneError(f"{str(path)!r} is no usable file name: {reason_of(cause)}.") from cause
 
 
 def _is_file(path: Path) -> bool:

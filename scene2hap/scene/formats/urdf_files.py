@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
-from scene2hap.errors import SceneError
+from scene2hap.errors import SceneError, reason_of
 from scene2hap.scene.files import holding_both
 
 _PACKAGES = ("package", "model")
@@ -39,7 +39,7 @@ class UrdfFiles:
         except (ValueError, OSError, RuntimeError) as cause:
             if isinstance(cause, SceneError):
                 raise
-            raise SceneError(f"{place} wants {name!r}, which is no usable file name: {cause}.") from cause
+            raise SceneError(f"{place} wants {name!r}, which is no usable file name: {reason_of(cause)}.") from cause
         if outside is None:
             raise SceneError(
                 f"{place} wants {name!r}; there is no such file. Copy it beside the scene, or give the folder that "

@@ -7,8 +7,23 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scene2hap import AudioClip, Credit, FunctionBackend, HapticBundle, LLMRequest, Override, bake, materials, rebake
-from scene2hap.errors import UnknownObject
+from scene2hap import (
+    AudioClip,
+    Box,
+    Credit,
+    FunctionBackend,
+    HapticBundle,
+    LLMRequest,
+    Override,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    bake,
+    materials,
+    rebake,
+)
+from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scripted_backend import SCENE, Scripted
 
 # Some scenes here have objects in the air.
@@ -98,3 +113,30 @@ def test_rebake_passes_on_the_inference_report() -> None:
     bake(SCENE, {"llm": answering()}, on_report=accounts.append)
     (account,) = accounts
     assert account.calls["object_analyzer"] == 3
+
+
+@pytest.mark.parametrize("is_old", [False, True])
+def test_the_names_of_materials_are_kept_for_rebake(tmp_path: Path, is_old: bool) -> None:
+    """The name of the box says nothing; its material was read from the name of a texture. Bundles of earlier versions
+    lack these names, and load."""
+    looks = Appearance((FaceMaterial((0.4, 0.3, 0.1, 1.0), name="walnut"),), np.zeros(12, np.int32))
+    thing = SceneObject("Object_7", pose=Pose((0, 0.3, 0)), geometry=Box((0.6, 0.6, 0.6)), appearance=looks)
+    fan = SceneObject("fan", pose=Pose((1, 0.3, 0)), geometry=Box((0.4, 0.6, 0.3)))
+    folder = bake(SceneSnapshot.build([thing, fan])).save(tmp_path / "room.bundle")
+    path = folder / "scene.json"
+    document = json.loads(path.read_text())
+    assert document["objects"][0]["material_names"] == ["walnut"]
+    if is_old:
+        del document["objects"][0]["material_names"]
+        path.write_text(json.dumps(document))
+    again = rebake(folder, objects=["Object_7"])
+    assert again.objects["Object_7"].material_category == ("unknown" if is_old else "walnut")
+
+
+def test_names_of_materials_are_given_without_looks() -> None:
+    named = SceneObject("Object_7", geometry=Box((0.6, 0.6, 0.6)), material_names=["walnut"])
+    fan = SceneObject("fan", pose=Pose((1, 0, 0)), geometry=Box((0.4, 0.6, 0.3)))
+    assert bake(SceneSnapshot.build([named, fan])).objects["Object_7"].material_category == "walnut"
+    for wrong in ("walnut", [3], None):
+        with pytest.raises(SceneError, match=r"material_names of object 'Object_7'.*\['oak'\]"):
+            SceneObject("Object_7", geometry=Box((1, 1, 1)), material_names=wrong)

@@ -2,12 +2,14 @@
 
 import asyncio
 import json
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from pathlib import Path
+from typing import Any, ClassVar
 
 import pytest
 
-from scene2hap import LLMReply, LLMRequest, infer_haptics, materials
+from scene2hap import CacheBackend, LLMReply, LLMRequest, RecordingBackend, infer_haptics, materials
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss
 from scripted_backend import SCENE, Scripted, run
 
@@ -69,7 +71,12 @@ def test_failing_describer_keeps_the_state() -> None:
 
 @pytest.mark.parametrize(
     "refusal",
-    [BudgetExceeded("no money left"), ReplayMiss("no answer"), BackendUnavailable("the key is refused")],
+    [
+        BudgetExceeded("no money left"),
+        ReplayMiss("no answer"),
+        BackendUnavailable("the key is refused"),
+        OSError("of another library"),
+    ],
     ids=lambda error: type(error).__name__,
 )
 def test_error_common_to_all_calls_ends_the_run_after_running_calls(refusal: Exception) -> None:
@@ -89,6 +96,30 @@ def test_error_common_to_all_calls_ends_the_run_after_running_calls(refusal: Exc
         run(backend, {"concurrency": 2})
     assert backend.answered == len(backend.asked)  # running calls were completed
     assert not [request for request in backend.asked if request.component == "vibration_describer"]
+
+
+@pytest.mark.parametrize("wrapper", [CacheBackend, RecordingBackend])
+def test_an_answer_that_is_paid_for_is_stored_before_a_foreign_error_is_raised(
+    tmp_path: Path, wrapper: Callable[[Any, Path], Any]
+) -> None:
+    """One of two calls at a time fails while the answer to the other one is on its way."""
+
+    class Failing(Scripted):
+        identity: ClassVar = {"model": "scripted"}
+
+        async def complete(self, request: LLMRequest) -> LLMReply:
+            if request.component == "object_analyzer" and len(self.asked) > 1:
+                raise OSError("of another library")
+            reply = await super().complete(request)
+            await asyncio.sleep(0.05)
+            return reply
+
+    backend, kept = Failing(), tmp_path / "kept"
+    with pytest.raises(OSError, match="of another library"):
+        run(wrapper(backend, kept), {"concurrency": 2})
+    assert [request.component for request in backend.asked] == ["scene_analyzer", "object_analyzer"]
+    stored = list(kept.glob("*.json")) if kept.is_dir() else kept.read_text().splitlines()
+    assert len(stored) == 2
 
 
 def test_lost_connection_affects_only_the_running_request() -> None:

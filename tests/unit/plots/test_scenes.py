@@ -20,7 +20,7 @@ from scene2hap import (
     UserProfile,
 )
 from scene2hap.errors import BundleError, SessionError, UnknownObject
-from scene2hap.scene.from_above import NOTHING, TopView
+from scene2hap.scene.from_above import NOTHING, HighestSurface, TopView
 from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
 
 figures = pytest.importorskip("matplotlib.figure", reason="needs the extra plots")
@@ -304,3 +304,24 @@ def test_the_legend_of_a_flat_map_is_below_the_label_of_its_axis() -> None:
     figure.savefig(io.BytesIO(), format="png")
     axes = figure.axes[0]
     assert axes.get_legend().get_window_extent().y1 < axes.xaxis.label.get_window_extent().y0
+
+
+def test_the_highest_triangle_covers_each_cell() -> None:
+    """Compared with barycentric coordinates of every cell in every triangle, slivers and vertical triangles too."""
+    rng = np.random.default_rng(8)
+    triangles = rng.uniform(-3.0, 15.0, (60, 3, 3))
+    triangles[:10, 2, :2] = triangles[:10, 1, :2] * 0.3 + triangles[:10, 0, :2] * 0.7
+    triangles[10:20, 2, :2] = triangles[10:20, 1, :2] + 0.02
+    found = HighestSurface(12, 9)
+    found.add(triangles[:30], np.arange(30))
+    found.add(triangles[30:], np.arange(30, 60))
+    best, top = np.full((9, 12), -np.inf), np.full((9, 12), NOTHING)
+    for row, column in np.ndindex(9, 12):
+        for number, corners in enumerate(triangles):
+            weights = np.linalg.lstsq(np.vstack([corners[:, :2].T, np.ones(3)]), [column + 0.5, row + 0.5, 1.0])[0]
+            height = weights @ corners[:, 2]
+            flat = abs(np.linalg.det(np.vstack([corners[:, :2].T, np.ones(3)]))) < 1e-9
+            if not flat and weights.min() >= 0 and height > best[row, column]:
+                best[row, column], top[row, column] = height, number
+    np.testing.assert_array_equal(found.top, top)
+    np.testing.assert_allclose(found.height, best)

@@ -100,3 +100,17 @@ def test_one_update_in_16_is_checked_after_the_first_16(session: HapticSession) 
             session.update(touches=off)
     assert len(caught) == 1
     assert session.stats.touches_off_surface == 10
+
+
+@pytest.mark.parametrize(("height_m", "is_off"), [(0.72, False), (0.769, False), (0.7711, True), (720.0, True)])
+def test_a_strike_more_than_5_cm_off_the_box_warns_once(session: HapticSession, height_m: float, is_off: bool) -> None:
+    session.update(touches=[Touch("left", "table", (0.3, 0.72, 0.1))])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        session.strike("table", (0.3, height_m, 0.1))
+        session.strike("table", (0.3, height_m, 0.1))
+    assert len(caught) == is_off
+    if is_off:
+        assert caught[0].category is SceneWarning
+        assert caught[0].filename == __file__
+        assert str(caught[0].message).startswith(f"a strike of 'table' at (0.3, {height_m:g}, 0.1), ")

@@ -19,7 +19,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from scene2hap import checks
-from scene2hap.errors import BackendUnavailable, BadAnswer
+from scene2hap.errors import BackendUnavailable, BadAnswer, reason_of
 
 CONTRACT = "scene2hap/text-to-audio"
 VERSION = 1
@@ -64,7 +64,9 @@ def read_reply(folder: Path, scrub: Callable[[str], str] = str) -> Reply:
     try:
         raw = _content(folder / REPLY_NAME, _MAX_REPLY_BYTES)
     except OSError as cause:
-        raise BadAnswer(f"the generator left no {REPLY_NAME} ({cause}). See docs/sound-sources.md.", "") from cause
+        raise BadAnswer(
+            f"the generator left no {REPLY_NAME} ({reason_of(cause)}). See docs/sound-sources.md.", ""
+        ) from cause
     text = scrub(raw.decode("utf-8", "replace"))
     try:
         reply = Reply.model_validate(json.loads(text))
@@ -95,7 +97,7 @@ def read_file(folder: Path, name: str, max_bytes: int) -> bytes:
     try:
         return _content(folder / name, max_bytes)
     except OSError as cause:
-        raise BadAnswer(f"the generator's file {name!r} cannot be read: {cause}.", name) from cause
+        raise BadAnswer(f"the generator's file {name!r} cannot be read: {reason_of(cause)}.", name) from cause
 
 
 def _content(path: Path, max_bytes: int) -> bytes:

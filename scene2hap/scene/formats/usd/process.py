@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from scene2hap import errors
-from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.tree import AuthoredScene
 
@@ -73,7 +73,9 @@ def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
             check=False,
         )
     except OSError as cause:
-        raise SceneError(f"{path.name!r} is not read, since no process can be started for it: {cause}.") from cause
+        raise SceneError(
+            f"{path.name!r} is not read, since no process can be started for it: {reason_of(cause)}."
+        ) from cause
     if done.returncode != 0:
         raise SceneFormatError(f"{path.name!r} cannot be read as USD: {_failure(done)} The file may be broken.")
     answer: Answer = pickle.loads(done.stdout)

@@ -81,3 +81,25 @@ def test_batch_refuses_invalid_arguments_before_writing_any_file(tmp_path: Path)
     with pytest.raises(ConfigError, match="no kind 'nope'"):
         audio.convert_files([source], tmp_path / "out", converter="nope")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.wav", "empty"]
+
+
+def test_folders_of_other_kinds_of_sound_are_converted(tmp_path: Path) -> None:
+    write(tmp_path / "in" / "hum.aiff")
+    write(tmp_path / "in" / "buzz.au")
+    (tmp_path / "in" / "notes.txt").write_text("no sound")
+    made = audio.convert_files([tmp_path / "in"], tmp_path / "out", workers=1)
+    assert [outcome.source.name for outcome in made] == ["buzz.au", "hum.aiff"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["buzz.wav", "hum.wav"]
+
+
+@pytest.mark.parametrize("name", ["felt.xyz", "felt.png"])
+def test_an_output_file_of_unknown_format_is_refused(tmp_path: Path, name: str) -> None:
+    """It became a folder of this name, without a word."""
+    (failure,) = audio.convert_files([write(tmp_path / "hum.wav")], tmp_path / name)
+    assert isinstance(failure, Failure)
+    assert "must end in one of .wav, .flac, .ogg, .mp3, or be a folder that exists" in failure.reason
+    assert not (tmp_path / name).exists()
+    (tmp_path / name).mkdir()
+    (made,) = audio.convert_files([tmp_path / "hum.wav"], tmp_path / name)
+    assert isinstance(made, Conversion)
+    assert made.output == tmp_path / name / "hum.wav"

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from scene2hap import SceneSnapshot
+from scene2hap import Pose, SceneSnapshot
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.capture.cache import MEMORY
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
@@ -179,6 +179,40 @@ def test_a_plan_needs_no_renderer_and_names_everything_but_the_floor(monkeypatch
     assert 40 * 40 > blue.sum() > 600
     middle = np.argwhere(blue).mean(axis=0)
     np.testing.assert_allclose(middle, (34 + 408, 808), atol=8)
+
+
+MAST = box("mast", (0.1, 4, 0.1), (1.9, 2, 0.9))
+"""Higher than everything else, so that a plan cuts nothing else off."""
+
+
+def test_a_plan_shows_what_is_on_top_at_each_place() -> None:
+    """A tray above the low end of a ramp, whose high end is higher than the tray."""
+    ramp = replace(box("ramp", (4, 0.1, 2), (0, 0, 0)), pose=Pose.from_euler((0, 0, 0), (0, 0, np.pi / 6)))
+    tray = replace(box("tray", (0.8, 0.1, 0.8), (-1.2, 0, 0)), appearance=painted((0.0, 0.0, 1.0, 1.0)))
+    plan = pixels(plan_view(scene(ramp, tray, MAST), width_px=816))
+    is_blue = (plan[..., 2] > 200) & (plan[..., 0] < 20)
+    # The ramp is 4 cos 30 degrees + 0.1 sin 30 degrees wide; the name covers some of the tray.
+    whole = (0.8 * 800 / (4 * np.cos(np.pi / 6) + 0.05)) ** 2
+    assert 0.85 * whole < is_blue.sum() < whole
+
+
+@pytest.mark.parametrize(("width_m", "bar_m"), [(4.0, 0.5), (5.1, 1.0), (0.3, 0.05), (260.0, 50.0)])
+def test_a_plan_has_a_bar_of_a_round_length(width_m: float, bar_m: float) -> None:
+    """The bar ends at the margin on the right; 800 pixels show the whole width."""
+    plan = pixels(plan_view(scene(box("floor", (width_m, 0.1 * width_m, 0.5 * width_m), (0, 0, 0))), width_px=816))
+    row = (plan[17 + 5] == (0x22, 0x31, 0x3F)).all(axis=1)
+    bar = np.flatnonzero(row[400:]) + 400  # the title is on the left
+    assert bar[-1] == plan.shape[1] - 8 - 1
+    assert len(bar) == bar[-1] - bar[0] + 1 == pytest.approx(bar_m / width_m * 800, abs=1)
+
+
+def test_a_plan_outlines_white_on_white() -> None:
+    white = painted((1.0, 1.0, 1.0, 1.0))
+    floor = replace(box("floor", (4, 0.1, 2), (0, 0, 0)), appearance=white)
+    tray = replace(box("tray", (0.8, 0.1, 0.8), (-1.2, 0.1, 0)), appearance=white)
+    plan = pixels(plan_view(scene(floor, tray, MAST), width_px=816)).astype(int)
+    row = plan[34 + 8 + 200 - 60, 20:700].sum(axis=1)
+    np.testing.assert_allclose(np.flatnonzero(row < 0.6 * row.max()) + 20, [8 + 80, 8 + 240], atol=2)
 
 
 @pytest.fixture(autouse=True)

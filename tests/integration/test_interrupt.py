@@ -1,0 +1,82 @@
+"""Ctrl-C ends the program quietly with status 130: during imports, in a command, and where Python drops exceptions."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for one process")
+
+# Python ends an interrupted program by the signal itself if the interrupt came within `exec` or `eval`; shells report
+# 130 for both.
+ENDS = {130, -signal.SIGINT}
+PREPARED = "import sys, types; import scene2hap.__main__ as program; cli = types.ModuleType('scene2hap.cli')"
+IN_CALLBACK = f"""{PREPARED}
+class Waits:
+    def __del__(self):
+        print("ready", flush=True)
+        import time
+        time.sleep(1)
+def run():
+    import time
+    Waits()
+    time.sleep(60)
+    return 0
+cli.main = run
+sys.modules["scene2hap.cli"] = cli
+sys.exit(program.main())
+"""
+DURING_IMPORT = """import sys, time
+class Finder:
+    def find_spec(self, name, path, target=None):
+        if name == "scene2hap.cli":
+            print("ready", flush=True)
+            time.sleep(60)
+sys.meta_path.insert(0, Finder())
+import scene2hap.__main__ as program
+sys.exit(program.main())
+"""
+
+
+def interrupted(*arguments: str, after_s: float | None = None) -> tuple[int, str]:
+    """Start Python, interrupt it after a time or its first line of output, and return its status and errors."""
+    process = subprocess.Popen(
+        [sys.executable, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    try:
+        if after_s is None:
+            assert process.stdout is not None
+            process.stdout.readline()
+            time.sleep(0.2)
+        else:
+            time.sleep(after_s)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=30)
+    finally:
+        process.kill()
+    return process.returncode, errors
+
+
+@pytest.mark.parametrize("script", [DURING_IMPORT, IN_CALLBACK], ids=["during imports", "in a destructor"])
+def test_an_interrupt_ends_the_program_quietly(script: str) -> None:
+    status, errors = interrupted("-c", script)
+    assert status in ENDS
+    assert errors == "scene2hap: interrupted.\n"
+
+
+@pytest.mark.parametrize("after_s", [0.3, 0.6, 1.0, 1.5, 2.0, 3.0])
+def test_a_command_ends_quietly_whenever_it_is_interrupted(after_s: float, tmp_path: Path) -> None:
+    """The command waits for an interrupt at its end."""
+    scene = Path(__file__).parents[2] / "scene2hap" / "demo" / "kitchen.glb"
+    arguments = ["bridge", "--port", "0"] if after_s > 2.5 else ["bake", str(scene), "-o", str(tmp_path / "bundle")]
+    status, errors = interrupted("-m", "scene2hap", *arguments, after_s=after_s)
+    assert status in {0, *ENDS}
+    assert "Traceback" not in errors
+    assert "ignored" not in errors
+    assert not (tmp_path / "bundle").exists() or status == 0
