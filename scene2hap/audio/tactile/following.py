@@ -6,7 +6,8 @@ the whole sound; if it is unknown, M is the mean of their difference over two se
 
     difference d = L_bed - L_sound        gain -(d - M) + sign(d - M) `FREE_DB`   where |d - M| > `FREE_DB`, else 0 dB
 
-A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms.
+A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms. A live stream has no time for
+it: its levels are those of the last 60 ms, weighted towards the present.
 
 The gain is bounded. A bed that needs more is next to nothing: the pitch has left its band, or another part of the sound
 plays alone. If M and the frequency at which the sound is felt are known, a sine at that frequency supplies the energy
@@ -20,6 +21,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
+from scene2hap.audio.tactile.onsets import STEP_S as LIVE_STEP_S
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
@@ -31,7 +33,11 @@ FREE_DB = 0.5
 """Deviation that stays uncorrected [dB]; twice this is below the 2.5 dB that touch notices."""
 MOST_LIFTED_DB, MOST_LOWERED_DB = 15.0, 20.0
 """Largest gain and attenuation [dB]; a weaker bed is mostly noise (assumed)."""
-_STEPS = 6
+_STEPS, _AHEAD = 6, 3
+"""Steps of a window, and those of them that lie ahead of the gain."""
+_LIVE_STEPS = 24
+"""Steps of a live window. They are as long as those of the stage of onsets, which gives whole steps, so that the
+follower need not wait."""
 _MEAN_S = 2.0
 _NOTHING = 1e-12
 """Energy below which there is neither sound nor bed (-120 dB re full scale)."""
@@ -40,22 +46,29 @@ _NOTHING = 1e-12
 class Following:
     """A `Stage` that keeps the level of a bed at a constant difference from that of its sound.
 
-    If `felt_hz` is given, a sine of this frequency replaces a bed that is too weak.
+    If `felt_hz` is given, a sine of this frequency replaces a bed that is too weak. If the stream is live, each gain
+    follows from the samples before it, and blocks of whole live steps come back at once.
     """
 
     def __init__(
-        self, bed: Stage, sample_rate_hz: float, bed_db: float | None = None, felt_hz: float | None = None
+        self,
+        bed: Stage,
+        sample_rate_hz: float,
+        bed_db: float | None = None,
+        felt_hz: float | None = None,
+        *,
+        is_live: bool = False,
     ) -> None:
         self._bed, self._bed_db = bed, bed_db
         self._sine = None if felt_hz is None or bed_db is None else Oscillator(felt_hz, sample_rate_hz)
         self._n_made = 0
-        self._step = max(1, round(STEP_S * sample_rate_hz))
+        step_s, self._n_ahead = (LIVE_STEP_S, 0) if is_live else (STEP_S, _AHEAD)
+        self._step = max(1, round(step_s * sample_rate_hz))
         self._waiting = np.empty(0)
         self._heard = StepEnergies(self._step), StepEnergies(self._step)
-        # Of sound and bed, by steps, from half a window before.
-        self._energies = np.zeros((2, _STEPS // 2))
-        window = hann(_STEPS)
+        window = hann(2 * _LIVE_STEPS)[:_LIVE_STEPS] if is_live else hann(_STEPS)
         self._window = window / window.sum()
+        self._energies = np.zeros((2, len(window) - self._n_ahead))  # of sound and bed, by steps, from before the start
         self._forget = float(np.exp(-STEP_S / _MEAN_S))
         self._means = np.zeros((2, 1))
         self._gains = np.empty((2, 0))  # of bed and sine, at the beginning of the next step
@@ -68,7 +81,7 @@ class Following:
         """Return the last samples, as if silence followed."""
         left = self._bed.rest()
         parts = [self._followed(np.zeros(len(left)), left)] if left.size else []
-        n_waiting, n_after = len(self._waiting), (_STEPS // 2 + 2) * self._step
+        n_waiting, n_after = len(self._waiting), (self._n_ahead + 2) * self._step
         silence = np.zeros(n_after)
         parts.append(self._followed(silence, silence)[:n_waiting])
         return np.concatenate(parts)
@@ -77,7 +90,7 @@ class Following:
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
         energies = [of.next(part) for of, part in zip(self._heard, (x, y), strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)
-        n = self._energies.shape[1] - _STEPS + 1
+        n = self._energies.shape[1] - len(self._window) + 1
         if n < 1:
             return np.empty(0)
         gains = np.concatenate([self._gains, self._next_gains(n)], axis=1)
@@ -88,7 +101,7 @@ class Following:
         return self._released(*gains)
 
     def _next_gains(self, n: int) -> Signal:
-        """Return the gains of bed and sine at the beginnings of n steps (2, n), each in the middle of a window."""
+        """Return the gains of bed and sine at the beginnings of n steps (2, n), each from its window."""
         # Sums of shifted rows, since the rounding of a convolution depends on the block size.
         sound, bed = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
         usual_db = self._usual_db(np.stack([sound, bed]))
