@@ -19,6 +19,7 @@ that is missing, so that the rise and fall of the whole sound is felt:
 from __future__ import annotations
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import lfilter
 
 from scene2hap.audio.tactile.onsets import STEP_S as LIVE_STEP_S
@@ -87,6 +88,8 @@ class Following:
         return np.concatenate(parts)
 
     def _followed(self, x: Signal, y: Signal) -> Signal:
+        if y.size == 0:
+            return y  # small live blocks seldom complete a step of the onset stage
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
         energies = [of.next(part) for of, part in zip(self._heard, (x, y), strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)
@@ -102,8 +105,8 @@ class Following:
 
     def _next_gains(self, n: int) -> Signal:
         """Return the gains of bed and sine at the beginnings of n steps (2, n), each from its window."""
-        # Sums of shifted rows, since the rounding of a convolution depends on the block size.
-        sound, bed = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
+        # Sums of windows one by one, since the rounding of a convolution depends on the block size.
+        sound, bed = (sliding_window_view(self._energies, len(self._window), axis=1) * self._window).sum(axis=2)
         usual_db = self._usual_db(np.stack([sound, bed]))
         lifts = _lifts_db(sound, bed, usual_db)
         gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
