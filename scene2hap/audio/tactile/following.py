@@ -9,6 +9,9 @@ the whole sound; if it is unknown, M is the mean of their difference over two se
 A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms. A live stream has no time for
 it: its levels are those of the last 60 ms, weighted towards the present.
 
+If the motion of a resonant actuator for its drive is known (`rendered`), L_bed is the level of this motion. A band
+beside the resonance is amplified as far as `HEADROOM_DB` allows, and the sine at the resonance supplies the rest.
+
 The gain is bounded. A bed that needs more is next to nothing: the pitch has left its band, or another part of the sound
 plays alone. If M and the frequency at which the sound is felt are known, a sine at that frequency supplies the energy
 that is missing, so that the rise and fall of the whole sound is felt:
@@ -40,6 +43,8 @@ _LIVE_STEPS = 24
 """Steps of a live window. They are as long as those of the stage of onsets, which gives whole steps, so that the
 follower need not wait."""
 _MEAN_S = 2.0
+HEADROOM_DB = 6.0
+"""Most by which the drive of a rendered bed may exceed the level of its sound [dB]; the sine supplies the rest."""
 _NOTHING = 1e-12
 """Energy below which there is neither sound nor bed (-120 dB re full scale)."""
 
@@ -48,7 +53,8 @@ class Following:
     """A `Stage` that keeps the level of a bed at a constant difference from that of its sound.
 
     If `felt_hz` is given, a sine of this frequency replaces a bed that is too weak. If the stream is live, each gain
-    follows from the samples before it, and blocks of whole live steps come back at once.
+    follows from the samples before it, and blocks of whole live steps come back at once. `rendered` is the motion of
+    the actuator for its drive; without it both are equal.
     """
 
     def __init__(
@@ -59,17 +65,19 @@ class Following:
         felt_hz: float | None = None,
         *,
         is_live: bool = False,
+        rendered: Stage | None = None,
     ) -> None:
-        self._bed, self._bed_db = bed, bed_db
+        self._bed, self._bed_db, self._rendered = bed, bed_db, rendered
         self._sine = None if felt_hz is None or bed_db is None else Oscillator(felt_hz, sample_rate_hz)
         self._n_made = 0
         step_s, self._n_ahead = (LIVE_STEP_S, 0) if is_live else (STEP_S, _AHEAD)
         self._step = max(1, round(step_s * sample_rate_hz))
         self._waiting = np.empty(0)
-        self._heard = StepEnergies(self._step), StepEnergies(self._step)
+        self._heard = [StepEnergies(self._step) for _ in range(2 if rendered is None else 3)]
         window = hann(2 * _LIVE_STEPS)[:_LIVE_STEPS] if is_live else hann(_STEPS)
         self._window = window / window.sum()
-        self._energies = np.zeros((2, len(window) - self._n_ahead))  # of sound and bed, by steps, from before the start
+        # Of sound, bed and rendered bed, by steps, from before the start.
+        self._energies = np.zeros((len(self._heard), len(window) - self._n_ahead))
         self._forget = float(np.exp(-STEP_S / _MEAN_S))
         self._means = np.zeros((2, 1))
         self._gains = np.empty((2, 0))  # of bed and sine, at the beginning of the next step
@@ -91,7 +99,8 @@ class Following:
         if y.size == 0:
             return y  # small live blocks seldom complete a step of the onset stage
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
-        energies = [of.next(part) for of, part in zip(self._heard, (x, y), strict=True)]
+        parts = (x, y) if self._rendered is None else (x, y, self._rendered.run(y))
+        energies = [of.next(part) for of, part in zip(self._heard, parts, strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)
         n = self._energies.shape[1] - len(self._window) + 1
         if n < 1:
@@ -106,11 +115,17 @@ class Following:
     def _next_gains(self, n: int) -> Signal:
         """Return the gains of bed and sine at the beginnings of n steps (2, n), each from its window."""
         # Sums of windows one by one, since the rounding of a convolution depends on the block size.
-        sound, bed = (sliding_window_view(self._energies, len(self._window), axis=1) * self._window).sum(axis=2)
+        sound, drive, *felt = (sliding_window_view(self._energies, len(self._window), axis=1) * self._window).sum(
+            axis=2
+        )
+        bed = felt[0] if felt else drive
         usual_db = self._usual_db(np.stack([sound, bed]))
         lifts = _lifts_db(sound, bed, usual_db)
-        gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
-        lacking = 10.0 ** (np.maximum(lifts, MOST_LIFTED_DB) / 10.0) - 10.0 ** (MOST_LIFTED_DB / 10.0)
+        most = np.full(n, MOST_LIFTED_DB)
+        if felt:
+            most = np.clip(HEADROOM_DB - _ratio_db(sound, drive), -MOST_LOWERED_DB, MOST_LIFTED_DB)
+        gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, most) / 20.0)
+        lacking = 10.0 ** (np.maximum(lifts, most) / 10.0) - 10.0 ** (most / 10.0)
         return np.stack([gains, np.sqrt(2.0 * (bed + _NOTHING) * lacking)])
 
     def _usual_db(self, around: Signal) -> Signal | float:
