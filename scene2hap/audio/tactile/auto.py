@@ -3,8 +3,9 @@
 People's preference depends on the sound (Sound2Hap, CHI 2026). A hum is recognized by its frequency, an engine by its
 roughness, a tick by its time. The output has two parts, a bed for the continuous sound and bursts for onsets:
 
-- The bed goes through `adaptive`. If the whole sound is known beforehand, the bed also follows its level (`following`),
-  which needs too much latency for a live stream.
+- The bed goes through `adaptive`, and follows the level of the whole sound (`following`). A live stream does so with no
+  latency. Its bed has the level of the whole sound, since the share of a band in it is unknown. On a resonant actuator
+  the motion has this level, since no equalizer follows as in files.
 - If the sound's strongest component is too low to be felt as a tone (the 49 Hz of a compressor on a phone's motor),
   that component modulates the bed: y = bed (1 + r / 2e), with its waveform r and its envelope e.
 - If it is too high, as in a beep of 2 kHz, only its envelope is felt, on a carrier (`envelope`). A shifted band would
@@ -23,17 +24,22 @@ from scene2hap.audio.heard import heard_sections
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
 from scene2hap.audio.tactile.envelope import EnvelopeCarrier
-from scene2hap.audio.tactile.following import Following
+from scene2hap.audio.tactile.following import HEADROOM_DB, Following
 from scene2hap.audio.tactile.onsets import WithOnsets
 from scene2hap.audio.tactile.roughness import Roughened
 from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
+from scene2hap.haptics import ActuatorProfile
 
 _CARRIERS_HZ = (100.0, 300.0)
 """Range of carriers [Hz], in which a burst of 8 ms still has a frequency, and touch is sensitive."""
 
 _ROOM = 0.5
-"""Gain if the level of the whole sound is known. It leaves room for bursts, and for the first harmonic of a clipped
-sound, which may exceed the peak of the sound. The level is set afterwards."""
+"""Gain if the bed has a given level relative to the whole sound. It leaves room for bursts, and for the first harmonic
+of a clipped sound, which may exceed the peak of the sound. The level of files and loops is set afterwards."""
+
+_LIVE_DB = 0.0
+"""Level of the bed of a live stream relative to the whole sound [dB]."""
 
 
 @dataclass(frozen=True)
@@ -55,12 +61,16 @@ class Auto(Adaptive):
             is_own = context.rough_hz == context.own_hz
             band = stages[0] if is_own else band_around(context.rough_hz, BAND_Q, sample_rate_hz)
             bed = Roughened(stages, band, context.rough_hz, sample_rate_hz)
-        is_known = context.own_hz is not None
-        if is_known:  # the whole sound was analysed, so this is no live stream, and latency is allowed
-            bed = Following(bed, sample_rate_hz, context.band_db, context.target_hz or context.own_hz)
+        is_known = context.own_hz is not None  # the whole sound was analysed, so this is no live stream
+        bed_db = context.band_db if is_known else _LIVE_DB
+        felt_hz = (context.target_hz or context.own_hz) if is_known else carrier_hz(context)
+        rendered = None if is_known else _rendered(context.actuator, sample_rate_hz)
+        bed = Following(bed, sample_rate_hz, bed_db, felt_hz, is_live=not is_known, rendered=rendered)
         onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
         parts: list[Stage] = [SosStage(heard_sections(sample_rate_hz)), onsets]
-        return StageStream(*parts) if context.band_db is None else StageStream(*parts, Scaled(_ROOM))
+        if bed_db is None:
+            return StageStream(*parts)
+        return StageStream(*parts, Scaled(_ROOM if rendered is None else _ROOM * 10 ** (-HEADROOM_DB / 20)))
 
 
 def _beep_hz(context: ConversionContext) -> float | None:
@@ -75,3 +85,11 @@ def carrier_hz(context: ConversionContext) -> float:
     if wanted is not None and _CARRIERS_HZ[0] <= wanted <= _CARRIERS_HZ[-1]:
         return wanted
     return best_carrier_hz(context.actuator)
+
+
+def _rendered(actuator: ActuatorProfile, sample_rate_hz: float) -> Stage | None:
+    """Return the motion of a resonant actuator for its drive; None without resonance, or with a measured response."""
+    if actuator.response_db or actuator.resonance_hz is None or actuator.q is None:
+        return None
+    q = min(max(actuator.q, 0.1), 100.0)
+    return SosStage(SvfBandpass(min(actuator.resonance_hz, 0.4 * sample_rate_hz), q).section(sample_rate_hz))

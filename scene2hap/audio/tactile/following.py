@@ -6,7 +6,11 @@ the whole sound; if it is unknown, M is the mean of their difference over two se
 
     difference d = L_bed - L_sound        gain -(d - M) + sign(d - M) `FREE_DB`   where |d - M| > `FREE_DB`, else 0 dB
 
-A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms.
+A bed within `FREE_DB` is unchanged, bit for bit. The stage has a latency of 40 ms. A live stream has no time for
+it: its levels are those of the last 60 ms, weighted towards the present.
+
+If the motion of a resonant actuator for its drive is known (`rendered`), L_bed is the level of this motion. A band
+beside the resonance is amplified as far as `HEADROOM_DB` allows, and the sine at the resonance supplies the rest.
 
 The gain is bounded. A bed that needs more is next to nothing: the pitch has left its band, or another part of the sound
 plays alone. If M and the frequency at which the sound is felt are known, a sine at that frequency supplies the energy
@@ -18,8 +22,10 @@ that is missing, so that the rise and fall of the whole sound is felt:
 from __future__ import annotations
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import lfilter
 
+from scene2hap.audio.tactile.onsets import STEP_S as LIVE_STEP_S
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.audio.tactile.step_energies import StepEnergies
@@ -31,8 +37,14 @@ FREE_DB = 0.5
 """Deviation that stays uncorrected [dB]; twice this is below the 2.5 dB that touch notices."""
 MOST_LIFTED_DB, MOST_LOWERED_DB = 15.0, 20.0
 """Largest gain and attenuation [dB]; a weaker bed is mostly noise (assumed)."""
-_STEPS = 6
+_STEPS, _AHEAD = 6, 3
+"""Steps of a window, and those of them that lie ahead of the gain."""
+_LIVE_STEPS = 24
+"""Steps of a live window. They are as long as those of the stage of onsets, which gives whole steps, so that the
+follower need not wait."""
 _MEAN_S = 2.0
+HEADROOM_DB = 6.0
+"""Most by which the drive of a rendered bed may exceed the level of its sound [dB]; the sine supplies the rest."""
 _NOTHING = 1e-12
 """Energy below which there is neither sound nor bed (-120 dB re full scale)."""
 
@@ -40,22 +52,32 @@ _NOTHING = 1e-12
 class Following:
     """A `Stage` that keeps the level of a bed at a constant difference from that of its sound.
 
-    If `felt_hz` is given, a sine of this frequency replaces a bed that is too weak.
+    If `felt_hz` is given, a sine of this frequency replaces a bed that is too weak. If the stream is live, each gain
+    follows from the samples before it, and blocks of whole live steps come back at once. `rendered` is the motion of
+    the actuator for its drive; without it both are equal.
     """
 
     def __init__(
-        self, bed: Stage, sample_rate_hz: float, bed_db: float | None = None, felt_hz: float | None = None
+        self,
+        bed: Stage,
+        sample_rate_hz: float,
+        bed_db: float | None = None,
+        felt_hz: float | None = None,
+        *,
+        is_live: bool = False,
+        rendered: Stage | None = None,
     ) -> None:
-        self._bed, self._bed_db = bed, bed_db
+        self._bed, self._bed_db, self._rendered = bed, bed_db, rendered
         self._sine = None if felt_hz is None or bed_db is None else Oscillator(felt_hz, sample_rate_hz)
         self._n_made = 0
-        self._step = max(1, round(STEP_S * sample_rate_hz))
+        step_s, self._n_ahead = (LIVE_STEP_S, 0) if is_live else (STEP_S, _AHEAD)
+        self._step = max(1, round(step_s * sample_rate_hz))
         self._waiting = np.empty(0)
-        self._heard = StepEnergies(self._step), StepEnergies(self._step)
-        # Of sound and bed, by steps, from half a window before.
-        self._energies = np.zeros((2, _STEPS // 2))
-        window = hann(_STEPS)
+        self._heard = [StepEnergies(self._step) for _ in range(2 if rendered is None else 3)]
+        window = hann(2 * _LIVE_STEPS)[:_LIVE_STEPS] if is_live else hann(_STEPS)
         self._window = window / window.sum()
+        # Of sound, bed and rendered bed, by steps, from before the start.
+        self._energies = np.zeros((len(self._heard), len(window) - self._n_ahead))
         self._forget = float(np.exp(-STEP_S / _MEAN_S))
         self._means = np.zeros((2, 1))
         self._gains = np.empty((2, 0))  # of bed and sine, at the beginning of the next step
@@ -68,16 +90,19 @@ class Following:
         """Return the last samples, as if silence followed."""
         left = self._bed.rest()
         parts = [self._followed(np.zeros(len(left)), left)] if left.size else []
-        n_waiting, n_after = len(self._waiting), (_STEPS // 2 + 2) * self._step
+        n_waiting, n_after = len(self._waiting), (self._n_ahead + 2) * self._step
         silence = np.zeros(n_after)
         parts.append(self._followed(silence, silence)[:n_waiting])
         return np.concatenate(parts)
 
     def _followed(self, x: Signal, y: Signal) -> Signal:
+        if y.size == 0:
+            return y  # small live blocks seldom complete a step of the onset stage
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
-        energies = [of.next(part) for of, part in zip(self._heard, (x, y), strict=True)]
+        parts = (x, y) if self._rendered is None else (x, y, self._rendered.run(y))
+        energies = [of.next(part) for of, part in zip(self._heard, parts, strict=True)]
         self._energies = np.concatenate([self._energies, energies], axis=1)
-        n = self._energies.shape[1] - _STEPS + 1
+        n = self._energies.shape[1] - len(self._window) + 1
         if n < 1:
             return np.empty(0)
         gains = np.concatenate([self._gains, self._next_gains(n)], axis=1)
@@ -88,13 +113,19 @@ class Following:
         return self._released(*gains)
 
     def _next_gains(self, n: int) -> Signal:
-        """Return the gains of bed and sine at the beginnings of n steps (2, n), each in the middle of a window."""
-        # Sums of shifted rows, since the rounding of a convolution depends on the block size.
-        sound, bed = sum(w * self._energies[:, k : k + n] for k, w in enumerate(self._window))
+        """Return the gains of bed and sine at the beginnings of n steps (2, n), each from its window."""
+        # Sums of windows one by one, since the rounding of a convolution depends on the block size.
+        sound, drive, *felt = (sliding_window_view(self._energies, len(self._window), axis=1) * self._window).sum(
+            axis=2
+        )
+        bed = felt[0] if felt else drive
         usual_db = self._usual_db(np.stack([sound, bed]))
         lifts = _lifts_db(sound, bed, usual_db)
-        gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, MOST_LIFTED_DB) / 20.0)
-        lacking = 10.0 ** (np.maximum(lifts, MOST_LIFTED_DB) / 10.0) - 10.0 ** (MOST_LIFTED_DB / 10.0)
+        most = np.full(n, MOST_LIFTED_DB)
+        if felt:
+            most = np.clip(HEADROOM_DB - _ratio_db(sound, drive), -MOST_LOWERED_DB, MOST_LIFTED_DB)
+        gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, most) / 20.0)
+        lacking = 10.0 ** (np.maximum(lifts, most) / 10.0) - 10.0 ** (most / 10.0)
         return np.stack([gains, np.sqrt(2.0 * (bed + _NOTHING) * lacking)])
 
     def _usual_db(self, around: Signal) -> Signal | float:

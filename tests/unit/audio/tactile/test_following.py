@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfilt
 
+from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
@@ -159,3 +160,58 @@ def test_the_sine_that_replaces_a_weak_bed_begins_without_a_click() -> None:
     above = sosfilt(butter(4, 1500.0, "highpass", fs=RATE, output="sos"), np.concatenate([np.zeros(RATE), felt]))
     # The rest of the 2.5 kHz, which the filters let through, is at -53 dB.
     assert 20 * np.log10(np.abs(above[: RATE + RATE // 5]).max() / np.abs(felt).max()) < -45.0
+
+
+def live(x: np.ndarray, actuator: str = "flat") -> np.ndarray:
+    stream = CONVERTERS.build("auto").stream(RATE, ConversionContext(ACTUATORS[actuator]))
+    parts = [stream.process(x[at : at + 480].astype(np.float32)) for at in range(0, len(x), 480)]
+    return np.concatenate([*parts, stream.finish()]).astype(float)
+
+
+def test_beats_within_the_band_are_not_amplified_live() -> None:
+    """In an earlier version a live stream had no level follower, and this range was 12 dB."""
+    x = np.sin(2 * np.pi * 120.0 * T) + 0.7 * np.sin(2 * np.pi * 121.5 * T) + 4.0 * np.sin(2 * np.pi * 2500.0 * T)
+    assert range_db(live(0.1 * x)) <= range_db(x) + 3.0
+
+
+def test_a_slow_change_outside_the_band_is_felt_live() -> None:
+    swell = 10 ** (-1.0 + 2.0 * np.minimum(T, 6.0 - T) / 6.0)
+    x = np.sin(2 * np.pi * 60.0 * T) + swell * band_noise(np.random.default_rng(4), len(T), RATE, 500.0, 3500.0)
+    felt, sound = (10 ** (levels_db(y) / 20) for y in (live(0.05 * x), x))
+    assert np.corrcoef(felt, sound)[0, 1] > 0.8
+
+
+@pytest.mark.parametrize("beep_hz", [1500.0, 3000.0])
+def test_beeps_above_the_range_of_touch_are_felt_live(beep_hz: float) -> None:
+    """A beep of 0.25 s, twice a second. The band below it holds next to nothing of it."""
+    on = (2.0 * T) % 1.0 < 0.5
+    x = 0.3 * on * np.sin(2 * np.pi * beep_hz * T)
+    felt, sound = (10 ** (levels_db(y) / 20) for y in (live(x), x))
+    assert np.corrcoef(felt, sound)[0, 1] > 0.8
+    # Without calibration the vibration has half the amplitude of the sound.
+    assert 20 * np.log10(np.percentile(felt, 90) / np.percentile(sound, 90)) == pytest.approx(-6.0, abs=2.0)
+
+
+@pytest.mark.parametrize("rate", [8000, 44_100, 96_000])
+def test_a_live_stream_holds_back_12_ms_at_most(rate: int) -> None:
+    """10 ms in which the height of an onset is measured, and one step."""
+    stream, n_made = CONVERTERS.build("auto").stream(rate, ConversionContext()), 0
+    x = np.random.default_rng(5).uniform(-0.1, 0.1, rate).astype(np.float32)
+    for n_given in range(64, rate, 64):
+        n_made += len(stream.process(x[n_given - 64 : n_given]))
+        assert n_given - n_made <= 0.0126 * rate
+
+
+@pytest.mark.parametrize(("actuator", "resonance_hz", "q"), [("lra", 175.0, 12.0), ("drake_hf", 160.0, 3.0)])
+def test_a_resonant_actuator_moves_as_far_beside_its_resonance_live(
+    actuator: str, resonance_hz: float, q: float
+) -> None:
+    """Tones of equal strength. In an earlier version the motions differed by up to 15 dB."""
+    moved = []
+    for tone_hz in (140.0, 175.0, 220.0):
+        drive = live(0.3 * np.sin(2 * np.pi * tone_hz * T), actuator)
+        f = np.maximum(np.fft.rfftfreq(len(T), 1 / RATE), 0.1)
+        gain = 1.0 / np.sqrt(1.0 + (q * (f / resonance_hz - resonance_hz / f)) ** 2)
+        moved.append(float(np.median(levels_db(np.fft.irfft(np.fft.rfft(drive) * gain, len(T))))))
+        assert np.abs(drive).max() < 0.5
+    assert np.ptp(moved) < 3.0
