@@ -133,7 +133,8 @@ class JointForces:
     """The forces g in all joints, for each source.
 
     bodies, joints, source_ids : as given; frequencies_hz : (n_f,) [Hz]; forces : (n_f, n_joints, n_sources) [N/m], from
-    a on b, per unit of the source's free deflection; ends : see `ends_of`.
+    a on b, per unit of the source's free deflection; ends : see `ends_of`; system : of all frequencies, None if they
+    were solved in parts.
     """
 
     bodies: Mapping[str, ElasticBody]
@@ -142,6 +143,7 @@ class JointForces:
     frequencies_hz: NDArray[np.float64]
     forces: NDArray[np.complex128]
     ends: Mapping[str, Ends]
+    system: JointSystem | None = None
 
     def deflection(self, body_id: str, points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Deflection of a body per free deflection of each source; that of a source includes its own free motion.
@@ -166,10 +168,13 @@ class JointForces:
 
         All joints are solved again. Returns: (n_frequencies, n_own, n_own) complex128 [N/m], in the order of `ends`.
         """
+        none = np.empty(0, dtype=np.intp)
+        if self.system is not None:
+            return self.system.answers(none, [body_id])[1][body_id]
         n_own = len(self.ends[body_id].rows)
         held = np.empty((len(self.frequencies_hz), n_own, n_own), dtype=np.complex128)
         for part, system in systems(self.bodies, self.ends, self.joints, self.frequencies_hz):
-            held[part] = system.answers(np.empty(0, dtype=np.intp), [body_id])[1][body_id]
+            held[part] = system.answers(none, [body_id])[1][body_id]
         return held
 
 
@@ -226,10 +231,13 @@ def couple(
     ends, n_f = ends_of(joints), len(frequencies_hz)
     free = _free_deflections(ends, len(joints), source_ids)
     forces = np.zeros((*free.shape, n_f), dtype=np.complex128)
+    whole = None
     if free.size:
         for part, system in systems(bodies, ends, joints, frequencies_hz):
             forces[:, :, part] = system.forces(free)
-    return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, forces.transpose(2, 0, 1), ends)
+            whole = system if part == slice(0, n_f) else None
+    by_frequency = forces.transpose(2, 0, 1)
+    return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, by_frequency, ends, whole)
 
 
 def systems(
@@ -256,7 +264,8 @@ def systems(
         few_hz = frequencies_hz[begin:end]
         receptances = {key: bodies[key].receptance(own.points_m, own.points_m, few_hz) for key, own in ends.items()}
         yield slice(begin, end), JointSystem(ends, joints, receptances, compliances[:, begin:end])
-        receptances.clear()  # else those of two parts would be in memory
+        if end < n_f:
+            receptances.clear()  # else those of two parts would be in memory
 
 
 def require_memory(n_bytes: int, what: str, instead: str) -> None:
