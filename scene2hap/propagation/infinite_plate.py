@@ -158,10 +158,20 @@ class InfiniteBody:
     ) -> NDArray[np.complex128]:
         """See `ElasticBody`."""
         r = np.linalg.norm(points_m[:, None] - forces_m, axis=2)
-        x = self.plate.wavenumber_rad_m(frequencies_hz)[:, None, None] * r
-        return _looked_up(x, self.plate_loss) * _driven(self.plate, self.plate_loss, frequencies_hz)[:, None, None]
+        k, driven = self.plate.wavenumber_rad_m(frequencies_hz), _driven(self.plate, self.plate_loss, frequencies_hz)
+        answer = np.empty((len(k), *r.shape), dtype=np.complex128)
+        # A few frequencies at a time: the steps between take several times the memory of the answer.
+        step = max(1, AT_ONCE // max(1, r.size))
+        for begin in range(0, len(k), step):
+            part = slice(begin, begin + step)
+            np.multiply(
+                _looked_up(k[part, None, None] * r, self.plate_loss), driven[part, None, None], out=answer[part]
+            )
+        return answer
 
 
+AT_ONCE = 65_536
+"""Values that are looked up at once, 1 MB."""
 TABLE_X = 100.0
 """k r up to which `_looked_up` has a table."""
 

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.coupled.many_joints import among, has_many, rows_at_once
 from scene2hap.propagation.coupled.response_basis import AnyFloat
 from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, largest_block
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.plate_terms import ContractedShapes, ForcedPlate, PlateTerms
+from scene2hap.propagation.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms
 
 MOST_REMEMBERED = 65_536
 """Complex numbers of the largest receptance among contacts that is cached, 1 MB: objects that stay in place need not be
@@ -74,6 +75,7 @@ class ModalBody:
         self.terms = PlateTerms(plate, max_frequency_hz, fineness)
         self._at_forces = ByteBoundedLru(self.terms.of_forces)
         self._among_forces = ByteBoundedLru(self._symmetric)
+        self._among_many = ByteBoundedLru(self._shapes_among, room=2)
         self._coupled = ByteBoundedLru(self._between, room=2)
         self._sums = ByteBoundedLru(lambda frequencies_hz: self.terms.sums(*self._damped(frequencies_hz)), room=4)
 
@@ -83,6 +85,8 @@ class ModalBody:
         """See `ElasticBody`."""
         if points_m is not forces_m:
             return self._summed(self._at_forces(forces_m)(points_m), frequencies_hz)
+        if has_many(points_m):
+            return among(*self._among_many(points_m), self.spectrum(frequencies_hz))
         if len(points_m) ** 2 * len(frequencies_hz) <= MOST_REMEMBERED:
             return self._coupled(points_m, frequencies_hz)
         return self._between(points_m, frequencies_hz)
@@ -115,6 +119,16 @@ class ModalBody:
     def _symmetric(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         terms = self._at_forces(points_m)(points_m)
         return (terms + terms.transpose(1, 0, 2)) / 2  # exactly symmetric, despite rounding
+
+    def _shapes_among(self, points_m: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Shapes of the modes at points (n, n_modes), and of the other terms among them (n, n, N_NODES)."""
+        forced, n = self._at_forces(points_m), len(points_m)
+        rest, width = np.empty((n, n, N_NODES)), rows_at_once(n)
+        for begin in range(0, n, width):
+            rest[begin : begin + width] = forced.beyond_modes(points_m[begin : begin + width])
+        rest += rest.transpose(1, 0, 2).copy()
+        rest /= 2
+        return forced.phi, rest
 
     def _damped(self, frequencies_hz: NDArray[np.float64]) -> tuple[NDArray[np.complex128], complex]:
         """q (n_frequencies,) [m^-4], and 1 / D_c [1/(N m)]."""

@@ -58,9 +58,17 @@ class ForcedPlate:
         cosines = self.plate.cosines(points_m)
         terms = np.empty((n_points, n_forces, n_modes + N_NODES))
         np.multiply((self.plate.first(cosines) @ self.modes)[:, None], self.phi, out=terms[:, :, :n_modes])
-        rest = (cosines @ self.rest).reshape(n_points, n_forces, N_NODES)
-        np.add(rest, self.near(points_m, self.k2), out=terms[:, :, n_modes:])
+        terms[:, :, n_modes:] = self._rest(points_m, cosines)
         return terms
+
+    def beyond_modes(self, points_m: Floats) -> Floats:
+        """The shape of the terms that are no modes, per force (n_points, n_forces, N_NODES)."""
+        return self._rest(points_m, self.plate.cosines(points_m))
+
+    def _rest(self, points_m: Floats, cosines: Floats) -> Floats:
+        rest = (cosines @ self.rest).reshape(len(points_m), len(self.phi), N_NODES)
+        rest += self.near(points_m, self.k2)
+        return rest
 
     @property
     def nbytes(self) -> int:

@@ -19,16 +19,26 @@ Source: de Klerk, Rixen, Voormeeren, General framework for dynamic substructurin
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.counted import counted
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.coupled.elimination import Element, solve, solve_and_invert
+from scene2hap.propagation.coupled.elimination import Element, inverse, solve
+
+AT_ONCE_BYTES = 256_000_000
+"""Memory of the receptances of all bodies that are in memory at once. A furnished room needs less for all frequencies;
+200 objects on one floor would need gigabytes."""
+MOST_BYTES = 500_000_000
+"""Largest memory of one part of a solution. Preparing a field or touching an object takes up to five times as much."""
+FEWEST_AT_ONCE = 4
+"""Least number of frequencies in memory at once: `elimination` solves four in the time of one."""
 
 
 class ElasticBody(Protocol):
@@ -123,8 +133,8 @@ class JointForces:
     """The forces g in all joints, for each source.
 
     bodies, joints, source_ids : as given; frequencies_hz : (n_f,) [Hz]; forces : (n_f, n_joints, n_sources) [N/m], from
-    a on b, per unit of the source's free deflection; ends : see `ends_of`; receptances : of each body among its joints
-    (n_f, n_ends, n_ends) [m/N].
+    a on b, per unit of the source's free deflection; ends : see `ends_of`; system : of all frequencies, None if they
+    were solved in parts.
     """
 
     bodies: Mapping[str, ElasticBody]
@@ -133,7 +143,7 @@ class JointForces:
     frequencies_hz: NDArray[np.float64]
     forces: NDArray[np.complex128]
     ends: Mapping[str, Ends]
-    receptances: Mapping[str, NDArray[np.complex128]]
+    system: JointSystem | None = None
 
     def deflection(self, body_id: str, points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Deflection of a body per free deflection of each source; that of a source includes its own free motion.
@@ -158,20 +168,45 @@ class JointForces:
 
         All joints are solved again. Returns: (n_frequencies, n_own, n_own) complex128 [N/m], in the order of `ends`.
         """
-        return self.answers(np.empty(0, dtype=np.intp), [body_id])[1][body_id]
+        none = np.empty(0, dtype=np.intp)
+        if self.system is not None:
+            return self.system.answers(none, [body_id])[1][body_id]
+        n_own = len(self.ends[body_id].rows)
+        held = np.empty((len(self.frequencies_hz), n_own, n_own), dtype=np.complex128)
+        for part, system in systems(self.bodies, self.ends, self.joints, self.frequencies_hz):
+            held[part] = system.answers(none, [body_id])[1][body_id]
+        return held
+
+
+@dataclass(frozen=True, eq=False)
+class JointSystem:
+    """The linear system of all joints at some frequencies.
+
+    ends, joints : as given; receptances : of each body among its joints (n_f, n_ends, n_ends) [m/N]; compliances :
+    (n_joints, n_f) [m/N].
+    """
+
+    ends: Mapping[str, Ends]
+    joints: Sequence[Joint]
+    receptances: Mapping[str, NDArray[np.complex128]]
+    compliances: NDArray[np.complex128]
+
+    def forces(self, free: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Forces (n_joints, n, n_f) [N/m] for free deflections across the joints (n_joints, n)."""
+        return solve(self._elements(), self.compliances, free)
 
     def answers(
         self, rows: NDArray[np.intp], body_ids: Collection[str]
     ) -> tuple[NDArray[np.complex128], dict[str, NDArray[np.complex128]]]:
-        """Forces in all joints per free deflection across each joint of `rows` (n_frequencies, n_joints, n_rows) [N/m],
-        and `holding` of each body of `body_ids`. All joints are solved again."""
-        free = np.zeros((len(self.joints), len(rows)))
-        free[rows, np.arange(len(rows))] = 1.0
-        elements, compliances = _system(self.receptances, self.ends, self.joints, self.frequencies_hz)
+        """Forces in all joints per free deflection across each joint of `rows` (n_f, n_joints, n_rows) [N/m], and
+        `JointForces.holding` of each body of `body_ids`."""
         number = {body_id: k for k, body_id in enumerate(self.ends)}
-        forces, inverses = solve_and_invert(elements, compliances, free, [number[x] for x in body_ids])
-        held = {x: np.multiply.outer(self.ends[x].signs, self.ends[x].signs) * inverses[number[x]] for x in body_ids}
-        return forces.transpose(2, 0, 1), held
+        columns, parts = inverse(self._elements(), self.compliances, rows, [number[x] for x in body_ids])
+        held = {x: np.multiply.outer(self.ends[x].signs, self.ends[x].signs) * parts[number[x]] for x in body_ids}
+        return columns.transpose(2, 0, 1), held
+
+    def _elements(self) -> list[Element]:
+        return [Element(own.rows, own.signs, self.receptances[body_id]) for body_id, own in self.ends.items()]
 
 
 def couple(
@@ -193,12 +228,53 @@ def couple(
                 f"a joint runs from {joint.a!r} to {joint.b!r}; it must join two of the bodies "
                 f"{', '.join(map(repr, sorted(bodies)))}."
             )
-    ends = ends_of(joints)
-    receptances = {
-        body_id: bodies[body_id].receptance(own.points_m, own.points_m, frequencies_hz) for body_id, own in ends.items()
-    }
-    forces = solve_joints(receptances, ends, joints, source_ids, frequencies_hz)
-    return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, forces, ends, receptances)
+    ends, n_f = ends_of(joints), len(frequencies_hz)
+    free = _free_deflections(ends, len(joints), source_ids)
+    forces = np.zeros((*free.shape, n_f), dtype=np.complex128)
+    whole = None
+    if free.size:
+        for part, system in systems(bodies, ends, joints, frequencies_hz):
+            forces[:, :, part] = system.forces(free)
+            whole = system if part == slice(0, n_f) else None
+    by_frequency = forces.transpose(2, 0, 1)
+    return JointForces(bodies, tuple(joints), tuple(source_ids), frequencies_hz, by_frequency, ends, whole)
+
+
+def systems(
+    bodies: Mapping[str, ElasticBody],
+    ends: Mapping[str, Ends],
+    joints: Sequence[Joint],
+    frequencies_hz: NDArray[np.float64],
+    at_once: int | None = None,
+) -> Iterator[tuple[slice, JointSystem]]:
+    """Yield the system of all joints for a part of the frequencies at a time. Each is valid until the next.
+
+    Parameters: ends : see `ends_of`; at_once : largest number of frequencies in a part, by default as many as fit into
+    `AT_ONCE_BYTES`.
+    Raises: ModelDomainError: a body has so many joints that `FEWEST_AT_ONCE` frequencies exceed `MOST_BYTES`.
+    """
+    for object_id, own in ends.items():
+        among = f"the receptance among the {counted(len(own.rows), 'contact')} of object {object_id!r}"
+        require_memory(16 * FEWEST_AT_ONCE * len(own.rows) ** 2, among, "Leave objects out of the scene")
+    if at_once is None:
+        at_once = AT_ONCE_BYTES // max(1, 16 * sum(len(own.rows) ** 2 for own in ends.values()))
+    n_f, compliances = len(frequencies_hz), compliances_m_n(joints, frequencies_hz)
+    n_parts = -(-n_f // max(at_once, FEWEST_AT_ONCE))
+    for begin, end in pairwise(np.linspace(0, n_f, n_parts + 1).astype(int).tolist()):
+        few_hz = frequencies_hz[begin:end]
+        receptances = {key: bodies[key].receptance(own.points_m, own.points_m, few_hz) for key, own in ends.items()}
+        yield slice(begin, end), JointSystem(ends, joints, receptances, compliances[:, begin:end])
+        if end < n_f:
+            receptances.clear()  # else those of two parts would be in memory
+
+
+def require_memory(n_bytes: int, what: str, instead: str) -> None:
+    """Raise a ModelDomainError if a part of a solution exceeds `MOST_BYTES`; `instead` says how to avoid it."""
+    if n_bytes > MOST_BYTES:
+        raise ModelDomainError(
+            f"{what} would take {n_bytes / 1e6:,.0f} MB; at most {MOST_BYTES / 1e6:,.0f} MB are used. {instead}, or "
+            "use ExponentialPlate."
+        )
 
 
 def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
@@ -221,19 +297,13 @@ def inclined_in(joints: Sequence[Joint]) -> set[str]:
     return {key for key, along in ends if along is not NORMAL}
 
 
-def solve_joints(
-    receptances: Mapping[str, NDArray[np.complex128]],
-    ends: Mapping[str, Ends],
-    joints: Sequence[Joint],
-    source_ids: Sequence[str],
-    frequencies_hz: NDArray[np.float64],
-) -> NDArray[np.complex128]:
-    """Forces (n_f, n_joints, n_sources) from the receptance of each body at its joints (n_f, n_ends, n_ends)."""
-    free = np.zeros((len(joints), len(source_ids)))
+def _free_deflections(ends: Mapping[str, Ends], n_joints: int, source_ids: Sequence[str]) -> NDArray[np.float64]:
+    """Free deflection across each joint for each source (n_joints, n_sources)."""
+    free = np.zeros((n_joints, len(source_ids)))
     for column, source_id in enumerate(source_ids):
         if source_id in ends:
             free[ends[source_id].rows, column] = ends[source_id].signs * _free_motion(ends[source_id].points_m)
-    return _forces(receptances, ends, joints, free, frequencies_hz)
+    return free
 
 
 def _free_motion(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -243,26 +313,3 @@ def _free_motion(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
     along = points_m[:, 3:]
     largest: NDArray[np.float64] = np.take_along_axis(along, np.abs(along).argmax(axis=1)[:, None], axis=1)[:, 0]
     return np.copysign(1.0, largest)
-
-
-def _forces(
-    receptances: Mapping[str, NDArray[np.complex128]],
-    ends: Mapping[str, Ends],
-    joints: Sequence[Joint],
-    free: NDArray[np.float64],
-    frequencies_hz: NDArray[np.float64],
-) -> NDArray[np.complex128]:
-    """Forces (n_f, n_joints, n) for free deflections across the joints (n_joints, n)."""
-    if not free.size:
-        return np.zeros((len(frequencies_hz), *free.shape), dtype=np.complex128)
-    return solve(*_system(receptances, ends, joints, frequencies_hz), free).transpose(2, 0, 1)
-
-
-def _system(
-    receptances: Mapping[str, NDArray[np.complex128]],
-    ends: Mapping[str, Ends],
-    joints: Sequence[Joint],
-    frequencies_hz: NDArray[np.float64],
-) -> tuple[list[Element], NDArray[np.complex128]]:
-    elements = [Element(own.rows, own.signs, receptances[body_id]) for body_id, own in ends.items()]
-    return elements, compliances_m_n(joints, frequencies_hz)

@@ -4,8 +4,8 @@
 
 Every joint belongs to two bodies, so most entries of A are 0. The compiled kernel factors A = L D L^T without pivoting,
 in an order that keeps L sparse (`elimination_order`). Where a resonance of a part makes an entry of L large, digits
-would be lost: that frequency is solved again, dense and with pivoting. Without compiled kernels, all frequencies are
-solved in this way.
+would be lost: that frequency is solved again, dense and with pivoting. Without compiled kernels, and where hundreds of
+joints are on one body, all frequencies are solved in this way.
 
 All joints of one body are within the sparsity pattern of L. The entries of A^-1 within this pattern follow from L at
 twice the cost of the factorisation, whatever the number of joints.
@@ -16,7 +16,7 @@ Source: Takahashi, Fagan, Chin, Formation of a sparse bus impedance matrix (1973
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -35,6 +35,10 @@ SLACK = 1e-13
 """Compliance added to each joint, relative to the receptances of its two bodies there. It prevents a division by zero
 where statics cannot determine the forces, as in four rigid feet of a rigid body. It is nine digits below anything
 else."""
+CACHE_BYTES = 2_000_000
+"""Memory of the factor at four frequencies, up to which the kernel is as fast as LAPACK or faster: a core's cache."""
+LAPACK_SPEED = 4
+"""Multiplications of LAPACK in the time of one of the kernel, beyond `CACHE_BYTES`: 4 at 500 rows, 8 at 800."""
 _DENSE = 170_000
 """Complex numbers of dense systems that are solved at once, 3 MB."""
 
@@ -57,27 +61,53 @@ def solve(elements: Sequence[Element], compliance: Complex, free: Floats) -> Com
 
     Every row 0..n-1 must belong to exactly two elements.
     """
-    return solve_and_invert(elements, compliance, free, ())[0]
-
-
-def solve_and_invert(
-    elements: Sequence[Element], compliance: Complex, free: Floats, numbers: Collection[int]
-) -> tuple[Complex, dict[int, Complex]]:
-    """Forces, see `solve`, and A^-1 among the rows of each element in `numbers`, (n_f, n_own, n_own) each."""
     diagonal = compliance + _slack(elements, compliance.shape)
-    pattern = pattern_of(tuple([tuple(element.rows.tolist()) for element in elements]))
-    forces = np.empty((*free.shape, compliance.shape[1]), dtype=np.complex128)
-    inverses = {k: np.empty(elements[k].receptance.shape, dtype=np.complex128) for k in numbers}
-    is_good = factored(elements, diagonal, free, pattern, WORST_GROWTH, forces, inverses)
-    bad = np.flatnonzero(~is_good)
-    if len(bad):
-        forces[:, :, bad] = dense(elements, diagonal, free, bad)
-        if inverses:
-            whole = dense(elements, diagonal, np.eye(len(diagonal)), bad)
-            for k, inverse in inverses.items():
-                rows = elements[k].rows
-                inverse[bad] = whole[rows[:, None], rows].transpose(2, 0, 1)
-    return forces, inverses
+    pattern, n_f = _pattern(elements), compliance.shape[1]
+    forces = np.empty((*free.shape, n_f), dtype=np.complex128)
+    bad = np.arange(n_f)
+    if not is_nearly_full(pattern, free.shape[1], inverts=False):
+        bad = np.flatnonzero(~factored(elements, diagonal, free, pattern, WORST_GROWTH, forces, {}))
+    for at, system in dense(elements, diagonal, bad):
+        forces[:, :, at] = np.linalg.solve(system, free.astype(np.complex128)).transpose(1, 2, 0)
+    return forces
+
+
+def inverse(
+    elements: Sequence[Element], compliance: Complex, columns: NDArray[np.intp], numbers: Collection[int]
+) -> tuple[Complex, dict[int, Complex]]:
+    """Columns of A^-1 (n, n_columns, n_f), and A^-1 among the rows of each element in `numbers`, (n_f, n_own, n_own)
+    each. For the other parameters see `solve`."""
+    diagonal = compliance + _slack(elements, compliance.shape)
+    pattern, (n, n_f), n_columns = _pattern(elements), compliance.shape, len(columns)
+    found = np.empty((n, n_columns, n_f), dtype=np.complex128)
+    parts = {k: np.empty(elements[k].receptance.shape, dtype=np.complex128) for k in numbers}
+    free = np.zeros((n, n_columns))
+    free[columns, np.arange(n_columns)] = 1.0
+    bad = np.arange(n_f)
+    if not is_nearly_full(pattern, n_columns, inverts=bool(parts)):
+        bad = np.flatnonzero(~factored(elements, diagonal, free, pattern, WORST_GROWTH, found, parts))
+    for at, system in dense(elements, diagonal, bad):
+        if not parts:  # takes a third of the time
+            found[:, :, at] = np.linalg.solve(system, free.astype(np.complex128)).transpose(1, 2, 0)
+            continue
+        whole = np.linalg.inv(system)
+        found[:, :, at] = whole[:, :, columns].transpose(1, 2, 0)
+        for k, part in parts.items():
+            rows = elements[k].rows
+            part[at] = whole[:, rows[:, None], rows]
+    return found, parts
+
+
+def is_nearly_full(pattern: Pattern, n_sources: int, *, inverts: bool) -> bool:
+    """Whether LAPACK solves the whole matrix in less time than the sparse kernel: it is large and nearly full."""
+    n = len(pattern.place)
+    sparse = pattern.n_products * (3 if inverts else 1) + 2 * len(pattern.columns) * n_sources
+    full = n**3 if inverts else n**3 // 3 + n**2 * n_sources
+    return 64 * len(pattern.columns) > CACHE_BYTES and LAPACK_SPEED * sparse > full
+
+
+def _pattern(elements: Sequence[Element]) -> Pattern:
+    return pattern_of(tuple([tuple(element.rows.tolist()) for element in elements]))
 
 
 @compiled
@@ -90,24 +120,26 @@ def factored(
     forces: Complex,
     inverses_at: Mapping[int, Complex],
 ) -> NDArray[np.bool_]:
-    """Fill in the forces (n, n_sources, n_f) and the parts of A^-1, see `solve_and_invert`.
+    """Fill in the forces (n, n_sources, n_f) and the parts of A^-1, see `inverse`.
 
     Returns (n_f,) whether the solution at each frequency kept its digits.
     """
     return np.zeros(diagonal.shape[1], dtype=bool)  # left to `dense`: a batched solve is the best that numpy offers
 
 
-def dense(elements: Sequence[Element], diagonal: Complex, free: Floats, frequencies: NDArray[np.intp]) -> Complex:
-    """Forces (n, n_sources, n_few) at the frequencies of these indices, by dense solves with pivoting."""
-    n, found = len(diagonal), []
-    for few in np.array_split(frequencies, -(-len(frequencies) * n**2 // _DENSE)):
+def dense(
+    elements: Sequence[Element], diagonal: Complex, frequencies: NDArray[np.intp]
+) -> Iterator[tuple[NDArray[np.intp], Complex]]:
+    """Yield a few of these indices of frequencies, and A there (n_few, n, n), for solutions with pivoting."""
+    n = len(diagonal)
+    n_parts = min(len(frequencies), -(-len(frequencies) * n**2 // _DENSE))
+    for few in np.array_split(frequencies, n_parts) if n_parts else ():
         system = np.zeros((len(few), n, n), dtype=np.complex128)
         system[:, np.arange(n), np.arange(n)] = diagonal[:, few].T
         for element in elements:
             signs = np.multiply.outer(element.signs, element.signs)
             system[:, element.rows[:, None], element.rows] += signs * element.receptance[few]
-        found.append(np.linalg.solve(system, free.astype(np.complex128)))
-    return np.concatenate(found).transpose(1, 2, 0)
+        yield few, system
 
 
 def _slack(elements: Sequence[Element], shape: tuple[int, ...]) -> Floats:

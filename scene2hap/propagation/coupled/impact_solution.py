@@ -7,13 +7,13 @@ response where the force acts.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence, Set
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.contact.junction import Pair
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, JointForces, couple, ends_of
+from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, JointSystem, ends_of, systems
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.impact_scene import IMPACT_BANDS, HeldBody, StruckScene
 
@@ -23,7 +23,7 @@ Complex = NDArray[np.complex128]
 MOST_HELD_BYTES = 128_000_000
 """Memory of all H of a scene: enough for an object of 120 contacts at a loss of 0.01, or for a furnished group."""
 AT_ONCE_BYTES = 64_000_000
-"""Memory of the frequencies that are solved at a time; all joints of a room at all frequencies take gigabytes."""
+"""Memory of the frequencies that are solved at once; all joints of a room at all frequencies take gigabytes."""
 FEW = 8
 """One of this many frequencies is used to estimate levels."""
 SILENT = 10 ** (-78 / 20)
@@ -81,24 +81,33 @@ class _Group:
 
     def levels(self, frequencies_hz: Floats) -> dict[Pair, float]:
         """Largest gain in any band from any joint of an object to any of a touched one, infinite within one object."""
-        powers: dict[Pair, Floats] = {}
+        n_bands, n_joints = len(IMPACT_BANDS.edges_hz) - 1, {x: len(self.ends[x].rows) for x in self.object_ids}
+        others = {x: [struck_id for struck_id in self.object_ids if struck_id != x] for x in self._touched_ids}
+        itself = {x: np.zeros((n_bands, n_joints[x])) for x in self.object_ids}
+        # From the joints of all other objects, side by side.
+        arrives = {
+            x: np.zeros((n_bands, n_joints[x], sum(n_joints[y] for y in several))) for x, several in others.items()
+        }
         pairs = {(x, struck_id) for struck_id in self.object_ids for x in (struck_id, *self._touched_ids)}
-        for part, solved, held in self._solved(pairs, frequencies_hz):
-            bands = np.searchsorted(IMPACT_BANDS.edges_hz, part)
-            for (touched_id, struck_id), one in held.items():
-                towards, free = solved.receptances[touched_id], solved.receptances[struck_id]
-                moved = towards @ one @ free
-                if touched_id == struck_id:
-                    moved = (free - moved).diagonal(axis1=1, axis2=2)[:, None]
-                power = np.square(np.abs(moved) * part[:, None, None] ** 2)
-                none = np.zeros((len(IMPACT_BANDS.edges_hz), *power.shape[1:]))
-                np.add.at(powers.setdefault((touched_id, struck_id), none), bands - 1, power)
-        found = {}
-        for touched_id in self._touched_ids:
-            for struck_id in self.object_ids:
-                itself, arrives = powers[struck_id, struck_id], powers[touched_id, struck_id]
-                gains = np.sqrt(arrives / np.where(itself > 0, itself, np.inf))
-                found[touched_id, struck_id] = np.inf if touched_id == struck_id else float(gains.max())
+        for part, system, held in self._solved(pairs, frequencies_hz):
+            bands = (np.searchsorted(IMPACT_BANDS.edges_hz, part) - 1).tolist()
+            for x, powers in itself.items():
+                free = system.receptances[x]
+                moved = free.diagonal(axis1=1, axis2=2) - ((free @ held[x, x]) * free).sum(axis=2)
+                _add(powers, bands, moved * part[:, None] ** 2)
+            for x, several in others.items():
+                pulled = [held[x, y] @ system.receptances[y] for y in several]
+                if pulled:
+                    moved = system.receptances[x] @ np.concatenate(pulled, axis=2)
+                    _add(arrives[x], bands, moved * part[:, None, None] ** 2)
+        found = {(x, x): np.inf for x in self._touched_ids}
+        for x, several in others.items():
+            begin = 0
+            for y in several:
+                own = itself[y][:, None]
+                arriving = arrives[x][:, :, begin : begin + n_joints[y]]
+                found[x, y] = float(np.sqrt(arriving / np.where(own > 0, own, np.inf)).max())
+                begin += n_joints[y]
         return found
 
     def passed(self, pairs: Collection[Pair], frequencies_hz: Floats) -> dict[Pair, Complex]:
@@ -111,20 +120,38 @@ class _Group:
         return {pair: np.concatenate(several) for pair, several in found.items()}
 
     def _solved(
-        self, pairs: Collection[Pair], frequencies_hz: Floats
-    ) -> Iterator[tuple[Floats, JointForces, dict[Pair, Complex]]]:
-        """Yield, for a few frequencies at a time, these frequencies, the solved group and H of the pairs."""
-        alone = {struck_id for touched_id, struck_id in pairs if touched_id == struck_id}
-        others = [(touched_id, struck_id) for touched_id, struck_id in pairs if touched_id != struck_id]
-        touched = [self.ends[x].rows for x in self._touched_ids]
-        rows = np.unique(np.concatenate(touched))
+        self, pairs: Set[Pair], frequencies_hz: Floats
+    ) -> Iterator[tuple[Floats, JointSystem, dict[Pair, Complex]]]:
+        """Yield, for a few frequencies at a time, these frequencies, their system and H of the pairs."""
+        rows, inverts = self._columns(pairs)
+        alone = {struck_id for touched_id, struck_id in pairs if touched_id == struck_id} if inverts else set[str]()
         of_each = 16 * (len(self._joints) * len(rows) + 2 * sum(len(ends.rows) ** 2 for ends in self.ends.values()))
-        for part in np.array_split(frequencies_hz, -(-of_each * len(frequencies_hz) // AT_ONCE_BYTES)):
-            solved = couple(self._bodies, self._joints, (), part)
-            columns, held = solved.answers(rows, alone)
+        parts = systems(self._bodies, self.ends, self._joints, frequencies_hz, AT_ONCE_BYTES // of_each)
+        for part, system in parts:
+            columns, held = system.answers(rows, alone)
             found = {(x, x): one for x, one in held.items()}
-            for touched_id, struck_id in others:
+            for touched_id, struck_id in pairs - found.keys():
                 at, to = self.ends[touched_id], self.ends[struck_id]
-                between = columns[:, to.rows[:, None], np.searchsorted(rows, at.rows)].transpose(0, 2, 1)
+                if inverts:
+                    between = columns[:, to.rows[:, None], np.searchsorted(rows, at.rows)].transpose(0, 2, 1)
+                else:
+                    between = columns[:, at.rows[:, None], np.searchsorted(rows, to.rows)]
                 found[touched_id, struck_id] = np.multiply.outer(at.signs, to.signs) * between
-            yield part, solved, found
+            yield frequencies_hz[part], system, found
+
+    def _columns(self, pairs: Collection[Pair]) -> tuple[NDArray[np.intp], bool]:
+        """Columns of the inverse to solve for, and whether each struck object needs its part of the inverse as well.
+
+        The inverse is symmetric: columns of the touched objects' joints or of the struck ones', whichever are fewer,
+        hold H of all pairs of two objects. Those of the struck ones hold H of each struck object with itself, too.
+        """
+        none = np.empty(0, dtype=np.intp)
+        touched = np.unique(np.concatenate([none, *(self.ends[a].rows for a, b in pairs if a != b)]))
+        struck = np.unique(np.concatenate([none, *(self.ends[b].rows for _, b in pairs)]))
+        return (touched, True) if len(touched) < len(struck) else (struck, False)
+
+
+def _add(powers: Floats, bands: Sequence[int], accelerations: Complex) -> None:
+    """Add the power at each frequency to that of its band."""
+    for band, one in zip(bands, accelerations, strict=True):
+        powers[band] += one.real**2 + one.imag**2

@@ -12,6 +12,7 @@ Compact bodies and all sources move as rigid bodies. Objects that no source can 
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -21,11 +22,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.blas_threads import one_blas_thread
+from scene2hap.counted import counted
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, inclined_in
+from scene2hap.propagation.coupled.coupling import ElasticBody, Joint, couple, inclined_in, require_memory
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import HandLoad
 from scene2hap.propagation.coupled.hollow import no_heavier_than_object
@@ -161,6 +163,8 @@ def prepare_coupled(
     Parameters: elastic_body : makes the body of a plate that is not compact, for frequencies up to a limit [Hz]; law :
     stiffness of contacts; density : frequencies per band relative to the needed ones, for checks; hand : load at
     touched points, None for none.
+    Raises: ModelDomainError: so many contacts, or sources, that the solution exceeds
+    `coupling.MOST_BYTES`.
     Raises, warns: ModelDomainError or ThinPlateWarning, as `outside_domain` says, for an object whose bending waves are
     shorter than six of its thicknesses.
     """
@@ -200,6 +204,7 @@ def _solved(
     sampling: Sampling,
     hand: Hand | None,
 ) -> dict[str, SolvedObject]:
+    _require_memory(joints, sources, sampling, hand)
     solved = couple(bodies, joints, sources, sampling.frequencies_hz)
     forces = np.ascontiguousarray(solved.forces.transpose(1, 2, 0))
     columns = np.array([source_ids.index(x) for x in sources])
@@ -218,6 +223,17 @@ def _solved(
         )
         for x, ends in solved.ends.items()
     }
+
+
+def _require_memory(joints: Sequence[Joint], sources: Sequence[str], sampling: Sampling, hand: Hand | None) -> None:
+    """Check the memory that a group's solution takes as long as the field is in use."""
+    n_f, n_sources = len(sampling.frequencies_hz), len(sources)
+    forces = f"the forces of {counted(n_sources, 'source')} in {counted(len(joints), 'contact')}"
+    require_memory(16 * n_f * len(joints) * n_sources, f"{forces} at {n_f:,} frequencies", "Leave sources out")
+    if hand is not None:
+        object_id, n = Counter(end for joint in joints for end in (joint.a, joint.b)).most_common(1)[0]
+        load = f"the load of a hand on object {object_id!r} with {counted(n, 'contact')} at {n_f:,} frequencies"
+        require_memory(16 * n_f * n**2, load, "Set hand to None")
 
 
 @dataclass(frozen=True, eq=False)

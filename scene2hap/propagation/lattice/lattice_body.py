@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
+from scene2hap.propagation.coupled.many_joints import among as among_many, has_many
 from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.lattice.lattice_modes import TERMS, lattice_modes
@@ -76,6 +77,9 @@ class LatticeBody:
     ) -> NDArray[np.complex128]:
         """See `ElasticBody`."""
         shares, stiffer, among = self._from_forces(forces_m)
+        if points_m is forces_m and has_many(points_m):
+            series = among.reshape(len(points_m), len(points_m), TERMS)
+            return among_many(shares, series, self._spectra(frequencies_hz).view(np.complex128))
         if points_m is forces_m:
             static, of_points = among, shares
         else:

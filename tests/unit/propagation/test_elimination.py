@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from scene2hap.propagation.coupled import elimination
-from scene2hap.propagation.coupled.elimination import Element, solve, solve_and_invert
+from scene2hap.propagation.coupled.elimination import Element, inverse, solve
 from scene2hap.propagation.coupled.elimination_order import merged_fronts, pattern_of
 
 N_F = 40
@@ -65,11 +65,11 @@ def test_the_inverse_among_the_joints_of_a_body(
     n = len(PAIRS[shape])
     compliance = 4 + rng.normal(size=(n, N_F)) + 1j * rng.normal(size=(n, N_F))
     expected = whole(elements, compliance, np.eye(n))
-    free = np.sign(rng.normal(size=(n, 2)))
-    forces, inverses = solve_and_invert(elements, compliance, free, range(1, len(elements)))
-    assert (np.abs(forces - solve(elements, compliance, free)) <= 1e-12).all()
-    assert inverses.keys() == set(range(1, len(elements)))
+    columns = np.array([n - 1, 2])
+    solved, inverses = inverse(elements, compliance, columns, range(1, len(elements)))
     largest = np.abs(expected).max(axis=(1, 2), keepdims=True)
+    assert (np.abs(solved.transpose(2, 0, 1) - expected[:, :, columns]) <= 1e-8 * largest).all()
+    assert inverses.keys() == set(range(1, len(elements)))
     for k, found in inverses.items():
         rows = elements[k].rows
         assert (np.abs(found - expected[:, rows[:, None], rows]) <= 1e-8 * largest).all()
@@ -151,11 +151,37 @@ def test_results_do_not_depend_on_frequency_batches(n_f: int) -> None:
     np.testing.assert_allclose(found, solve(elements, compliance, free)[:, :, 3 : 3 + n_f], rtol=1e-12)
 
 
-def test_dense_systems_are_solved_a_few_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_dense_systems_are_in_memory_a_few_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(4)
     elements, n = room(rng, PAIRS["chain"]), 12
     diagonal = 4 + rng.normal(size=(n, N_F)) + 1j * rng.normal(size=(n, N_F))
-    free = np.sign(rng.normal(size=(n, 2)))
-    expected = whole(elements, diagonal, free).transpose(1, 2, 0)[:, :, 5:30]
     monkeypatch.setattr(elimination, "_DENSE", 3 * n**2)
-    np.testing.assert_allclose(elimination.dense(elements, diagonal, free, np.arange(5, 30)), expected, rtol=1e-9)
+    parts = list(elimination.dense(elements, diagonal, np.arange(5, 30)))
+    assert max(len(at) for at, _ in parts) <= 3
+    np.testing.assert_array_equal(np.concatenate([at for at, _ in parts]), np.arange(5, 30))
+    expected = whole(elements, diagonal, np.eye(n))[5:30]
+    np.testing.assert_allclose(np.linalg.inv(np.concatenate([system for _, system in parts])), expected, rtol=1e-9)
+    assert not list(elimination.dense(elements, diagonal, np.arange(0)))
+
+
+def test_systems_that_are_nearly_full_are_left_to_lapack(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of bodies that all stand on one floor; forces and parts of the inverse are those of the kernel."""
+    rng = np.random.default_rng(8)
+    pairs = [(0, i) for i in range(1, 30) for _ in range(3)]
+    elements, n = room(rng, pairs), len(pairs)
+    compliance = 40 + rng.normal(size=(n, N_F)) + 1j * rng.normal(size=(n, N_F))
+    free = np.sign(rng.normal(size=(n, 2)))
+    columns = np.array([4, 1])
+
+    def solved() -> list[np.ndarray]:
+        both, parts = inverse(elements, compliance, columns, [0, 3])
+        alone, _ = inverse(elements, compliance, columns, [])
+        return [solve(elements, compliance, free), both, alone, parts[0], parts[3]]
+
+    by_kernel = solved()
+    monkeypatch.setattr(elimination, "CACHE_BYTES", 0)
+    pattern = pattern_of(tuple(tuple(element.rows.tolist()) for element in elements))
+    assert elimination.is_nearly_full(pattern, 2, inverts=False)
+    assert elimination.is_nearly_full(pattern, 2, inverts=True)
+    for one, other in zip(by_kernel, solved(), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-12)

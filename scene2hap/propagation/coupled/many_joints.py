@@ -1,0 +1,56 @@
+"""Receptance of a body among its joints, if it has many.
+
+    Y(x_i, x_j) = sum over modes of phi(x_i) phi(x_j) s(f)  +  sum over m of r_m(x_i, x_j) l_m(f)
+
+A floor with hundreds of contacts has more pairs of joints than a body with few has numbers in all. The terms of all
+pairs take n^2 n_modes numbers, gigabytes for 800 joints. Mode shapes take n n_modes, and their products are summed at
+one frequency after the other.
+
+Letters: Y [m/N] receptance, phi shape of a mode, r_m shape of a smooth term, s, l_m their spectra, n number of joints.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+MOST_PAIRS = 16_384
+"""Pairs of joints up to which a body sums the terms of all pairs at all frequencies at once, which is faster."""
+_ROWS = 128
+"""Rows that are computed at once: the rest of a symmetric matrix is copied."""
+
+
+def has_many(points_m: Floats) -> bool:
+    """Whether a body has so many joints that `among` suits it."""
+    return len(points_m) ** 2 > MOST_PAIRS
+
+
+def rows_at_once(n_points: int) -> int:
+    """Number of rows of which `MOST_PAIRS` are computed at once, at least 1."""
+    return max(1, MOST_PAIRS // n_points)
+
+
+def among(shapes: Floats, smooth: Floats, spectrum: Complex) -> Complex:
+    """Receptance (n_frequencies, n, n), exactly symmetric.
+
+    Parameters: shapes : (n, n_modes) of the modes; smooth : (n, n, n_smooth) of the other terms, symmetric; spectrum :
+    (n_modes + n_smooth, n_frequencies) of the modes, then of the other terms.
+    """
+    n, n_modes = shapes.shape
+    found = np.empty((spectrum.shape[1], n, n), dtype=np.complex128)
+    for one, weights in zip(found, spectrum.T, strict=True):
+        for begin in range(0, n, _ROWS):
+            rows = slice(begin, begin + _ROWS)
+            weighted = shapes[rows] * weights[:n_modes]
+            # Two real products take half the time of a complex one.
+            upper = np.empty((len(weighted), n - begin), dtype=np.complex128)
+            upper.real = weighted.real @ shapes[begin:].T + smooth[rows, begin:] @ weights[n_modes:].real
+            upper.imag = weighted.imag @ shapes[begin:].T + smooth[rows, begin:] @ weights[n_modes:].imag
+            square = upper[:, : len(upper)]
+            below = np.tril_indices(len(upper), -1)
+            square[below] = square.T[below]
+            one[rows, begin:], one[begin:, rows] = upper, upper.T
+    return found

@@ -1,0 +1,152 @@
+"""Objects with hundreds of contacts: results as for few, memory within a bound, and errors beyond it."""
+
+from __future__ import annotations
+
+import tracemalloc
+import warnings
+
+import numpy as np
+import pytest
+
+from scene2hap import (
+    Bands,
+    Box,
+    Contact,
+    ContactNetwork,
+    Excitation,
+    HapticSession,
+    InfinitePlate,
+    MassSpringDamper,
+    ModalPlate,
+    Plate,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    Touch,
+    bake,
+    materials,
+)
+from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.coupled import coupling, many_joints
+from scene2hap.propagation.coupled.coupling import Joint, couple
+from scene2hap.propagation.coupled.rigid import RigidMotion
+from scene2hap.propagation.lattice.lattice_body import lattice_body
+from scene2hap.propagation.modal_body import modal_body
+
+FLOOR = Plate(6.0, 5.0, 0.1, materials.lookup("wood"))
+F_HZ = np.geomspace(40.0, 200.0, 30)
+FEET_M = ((0.0, 0.0), (0.4, 0.0), (0.0, 0.4), (0.4, 0.4))
+MODELS = [ModalPlate(), MassSpringDamper(), InfinitePlate()]
+
+
+def crates(n: int) -> ContactNetwork:
+    """Crates with four feet each, in rows on a floor; the first one is a source."""
+    contacts = [
+        Contact("floor", f"crate {k}", (0.3 + 0.5 * (k % 11) + x, 0.3 + 0.45 * (k // 11) + y, 0.0))
+        for k in range(n)
+        for x, y in FEET_M
+    ]
+    crate = Plate(0.45, 0.45, 0.45, materials.lookup("wood"), object_mass_kg=2.5)
+    bodies = {"floor": FLOOR, **{f"crate {k}": crate for k in range(n)}}
+    poses = {f"crate {k}": Pose((0.3 + 0.5 * (k % 11), 0.3 + 0.45 * (k // 11), 0.2)) for k in range(n)}
+    return ContactNetwork(bodies, contacts, {"floor": Pose(), **poses})
+
+
+SOURCES = [Excitation("crate 0", 120.0, 120.0, 2.5), Excitation("crate 7", 90.0, 90.0, 2.5)]
+AROUND = Bands.dominant(octaves=0.5)
+TOUCHED_M = [(1.0, 2.0, 0.0), (5.5, 4.0, 0.0)]
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.kind)
+def test_many_contacts_give_what_all_pairs_at_once_give(
+    model: ModalPlate | MassSpringDamper | InfinitePlate, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Receptances of single frequencies, parts of the frequencies, and LAPACK: equal to rounding."""
+    network = crates(50)
+    by_parts = model.prepare(network, SOURCES, AROUND)
+    monkeypatch.setattr(many_joints, "MOST_PAIRS", 10**9)
+    monkeypatch.setattr(coupling, "AT_ONCE_BYTES", 10**12)
+    at_once = model.prepare(network, SOURCES, AROUND)
+    for object_id in ("floor", "crate 3", "crate 7"):
+        found, expected = (field.attenuation(object_id, TOUCHED_M) for field in (by_parts, at_once))
+        np.testing.assert_allclose(found, expected, rtol=1e-11)
+    assert by_parts.attenuation("floor", TOUCHED_M).all()
+
+
+@pytest.mark.parametrize("body", [modal_body(FLOOR, 200.0, 0.01), lattice_body(FLOOR, 8, 200.0, 0.01)])
+def test_receptances_among_many_points(body, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Symmetric to the last bit, and equal to those between the same points as if they were others."""
+    points = np.random.default_rng(3).uniform((0.0, 0.0), (6.0, 5.0), (140, 2))
+    assert many_joints.has_many(points)
+    found = body.receptance(points, points, F_HZ[::8])
+    np.testing.assert_array_equal(found, found.transpose(0, 2, 1))
+    expected = body.receptance(points, points.copy(), F_HZ[::8])
+    np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-11 * np.abs(expected).max())
+
+
+def test_parts_of_the_frequencies_are_solved_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    bodies = {"top": RigidMotion(3.0, (1.0, 1.0, 0.1)), "s": RigidMotion(1.0), "t": RigidMotion(2.0)}
+    joints = [Joint("s", "top", (0.0, 0.0), (x, 0.3), 1e5, 0.1) for x in (0.1, 0.5)]
+    joints.append(Joint("top", "t", (0.9, 0.8), (0.0, 0.0), 2e5, 0.1))
+    whole = couple(bodies, joints, ["s", "t"], F_HZ)
+    monkeypatch.setattr(coupling, "AT_ONCE_BYTES", 1)
+    in_parts = couple(bodies, joints, ["s", "t"], F_HZ)
+    np.testing.assert_array_equal(in_parts.forces, whole.forces)
+    np.testing.assert_array_equal(in_parts.holding("top"), whole.holding("top"))
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.kind)
+def test_memory_is_bounded_by_a_part_of_the_frequencies(
+    model: ModalPlate | MassSpringDamper | InfinitePlate, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """300 contacts: all receptances take 16 bytes x 300^2 per frequency, and the terms of all pairs more than that."""
+    monkeypatch.setattr(coupling, "AT_ONCE_BYTES", 6_000_000)
+    network = crates(75)
+    model.prepare(network, SOURCES, AROUND)  # modes and tables are cached
+    tracemalloc.start()
+    field = model.prepare(network, SOURCES, AROUND)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 80_000_000
+    assert field.attenuation("floor", TOUCHED_M).all()
+
+
+@pytest.mark.parametrize(
+    ("most_bytes", "sources", "hand", "message"),
+    [
+        (90_000, SOURCES[:1], None, "receptance among the 40 contacts of object 'floor' would .* Leave objects out"),
+        (90_000, SOURCES, None, r"forces of 2 sources in 40 contacts at \d+ frequencies would .*use ExponentialPlate"),
+        (1_000_000, SOURCES, "palm", r"hand on object 'floor' with 40 contacts at \d+ .* 1 MB are used. Set hand to"),
+    ],
+)
+def test_errors_for_solutions_that_do_not_fit(
+    most_bytes: int, sources: list[Excitation], hand: str | None, message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(coupling, "MOST_BYTES", most_bytes)
+    with pytest.raises(ModelDomainError, match=message):
+        ModalPlate(hand=hand).prepare(crates(10), sources, AROUND)
+
+
+def test_a_session_plays_on_without_a_field_that_does_not_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    def thing(name: str, size: tuple[float, float, float], x: float, y: float = 0.0) -> SceneObject:
+        return SceneObject(name, pose=Pose((x, y + size[1] / 2, 0.0)), geometry=Box(size))
+
+    scene = SceneSnapshot.build(
+        [
+            thing("wooden floor", (3.0, 0.1, 3.0), 0.0, -0.1),
+            thing("washing machine", (0.6, 0.85, 0.6), 0.5),
+            thing("wooden crate", (0.45, 0.45, 0.45), -0.5),
+        ]
+    )
+    monkeypatch.setattr(coupling, "MOST_BYTES", 1000)
+    with HapticSession(scene, bake(scene), {"propagation": "modal_plate"}) as session:
+        touches = [Touch("left", "washing machine", (0.5, 0.85, 0.0)), Touch("right", "wooden floor", (0.0, 0.0, 0.0))]
+        session.update({}, touches)
+        with pytest.warns(RuntimeWarning, match="a field could not be prepared.*would take"):
+            assert session.wait_prepared(20)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            gains = session.update({}, touches).gains
+        assert "would take" in session.stats.last_failure
+    assert gains[0].max() == 1.0
+    assert not gains[1].any()
