@@ -44,22 +44,30 @@ sys.exit(program.main())
 """
 
 
+# A shell makes its background processes ignore the signal, which their children inherit, as those of this test.
+IN_FOREGROUND = """import os, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
+"""
+
+
 def interrupted(*arguments: str, after_s: float | None = None) -> tuple[int, str]:
     """Start Python, interrupt it after a time or its first line of output, and return its status and errors."""
-    process = subprocess.Popen(
-        [sys.executable, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
-    )
-    try:
-        if after_s is None:
-            assert process.stdout is not None
-            process.stdout.readline()
-            time.sleep(0.2)
-        else:
-            time.sleep(after_s)
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=30)
-    finally:
-        process.kill()
+    command = [sys.executable, "-c", IN_FOREGROUND, *arguments]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        try:
+            if after_s is None:
+                assert process.stdout is not None
+                process.stdout.readline()
+                time.sleep(0.2)
+            else:
+                time.sleep(after_s)
+            process.send_signal(signal.SIGINT)
+            _, errors = process.communicate(timeout=30)
+        finally:
+            process.kill()
     return process.returncode, errors
 
 
