@@ -199,7 +199,7 @@ class Deaf(Converter):
 
 
 class OneStream(Converter):
-    """All its streams are one, which begins anew when it is opened."""
+    """All its streams share one state, which is reset when a stream is opened."""
 
     def stream(self, sample_rate_hz: int, context: Any) -> Any:
         self._stream = super().stream(sample_rate_hz, context)
