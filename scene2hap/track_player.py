@@ -14,9 +14,9 @@ from scene2hap import checks
 from scene2hap.calls import clear_call
 from scene2hap.devices.protocol import Block
 from scene2hap.errors import SessionError
+from scene2hap.scene.geometry import vector
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.scene.vectors import vector
 from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.touch_track import LiftStep, MoveStep, TouchStep, TouchTrack
 

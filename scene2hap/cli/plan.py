@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.bounds import joined
+from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL
 from scene2hap.scene.snapshot import SceneSnapshot
 

@@ -1,9 +1,12 @@
-"""A body: the shape of a scene object at a pose."""
+"""A body: the shape of a scene object at a pose; and guest and host of two bodies.
+
+Written in plain Python, since it runs often for one body at a time, where numpy's cost per call would dominate.
+"""
 
 from __future__ import annotations
 
-from scene2hap.contact.free_region import FreeRegions
-from scene2hap.contact.geometry.vectors import Rows, Triple
+from scene2hap.contact.geometry.vectors import Rows, Triple, rotated
+from scene2hap.contact.ledge import FreeRegions
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.stance import Stance
 from scene2hap.scene.objects import SceneObject
@@ -75,6 +78,12 @@ class Body:
         return stance
 
     @property
+    def middle_m(self) -> Triple:
+        """The middle of the oriented box in the world."""
+        (x, y, z), (u, v, w) = rotated(self.stance.rows, self.shape.middle), self.position_m
+        return (u + x, v + y, w + z)
+
+    @property
     def lowest_m(self) -> float:
         """Height of the lowest point."""
         return self.low[self.up_axis]
@@ -88,3 +97,24 @@ class Body:
     def rows(self) -> Rows:
         """The rotation matrix, as rows."""
         return self.stance.rows
+
+
+def roles(x: Body, y: Body) -> tuple[Body, Body]:
+    """Return guest and host, the smaller and the larger body; ids decide between equal sizes."""
+    return (x, y) if (x.size_m, y.id) < (y.size_m, x.id) else (y, x)
+
+
+def box_in_frame(guest: Body, host: Body) -> tuple[Triple, Triple]:
+    """Return middle and half edges [m], along the host's axes, of a box around the guest's oriented box."""
+    (x, y, z), (u, v, w), (p, q, r) = guest.middle_m, host.position_m, guest.shape.half
+    x, y, z = x - u, y - v, z - w
+    (a, b, c), (d, e, f), (g, h, i) = guest.stance.rows
+    (j, k, ll), (m, n, o), (s, t, u) = host.stance.rows
+    return (
+        (j * x + m * y + s * z, k * x + n * y + t * z, ll * x + o * y + u * z),
+        (
+            abs(j * a + m * d + s * g) * p + abs(j * b + m * e + s * h) * q + abs(j * c + m * f + s * i) * r,
+            abs(k * a + n * d + t * g) * p + abs(k * b + n * e + t * h) * q + abs(k * c + n * f + t * i) * r,
+            abs(ll * a + o * d + u * g) * p + abs(ll * b + o * e + u * h) * q + abs(ll * c + o * f + u * i) * r,
+        ),
+    )

@@ -13,11 +13,10 @@ import math
 from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, roles
 from scene2hap.contact.free_space import FreeSpace, top_face as ledge_face
 from scene2hap.contact.geometry.planes import Plane, floor_at, reach_along, roof_at, separation, wall_at
 from scene2hap.contact.geometry.vectors import AABB, Triple
-from scene2hap.contact.host_frame import roles
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.level import Rest, rest_on, rest_points
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Mapping
 
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, roles
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate, Extent, Resting, resting_on, separated, standing_planes
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.planes import Plane
 from scene2hap.contact.geometry.vectors import Triple
-from scene2hap.contact.host_frame import roles
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
 
 _MOST_REFUSALS = 5

@@ -15,11 +15,10 @@ import math
 
 import numpy as np
 
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, box_in_frame, roles
 from scene2hap.contact.geometry.broad import Boxes
 from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.vectors import Floats, Triple
-from scene2hap.contact.host_frame import box_in_frame, middle_m, roles
 from scene2hap.contact.rule import OUTSIDE_SHARE, SIDE_SHARE, play_reach_m, weight
 
 
@@ -28,7 +27,7 @@ def enclosed(a: Body, b: Body) -> tuple[float, float]:
     guest, host = roles(a, b)
     # A box that is more than half inside another has its middle inside, too.
     (x, y, z), (u, v, w) = host.low, host.high
-    p, q, r = middle_m(guest)
+    p, q, r = guest.middle_m
     if not (x <= p <= u and y <= q <= v and z <= r <= w):
         return 0.0, math.inf
     middle, half = box_in_frame(guest, host)

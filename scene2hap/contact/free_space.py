@@ -15,13 +15,11 @@ from typing import Literal
 
 import numpy as np
 
-from scene2hap.contact.body import Body
-from scene2hap.contact.free_region import FreeRegion
+from scene2hap.contact.body import Body, box_in_frame
 from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.geometry.triangle_tree import meeting
 from scene2hap.contact.geometry.vectors import AABB, Indices, Marks
-from scene2hap.contact.host_frame import box_in_frame
-from scene2hap.contact.ledge import Flat, Upright
+from scene2hap.contact.ledge import Flat, FreeRegion, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, is_over, play_reach_m
 from scene2hap.contact.stance import TopFace

@@ -10,11 +10,10 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, roles
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
-from scene2hap.contact.host_frame import roles
 from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over

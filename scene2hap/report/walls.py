@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.bounds import joined
+from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL, SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 

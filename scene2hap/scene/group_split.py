@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene import limits
-from scene2hap.scene.bounds import Bounds, bounds_of, distances, joined
+from scene2hap.scene.geometry import Bounds, bounds_of, distances, joined
 from scene2hap.scene.tree import Matrix, Piece
 
 # Two boxes are separate if the gap exceeds this share of the group's diagonal (assumed).

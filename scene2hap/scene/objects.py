@@ -14,7 +14,7 @@ from pydantic import InstanceOf
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene.bounds import bounds_of
+from scene2hap.scene.geometry import bounds_of
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.pose import Pose

@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
+from scene2hap.scene.geometry import vector
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.scene.vectors import vector
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical.
 _UNIT_TOLERANCE = 1e-9

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from scene2hap.engines.adapter import EngineAdapter
-from scene2hap.scene.bounds import bounds_of, distances
 from scene2hap.scene.contact_normals import are_reversed
 from scene2hap.scene.engines.motion import moved
+from scene2hap.scene.geometry import bounds_of, distances
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot

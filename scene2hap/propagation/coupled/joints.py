@@ -16,9 +16,9 @@ from scene2hap.propagation.coupled.coupling import NORMAL, Along, Joint
 from scene2hap.propagation.coupled.layers import pressed_through
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.scene.geometry import dot
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.vectors import dot
 
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are closer than this are merged."""

@@ -32,9 +32,9 @@ from scene2hap.propagation.coupled.hollow import no_heavier_than_object
 from scene2hap.propagation.coupled.rigid import is_compact
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork
+from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.vectors import Vector, dot
 
 UNEVEN_M = 1e-3
 """Distance of two surfaces that touch at their highest points [m]. Assumed; flatness tolerances of finished floors are

@@ -30,7 +30,7 @@ from scene2hap.scene.capture.protocol import Ids, Renderer, Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import containers, near, shells, supports
 from scene2hap.scene.capture.views import Camera
-from scene2hap.scene.vectors import Vector, vector
+from scene2hap.scene.geometry import Vector, vector
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
-from scene2hap.scene.bounds import bounds_of, joined
 from scene2hap.scene.capture.colour_table import Palette, PaletteBuilder, neutral
 from scene2hap.scene.capture.views import axes_of
+from scene2hap.scene.geometry import bounds_of, joined
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.objects import SceneObject, UpAxis
 from scene2hap.scene.snapshot import SceneSnapshot

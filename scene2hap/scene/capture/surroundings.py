@@ -10,11 +10,10 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.bounds import distances
 from scene2hap.scene.capture.stage import Actor, Stage
 from scene2hap.scene.copies import copy_key
+from scene2hap.scene.geometry import cross_2d, distances
 from scene2hap.scene.objects import VERTICAL, SceneObject
-from scene2hap.scene.vectors import cross_2d
 
 Floats = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.bounds import bounds_of
+from scene2hap.scene.geometry import bounds_of
 from scene2hap.scene.objects import UpAxis
 
 Floats = NDArray[np.float64]

@@ -41,9 +41,9 @@ from scene2hap.counted import first_of
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
-from scene2hap.scene.bounds import Bounds, bounds_of, joined
 from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object
 from scene2hap.scene.formats.habitat_names import Names, ObjectNames
+from scene2hap.scene.geometry import Bounds, bounds_of, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, with_own_keys

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.counted import first_of
-from scene2hap.scene.bounds import distances
 from scene2hap.scene.copies import name_words
+from scene2hap.scene.geometry import distances
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
 from scene2hap.scene.scene_warning import SceneWarning as SceneWarning

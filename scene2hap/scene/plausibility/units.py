@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.bounds import joined
+from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, usual
 

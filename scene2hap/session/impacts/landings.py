@@ -20,8 +20,8 @@ import numpy as np
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
+from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.vectors import Vector, dot
 from scene2hap.session.impacts.motion_track import LEAST_TRAVEL_M, LEFT, MOST_STEPS, NOTHING, MotionTrack, in_world
 
 LEAST_SPEED_M_S = 0.1

@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from scene2hap.contact.junction import Junction
+from scene2hap.scene.geometry import Vector, dot
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.vectors import Vector, dot
 
 WINDOW_S, MOST_STEPS = 0.05, 8
 """Time and number of steps over which a speed is measured."""

@@ -10,10 +10,9 @@ from hypothesis import given, settings, strategies as st
 from contact_scenes import box, boxes, chair, house, pairs, scene
 from scene2hap.contact import free_space, pair as narrow_phase
 from scene2hap.contact.body import Body
-from scene2hap.contact.free_region import FreeRegion, FreeRegions
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.contact.ledge import Upright
+from scene2hap.contact.ledge import FreeRegion, FreeRegions, Upright
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.rule import fall_reach_m, hang_reach_m
 from scene2hap.scene.objects import SceneObject

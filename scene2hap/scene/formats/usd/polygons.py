@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.vectors import cross_2d
+from scene2hap.scene.geometry import cross_2d
 
 MAX_EAR_CORNERS = 512
 """A concave face of more corners is cut as a fan (assumed; time grows with the square)."""
