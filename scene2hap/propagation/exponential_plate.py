@@ -27,9 +27,11 @@ from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
 from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
+from scene2hap.propagation.paths.traced_paths import TracedPaths
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import arrivals_at, as_points
 from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_input
+from scene2hap.scene.objects import Contact
 
 if TYPE_CHECKING:
     from scene2hap.contact.graph import ContactGraph
@@ -149,6 +151,16 @@ class ExponentialPlate:
 def price_per_m(body: Body) -> float:
     """Return the cost of a metre through a body, k / sqrt(omega) [s^(1/2)/m]; 0 for a rigid body."""
     return body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0
+
+
+def traced_paths(
+    model: object, bodies: Mapping[str, Body], contacts: Sequence[Contact], source_ids: Sequence[str]
+) -> TracedPaths:
+    """Return the cheapest paths of sources by the paper's law: that of `model`, or the default one for other models."""
+    law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
+    price = {object_id: price_per_m(body) for object_id, body in bodies.items()}
+    crossing = [law.crossing_cost(contact.weight) for contact in contacts]
+    return TracedPaths(price, contacts, crossing, source_ids, law.max_hops)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,11 +9,10 @@ and the share of the power through each contact.
 
 from __future__ import annotations
 
-import heapq
 import math
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,9 +20,9 @@ from numpy.typing import NDArray
 
 from scene2hap.counted import first_of
 from scene2hap.html_tables import html_table
-from scene2hap.propagation.exponential_plate import ExponentialPlate, price_per_m
-from scene2hap.propagation.protocol import Body, Carrier, CarryingField
-from scene2hap.scene.objects import Contact
+from scene2hap.propagation.exponential_plate import traced_paths
+from scene2hap.propagation.paths.traced_paths import Point, TracedPaths, Way
+from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
 from scene2hap.session.impacts.felt_impacts import Impact
@@ -216,12 +215,23 @@ class Explainer:
         if self._field is not None and on != source_id:
             carriers = self._field.carriers(on, source_id, band)
         else:
-            way = loudest_path(source_id, on, point_m, self._state.graph.contacts, self._state.bodies, self._model)
+            way = self._way(source_id, on, point_m)
             steps = _steps(way, point_m, gain_at) if way is not None else ()
         source = self._sources[source_id]
         felt = source.rows[source.state].loop.felt
         over_db = None if felt is None else felt.level_db + gain_db + level_db
         return FeltSource(source_id, source.state, on, gain_db, level_db, band, steps, carriers, over_db)
+
+    def _way(self, source_id: str, on: str, point_m: Point) -> Way | None:
+        """Return the cheapest way from a source to a point of an object, None without one."""
+        if source_id == on:
+            return Way((source_id,))
+        side = int(self._traced.entered(on, np.array([point_m]))[self._sources.ids.index(source_id), 0])
+        return None if side < 0 else self._traced.way(source_id, side)
+
+    @cached_property
+    def _traced(self) -> TracedPaths:
+        return traced_paths(self._model, self._state.bodies, self._state.graph.contacts, self._sources.ids)
 
 
 _REMEDIES = {"off": "on=True", "muted": "mute=False", "in its off-time": "on=True"}
@@ -241,12 +251,12 @@ def decibels(gain: float) -> float:
     return 20 * math.log10(gain) if gain > 0 else -math.inf
 
 
-def _steps(way: LoudestPath, point_m: Point, gain_at: Callable[[str, Point], float]) -> tuple[PathStep, ...]:
+def _steps(way: Way, point_m: Point, gain_at: Callable[[str, Point], float]) -> tuple[PathStep, ...]:
     """Steps of a path. A step runs through its object up to the next contact; the loss of a contact belongs to the
     object behind it."""
     steps, before_db = [PathStep(way.objects[0], 0.0, 0.0)], 0.0
-    leaves = (*way.entries, point_m)[1:]
-    for object_id, enter, leave in zip(way.objects[1:], way.entries, leaves, strict=True):
+    leaves = (*way.entries_m, point_m)[1:]
+    for object_id, enter, leave in zip(way.objects[1:], way.entries_m, leaves, strict=True):
         after_db = decibels(gain_at(object_id, leave))
         change_db = after_db - before_db if math.isfinite(before_db) else 0.0
         steps.append(PathStep(object_id, math.dist(enter, leave), change_db))
@@ -277,62 +287,3 @@ def _in_words(carriers: Sequence[Carrier]) -> str:
         if sum(shares) >= LEAST_SHARE
     ]
     return ", ".join(described)
-
-
-Point = tuple[float, float, float]
-
-_END = ""
-
-
-@dataclass(frozen=True)
-class LoudestPath:
-    """Objects from a source to a touch, and the entry point of each object after the source."""
-
-    objects: tuple[str, ...]
-    entries: tuple[Point, ...] = ()
-
-    def on(self, object_id: str, entry: Point) -> LoudestPath:
-        """Extend the path by one object."""
-        return LoudestPath((*self.objects, object_id), (*self.entries, entry))
-
-
-def loudest_path(
-    source_id: str,
-    target_id: str,
-    point_m: Point,
-    contacts: Sequence[Contact],
-    bodies: Mapping[str, Body],
-    model: object,
-) -> LoudestPath | None:
-    """The cheapest path over contacts (Dijkstra), with the costs of `propagation.paths`; None if there is none."""
-    if source_id == target_id:
-        return LoudestPath((source_id,))
-    law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
-    beside: dict[str, list[tuple[str, Point, float]]] = defaultdict(list)
-    for contact in contacts:
-        if contact.weight > 0:
-            crossing = law.crossing_cost(contact.weight)
-            beside[contact.a].append((contact.b, contact.point_m, crossing))
-            beside[contact.b].append((contact.a, contact.point_m, crossing))
-    waiting: list[tuple[float, int, LoudestPath]] = [(0.0, 0, LoudestPath((source_id,)))]
-    done: set[tuple[str, Point | None, int]] = set()
-    n_pushed = 0
-    while waiting:
-        cost, _, way = heapq.heappop(waiting)
-        here, hops = way.objects[-1], len(way.entries)
-        if here == _END:
-            return LoudestPath(way.objects[:-1], way.entries[:-1])
-        entry = way.entries[-1] if way.entries else None
-        # The number of hops is part of the state only if the law limits it.
-        state = (here, entry, hops if law.max_hops is not None else 0)
-        if state in done or (entry is not None and here not in bodies):
-            continue
-        done.add(state)
-        onward = [] if law.max_hops is not None and hops >= law.max_hops else beside[here]
-        end = [(_END, point_m, 0.0)] if here == target_id else []
-        for other, leave, crossing in (*onward, *end):
-            # A path inside the source costs nothing, since the source moves as a whole.
-            through = 0.0 if entry is None else price_per_m(bodies[here]) * math.dist(entry, leave)
-            n_pushed += 1
-            heapq.heappush(waiting, (cost + through + crossing, n_pushed, way.on(other, leave)))
-    return None

@@ -12,14 +12,36 @@ all paths are.
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections import defaultdict, deque
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.objects import Contact
+
+
+class Sides(NamedTuple):
+    """The two sides of each contact, numbered 2 i on its object a and 2 i + 1 on b: side ^ 1 is the one across.
+
+    owner : the object of each side; by_object : the sides of each object; points_m (n_contacts, 3) [m]; crossing
+    (n_contacts,) : cost of crossing each contact.
+    """
+
+    owner: list[str]
+    by_object: dict[str, NDArray[np.intp]]
+    points_m: NDArray[np.float64]
+    crossing: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, contacts: Sequence[Contact], crossing_cost: Sequence[float]) -> Sides:
+        """Number the sides of contacts."""
+        owner = [object_id for contact in contacts for object_id in (contact.a, contact.b)]
+        points_m = np.array([contact.point_m for contact in contacts], dtype=np.float64).reshape(-1, 3)
+        by_object = _by_object(owner, np.arange(len(owner)))
+        return cls(owner, by_object, points_m, np.asarray(crossing_cost, dtype=np.float64))
 
 
 @dataclass(frozen=True)
@@ -47,49 +69,39 @@ def cheapest_arrivals(
     may be a source); crossing_cost : cost of each contact, >= 0; max_hops : contacts that a path may cross, None for
     any number.
     """
-    pairs = [(contact.a, contact.b) for contact in contacts]
-    points_m = [contact.point_m for contact in contacts]
-    return cheapest_over(price_per_m, pairs, points_m, crossing_cost, source_ids, max_hops)
+    sides = Sides.of(contacts, crossing_cost)
+    (costs,) = deque(costs_by_hops(price_per_m, sides, source_ids, max_hops), maxlen=1)
+    return {
+        object_id: Arrivals(sides.points_m[own // 2], costs[:, own])
+        for object_id, own in sides.by_object.items()
+        if object_id in price_per_m
+    }
 
 
-def cheapest_over(
-    price_per_m: Mapping[str, float],
-    pairs: Sequence[tuple[str, str]],
-    points_m: Sequence[tuple[float, float, float]],
-    crossing_cost: Sequence[float],
-    source_ids: Sequence[str],
-    max_hops: int | None,
-) -> dict[str, Arrivals]:
-    """Compute `cheapest_arrivals` for contacts given as pairs of objects and points [m]."""
-    # A contact has two sides, numbered 2 i on its object a and 2 i + 1 on b: side ^ 1 is the one across.
-    owner = [object_id for pair in pairs for object_id in pair]
-    sides_of: dict[str, list[int]] = defaultdict(list)
-    for side, object_id in enumerate(owner):
-        sides_of[object_id].append(side)
-    sides = {object_id: np.array(own) for object_id, own in sides_of.items()}
-    points = np.array(points_m, dtype=np.float64).reshape(-1, 3)
-    crossing = np.asarray(crossing_cost, dtype=np.float64)
-    costs = np.full((len(source_ids), 2 * len(pairs)), np.inf)
+def costs_by_hops(
+    price_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str], max_hops: int | None
+) -> Iterator[NDArray[np.float64]]:
+    """Yield the cost (n_sources, n_sides) of arriving over each side with at most 1, 2, ... contacts, up to the last
+    round that may lower a cost."""
+    owner, by_object, points_m, crossing = sides
+    costs = np.full((len(source_ids), len(owner)), np.inf)
     for row, source_id in enumerate(source_ids):
-        if source_id in sides:
-            out = sides[source_id]
+        if source_id in by_object:
+            out = by_object[source_id]
             costs[row, out ^ 1] = crossing[out // 2]
+    yield costs
     hops, entered = 1, np.flatnonzero(np.isfinite(costs).any(axis=0))
     while len(entered) and (max_hops is None or hops < max_hops):
         improved = costs.copy()
         for object_id, rows in _by_object(owner, entered[_useful(costs, crossing, entered)]).items():
             if object_id in price_per_m:
-                own = sides[object_id]
-                way = price_per_m[object_id] * _distances(points[rows // 2], points[own // 2]) + crossing[own // 2]
+                own = by_object[object_id]
+                way = price_per_m[object_id] * _distances(points_m[rows // 2], points_m[own // 2]) + crossing[own // 2]
                 onward = (costs[:, rows, None] + way).min(axis=1)
                 improved[:, own ^ 1] = np.minimum(improved[:, own ^ 1], onward)
         entered = np.flatnonzero((improved < costs).any(axis=0))
         hops, costs = hops + 1, improved
-    return {
-        object_id: Arrivals(points[own // 2], costs[:, own])
-        for object_id, own in sides.items()
-        if object_id in price_per_m
-    }
+        yield costs
 
 
 def _useful(costs: NDArray[np.float64], crossing: NDArray[np.float64], entered: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -1,0 +1,119 @@
+"""Traced paths against networkx's shortest paths over the contact points of random scenes."""
+
+from __future__ import annotations
+
+import math
+
+import networkx as nx
+import numpy as np
+import pytest
+
+from scene2hap.propagation.paths.traced_paths import TracedPaths, Way
+from scene2hap.scene.objects import Contact
+
+Point = tuple[float, float, float]
+
+
+def _scene(seed: int) -> tuple[dict[str, float], list[Contact], list[float]]:
+    """Random prices of ten objects, and contacts between them."""
+    rng = np.random.default_rng(seed)
+    ids = [f"o{i}" for i in range(10)]
+    prices = {x: float(rng.uniform(0, 2)) for x in ids[:9]}  # o9 passes nothing on
+    contacts = []
+    for _ in range(18):
+        a, b = sorted(rng.choice(ids, 2, replace=False).tolist())
+        contacts.append(Contact(a, b, tuple(rng.uniform(-1, 1, 3).tolist())))
+    return prices, contacts, rng.uniform(0, 0.3, len(contacts)).tolist()
+
+
+def _expected_cost(
+    prices: dict[str, float], contacts: list[Contact], crossing: list[float], source: str, on: str, point_m: Point
+) -> float:
+    """The length of the shortest path over nodes (object, contact), a contact point of each of its objects."""
+    graph: nx.DiGraph = nx.DiGraph()
+    for i, contact in enumerate(contacts):
+        for here, there in ((contact.a, contact.b), (contact.b, contact.a)):
+            graph.add_edge((here, i), (there, i), weight=crossing[i])
+            if here == source:
+                graph.add_edge("start", (here, i), weight=0.0)
+            if here in prices and here != source:
+                for j, other in enumerate(contacts):
+                    if j != i and here in (other.a, other.b):
+                        length_m = math.dist(contact.point_m, other.point_m)
+                        graph.add_edge((here, i), (here, j), weight=prices[here] * length_m)
+            if here == on and on in prices:
+                graph.add_edge((here, i), "end", weight=prices[on] * math.dist(contact.point_m, point_m))
+    if "start" not in graph or "end" not in graph or not nx.has_path(graph, "start", "end"):
+        return math.inf
+    return float(nx.shortest_path_length(graph, "start", "end", weight="weight"))
+
+
+def _cost(way: Way, prices: dict[str, float], contacts: list[Contact], crossing: list[float], point_m: Point) -> float:
+    """The cost of a way from its objects and entry points, each of which must be a contact of the two objects."""
+    cost = 0.0
+    for k, entry in enumerate(way.entries_m):
+        pair = tuple(sorted(way.objects[k : k + 2]))
+        cost += min(
+            c for one, c in zip(contacts, crossing, strict=True) if (one.a, one.b, one.point_m) == (*pair, entry)
+        )
+        leave = way.entries_m[k + 1] if k + 1 < len(way.entries_m) else point_m
+        cost += prices[way.objects[k + 1]] * math.dist(entry, leave)
+    return cost
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_a_way_costs_what_the_shortest_path_costs(seed: int) -> None:
+    prices, contacts, crossing = _scene(seed)
+    sources = ("o0", "o5", "o9", "alone")
+    traced = TracedPaths(prices, contacts, crossing, sources, None)
+    points_m = np.random.default_rng(seed + 100).uniform(-1, 1, (3, 3))
+    for on in prices:
+        entered = traced.entered(on, points_m)
+        for source, sides in zip(sources, entered.tolist(), strict=True):
+            if source == on:
+                continue
+            for side, at in zip(sides, points_m.tolist(), strict=True):
+                point_m = (at[0], at[1], at[2])
+                expected = _expected_cost(prices, contacts, crossing, source, on, point_m)
+                if math.isinf(expected):
+                    assert side == -1
+                    continue
+                way = traced.way(source, side)
+                assert (way.objects[0], way.objects[-1]) == (source, on)
+                assert _cost(way, prices, contacts, crossing, point_m) == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_way_crosses_no_more_contacts_than_allowed() -> None:
+    """Three tables in a row beside a long plank: the short cut over the plank has fewer contacts, but costs more."""
+    contacts = [
+        Contact("phone", "t1", (0.0, 0.0, 0.0)),
+        Contact("t1", "t2", (1.0, 0.0, 0.0)),
+        Contact("t2", "t3", (2.0, 0.0, 0.0)),
+        Contact("plank", "t1", (0.5, 0.0, 0.0)),
+        Contact("plank", "t3", (2.5, 0.0, 0.0)),
+    ]
+    prices = {"t1": 1.0, "t2": 1.0, "t3": 1.0, "plank": 5.0, "phone": 0.0}
+    by_hops = {}
+    for max_hops in (None, 3, 2):
+        traced = TracedPaths(prices, contacts, [0.0] * 5, ("phone",), max_hops)
+        side = int(traced.entered("t3", np.array([[3.0, 0.0, 0.0]]))[0, 0])
+        by_hops[max_hops] = traced.way("phone", side).objects if side >= 0 else ()
+    assert by_hops == {None: ("phone", "t1", "t2", "t3"), 3: ("phone", "t1", "t2", "t3"), 2: ()}
+
+
+def test_of_equal_paths_the_one_with_fewer_contacts_is_taken() -> None:
+    """A rigid tray between phone and table, at one point with the phone's own foot."""
+    contacts = [
+        Contact("phone", "tray", (0.0, 0.0, 0.0)),
+        Contact("table", "tray", (0.0, 0.0, 0.0)),
+        Contact("phone", "table", (0.0, 0.0, 0.0)),
+    ]
+    traced = TracedPaths({"tray": 0.0, "table": 1.0}, contacts, [0.0] * 3, ("phone",), None)
+    side = int(traced.entered("table", np.array([[1.0, 0.0, 0.0]]))[0, 0])
+    assert traced.way("phone", side) == Way(("phone", "table"), ((0.0, 0.0, 0.0),))
+
+
+def test_no_contact_and_no_source_give_no_path() -> None:
+    traced = TracedPaths({"table": 1.0}, [], [], ("phone",), None)
+    assert traced.entered("table", np.zeros((2, 3))).tolist() == [[-1, -1]]
+    assert TracedPaths({"table": 1.0}, [], [], (), None).entered("table", np.zeros((2, 3))).shape == (0, 2)
