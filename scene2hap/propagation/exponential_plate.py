@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,7 +27,6 @@ from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
 from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
-from scene2hap.propagation.paths.traced_paths import TracedPaths
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import arrivals_at, as_points
 from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_input
@@ -153,14 +152,19 @@ def price_per_m(body: Body) -> float:
     return body.wavenumber_per_root_omega if isinstance(body, Plate) else 0.0
 
 
-def traced_paths(
-    model: object, bodies: Mapping[str, Body], contacts: Sequence[Contact], source_ids: Sequence[str]
-) -> TracedPaths:
-    """Return the cheapest paths of sources by the paper's law: that of `model`, or the default one for other models."""
-    law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
-    price = {object_id: price_per_m(body) for object_id, body in bodies.items()}
-    crossing = [law.crossing_cost(contact.weight) for contact in contacts]
-    return TracedPaths(price, contacts, crossing, source_ids, law.max_hops)
+class PathCosts(NamedTuple):
+    """The paper's law as costs for a search of paths: prices, crossing costs and hops of `cheapest_arrivals`."""
+
+    price_per_m: dict[str, float]
+    crossing_cost: list[float]
+    max_hops: int | None
+
+    @classmethod
+    def of(cls, model: object, bodies: Mapping[str, Body], contacts: Sequence[Contact]) -> PathCosts:
+        """The costs of `model` if it is an `ExponentialPlate`; those of the default one for other models."""
+        law = model if isinstance(model, ExponentialPlate) else ExponentialPlate()
+        price = {object_id: price_per_m(body) for object_id, body in bodies.items()}
+        return cls(price, [law.crossing_cost(contact.weight) for contact in contacts], law.max_hops)
 
 
 @dataclass(frozen=True, eq=False)

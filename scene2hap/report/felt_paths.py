@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.propagation.controls import FullPropagation, NoPropagation
-from scene2hap.propagation.exponential_plate import ExponentialPlate, traced_paths
+from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
+from scene2hap.propagation.paths.traced_paths import TracedPaths
 from scene2hap.report.surface_points import Patch
 from scene2hap.scene.objects import Contact
 from scene2hap.session.network import body_of
@@ -41,15 +42,15 @@ def paths_of(
         return None
     sources = tuple(bundle.loops)
     bodies = {key: body for key, haptics in bundle.objects.items() if (body := body_of(haptics)) is not None}
-    traced = traced_paths(model, bodies, contacts, sources)
+    costs = PathCosts.of(model, bodies, contacts)
+    traced = TracedPaths(costs.price_per_m, contacts, costs.crossing_cost, sources, costs.max_hops)
     numbers: dict[str, dict[Path, int]] = {source: {} for source in sources}
     codes: dict[str, list[NDArray[np.uint32]]] = {source: [] for source in sources}
     for patch in patches:
         for source, entered in zip(sources, traced.entered(patch.object_id, patch.points_m), strict=True):
             sides, place = np.unique(entered, return_inverse=True)
-            if source == patch.object_id:
-                ways = [(source,)] * len(sides)
-            else:
+            ways: list[Path] = [(source,)] * len(sides)
+            if source != patch.object_id:
                 ways = [_merged(traced.way(source, side).objects) if side >= 0 else () for side in sides.tolist()]
             known = numbers[source]
             of_sides = [known.setdefault(way, len(known)) + 1 if way else 0 for way in ways]

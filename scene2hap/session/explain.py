@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -20,9 +19,10 @@ from numpy.typing import NDArray
 
 from scene2hap.counted import first_of
 from scene2hap.html_tables import html_table
-from scene2hap.propagation.exponential_plate import traced_paths
-from scene2hap.propagation.paths.traced_paths import Point, TracedPaths, Way
+from scene2hap.propagation.exponential_plate import PathCosts
+from scene2hap.propagation.paths.traced_paths import PathsToPoint, Point, Way
 from scene2hap.propagation.protocol import Carrier, CarryingField
+from scene2hap.session.audibility import NOWHERE
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
 from scene2hap.session.impacts.felt_impacts import Impact
@@ -160,6 +160,7 @@ class Explainer:
     ) -> None:
         self._state, self._sources, self._model, self._gains, self._levels = state, sources, model, gains, levels
         self._field = field if isinstance(field, CarryingField) else None
+        self._paths: dict[tuple[str, Point], PathsToPoint] = {}
 
     def explain(
         self, hand: str, touches: Sequence[Touch], frame: HapticFrame, *, is_current: bool, is_paused: bool
@@ -203,9 +204,10 @@ class Explainer:
 
     def _felt(self, source_id: str, band: int, touches: Sequence[Touch]) -> FeltSource:
         column = self._sources.ids.index(source_id)
+        limits = [math.inf if other == column else NOWHERE for other in range(len(self._sources.ids))]
 
         def gain_at(object_id: str, point_m: Point) -> float:
-            return float(self._gains.of([[Touch("", object_id, point_m)]])[0, column, band])
+            return float(self._gains.of([[Touch("", object_id, point_m)]], limits)[0, column, band])
 
         touch = max(touches, key=lambda touch: gain_at(touch.object_id, touch.point_m))
         on, point_m = touch.object_id, touch.point_m
@@ -215,23 +217,22 @@ class Explainer:
         if self._field is not None and on != source_id:
             carriers = self._field.carriers(on, source_id, band)
         else:
-            way = self._way(source_id, on, point_m)
+            way = self._paths_to(on, point_m).way(source_id)
             steps = _steps(way, point_m, gain_at) if way is not None else ()
         source = self._sources[source_id]
         felt = source.rows[source.state].loop.felt
         over_db = None if felt is None else felt.level_db + gain_db + level_db
         return FeltSource(source_id, source.state, on, gain_db, level_db, band, steps, carriers, over_db)
 
-    def _way(self, source_id: str, on: str, point_m: Point) -> Way | None:
-        """Return the cheapest way from a source to a point of an object, None without one."""
-        if source_id == on:
-            return Way((source_id,))
-        side = int(self._traced.entered(on, np.array([point_m]))[self._sources.ids.index(source_id), 0])
-        return None if side < 0 else self._traced.way(source_id, side)
-
-    @cached_property
-    def _traced(self) -> TracedPaths:
-        return traced_paths(self._model, self._state.bodies, self._state.graph.contacts, self._sources.ids)
+    def _paths_to(self, on: str, point_m: Point) -> PathsToPoint:
+        """Return the paths to a touched point; hands touch few, so that each is searched from once."""
+        if (on, point_m) not in self._paths:
+            contacts = self._state.graph.contacts
+            costs = PathCosts.of(self._model, self._state.bodies, contacts)
+            self._paths[on, point_m] = PathsToPoint(
+                costs.price_per_m, contacts, costs.crossing_cost, costs.max_hops, on, point_m
+            )
+        return self._paths[on, point_m]
 
 
 _REMEDIES = {"off": "on=True", "muted": "mute=False", "in its off-time": "on=True"}

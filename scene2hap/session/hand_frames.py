@@ -168,9 +168,11 @@ class HandFrames:
             self.levels_changed()
         if not touches or not self._sources.ids:
             return np.zeros((len(touches), len(self._sources.ids), self._config.bands.n_bands))
-        gains = self._touch_gains(self.keeper.unnoted(self._sources.ids, self._reach), Counts())
-        given = gains.of([[touch] for touch in touches])
         levels = {hand: np.stack([*self._levels_at(hand).values()]) for hand in {touch.hand for touch in touches}}
+        field = self.keeper.unnoted(self._sources.ids, self._reach)
+        cutoff = self._cutoff_of(field)
+        limits = None if cutoff is None else cutoff.arrives(np.max([*levels.values()], axis=(0, 2)))
+        given = self._touch_gains(field, Counts()).of([[touch] for touch in touches], limits)
         for one, touch in zip(given, touches, strict=True):
             one *= levels[touch.hand]
         return np.where(given < SILENT, 0.0, given)
@@ -253,22 +255,35 @@ class HandFrames:
 
     def _new_method(self, field: LiveField) -> GainMethod:
         skip, counts = self._config.skip, self._counts
-        if self._audibility is None:
-            self._audibility = Audibility(self._peaks(self._sources.active_rows()), skip, counts)
-            self._cutoff = None
+        gains, audibility = self._touch_gains(field, counts), self._known_audibility()
         if self._loudness is None:
-            self._loudness = Loudness(self._levels, self._audibility)
-        gains, loudness = self._touch_gains(field, counts), self._loudness
+            self._loudness = Loudness(self._levels, audibility)
+        loudness = self._loudness
         wants_near = skip.below_threshold and skip.idle_hands and not gains.may_be_capped
-        # Live fields only: a cost query of a prepared field would take longer than computing its gains.
-        if not (wants_near and isinstance(self.keeper, LiveKeeper) and isinstance(field, PricedField)):
+        cutoff = self._cutoff_of(field) if wants_near else None
+        if cutoff is None:
             return AllGains(gains, loudness, skip, counts)
-        if self._cutoff is None or self._cutoff[0] is not field:
-            self._cutoff = (field, CutoffCost(field, self._audibility, self._known_excitations()))
-        cutoff = self._cutoff[1]
+        assert isinstance(field, PricedField)
         return PrunedGains(
             gains, field, cutoff, loudness, counts, skips_silent_bands=skip.silent_bands, graph=self._state.graph
         )
+
+    def _known_audibility(self) -> Audibility:
+        if self._audibility is None:
+            peaks = self._peaks(self._sources.active_rows())
+            self._audibility = Audibility(peaks, self._config.skip, self._counts)
+            self._cutoff = None
+        return self._audibility
+
+    def _cutoff_of(self, field: LiveField) -> CutoffCost | None:
+        """The cut-offs of the sources in a field; None unless it reports path cost."""
+        # Live fields only: a cost query of a prepared field would take longer than computing its gains.
+        if not (isinstance(self.keeper, LiveKeeper) and isinstance(field, PricedField)):
+            return None
+        audibility = self._known_audibility()
+        if self._cutoff is None or self._cutoff[0] is not field:
+            self._cutoff = (field, CutoffCost(field, audibility, self._known_excitations()))
+        return self._cutoff[1]
 
     def _nothing(self, n_hands: int) -> NDArray[np.float32]:
         return np.zeros((n_hands, len(self._sources.ids), self._config.bands.n_bands), dtype=np.float32)

@@ -86,13 +86,17 @@ class TouchGains:
                     row[self._own[touch.object_id]] = 0.0
         return prices
 
-    def of(self, hands: Sequence[Sequence[Touch]]) -> NDArray[np.float64]:
+    def of(self, hands: Sequence[Sequence[Touch]], limits: Sequence[float] | None = None) -> NDArray[np.float64]:
         """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source.
 
+        Parameters: limits : for each source, the highest path cost of interest; a `PricedField` may give 0 beyond it.
         Raises: ModelDomainError: the field returns another shape.
         """
-        found = self._field.strongest([self.query(touches)[0] for touches in hands])
-        gains = checked(found, (len(hands), *self._shape))
+        queries = [self.query(touches) for touches in hands]
+        if limits is not None and isinstance(self._field, PricedField):
+            gains = self.at(self._field, self.prices(self._field, hands, queries, limits))
+        else:
+            gains = checked(self._field.strongest([points for points, _ in queries]), (len(hands), *self._shape))
         for i, touches in enumerate(hands):
             for touch in touches:
                 if touch.object_id in self._own:

@@ -12,6 +12,8 @@ from scene2hap.propagation.paths.prepared_paths import Sides, costs_by_hops
 from scene2hap.scene.objects import Contact
 
 Point = tuple[float, float, float]
+_TOUCH = "\0touch"
+"""Id of a point that is searched from; no object has it."""
 _WITHIN = 1e-12
 """Relative error within which two sums of the same costs are equal."""
 
@@ -60,11 +62,23 @@ class TracedPaths:
         apart_m = np.linalg.norm(points_m[:, None].astype(np.float64) - self._sides.points_m[own // 2], axis=2)
         within = self._price_per_m[object_id] * apart_m
         for row in range(len(found)):
-            total = within + self._by_hops[-1][row, own]
-            least = total.min(axis=1, keepdims=True)
-            best = np.where(total <= least * (1.0 + _WITHIN), self._before[row, own], np.inf).argmin(axis=1)
-            found[row] = np.where(np.isfinite(least[:, 0]), own[best], -1)
+            found[row] = self._cheapest(row, own, within)
         return found
+
+    def _cheapest(self, row: int, own: NDArray[np.intp], within: NDArray[np.float64]) -> NDArray[np.intp]:
+        """Return which of an object's sides is the cheapest, given costs (n, n_sides) beyond each; -1 for none."""
+        total = within + self._by_hops[-1][row, own]
+        least = total.min(axis=1, keepdims=True)
+        best = np.where(total <= least * (1.0 + _WITHIN), self._before[row, own], np.inf).argmin(axis=1)
+        return np.where(np.isfinite(least[:, 0]), own[best], -1)
+
+    def way_to(self, source_id: str, object_id: str) -> Way | None:
+        """Return the cheapest way from a source to any point of an object, None without one."""
+        own = self._sides.by_object.get(object_id)
+        if own is None:
+            return None
+        (side,) = self._cheapest(self._rows[source_id], own, np.zeros((1, len(own)))).tolist()
+        return self.way(source_id, side) if side >= 0 else None
 
     def way(self, source_id: str, side: int) -> Way:
         """Return the cheapest way from a source to the object that it enters over a side."""
@@ -85,3 +99,32 @@ class TracedPaths:
             x, y, z = points_m[side // 2].tolist()
             self._ways[key] = Way((*before.objects, owner[side]), (*before.entries_m, (x, y, z)))
         return self._ways[key]
+
+
+class PathsToPoint:
+    """The cheapest paths from all objects to one point, as if each were a source.
+
+    A path costs the same in both directions, so that one search from the point finds all. Parameters: see
+    `cheapest_arrivals`; object_id, point_m : a point of an object [m].
+    """
+
+    def __init__(
+        self,
+        price_per_m: Mapping[str, float],
+        contacts: Sequence[Contact],
+        crossing_cost: Sequence[float],
+        max_hops: int | None,
+        object_id: str,
+        point_m: Point,
+    ) -> None:
+        hops = None if max_hops is None else max_hops + 1
+        touch = Contact(_TOUCH, object_id, point_m)
+        self._traced = TracedPaths(price_per_m, [*contacts, touch], [*crossing_cost, 0.0], (_TOUCH,), hops)
+        self._object_id = object_id
+
+    def way(self, source_id: str) -> Way | None:
+        """Return the cheapest way from a source to the point, None without one."""
+        if source_id == self._object_id:
+            return Way((source_id,))
+        found = self._traced.way_to(_TOUCH, source_id)
+        return None if found is None else Way(found.objects[:0:-1], found.entries_m[:0:-1])

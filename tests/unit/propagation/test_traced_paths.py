@@ -8,7 +8,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from scene2hap.propagation.paths.traced_paths import TracedPaths, Way
+from scene2hap.propagation.paths.traced_paths import PathsToPoint, TracedPaths, Way
 from scene2hap.scene.objects import Contact
 
 Point = tuple[float, float, float]
@@ -75,12 +75,14 @@ def test_a_way_costs_what_the_shortest_path_costs(seed: int) -> None:
             for side, at in zip(sides, points_m.tolist(), strict=True):
                 point_m = (at[0], at[1], at[2])
                 expected = _expected_cost(prices, contacts, crossing, source, on, point_m)
+                back = PathsToPoint(prices, contacts, crossing, None, on, point_m).way(source)
                 if math.isinf(expected):
-                    assert side == -1
+                    assert (side, back) == (-1, None)
                     continue
-                way = traced.way(source, side)
-                assert (way.objects[0], way.objects[-1]) == (source, on)
-                assert _cost(way, prices, contacts, crossing, point_m) == pytest.approx(expected, rel=1e-9)
+                for way in (traced.way(source, side), back):
+                    assert way is not None
+                    assert (way.objects[0], way.objects[-1]) == (source, on)
+                    assert _cost(way, prices, contacts, crossing, point_m) == pytest.approx(expected, rel=1e-9)
 
 
 def test_a_way_crosses_no_more_contacts_than_allowed() -> None:
@@ -98,6 +100,8 @@ def test_a_way_crosses_no_more_contacts_than_allowed() -> None:
         traced = TracedPaths(prices, contacts, [0.0] * 5, ("phone",), max_hops)
         side = int(traced.entered("t3", np.array([[3.0, 0.0, 0.0]]))[0, 0])
         by_hops[max_hops] = traced.way("phone", side).objects if side >= 0 else ()
+        back = PathsToPoint(prices, contacts, [0.0] * 5, max_hops, "t3", (3.0, 0.0, 0.0)).way("phone")
+        assert (() if back is None else back.objects) == by_hops[max_hops]
     assert by_hops == {None: ("phone", "t1", "t2", "t3"), 3: ("phone", "t1", "t2", "t3"), 2: ()}
 
 
@@ -116,4 +120,6 @@ def test_of_equal_paths_the_one_with_fewer_contacts_is_taken() -> None:
 def test_no_contact_and_no_source_give_no_path() -> None:
     traced = TracedPaths({"table": 1.0}, [], [], ("phone",), None)
     assert traced.entered("table", np.zeros((2, 3))).tolist() == [[-1, -1]]
+    assert PathsToPoint({"table": 1.0}, [], [], None, "table", (0.0, 0.0, 0.0)).way("phone") is None
+    assert PathsToPoint({"table": 1.0}, [], [], None, "table", (0.0, 0.0, 0.0)).way("table") == Way(("table",))
     assert TracedPaths({"table": 1.0}, [], [], (), None).entered("table", np.zeros((2, 3))).shape == (0, 2)
