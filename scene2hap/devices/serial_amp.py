@@ -62,13 +62,14 @@ class SerialLine:
         self, port: str, baud_rate: int, sample_rate_hz: int | None, buffer_s: float, block_frames: int
     ) -> None:
         self._name = port
-        self._baud_rate = int(checks.number("baud_rate", baud_rate, "baud", at_least=9600, error=ConfigError))
+        self._baud_rate = checks.whole("baud_rate", baud_rate, "baud", at_least=9600, at_most=10**9, error=ConfigError)
         self._wish_hz = 0
         if sample_rate_hz is not None:
-            wish = checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=48000, error=ConfigError)
-            self._wish_hz = int(wish)
+            self._wish_hz = checks.whole(
+                "sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=48000, error=ConfigError
+            )
         self._buffer_s = checks.number("buffer_s", buffer_s, "s", at_least=0.002, at_most=1.0, error=ConfigError)
-        self._block = int(checks.number("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError))
+        self._block = checks.whole("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError)
         self.underruns = 0
         self.latency_s: float | None = None
         self._port: SerialPort | None = None
