@@ -10,7 +10,7 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.calls import clear_calls
 from scene2hap.devices.exclusive_use import port_key
-from scene2hap.devices.framing.frames import FrameParser, FrameType, message, pcm, to_wire
+from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameParser, FrameType, SampleFormat, message, pcm, to_wire
 from scene2hap.devices.framing.link_messages import GREETED, HEARD, Credit, DeviceFormat, Hello, is_newer
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
@@ -36,7 +36,7 @@ class SerialAmplifierSink(LiveSink):
 
     Parameters: port : its name, such as "/dev/ttyACM0" or "COM5"; baud_rate : for real UARTs (USB boards ignore it);
         sample_rate_hz : the device's, None takes the device's own; buffer_s : samples kept in the device's queue [s],
-        which is the latency that it adds; block_frames : frames of the device per PCM frame.
+        which is the latency that it adds; block_frames : frames of the device per PCM frame, or as many as it takes.
     Raises: MissingExtra; ConfigError: a number out of bounds, or a baud rate that is too low for the samples.
     """
 
@@ -94,7 +94,7 @@ class SerialLine:
         self._check(device, len(format.channels))
         self._rate_hz = device.sample_rate_hz
         self._channels = len(format.channels)
-        self._block_frames = min(self._block, device.block_frames, device.queue_frames // 2)
+        self._block_frames = self._largest_block(device, self._channels)
         wished = max(round(self._buffer_s * device.sample_rate_hz), 2 * self._block_frames)
         self._target_frames = min(wished, device.queue_frames)
         self._news_s = time.monotonic()
@@ -150,6 +150,11 @@ class SerialLine:
                 port.write(hello)
         return None
 
+    def _largest_block(self, device: DeviceFormat, n_channels: int) -> int:
+        """Return the frames of a PCM frame: as set, if the device and the payload of a frame take as many."""
+        most = MAX_PAYLOAD // (n_channels * SampleFormat.INT16.dtype.itemsize)
+        return min(self._block, device.block_frames, device.queue_frames // 2, most)
+
     def _check(self, device: DeviceFormat, n_channels: int) -> None:
         if self._wish_hz and device.sample_rate_hz != self._wish_hz:
             raise DeviceError(
@@ -160,7 +165,7 @@ class SerialLine:
             raise DeviceError(f"{self._name} has {device.channels} channels; the session has {n_channels} hands.")
         if not (500 <= device.sample_rate_hz <= 48000 and device.block_frames and device.queue_frames >= 2):
             raise DeviceError(f"{self._name} answers with {device}, which cannot be played.")
-        block = min(self._block, device.block_frames, device.queue_frames // 2)
+        block = self._largest_block(device, n_channels)
         needed = (_FRAME_OVERHEAD + 2 * n_channels * block) / block * device.sample_rate_hz * _BITS_PER_BYTE
         if needed > self._baud_rate:
             raise DeviceError(
