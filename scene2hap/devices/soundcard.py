@@ -178,6 +178,8 @@ class _CardLine:
         n_channels = max(self._columns) + 1
         if n_channels > card.n_channels:
             raise DeviceError(f"sound card {card.name!r} has {card.n_channels} channels; a hand is on {n_channels}.")
+        # A sound server plays a stream of one channel on all actuators.
+        n_channels = min(max(2, n_channels), card.n_channels)
         rate_hz, n_channels = self._setting(card, n_channels, format.sample_rate_hz)
         # The stream's latency is known only after its callback has started, so the ring must exist before.
         if self._ring.shape != (rate_hz, n_channels):
