@@ -91,29 +91,33 @@ class WavSink(Pulled):
         self._fill = None
 
     def close(self) -> None:
-        """Complete the file and give it its name. Raises: DeviceError: another program has removed the draft."""
+        """Complete the file and give it its name.
+
+        Raises: DeviceError: the disk is gone or full, or another program has removed the draft.
+        """
         self.stop()
-        if self._file is None:
+        file, self._file = self._file, None
+        if file is None:
             return
-        self._file.close()
-        self._file = None
         give_back(self._key, self)
         try:
+            file.close()
             os.replace(self._draft, self.path)
-        except OSError as cause:
+        except (OSError, soundfile.SoundFileError) as cause:
             raise DeviceError(
-                f"{self.path} cannot be completed: {cause.strerror or cause}. Somebody else wrote or removed its draft "
-                f"{self._draft.name}; write to a folder of your own."
+                f"{self.path} cannot be completed: {reason_of(cause).rstrip('.')}. The disk may be gone or full, or "
+                f"another program wrote or removed the draft {self._draft.name}; write to a folder of your own."
             ) from cause
 
     def abort(self) -> None:
         """Stop and leave no file, for a run that failed."""
         self.stop()
-        if self._file is not None:
-            self._file.close()
-            self._file = None
+        file, self._file = self._file, None
+        if file is not None:
             give_back(self._key, self)
-            with contextlib.suppress(FileNotFoundError):
+            with contextlib.suppress(OSError, soundfile.SoundFileError):  # the first error says what is wrong
+                file.close()
+            with contextlib.suppress(OSError):
                 self._draft.unlink()
 
     @property

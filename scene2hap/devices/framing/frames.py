@@ -74,7 +74,7 @@ class Frame:
             )
         if n_bytes != self.payload_size:
             raise DeviceError(
-                f"a {self.type.name} frame has {n_bytes} bytes of payload; its header demands {self.payload_size}."
+                f"a {self.type.name} frame has {n_bytes} bytes; by its header it must be {self.payload_size}."
             )
 
     @property

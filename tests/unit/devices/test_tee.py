@@ -3,6 +3,7 @@
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -133,6 +134,43 @@ def test_events_and_gains_are_passed_on() -> None:
     assert told == [event]
     tee.show("frame")
     assert device.shown == ["frame"]
+
+
+class FullDisk(MemorySink):
+    """A recorder that fails from its 100th frame on."""
+
+    def pull(self, n_frames: int) -> NDArray[np.float32]:
+        if len(self.samples) >= 100:
+            raise DeviceError("the disk is full.")
+        return super().pull(n_frames)
+
+
+@pytest.mark.parametrize("on_event", [lambda events: events.append, lambda events: lambda event: 1 / 0])
+def test_a_recorder_that_fails_does_not_silence_the_devices(on_event: Any) -> None:
+    events: list[SinkEvent] = []
+    device, full, memory = Device(), FullDisk(), MemorySink()
+    tee = TeeSink([full, device, memory], on_event=on_event(events))
+    tee.open(FORMAT)
+    tee.start(Counting())
+    got = np.concatenate([device.take(50) for _ in range(6)])
+    np.testing.assert_array_equal(got, np.arange(300))
+    np.testing.assert_array_equal(memory.samples[:, 0], np.arange(300))
+    np.testing.assert_array_equal(full.samples[:, 0], np.arange(100))
+    assert tee.stats.faults == (1 if events else 2)
+    if events:
+        assert [event.kind for event in events] == ["fault"]
+        assert events[0].message == "FullDisk gets no more of the mix, the other sinks play on: the disk is full."
+    tee.close()
+
+
+def test_a_failing_recorder_without_a_device_raises() -> None:
+    tee = TeeSink([FullDisk(), MemorySink()])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    tee.pull(100)
+    with pytest.raises(DeviceError, match="the disk is full"):
+        tee.pull(1)
+    tee.close()
 
 
 def test_tee_is_built_from_settings(tmp_path: Path) -> None:
