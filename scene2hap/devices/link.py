@@ -12,6 +12,7 @@ tries again after 0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device
 
 from __future__ import annotations
 
+import atexit
 import threading
 import time
 from collections.abc import Callable, Hashable
@@ -140,9 +141,12 @@ class LiveSink:
         self._last_event = None
         self._thread = threading.Thread(target=self._work, args=(self._format,), name=self._name, daemon=True)
         self._thread.start()
+        # A program may end without `stop`, and some devices repeat their last samples for ever.
+        atexit.register(self.stop)
 
     def stop(self) -> None:
-        """Silence and release the device. The thread has ended when this returns."""
+        """Silence and release the device, as at the end of the program. The thread has ended when this returns."""
+        atexit.unregister(self.stop)
         self._stopping.set()
         thread, self._thread = self._thread, None
         if thread is None or thread is threading.current_thread():

@@ -12,7 +12,6 @@ device is a state, handled by `scene2hap.devices.link`.
 
 from __future__ import annotations
 
-import atexit
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -96,13 +95,6 @@ class SoundCardSink(LiveSink):
         """Prepare the sink. Raises: ConfigError: a hand without a channel."""
         self._card_line.columns(format)
         super().open(format)
-        # A program that ends without `close` must still fade out, before PortAudio is shut down.
-        atexit.register(self.close)
-
-    def close(self) -> None:
-        """Fade out and release the sound card."""
-        atexit.unregister(self.close)
-        super().close()
 
     @property
     def stats(self) -> SoundCardStats:
