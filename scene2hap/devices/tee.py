@@ -1,9 +1,10 @@
 """One mix on several sinks.
 
 Each device has its own clock, so a buffer stores the mix, and each device reads it at its own rate. The fastest reader
-makes the session render. A reader more than 0.1 s behind (a slower clock, a device that was disconnected) jumps to the
-newest frame, with a cross-fade. Sinks without a clock, such as WavSink, get every block once, in order. If one of them
-fails beside a device, as on a full disk, it gets no more blocks, and the device plays on.
+makes the session render. A reader more than 0.1 s and the longest present block behind (a slower clock, a device that
+was disconnected) jumps to the newest frame, with a cross-fade. Sinks without a clock, such as WavSink, get every block
+once, in order. If one of them fails beside a device, as on a full disk, it gets no more blocks, and the device plays
+on.
 """
 
 from __future__ import annotations
@@ -170,8 +171,7 @@ class _Buffer:
         self._fill = fill
         self._recorders = list(recorders)
         self._on_failed = on_failed
-        self._most_lag = round(MAX_LAG_S * format.sample_rate_hz)
-        self._keep = 2 * self._most_lag
+        self._lag = round(MAX_LAG_S * format.sample_rate_hz)
         self._samples = np.zeros((0, len(format.channels)), dtype=np.float32)
         self._readers: list[_Reader] = []
         self.lock = threading.Condition()
@@ -182,8 +182,18 @@ class _Buffer:
 
     def reader(self) -> _Reader:
         """Return the reader of one more device."""
-        self._readers.append(_Reader(self, self._most_lag))
+        self._readers.append(_Reader(self))
         return self._readers[-1]
+
+    @property
+    def most_lag(self) -> int:
+        """Frames by which a reader may be behind. A device that requests long blocks is ahead of the others by one."""
+        return self._lag + max((reader.n_requested for reader in self._readers), default=0)
+
+    @property
+    def n_stored(self) -> int:
+        """Number of frames that can be read without rendering."""
+        return len(self._samples)
 
     def wait_read(self, timeout_s: float) -> None:
         """Wait until every reader has read the frames up to the present one, but at most `timeout_s` [s]."""
@@ -202,7 +212,7 @@ class _Buffer:
                     raise
                 self._recorders.remove(recorder)
                 self._on_failed(recorder, cause)
-        self._samples = np.concatenate([self._samples[-self._keep :], block])
+        self._samples = np.concatenate([self._samples[-2 * self.most_lag :], block])
         self.head += n_frames
         return block
 
@@ -218,20 +228,21 @@ class _Buffer:
 class _Reader:
     """The read position of one device in the buffer."""
 
-    def __init__(self, buffer: _Buffer, most_lag: int) -> None:
+    def __init__(self, buffer: _Buffer) -> None:
         self._buffer = buffer
-        self._most = most_lag
-        self.position = 0
+        self.position = self.n_requested = 0
 
     def read(self, n_frames: int) -> Block:
         with self._buffer.lock:
             self._buffer.lock.notify_all()  # `wait_read` looks once this block has been read
-            late = self._buffer.head - self.position
-            if late <= self._most:
+            self.n_requested = n_frames
+            late, most = self._buffer.head - self.position, self._buffer.most_lag
+            is_stored = late <= self._buffer.n_stored
+            if late <= most and is_stored:
                 block = self._buffer.read(self.position, n_frames)
                 self.position += n_frames
                 return block
-            old = self._buffer.read(self.position, n_frames) if late < 2 * self._most else None
+            old = self._buffer.read(self.position, n_frames) if late < 2 * most and is_stored else None
             self.position = self._buffer.head
             block = self._buffer.read(self.position, n_frames).copy()
             self.position += n_frames
