@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import uuid
 from collections.abc import Hashable
 
 import soundfile
@@ -35,7 +36,7 @@ class WavSink(Pulled):
             )
         if self.path.suffix.lower() not in ("", ".wav", ".wave"):
             raise ConfigError(f"path is {str(path)!r}; WavSink writes WAV, so that it must end in .wav.")
-        self._draft = self.path.with_name(f".{self.path.name}.part")
+        self._draft = self.path
         self._file: soundfile.SoundFile | None = None
         self._fill: Fill | None = None
         self._key: Hashable = None
@@ -53,6 +54,8 @@ class WavSink(Pulled):
             f"another WavSink writes {self.path} already, and one of both takes would be lost. Close it first, or give "
             "each a file of its own.",
         )
+        # Another program may write a file of the same name; each writes a draft of its own, and the last one stays.
+        self._draft = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self._file = soundfile.SoundFile(
@@ -106,7 +109,7 @@ class WavSink(Pulled):
         except (OSError, soundfile.SoundFileError) as cause:
             raise DeviceError(
                 f"{self.path} cannot be completed: {reason_of(cause).rstrip('.')}. The disk may be gone or full, or "
-                f"another program wrote or removed the draft {self._draft.name}; write to a folder of your own."
+                f"another program removed the draft {self._draft.name}; write to a folder of your own."
             ) from cause
 
     def abort(self) -> None:
