@@ -3,7 +3,7 @@
 import re
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -79,6 +79,24 @@ def test_the_line_keeps_the_contract(amplifier: Amplifier, line: Any) -> None:
     check_actuator_sink(lambda: LiveSink(line(amplifier.terminal.name), "amplifier"))
     assert amplifier.damaged == 0
     assert eventually(lambda: (amplifier.packets[-1] == 128).all())
+
+
+def test_a_device_that_needs_time_to_start_keeps_the_contract(amplifier: Amplifier, line: Any) -> None:
+    class Booting(line):
+        def connect(self, format: SinkFormat, carry_on: Callable[[], bool]) -> int:
+            began = time.monotonic()
+            while carry_on() and time.monotonic() - began < 0.5:
+                time.sleep(0.005)
+            return super().connect(format, carry_on)
+
+    check_actuator_sink(lambda: LiveSink(Booting(amplifier.terminal.name), "amplifier"))
+
+
+def test_a_missing_device_is_named_by_the_contract(line: Any, tmp_path: Path) -> None:
+    with pytest.raises(
+        AssertionError, match=r"0 frames after \d+ were taken; its last event: .*ttyACM0 cannot be opened"
+    ):
+        check_actuator_sink(lambda: LiveSink(line(str(tmp_path / "ttyACM0")), "amplifier"), within_s=0.3)
 
 
 def test_every_sample_arrives_once_and_failures_are_events(amplifier: Amplifier, line: Any) -> None:
