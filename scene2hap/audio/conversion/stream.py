@@ -395,4 +395,4 @@ def _check_target(source: Path, output: Path, suffixes: Collection[str], *, over
     if output.is_dir():
         raise AudioError(f"{output} is a folder. Choose another name.")
     if output.exists() and not overwrite:
-        raise AudioError(f"{output} exists. Choose another name, or allow overwriting (--force).")
+        raise AudioError(f"{output} exists. Choose another name, or allow overwriting (overwrite=True, --force).")
