@@ -43,7 +43,15 @@ def magnitudes(x: Signal) -> Signal:
 def components(
     magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
 ) -> list[Component]:
-    """Return the peaks of a spectrum from `magnitudes` within a range, strongest first, at most eight.
+    """Return the peaks of a spectrum from `magnitudes`, as `peaks` finds them, with their surroundings."""
+    found = peaks(magnitude, sample_rate_hz, range_hz, faintest_db)
+    return [Component(hz, level_db, _above_noise_db(magnitude, k)) for k, hz, level_db in found]
+
+
+def peaks(
+    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
+) -> list[tuple[int, float, float]]:
+    """Return bin, frequency [Hz] and level [dB] of the peaks within a range, strongest first, at most eight.
 
     Peaks within a sixth of an octave of a stronger one are left out, and those more than -`faintest_db` below the
     strongest. Frequencies are the maxima of parabolas through the logarithms of three bins.
@@ -63,11 +71,7 @@ def components(
         kept.append(k)
         heights[(bins <= k * _APART) & (bins >= k / _APART)] = 0.0
     return [
-        Component(
-            (k + _peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n,
-            20.0 * float(np.log10(magnitude[k])),
-            _above_noise_db(magnitude, k),
-        )
+        (k, (k + _peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n, 20.0 * float(np.log10(magnitude[k])))
         for k in kept
     ]
 
