@@ -98,10 +98,11 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     x = np.asarray(samples, dtype=np.float64)
     magnitude = magnitudes(x)  # of all: the flank of the high-pass would turn a slope into a peak
     audible_hz = RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)
-    audible = components(magnitude, sample_rate_hz, audible_hz, -300.0)
+    audible = components(magnitude, sample_rate_hz, audible_hz, -300.0, 1)
     if not audible:
         return None
-    low = components(magnitude, sample_rate_hz, (RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)), FAINTEST_DB)
+    low_hz = RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)
+    low = components(magnitude, sample_rate_hz, low_hz, FAINTEST_DB, 1)
     is_heard_low = bool(low) and low[0].level_db >= audible[0].level_db + FAINTEST_BELOW_WHINE_DB
     strongest = low[0] if is_heard_low else audible[0]
     needs = _Needs(heard(x, sample_rate_hz), sample_rate_hz, level_db, actuator)
@@ -193,7 +194,8 @@ class _Needs:
         self._f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
         self._power = self._spectrum.real**2 + self._spectrum.imag**2
         # Far above the middle f_0 of a band, its energy is that of the sound times (f_0 / f)^4 / Q^4.
-        self._above = np.cumsum(self._power[:0:-1] / self._f[:0:-1] ** 4)[::-1]
+        self._above = np.cumsum(self._power[:0:-1] / np.square(np.square(self._f[:0:-1])))[::-1]
+        self._carried: dict[tuple[float, float | None], Anchor] = {}
 
     def first_met(self, candidates_hz: list[float], q: float | None = None) -> tuple[Anchor | None, float]:
         """Return the first accepted candidate, or the one that is nearest to the level; and its level error [dB]."""
@@ -244,10 +246,14 @@ class _Needs:
 
     def carried(self, own_hz: float, q: float | None = None) -> Anchor:
         """Return the anchor of a band that is shifted to the best frequency of the actuator; its crest stays."""
+        if (own_hz, q) in self._carried:
+            return self._carried[own_hz, q]
         band, n = self._band(own_hz, q)
         rms = float(np.sqrt(2.0 * np.sum(np.abs(band) ** 2)))
         crest_db = 20.0 * float(np.log10(_peak(band, n) / (np.sqrt(2.0) * rms)))
-        return Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator), band_q=q)
+        found = Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator), band_q=q)
+        self._carried[own_hz, q] = found
+        return found
 
     def missed_db(self, anchor: Anchor) -> float:
         """Return by how much an anchor's band misses the level at the frequency at which it is felt [dB]."""

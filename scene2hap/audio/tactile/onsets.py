@@ -84,7 +84,7 @@ class WithOnsets:
         self._waiting = np.empty(0)  # samples whose onsets are not decided
         self._watch, self._n_made = _Watch(spares_sustained=bed_follows), 0
         self._n_around = max(1, round(AROUND_S * sample_rate_hz))
-        self._past, self._n_past = deque([np.zeros(self._n_around)]), self._n_around  # of the bed, in parts
+        self._past = deque([np.zeros(self._n_around)])  # of the bed, in parts
         longest = max(1, round(DULL_S * sample_rate_hz))
         self._carrier = np.sin(2.0 * np.pi * carrier_hz / sample_rate_hz * np.arange(longest))
         self._due: list[_Due] = []
@@ -120,15 +120,16 @@ class WithOnsets:
         begin, end = self._n_made, self._n_made + len(bed)
         self._n_made = end
         self._past.append(bed)
-        self._n_past += len(bed)
         if self._due and self._due[0].begin < end:
             past = np.concatenate(self._past)
             while self._due and self._due[0].begin < end:
                 due = self._due.pop(0)
-                at = due.begin - end + len(past)
-                self._bursts.append((due.begin, self._burst(due, past[at - self._n_around : at])))
-        while self._n_past - len(self._past[0]) >= self._n_around:
-            self._n_past -= len(self._past.popleft())
+                at = due.begin - begin
+                self._bursts.append((due.begin, self._burst(due, past[at : at + self._n_around])))
+        excess = len(bed)
+        while excess >= len(self._past[0]):
+            excess -= len(self._past.popleft())
+        self._past[0] = self._past[0][excess:]
         out = bed.copy() if self._bursts else bed
         for start, burst in self._bursts:
             first, last = max(start, begin), min(start + len(burst), end)
