@@ -8,6 +8,8 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
+from scene2hap.audio.windows import hann
+
 Signal = NDArray[np.float64]
 
 LINE_DB = 13.5
@@ -36,7 +38,7 @@ class Component(NamedTuple):
 def magnitudes(x: Signal) -> Signal:
     """Return the magnitude spectrum of a sound (n,), Hann-windowed and padded to an even length of at least 2 n."""
     n = 2 * scipy.fft.next_fast_len(len(x), real=True)
-    found: Signal = np.abs(scipy.fft.rfft((x - x.mean()) * np.hanning(len(x) + 2)[1:-1], n))
+    found: Signal = np.abs(scipy.fft.rfft((x - x.mean()) * hann(len(x)), n))
     return found
 
 
@@ -83,10 +85,10 @@ def strongest_bands_hz(
     n = 2 * (len(magnitude) - 1)
     low, high = range_hz
     middles = 10 ** (np.arange(np.ceil(10 * np.log10(low)), np.floor(10 * np.log10(high)) + 1) / 10)
-    power = np.concatenate([[0.0], np.cumsum(magnitude**2)])
     edges = np.clip(
         np.rint(np.outer([10**-0.05, 10**0.05], middles) * n / sample_rate_hz).astype(int), 0, len(magnitude)
     )
+    power = np.concatenate([[0.0], np.cumsum(magnitude[: edges.max(initial=0)] ** 2)])
     energy = power[edges[1]] - power[edges[0]]
     if not energy.any():
         return []

@@ -120,12 +120,11 @@ class WithOnsets:
         begin, end = self._n_made, self._n_made + len(bed)
         self._n_made = end
         self._past.append(bed)
-        if self._due and self._due[0].begin < end:
-            past = np.concatenate(self._past)
-            while self._due and self._due[0].begin < end:
-                due = self._due.pop(0)
-                at = due.begin - begin
-                self._bursts.append((due.begin, self._burst(due, past[at : at + self._n_around])))
+        while self._due and self._due[0].begin < end:
+            due = self._due.pop(0)
+            at, n = due.begin - begin, self._n_around
+            before = bed[at - n : at] if at >= n else np.concatenate(self._past)[at : at + n]
+            self._bursts.append((due.begin, self._burst(due, before)))
         excess = len(bed)
         while excess >= len(self._past[0]):
             excess -= len(self._past.popleft())
