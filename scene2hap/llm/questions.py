@@ -6,19 +6,19 @@ import asyncio
 import inspect
 from collections.abc import Mapping, Sequence
 from functools import cache
-from typing import Any, TypeVar
+from typing import Any
 
 from pydantic import ValidationError
 
 from scene2hap import checks
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
-from scene2hap.llm.answers import Answer
+from scene2hap.llm.answers import Answer, AnswerType, read_answer
 from scene2hap.llm.backends import chat
+from scene2hap.llm.finish_reasons import is_whole
+from scene2hap.llm.json_text import first_object
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
-
-AnswerType = TypeVar("AnswerType", bound=Answer)
 
 
 class Questions:
@@ -126,10 +126,10 @@ def _validated(reply: LLMReply, shape: type[AnswerType], about: str) -> AnswerTy
     chat.require_willing(chat.Said(reply.text, reply.model, reply.finish_reason), about)
     if not reply.text.strip():
         raise BadAnswer(f"{about}: {reply.model} answered without content.", reply.text)
-    if reply.finish_reason != "stop":
+    if not is_whole(reply.finish_reason):
         raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
     try:
-        return shape.model_validate_json(reply.text)
+        return read_answer(shape, first_object(reply.text) or reply.text)
     except ValidationError as cause:
         fault = checks.first_problem(cause)
         given = "" if fault.kind == "missing" else f" is {checks.represented(fault.value)}"
