@@ -61,6 +61,8 @@ _PICTURE_COLUMNS = 900
 _NOTHING_DB = -120.0
 """Level below which there are only rounding errors [dB]."""
 _OFFSET_FRAMES = 65_536
+_END_S = 0.01
+"""Length of the fade-out at the end of a file [s]; a sound that breaks off would end with a knock."""
 _LOOK_S = 10.0
 """Length of the part of a file in which the source's own frequency is searched, before the conversion [s]."""
 _SLOWEST_HZ = 1.0
@@ -340,7 +342,8 @@ def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, 
     All blocks go through the temporary file `held`, since the gain follows from the whole sound.
     """
     heard = FeltLevel(felt.rate, felt.channels, context.actuator)
-    for block in blocks if is_flat(context.actuator) else _equalized(blocks, felt, context):
+    played = blocks if is_flat(context.actuator) else _equalized(blocks, felt, context)
+    for block in _faded_out(played, max(1, round(_END_S * felt.rate))):
         heard.hear(block)
         held.write(np.ascontiguousarray(block).data)
     now_db, gain = heard.level_db(), 1.0
@@ -351,6 +354,21 @@ def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, 
     held.seek(0)
     while len(part := np.frombuffer(held.read(4 * BLOCK_FRAMES * felt.channels), dtype=np.float32)):
         yield part.reshape(-1, felt.channels) * np.float32(gain)
+
+
+def _faded_out(blocks: Iterator[Block], n_frames: int) -> Iterator[Block]:
+    """Yield the blocks, of which at least one has frames, with a fade-out over the last frames."""
+    last = next(blocks)
+    for block in blocks:
+        # Only a short block is copied.
+        after = block if len(block) >= n_frames else np.concatenate([last, block])
+        if after is block:
+            yield last
+        yield after[:-n_frames]
+        last = after[-n_frames:].copy()
+    yield last[:-n_frames]
+    end = last[-n_frames:]
+    yield end * (0.5 + 0.5 * np.cos(np.pi * np.arange(1, len(end) + 1) / len(end))).astype(np.float32)[:, None]
 
 
 def _equalized(blocks: Iterator[Block], felt: _Felt, context: ConversionContext) -> Iterator[Block]:

@@ -319,6 +319,24 @@ def test_a_file_is_felt_at_the_level_of_its_source(tmp_path: Path, converter: st
     assert reached[0.05] <= reached[0.5]
 
 
+@pytest.mark.parametrize("actuator", ["flat", "lra"])
+@pytest.mark.parametrize("n_frames", [2 * RATE, 65_536, 65_537, 65_576])
+def test_a_sound_that_breaks_off_ends_without_a_click(tmp_path: Path, n_frames: int, actuator: str) -> None:
+    """A tone in full swing at the end: above 1.5 kHz there is less than -60 dB of the peak."""
+    tone = (0.3 * np.sin(2 * np.pi * 170.3 * np.arange(n_frames) / RATE)).astype(np.float32)
+    source = write(tmp_path / "a.wav", tone, subtype="FLOAT")
+    felt = soundfile.read(audio.convert(source, tmp_path / "b.wav", converter=Held(), actuator=actuator).output)[0]
+    assert len(felt) == n_frames
+    end = np.concatenate([felt[-RATE // 4 :], np.zeros(RATE // 4)])
+    high = sosfilt(butter(4, 1500.0, "high", fs=RATE, output="sos"), end)[-RATE // 4 - RATE // 100 :]
+    assert np.abs(high).max() < 1e-3 * np.abs(felt).max()
+
+
+def test_a_sound_shorter_than_its_fade_out_keeps_its_length(tmp_path: Path) -> None:
+    source = write(tmp_path / "a.wav", np.full(20, 0.3, dtype=np.float32), subtype="FLOAT")
+    assert len(soundfile.read(audio.convert(source, tmp_path / "b.wav", converter=Held()).output)[0]) == 20
+
+
 def test_conversion_compensates_the_actuator_response(tmp_path: Path) -> None:
     """Two tones, at the resonance and where the response is 10 dB lower, keep their level ratio on the actuator."""
     t = np.arange(10 * RATE) / RATE
