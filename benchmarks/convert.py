@@ -3,6 +3,7 @@
 python benchmarks/convert.py [--runs 7]
 
 - Time of `auto`, the default, for 60 s at 48 kHz of sounds that use its parts, in mono and stereo.
+- Time of a live stream of `auto` for 10 s of the same sounds, in blocks of three sizes.
 - Time of the paper's band-pass for 60 s of stereo, and the ratio of real time to it.
 - The same job (read WAV, band-pass at 250 Hz with 12 dB per octave, write 24-bit WAV, in the same blocks) by
   pedalboard's compiled filters, in turn with ours. It needs `pip install pedalboard`; otherwise this part is left out.
@@ -33,6 +34,8 @@ from numpy.typing import NDArray
 
 from scene2hap.audio import convert
 from scene2hap.audio.conversion import LevelWarning
+from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.tactile.auto import Auto
 
 RATE = 48_000
 BLOCK = 65_536
@@ -87,6 +90,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         memory(Path(folder))  # first: a new process inherits the peak memory of its parent
         default_speed(Path(folder), runs)
+        live_speed(runs)
         speed(Path(folder), runs)
 
 
@@ -121,6 +125,21 @@ def default_speed(folder: Path, runs: int) -> None:
             job = partial(convert, source, folder / "felt.wav", overwrite=True)
             found.append(60.0 / statistics.median([timed(job)[1] for _ in range(runs + 1)][1:]))
         print(f"  {name:20} mono {found[0]:5.0f} x   stereo {found[1]:5.0f} x")
+
+
+def live_speed(runs: int) -> None:
+    sizes = (64, 480, 4096)
+    print(f"auto, live, {RATE // 1000} kHz: times real time by the processor, of the median run")
+    for name, sound in kinds_of_sound().items():
+        heard = np.ascontiguousarray(sound[: 10 * RATE, 0], dtype=np.float32)
+        found = [10.0 / statistics.median([timed(partial(streamed, heard, n))[1] for _ in range(runs)]) for n in sizes]
+        print(f"  {name:20}" + "".join(f"  blocks of {n} {x:4.0f} x" for n, x in zip(sizes, found, strict=True)))
+
+
+def streamed(heard: NDArray[np.float32], size: int) -> None:
+    stream = Auto().stream(RATE, ConversionContext())
+    for at in range(0, len(heard), size):
+        stream.process(heard[at : at + size])
 
 
 def speed(folder: Path, runs: int) -> None:

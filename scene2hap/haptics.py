@@ -166,6 +166,17 @@ class VibrationDescription:
         checks.whole("seed", self.seed, "-", at_least=-(2**63), at_most=2**64, error=ConfigError)
 
 
+_HERTZ = "It is in Hz, not in kHz."
+
+
+def check_actuator_limits(max_amplitude: float, max_rms: float, rms_window_s: float, max_frequency_hz: float) -> None:
+    """Check that the safety layer can keep the limits of an actuator. Raises: ConfigError."""
+    peak = checks.number("max_amplitude", max_amplitude, "-", above=0.0, at_most=1.0, error=ConfigError)
+    checks.number("max_rms", max_rms, "-", at_least=0.02 * peak, at_most=1.0, error=ConfigError)
+    checks.number("rms_window_s", rms_window_s, "s", at_least=0.1, at_most=3600.0, error=ConfigError)
+    checks.number("max_frequency_hz", max_frequency_hz, "Hz", at_least=20.0, error=ConfigError, hint=_HERTZ)
+
+
 @clear_construction
 @dataclass(frozen=True)
 class ActuatorProfile:
@@ -175,7 +186,7 @@ class ActuatorProfile:
     measured response as points (frequency [Hz], level [dB]) in rising order of frequency; it replaces the resonance.
     `audio.actuators` converts either into a curve and its inverse. Its limits are `max_amplitude`, the largest sample,
     0..1 [-], and `max_rms` [-] over any window of `rms_window_s`, the time over which it warms up [s].
-    Raises: ConfigError: a lower bound not below the upper one, or invalid points.
+    Raises: ConfigError: a limit that the safety layer cannot keep, or invalid points.
     """
 
     name: str = "flat"
@@ -189,21 +200,25 @@ class ActuatorProfile:
     rms_window_s: float = 1.0
 
     def __post_init__(self) -> None:
-        for name, unit, most in (("max_amplitude", "-", 1.0), ("max_rms", "-", 1.0), ("rms_window_s", "s", 3600.0)):
-            checks.number(name, getattr(self, name), unit, above=0.0, at_most=most, error=ConfigError)
-        low = checks.number("min_frequency_hz", self.min_frequency_hz, "Hz", above=0.0, error=ConfigError)
-        checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", above=low, error=ConfigError)
-        if self.resonance_hz is not None:
-            hint = "It is in Hz, not in kHz."
-            checks.number("resonance_hz", self.resonance_hz, "Hz", at_least=1.0, error=ConfigError, hint=hint)
-        if self.q is not None:
-            checks.number("q", self.q, "-", above=0.0, error=ConfigError)
+        checks.text("name", self.name, error=ConfigError)
         points = tuple(
             self._point(i, point)
             for i, point in enumerate(checks.items("response_db", self.response_db, at_most=100_000, error=ConfigError))
         )
-        if len(points) == 1 or any(one[0] >= other[0] for one, other in pairwise(points)):
-            raise ConfigError(f"response_db has frequencies {[f for f, _ in points]}; it must be at least two, rising.")
+        if len(points) == 1:
+            raise ConfigError("response_db has one point; it must be at least two points with rising frequencies.")
+        for (one, _), (other, _) in pairwise(points):
+            if one >= other:
+                raise ConfigError(
+                    f"response_db has {other:g} Hz after {one:g} Hz; its points must have rising frequencies."
+                )
+        check_actuator_limits(self.max_amplitude, self.max_rms, self.rms_window_s, self.max_frequency_hz)
+        low = checks.number("min_frequency_hz", self.min_frequency_hz, "Hz", above=0.0, error=ConfigError)
+        checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", above=low, error=ConfigError)
+        if self.resonance_hz is not None:
+            checks.number("resonance_hz", self.resonance_hz, "Hz", at_least=1.0, error=ConfigError, hint=_HERTZ)
+        if self.q is not None:
+            checks.number("q", self.q, "-", above=0.0, error=ConfigError)
         object.__setattr__(self, "response_db", points)
 
     @staticmethod

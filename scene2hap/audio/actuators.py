@@ -78,13 +78,23 @@ def read_response_csv(path: str | Path) -> ActuatorProfile:
         ) from cause
     if rows and not _is_number(rows[0][0]):
         rows = rows[1:]
-    try:
-        points = tuple((float(row[0]), float(row[1])) for row in rows)
-    except (ValueError, IndexError) as cause:
-        raise ConfigError(f"{path}: {cause}; every row must be a frequency [Hz] and a level [dB].") from cause
+    points = tuple(_point(path, row) for row in rows)
     if len(points) < 2:
-        raise ConfigError(f"{path} has {len(points)} rows of numbers; a response needs at least two.")
-    return ActuatorProfile(path.stem, points[0][0], points[-1][0], response_db=points)
+        raise ConfigError(f"{path} has fewer than two rows of numbers; a response needs at least two.")
+    try:
+        return ActuatorProfile(path.stem, points[0][0], points[-1][0], response_db=points)
+    except ConfigError as cause:
+        raise ConfigError(f"{path}: {cause}") from cause
+
+
+def _point(path: Path, row: list[str]) -> tuple[float, float]:
+    try:
+        return float(row[0]), float(row[1])
+    except (ValueError, IndexError) as cause:
+        raise ConfigError(
+            f"{path} has a row {','.join(row)!r}; every row must be a frequency [Hz] and a level [dB], with a comma "
+            "between them and decimals after a point."
+        ) from cause
 
 
 def response_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> NDArray[np.float64]:

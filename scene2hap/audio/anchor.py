@@ -98,10 +98,11 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     x = np.asarray(samples, dtype=np.float64)
     magnitude = magnitudes(x)  # of all: the flank of the high-pass would turn a slope into a peak
     audible_hz = RANGE_HZ[0], min(_HIGHEST_HZ, 0.45 * sample_rate_hz)
-    audible = components(magnitude, sample_rate_hz, audible_hz, -300.0)
+    audible = components(magnitude, sample_rate_hz, audible_hz, -300.0, 1)
     if not audible:
         return None
-    low = components(magnitude, sample_rate_hz, (RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)), FAINTEST_DB)
+    low_hz = RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * sample_rate_hz)
+    low = components(magnitude, sample_rate_hz, low_hz, FAINTEST_DB, 1)
     is_heard_low = bool(low) and low[0].level_db >= audible[0].level_db + FAINTEST_BELOW_WHINE_DB
     strongest = low[0] if is_heard_low else audible[0]
     needs = _Needs(heard(x, sample_rate_hz), sample_rate_hz, level_db, actuator)
@@ -127,9 +128,10 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     if pitch is not None:
         strongest = strongest._replace(hz=pitch.centre_hz, above_noise_db=LINE_DB)
         found = needs.felt(*needs.first_met([pitch.centre_hz], pitch.q), strongest)
-    carried = needs.carried(loudest.hz)
-    if loudest.hz > carried.felt_hz and needs.missed_db(found) - needs.missed_db(carried) > CARRIED_DB:
-        found, strongest = carried, loudest  # the rest is hardly felt, as the hum of a room below the call of a bird
+    if needs.missed_db(found) > CARRIED_DB:  # hardly felt, as the hum of a room below the call of a bird
+        carried = needs.carried(loudest.hz)
+        if loudest.hz > carried.felt_hz and needs.missed_db(found) - needs.missed_db(carried) > CARRIED_DB:
+            found, strongest = carried, loudest
     rough_hz = _rough_hz(strongest, found, magnitude, sample_rate_hz)
     return replace(found, rough_hz=rough_hz, band_db=needs.band_db(found))
 
@@ -193,14 +195,15 @@ class _Needs:
         self._f = scipy.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
         self._power = self._spectrum.real**2 + self._spectrum.imag**2
         # Far above the middle f_0 of a band, its energy is that of the sound times (f_0 / f)^4 / Q^4.
-        self._above = np.cumsum(self._power[:0:-1] / self._f[:0:-1] ** 4)[::-1]
+        self._above = np.cumsum(self._power[:0:-1] / np.square(np.square(self._f[:0:-1])))[::-1]
+        self._latest: tuple[tuple[float, float | None], NDArray[np.complex128], Signal] | None = None
 
     def first_met(self, candidates_hz: list[float], q: float | None = None) -> tuple[Anchor | None, float]:
         """Return the first accepted candidate, or the one that is nearest to the level; and its level error [dB]."""
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
-            band, n = self._band(own_hz, q)
-            peak = _peak(band, n)
+            band, signal = self._band(own_hz, q)
+            n, peak = len(signal), _peak(signal)
             rate_hz = self._rate_hz * n / self._n
             reached_db = felt_level_of_spectrum_db(n * band, n, rate_hz, self._actuator) - 20 * np.log10(peak)
             crest_db = self._level_db - reached_db - float(drive_db(own_hz, self._level_db, self._actuator))
@@ -239,14 +242,13 @@ class _Needs:
         return pitch if pitch is not None and self._growth_db(*pitch) < 0.5 * grown_db else None
 
     def _growth_db(self, own_hz: float, q: float | None = None) -> float:
-        band, n = self._band(own_hz, q)
-        return growth_db(self._x, scipy.fft.irfft(band, n), self._n / self._rate_hz)
+        return growth_db(self._x, self._band(own_hz, q)[1], self._n / self._rate_hz)
 
     def carried(self, own_hz: float, q: float | None = None) -> Anchor:
         """Return the anchor of a band that is shifted to the best frequency of the actuator; its crest stays."""
-        band, n = self._band(own_hz, q)
+        band, signal = self._band(own_hz, q)
         rms = float(np.sqrt(2.0 * np.sum(np.abs(band) ** 2)))
-        crest_db = 20.0 * float(np.log10(_peak(band, n) / (np.sqrt(2.0) * rms)))
+        crest_db = 20.0 * float(np.log10(_peak(signal) / (np.sqrt(2.0) * rms)))
         return Anchor(own_hz, crest_db, carrier_hz=best_carrier_hz(self._actuator), band_q=q)
 
     def missed_db(self, anchor: Anchor) -> float:
@@ -264,11 +266,13 @@ class _Needs:
         kept = 1.0 / (1.0 + (0.5 * own_hz / np.maximum(self._f, 1e-3)) ** 4) if beep else _band(self._f, own_hz, q) ** 2
         return round(10.0 * float(np.log10(max(self._power @ kept, 1e-300) / max(self._power.sum(), 1e-300))), 2)
 
-    def _band(self, own_hz: float, q: float | None = None) -> tuple[NDArray[np.complex128], int]:
-        """Return the spectrum of a band divided by its number of samples, and this number, which `_peak` needs."""
-        q = q or BAND_Q
-        n = min(scipy.fft.next_fast_len(2 * self._n_bins(own_hz, q), real=True), self._n)
-        return self._spectrum[: n // 2 + 1] * _band(self._f[: n // 2 + 1], own_hz, q), n
+    def _band(self, own_hz: float, q: float | None = None) -> tuple[NDArray[np.complex128], Signal]:
+        """Return the spectrum of a band and the band itself (n,), both divided by n. The latest one is kept."""
+        if self._latest is None or self._latest[0] != (own_hz, q):
+            n = min(scipy.fft.next_fast_len(2 * self._n_bins(own_hz, q or BAND_Q), real=True), self._n)
+            band = self._spectrum[: n // 2 + 1] * _band(self._f[: n // 2 + 1], own_hz, q or BAND_Q)
+            self._latest = (own_hz, q), band, scipy.fft.irfft(band, n)
+        return self._latest[1:]
 
     def _n_bins(self, own_hz: float, q: float) -> int:
         """Return the number of bins that hold a band: all that can be felt, and all but -50 dB of its energy."""
@@ -294,10 +298,9 @@ def _rough_hz(strongest: Component, found: Anchor, magnitude: Signal, sample_rat
     return strongest.hz if strongest.level_db - felt_db >= MISSED_DB else None
 
 
-def _peak(band: NDArray[np.complex128], n: int) -> float:
-    """Return the peak of n samples with this spectrum, divided by n."""
-    x = scipy.fft.irfft(band, n)
-    return n * float(max(x.max(), -x.min()))
+def _peak(x: Signal) -> float:
+    """Return the peak of a band (n,) that is divided by n."""
+    return len(x) * float(max(x.max(), -x.min()))
 
 
 def _band(f: NDArray[np.float64], own_hz: float, q: float) -> NDArray[np.float64]:

@@ -8,6 +8,8 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
+from scene2hap.audio.windows import hann
+
 Signal = NDArray[np.float64]
 
 LINE_DB = 13.5
@@ -36,14 +38,22 @@ class Component(NamedTuple):
 def magnitudes(x: Signal) -> Signal:
     """Return the magnitude spectrum of a sound (n,), Hann-windowed and padded to an even length of at least 2 n."""
     n = 2 * scipy.fft.next_fast_len(len(x), real=True)
-    found: Signal = np.abs(scipy.fft.rfft((x - x.mean()) * np.hanning(len(x) + 2)[1:-1], n))
+    found: Signal = np.abs(scipy.fft.rfft((x - x.mean()) * hann(len(x)), n))
     return found
 
 
 def components(
-    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float
+    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float, most: int = _MOST
 ) -> list[Component]:
-    """Return the peaks of a spectrum from `magnitudes` within a range, strongest first, at most eight.
+    """Return the peaks of a spectrum from `magnitudes`, as `peaks` finds them, with their surroundings."""
+    found = peaks(magnitude, sample_rate_hz, range_hz, faintest_db, most)
+    return [Component(hz, level_db, _above_noise_db(magnitude, k)) for k, hz, level_db in found]
+
+
+def peaks(
+    magnitude: Signal, sample_rate_hz: float, range_hz: tuple[float, float], faintest_db: float, most: int = _MOST
+) -> list[tuple[int, float, float]]:
+    """Return bin, frequency [Hz] and level [dB] of the strongest peaks within a range, strongest first.
 
     Peaks within a sixth of an octave of a stronger one are left out, and those more than -`faintest_db` below the
     strongest. Frequencies are the maxima of parabolas through the logarithms of three bins.
@@ -51,23 +61,19 @@ def components(
     n = 2 * (len(magnitude) - 1)
     low, high = range_hz
     first, last = max(1, int(np.ceil(low * n / sample_rate_hz))), int(high * n / sample_rate_hz)
-    bins = np.arange(first, min(last, len(magnitude) - 2) + 1)
-    bins = bins[(magnitude[bins] >= magnitude[bins - 1]) & (magnitude[bins] > magnitude[bins + 1])]
+    within = magnitude[first - 1 : min(last, len(magnitude) - 2) + 2]
+    bins = first + np.flatnonzero((within[1:-1] >= within[:-2]) & (within[1:-1] > within[2:]))
     if bins.size == 0:
         return []
     bins = bins[magnitude[bins] >= magnitude[bins].max() * 10 ** (faintest_db / 20)]
     heights = magnitude[bins]
     kept: list[int] = []
-    while heights.any() and len(kept) < _MOST:
+    while len(kept) < most and heights.any():
         k = int(bins[np.argmax(heights)])
         kept.append(k)
-        heights[(bins <= k * _APART) & (bins >= k / _APART)] = 0.0
+        heights[np.searchsorted(bins, k / _APART) : np.searchsorted(bins, k * _APART, side="right")] = 0.0
     return [
-        Component(
-            (k + _peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n,
-            20.0 * float(np.log10(magnitude[k])),
-            _above_noise_db(magnitude, k),
-        )
+        (k, (k + _peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n, 20.0 * float(np.log10(magnitude[k])))
         for k in kept
     ]
 
@@ -79,10 +85,10 @@ def strongest_bands_hz(
     n = 2 * (len(magnitude) - 1)
     low, high = range_hz
     middles = 10 ** (np.arange(np.ceil(10 * np.log10(low)), np.floor(10 * np.log10(high)) + 1) / 10)
-    power = np.concatenate([[0.0], np.cumsum(magnitude**2)])
     edges = np.clip(
         np.rint(np.outer([10**-0.05, 10**0.05], middles) * n / sample_rate_hz).astype(int), 0, len(magnitude)
     )
+    power = np.concatenate([[0.0], np.cumsum(magnitude[: edges.max(initial=0)] ** 2)])
     energy = power[edges[1]] - power[edges[0]]
     if not energy.any():
         return []

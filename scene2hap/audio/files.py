@@ -89,12 +89,12 @@ class Mixdown:
 
     def mean(self, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]]) -> Float64s:
         """Return the mean of samples (n, n_channels), as (n,)."""
-        heard = channels.astype(np.float64)
-        mean: Float64s = heard.mean(axis=1)
-        if heard.shape[1] > 1:
-            everything = np.column_stack([heard, mean])
-            self._sums = self._sums + np.stack([everything.sum(axis=0), np.square(everything).sum(axis=0)])
-        self._n += len(heard)
+        rows = np.ascontiguousarray(channels.T, dtype=np.float64)  # sums along rows are several times as fast
+        mean: Float64s = rows.mean(axis=0)
+        if len(rows) > 1:
+            everything = [*rows, mean]
+            self._sums = self._sums + np.array([[row.sum() for row in everything], [row @ row for row in everything]])
+        self._n += len(mean)
         return mean
 
     @property

@@ -32,5 +32,5 @@ def heard(x: Signal, sample_rate_hz: float) -> Signal:
     f = np.arange(1, len(x)) * (0.5 * sample_rate_hz / len(x))
     spectrum = scipy.fft.dct(x)
     spectrum[0] = 0.0
-    spectrum[1:] /= 1.0 + (HALVED_HZ / f) ** 4
+    spectrum[1:] /= 1.0 + np.square(np.square(HALVED_HZ / f))
     return np.asarray(scipy.fft.idct(spectrum), dtype=np.float64)

@@ -55,7 +55,7 @@ def moving_pitch(x: Signal, sample_rate_hz: float, range_hz: tuple[float, float]
     """
     size = round(STRETCH_S * sample_rate_hz)
     stretches = x[: len(x) // size * size].reshape(-1, size)
-    found = [components(magnitudes(one), sample_rate_hz, range_hz, _FAINTEST_DB) for one in stretches]
+    found = [components(magnitudes(one), sample_rate_hz, range_hz, _FAINTEST_DB, 1) for one in stretches]
     lines_hz = [one[0].hz for one in found if one and one[0].is_line]
     if len(lines_hz) < max(_LEAST_STRETCHES, _LEAST_SHARE * len(stretches)):
         return None

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.audio.anchor import FAINTEST_DB, HIGHEST_PEAK_DB, RANGE_HZ, rendered_hz
-from scene2hap.audio.components import components, magnitudes
+from scene2hap.audio.components import magnitudes, peaks
 from scene2hap.audio.levels import drive_db
 from scene2hap.haptics import ActuatorProfile
 
@@ -40,10 +40,10 @@ class TrackedAnchor:
         """Analyse another stretch (n_samples,). Returns the anchor [Hz], None while there is no sound."""
         magnitude = magnitudes(stretch)
         self._power = self._averaged(magnitude)
-        found = components(np.sqrt(self._power), self._rate_hz, rendered_hz(self._rate_hz, self._actuator), FAINTEST_DB)
+        found = peaks(np.sqrt(self._power), self._rate_hz, rendered_hz(self._rate_hz, self._actuator), FAINTEST_DB)
         if not found:
             return self.own_hz
-        hz, height_db = np.array([(one.hz, one.level_db) for one in found]).T
+        _, hz, height_db = np.array(found).T
         drive = drive_db(hz, self._level_db, self._actuator)
         good = drive <= HIGHEST_PEAK_DB
         best = int(np.argmax(good) if good.any() else np.argmin(drive))

@@ -28,7 +28,7 @@ from scene2hap.cli.specs import given_spec
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loopback_latency
 from scene2hap.devices.clocked_sink import has_clock
-from scene2hap.devices.protocol import ActuatorSink, Block, SinkFormat
+from scene2hap.devices.protocol import ActuatorSink, Block, SinkEvent, SinkFormat
 from scene2hap.errors import ConfigError, DeviceError, MissingExtra
 from scene2hap.export import EXPORTS
 from scene2hap.haptics import ActuatorProfile
@@ -36,6 +36,7 @@ from scene2hap.llm import BACKENDS
 from scene2hap.propagation import MODELS
 from scene2hap.render.safety import SafetyLayer
 from scene2hap.scene.capture import RENDERERS
+from scene2hap.session.mix.output import LONGEST_FADE_OUT_S
 
 HELP = "available and missing features of this machine, and a test sweep"
 
@@ -158,12 +159,22 @@ def sweep(spec: object, hands: tuple[str, ...], console: Console, *, listen_to: 
     sink = cast("ActuatorSink", SINKS.build(spec))
     if listen_to is not None and not has_clock(sink):
         raise ConfigError(f"--loop-back cannot hear --sweep {spec!r}, which plays nothing; sweep a sound card.")
+    problems: list[str] = []
+
+    def note(event: SinkEvent) -> None:
+        if event.kind != "connected":
+            problems.append(event.message)
+            console.warn(event.message)
+
     if hasattr(sink, "on_event"):
-        sink.on_event = lambda event: None if event.kind == "connected" else console.warn(event.message)
+        sink.on_event = note
     sweeps = _Sweeps(len(hands))
     with _recording(listen_to, len(hands)) as recording:
         latency_s = _play(sink, sweeps, hands, console, tail_s=0.0 if recording is None else loopback_latency.LONGEST_S)
     stats = sink.stats
+    if not stats.frames:
+        reason = problems[-1] if problems else f"{type(sink).__name__} took none."
+        raise DeviceError(f"no sample of the sweep reached a device: {reason.removesuffix(' Trying again.')}")
     latency = "" if latency_s is None else f", latency {1e3 * latency_s:.0f} ms"
     console.say(f"swept {', '.join(hands)}: {stats.frames} frames, {stats.underruns} underruns{latency}")
     outcome: dict[str, Any] = {"frames": stats.frames, "underruns": stats.underruns, "latency_s": latency_s}
@@ -199,6 +210,8 @@ def _play(
         return sink.stats.latency_s
     finally:
         safety.release()
+        if has_clock(sink):
+            safety.silent.wait(LONGEST_FADE_OUT_S)
         sink.stop()
         sink.close()
 

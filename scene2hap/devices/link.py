@@ -12,6 +12,7 @@ tries again after 0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device
 
 from __future__ import annotations
 
+import atexit
 import threading
 import time
 from collections.abc import Callable, Hashable
@@ -19,11 +20,12 @@ from typing import Protocol, Self
 
 import numpy as np
 
+from scene2hap.checks import represented
 from scene2hap.devices.due_frames import Pace
 from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
 from scene2hap.devices.rate import RateConverter
-from scene2hap.errors import DeviceError, DeviceTimeout
+from scene2hap.errors import ConfigError, DeviceError, DeviceTimeout
 
 FADE_S = 0.05
 """Length of the fade-in after each connection [s]; a shorter one would be felt as a knock."""
@@ -42,6 +44,9 @@ GIVE_UP_S = 1.5
 
 FIRST_RETRY_S, LAST_RETRY_S = 0.1, 2.0
 """Pause between attempts [s]. It doubles after each attempt until the device has played."""
+
+ENDING_S = 0.1
+"""Longest time for which `stop` waits until the device has taken the end of the mix [s]."""
 
 _FAIR_S = 4 * POLL_S
 _IDLE_BLOCK_S = 0.02
@@ -89,13 +94,17 @@ class Line(Protocol):
 class LiveSink:
     """An ActuatorSink on a `Line`.
 
-    `open`, `start` and `stats` return at once, in any state of the device; `stop` waits a few milliseconds for the
-    thread. Errors of the device are events; only wrong use of the sink raises.
+    `open`, `start` and `stats` return at once, in any state of the device. `stop` waits a few milliseconds for the
+    thread; if the device has another rate, also until it has taken the end of the mix, `ENDING_S` at most. Errors of
+    the device are events; only wrong use of the sink raises.
     Parameters: line : connection to the device; name : its name in events; on_event : an EventCallback or None, may be
         set at any time; key : identifies a device that serves one sink at a time, None for any number.
+    Raises: ConfigError: `on_event` cannot be called.
     """
 
     def __init__(self, line: Line, name: str, *, on_event: EventCallback | None = None, key: Hashable = None) -> None:
+        if not (on_event is None or callable(on_event)):
+            raise ConfigError(f"on_event is {represented(on_event)}; it must be a function of one SinkEvent, or None.")
         self.on_event = on_event
         self._key = key
         self._line = line
@@ -132,9 +141,12 @@ class LiveSink:
         self._last_event = None
         self._thread = threading.Thread(target=self._work, args=(self._format,), name=self._name, daemon=True)
         self._thread.start()
+        # A program may end without `stop`, and some devices repeat their last samples for ever.
+        atexit.register(self.stop)
 
     def stop(self) -> None:
-        """Silence and release the device. The thread has ended when this returns."""
+        """Silence and release the device, as at the end of the program. The thread has ended when this returns."""
+        atexit.unregister(self.stop)
         self._stopping.set()
         thread, self._thread = self._thread, None
         if thread is None or thread is threading.current_thread():
@@ -238,6 +250,17 @@ class LiveSink:
                     stalled = True
                     self._report_once("stalled", f"{self._name} took no samples for {waited_s:.2f} s.")
                 self._drop_due(format)
+        self._end(stream)
+
+    def _end(self, stream: _Stream) -> None:
+        """Send what the rate converter still holds. Without it a device of a low rate would miss the fade-out."""
+        left = stream.end()
+        deadline = time.monotonic() + ENDING_S
+        while left > 0 and time.monotonic() < deadline:
+            if n_frames := self._line.wanted(POLL_S):
+                self._line.send(stream.take(n_frames))
+                self._frames += n_frames
+                left -= n_frames
 
     def _carry_on(self) -> bool:
         if self._format is not None:
@@ -285,20 +308,26 @@ class LiveSink:
 
 
 class _Stream:
-    """The mix at a device's rate, with a fade-in at its start."""
+    """The mix at a device's rate, with a fade-in at its start, and silence after its end."""
 
     def __init__(self, pull: Fill, format: SinkFormat, rate_hz: int) -> None:
         self._pull = pull
-        self._rate = RateConverter(format.sample_rate_hz, rate_hz, len(format.channels))
+        self._n_channels = len(format.channels)
+        self._rate = RateConverter(format.sample_rate_hz, rate_hz, self._n_channels)
         self.latency_s = self._rate.latency_s
         n_fade = max(1, round(FADE_S * rate_hz))
         phase = np.arange(1, n_fade + 1, dtype=np.float32) / np.float32(n_fade)
         self._fade = (0.5 - 0.5 * np.cos(np.pi * phase)).astype(np.float32)[:, None]
 
+    def end(self) -> int:
+        """Request no more of the mix. Returns the number of frames until the last of it has left the converter."""
+        self._pull = lambda n_frames: np.zeros((n_frames, self._n_channels), dtype=np.float32)
+        return self._rate.n_held
+
     def take(self, n_frames: int) -> Block:
-        block = self._rate.convert(self._pull(self._rate.needed(n_frames)), n_frames)
+        # The ripple of the converter's filter exceeds full scale, and samples of 8 or 16 bit would wrap around.
+        block = self._rate.convert(self._pull(self._rate.needed(n_frames)), n_frames).clip(-1.0, 1.0)
         if len(self._fade):
             now, self._fade = self._fade[:n_frames], self._fade[n_frames:]
-            block = block.copy()
             block[: len(now)] *= now
         return block

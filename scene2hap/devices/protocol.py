@@ -53,7 +53,7 @@ class SinkEvent:
 
     kind : "connected" (first or again), "unavailable" (cannot be reached, tried again later), "stalled" (takes no
         samples), "resumed" (takes them again), "lost" (was connected, is gone) or "fault" (the mix could not be
-        rendered, or the driver does not return).
+        rendered, a recording beside the device failed, or the driver does not return).
     message : a sentence with the next step; at_s : time [s], on the clock of `time.monotonic`.
     """
 

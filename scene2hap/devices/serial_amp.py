@@ -10,7 +10,7 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.calls import clear_calls
 from scene2hap.devices.exclusive_use import port_key
-from scene2hap.devices.framing.frames import FrameParser, FrameType, message, pcm, to_wire
+from scene2hap.devices.framing.frames import MAX_PAYLOAD, FrameParser, FrameType, SampleFormat, message, pcm, to_wire
 from scene2hap.devices.framing.link_messages import GREETED, HEARD, Credit, DeviceFormat, Hello, is_newer
 from scene2hap.devices.link import CarryOn, LiveSink
 from scene2hap.devices.protocol import Block, EventCallback, SinkFormat
@@ -36,7 +36,7 @@ class SerialAmplifierSink(LiveSink):
 
     Parameters: port : its name, such as "/dev/ttyACM0" or "COM5"; baud_rate : for real UARTs (USB boards ignore it);
         sample_rate_hz : the device's, None takes the device's own; buffer_s : samples kept in the device's queue [s],
-        which is the latency that it adds; block_frames : frames of the device per PCM frame.
+        which is the latency that it adds; block_frames : frames of the device per PCM frame, or as many as it takes.
     Raises: MissingExtra; ConfigError: a number out of bounds, or a baud rate that is too low for the samples.
     """
 
@@ -62,13 +62,14 @@ class SerialLine:
         self, port: str, baud_rate: int, sample_rate_hz: int | None, buffer_s: float, block_frames: int
     ) -> None:
         self._name = port
-        self._baud_rate = int(checks.number("baud_rate", baud_rate, "baud", at_least=9600, error=ConfigError))
+        self._baud_rate = checks.whole("baud_rate", baud_rate, "baud", at_least=9600, at_most=10**9, error=ConfigError)
         self._wish_hz = 0
         if sample_rate_hz is not None:
-            wish = checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=48000, error=ConfigError)
-            self._wish_hz = int(wish)
+            self._wish_hz = checks.whole(
+                "sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=48000, error=ConfigError
+            )
         self._buffer_s = checks.number("buffer_s", buffer_s, "s", at_least=0.002, at_most=1.0, error=ConfigError)
-        self._block = int(checks.number("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError))
+        self._block = checks.whole("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError)
         self.underruns = 0
         self.latency_s: float | None = None
         self._port: SerialPort | None = None
@@ -93,7 +94,7 @@ class SerialLine:
         self._check(device, len(format.channels))
         self._rate_hz = device.sample_rate_hz
         self._channels = len(format.channels)
-        self._block_frames = min(self._block, device.block_frames, device.queue_frames // 2)
+        self._block_frames = self._largest_block(device, self._channels)
         wished = max(round(self._buffer_s * device.sample_rate_hz), 2 * self._block_frames)
         self._target_frames = min(wished, device.queue_frames)
         self._news_s = time.monotonic()
@@ -149,6 +150,11 @@ class SerialLine:
                 port.write(hello)
         return None
 
+    def _largest_block(self, device: DeviceFormat, n_channels: int) -> int:
+        """Return the frames of a PCM frame: as set, if the device and the payload of a frame take as many."""
+        most = MAX_PAYLOAD // (n_channels * SampleFormat.INT16.dtype.itemsize)
+        return min(self._block, device.block_frames, device.queue_frames // 2, most)
+
     def _check(self, device: DeviceFormat, n_channels: int) -> None:
         if self._wish_hz and device.sample_rate_hz != self._wish_hz:
             raise DeviceError(
@@ -159,7 +165,7 @@ class SerialLine:
             raise DeviceError(f"{self._name} has {device.channels} channels; the session has {n_channels} hands.")
         if not (500 <= device.sample_rate_hz <= 48000 and device.block_frames and device.queue_frames >= 2):
             raise DeviceError(f"{self._name} answers with {device}, which cannot be played.")
-        block = min(self._block, device.block_frames, device.queue_frames // 2)
+        block = self._largest_block(device, n_channels)
         needed = (_FRAME_OVERHEAD + 2 * n_channels * block) / block * device.sample_rate_hz * _BITS_PER_BYTE
         if needed > self._baud_rate:
             raise DeviceError(

@@ -12,7 +12,6 @@ device is a state, handled by `scene2hap.devices.link`.
 
 from __future__ import annotations
 
-import atexit
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -67,7 +66,7 @@ class SoundCardSink(LiveSink):
     sample_rate_hz : of the device; None for the session's if the device accepts it, else the device's own.
     block_frames : frames that the device requests at a time; fewer allow a shorter "low", and cost more calls.
     on_event : an EventCallback or None.
-    Raises: ConfigError: an invalid channel, latency or block; MissingExtra: sounddevice is not installed.
+    Raises: ConfigError: an invalid channel, latency, rate or block; MissingExtra: sounddevice is not installed.
     """
 
     def __init__(
@@ -80,11 +79,15 @@ class SoundCardSink(LiveSink):
         block_frames: int = BLOCK_FRAMES,
         on_event: EventCallback | None = None,
     ) -> None:
-        if device is not None and (isinstance(device, bool) or not isinstance(device, str | int)):
+        if device is not None and (isinstance(device, bool) or not isinstance(device, str | int) or device == ""):
             raise ConfigError(f"device is {checks.represented(device)}; it must be a name, an index or None.")
         portaudio.require_sounddevice()
-        channels, latency = _checked_channels(channels), _checked_latency(latency)
-        self._card_line = _CardLine(device, channels, latency, sample_rate_hz, _checked_block(block_frames))
+        channels, latency, rate_hz = (
+            _checked_channels(channels),
+            _checked_latency(latency),
+            _checked_rate(sample_rate_hz),
+        )
+        self._card_line = _CardLine(device, channels, latency, rate_hz, _checked_block(block_frames))
         name = "the default sound card" if device is None else f"sound card {device!r}"
         super().__init__(self._card_line, name, on_event=on_event)
 
@@ -92,13 +95,6 @@ class SoundCardSink(LiveSink):
         """Prepare the sink. Raises: ConfigError: a hand without a channel."""
         self._card_line.columns(format)
         super().open(format)
-        # A program that ends without `close` must still fade out, before PortAudio is shut down.
-        atexit.register(self.close)
-
-    def close(self) -> None:
-        """Fade out and release the sound card."""
-        atexit.unregister(self.close)
-        super().close()
 
     @property
     def stats(self) -> SoundCardStats:
@@ -174,6 +170,8 @@ class _CardLine:
         n_channels = max(self._columns) + 1
         if n_channels > card.n_channels:
             raise DeviceError(f"sound card {card.name!r} has {card.n_channels} channels; a hand is on {n_channels}.")
+        # A sound server plays a stream of one channel on all actuators.
+        n_channels = min(max(2, n_channels), card.n_channels)
         rate_hz, n_channels = self._setting(card, n_channels, format.sample_rate_hz)
         # The stream's latency is known only after its callback has started, so the ring must exist before.
         if self._ring.shape != (rate_hz, n_channels):
@@ -233,7 +231,6 @@ class _CardLine:
         """Write frames to the ring, each hand on its channel."""
         wide = self._wide[: len(block)]
         wide[:, self._columns] = block
-        np.clip(wide, -1.0, 1.0, out=wide)
         self._ring.write(wide)
 
     def disconnect(self) -> None:
@@ -254,7 +251,9 @@ def _checked_channels(channels: Mapping[str, int] | Sequence[int] | None) -> Map
     if channels is None:
         return None
     by_name = isinstance(channels, Mapping)
-    numbers = list(channels.values()) if isinstance(channels, Mapping) else list(channels)
+    numbers = checks.items(
+        "channels", channels.values() if isinstance(channels, Mapping) else channels, error=ConfigError
+    )
     for number in numbers:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= 256:
             raise ConfigError(
@@ -271,6 +270,14 @@ def _checked_latency(latency: float | str) -> float | str:
             raise ConfigError(f"latency is {checks.represented(latency)}; it must be seconds, 'low' or 'high'.")
         return latency
     return checks.number("latency", latency, "s", above=0.0, at_most=1.0, error=ConfigError)
+
+
+def _checked_rate(rate_hz: int | None) -> int | None:
+    if rate_hz is None:
+        return None
+    hint = "None takes the session's rate, or the device's own."
+    bounds = {"at_least": 1000, "at_most": 768_000}
+    return checks.whole("sample_rate_hz", rate_hz, "Hz", **bounds, error=ConfigError, hint=hint)
 
 
 def _checked_block(frames: int) -> int:

@@ -1,14 +1,17 @@
 """One mix on several sinks.
 
 Each device has its own clock, so a buffer stores the mix, and each device reads it at its own rate. The fastest reader
-makes the session render. A reader more than 0.1 s behind (a slower clock, a device that was disconnected) jumps to the
-newest frame, with a cross-fade. Sinks without a clock, such as WavSink, get every block once, in order.
+makes the session render. A reader more than 0.1 s and the longest present block behind (a slower clock, a device that
+was disconnected) jumps to the newest frame, with a cross-fade. Sinks without a clock, such as WavSink, get every block
+once, in order. If one of them fails beside a device, as on a full disk, it gets no more blocks, and the device plays
+on.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping, Sequence
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from typing import Any
 
@@ -54,6 +57,7 @@ class TeeSink(Pulled):
         self.on_event = on_event
         self._format: SinkFormat | None = None
         self._buffer: _Buffer | None = None
+        self._faults = 0
         for sink in self.sinks:
             if hasattr(sink, "on_event") and getattr(sink, "on_event", None) is None:
                 sink.on_event = self._pass_on
@@ -61,6 +65,7 @@ class TeeSink(Pulled):
     def open(self, format: SinkFormat) -> None:
         """Open all sinks. Raises: DeviceError: one cannot be opened; the others are closed again."""
         self._format = format
+        self._faults = 0
         self._whole = WholeFrames(format.sample_rate_hz)
         for number, sink in enumerate(self.sinks):
             try:
@@ -74,7 +79,8 @@ class TeeSink(Pulled):
         """Start all sinks. Raises: DeviceError: not open."""
         if self._format is None:
             raise DeviceError("TeeSink is not open; call open(SinkFormat(...)) before start.")
-        self._buffer = buffer = _Buffer(fill, self._format, [sink for sink in self.sinks if not has_clock(sink)])
+        recorders = [sink for sink in self.sinks if not has_clock(sink)]
+        self._buffer = buffer = _Buffer(fill, self._format, recorders, self._report_failed)
         for sink in self.sinks:
             if has_clock(sink):
                 sink.start(buffer.reader().read)
@@ -126,7 +132,7 @@ class TeeSink(Pulled):
             connected=any(stats.connected for stats in each),
             reconnects=sum(stats.reconnects for stats in each),
             dropped_frames=sum(stats.dropped_frames for stats in each),
-            faults=sum(stats.faults for stats in each),
+            faults=self._faults + sum(stats.faults for stats in each),
             latency_s=max(latencies, default=None),
         )
 
@@ -140,6 +146,14 @@ class TeeSink(Pulled):
         if self.on_event is not None:
             self.on_event(event)
 
+    def _report_failed(self, sink: ActuatorSink, cause: Exception) -> None:
+        self._faults += 1
+        message = f"{type(sink).__name__} gets no more of the mix, the other sinks play on: {cause}"
+        try:
+            self._pass_on(SinkEvent("fault", message, time.monotonic()))
+        except Exception:  # an error in the game's callback must not silence the other sinks
+            self._faults += 1
+
 
 class _Buffer:
     """The newest part of the mix. A reader that reaches its end renders more.
@@ -147,11 +161,17 @@ class _Buffer:
     Readers are sinks' own threads, never a sound card's callback, so a lock is allowed.
     """
 
-    def __init__(self, fill: Fill, format: SinkFormat, recorders: Sequence[ActuatorSink]) -> None:
+    def __init__(
+        self,
+        fill: Fill,
+        format: SinkFormat,
+        recorders: Sequence[ActuatorSink],
+        on_failed: Callable[[ActuatorSink, Exception], None],
+    ) -> None:
         self._fill = fill
-        self._recorders = recorders
-        self._most_lag = round(MAX_LAG_S * format.sample_rate_hz)
-        self._keep = 2 * self._most_lag
+        self._recorders = list(recorders)
+        self._on_failed = on_failed
+        self._lag = round(MAX_LAG_S * format.sample_rate_hz)
         self._samples = np.zeros((0, len(format.channels)), dtype=np.float32)
         self._readers: list[_Reader] = []
         self.lock = threading.Condition()
@@ -162,8 +182,18 @@ class _Buffer:
 
     def reader(self) -> _Reader:
         """Return the reader of one more device."""
-        self._readers.append(_Reader(self, self._most_lag))
+        self._readers.append(_Reader(self))
         return self._readers[-1]
+
+    @property
+    def most_lag(self) -> int:
+        """Frames by which a reader may be behind. A device that requests long blocks is ahead of the others by one."""
+        return self._lag + max((reader.n_requested for reader in self._readers), default=0)
+
+    @property
+    def n_stored(self) -> int:
+        """Number of frames that can be read without rendering."""
+        return len(self._samples)
 
     def wait_read(self, timeout_s: float) -> None:
         """Wait until every reader has read the frames up to the present one, but at most `timeout_s` [s]."""
@@ -172,11 +202,17 @@ class _Buffer:
             self.lock.wait_for(lambda: all(reader.position >= head for reader in self._readers), timeout_s)
 
     def advance(self, n_frames: int) -> Block:
-        """Render and store the next frames."""
+        """Render and store the next frames. Raises: errors of a sink without a clock, if no device must play on."""
         self._block = block = self._fill(n_frames)
-        for recorder in self._recorders:
-            recorder.pull(n_frames)  # type: ignore[attr-defined]  # sinks without a clock have it
-        self._samples = np.concatenate([self._samples[-self._keep :], block])
+        for recorder in tuple(self._recorders):
+            try:
+                recorder.pull(n_frames)  # type: ignore[attr-defined]  # sinks without a clock have it
+            except Exception as cause:
+                if not self._readers:
+                    raise
+                self._recorders.remove(recorder)
+                self._on_failed(recorder, cause)
+        self._samples = np.concatenate([self._samples[-2 * self.most_lag :], block])
         self.head += n_frames
         return block
 
@@ -192,20 +228,21 @@ class _Buffer:
 class _Reader:
     """The read position of one device in the buffer."""
 
-    def __init__(self, buffer: _Buffer, most_lag: int) -> None:
+    def __init__(self, buffer: _Buffer) -> None:
         self._buffer = buffer
-        self._most = most_lag
-        self.position = 0
+        self.position = self.n_requested = 0
 
     def read(self, n_frames: int) -> Block:
         with self._buffer.lock:
             self._buffer.lock.notify_all()  # `wait_read` looks once this block has been read
-            late = self._buffer.head - self.position
-            if late <= self._most:
+            self.n_requested = n_frames
+            late, most = self._buffer.head - self.position, self._buffer.most_lag
+            is_stored = late <= self._buffer.n_stored
+            if late <= most and is_stored:
                 block = self._buffer.read(self.position, n_frames)
                 self.position += n_frames
                 return block
-            old = self._buffer.read(self.position, n_frames) if late < 2 * self._most else None
+            old = self._buffer.read(self.position, n_frames) if late < 2 * most and is_stored else None
             self.position = self._buffer.head
             block = self._buffer.read(self.position, n_frames).copy()
             self.position += n_frames

@@ -55,8 +55,8 @@ class UdpSink(LiveSink):
             raise ConfigError(
                 f"host is {checks.represented(host)}; give name and port apart: UdpSink('localhost', 9000)."
             )
-        datagrams = Datagrams(host, int(checks.number("port", port, "-", at_least=1, at_most=65535, error=ConfigError)))
-        self._osc = OscLine(datagrams, clips or {}) if content == "osc" else None
+        datagrams = Datagrams(host, checks.whole("port", port, "-", at_least=1, at_most=65535, error=ConfigError))
+        self._osc = OscLine(datagrams, _checked_clips(clips)) if content == "osc" else None
         line: OscLine | PcmLine = self._osc or PcmLine(datagrams, sample_rate_hz, block_frames, _SAMPLES[samples])
         # A receiver would mix two streams of samples to noise. OSC messages name their clip and hand.
         key = None if content == "osc" else ("udp", host, port)
@@ -74,9 +74,10 @@ class PcmLine:
     """A line that sends blocks of samples by the wall clock; see `scene2hap.devices.link.Line`."""
 
     def __init__(self, datagrams: Datagrams, sample_rate_hz: int, block_frames: int, format: SampleFormat) -> None:
-        rate = checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=192000, error=ConfigError)
-        self._rate_hz = int(rate)
-        self._wish = int(checks.number("block_frames", block_frames, "-", at_least=1, at_most=512, error=ConfigError))
+        self._rate_hz = checks.whole(
+            "sample_rate_hz", sample_rate_hz, "Hz", at_least=500, at_most=192000, error=ConfigError
+        )
+        self._wish = checks.whole("block_frames", block_frames, "-", at_least=1, at_most=512, error=ConfigError)
         self._block_frames = self._wish
         self._datagrams = datagrams
         self._samples = format
@@ -123,3 +124,13 @@ class PcmLine:
     def disconnect(self) -> None:
         """Send MUTE to the receiver, and close."""
         self._datagrams.close(to_datagram(message(FrameType.MUTE)))
+
+
+def _checked_clips(clips: object) -> Mapping[str, str]:
+    given = {} if clips is None else clips
+    if not isinstance(given, Mapping) or not all(isinstance(name, str) for pair in given.items() for name in pair):
+        raise ConfigError(
+            f"clips is {checks.shown(given)}; it must map each source to the receiver's path of its sound, as "
+            "{'radio': 'loops/radio/on.wav'}."
+        )
+    return given

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import uuid
 from collections.abc import Hashable
 
 import soundfile
@@ -35,7 +36,7 @@ class WavSink(Pulled):
             )
         if self.path.suffix.lower() not in ("", ".wav", ".wave"):
             raise ConfigError(f"path is {str(path)!r}; WavSink writes WAV, so that it must end in .wav.")
-        self._draft = self.path.with_name(f".{self.path.name}.part")
+        self._draft = self.path
         self._file: soundfile.SoundFile | None = None
         self._fill: Fill | None = None
         self._key: Hashable = None
@@ -53,6 +54,8 @@ class WavSink(Pulled):
             f"another WavSink writes {self.path} already, and one of both takes would be lost. Close it first, or give "
             "each a file of its own.",
         )
+        # Another program may write a file of the same name; each writes a draft of its own, and the last one stays.
+        self._draft = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self._file = soundfile.SoundFile(
@@ -91,29 +94,33 @@ class WavSink(Pulled):
         self._fill = None
 
     def close(self) -> None:
-        """Complete the file and give it its name. Raises: DeviceError: another program has removed the draft."""
+        """Complete the file and give it its name.
+
+        Raises: DeviceError: the disk is gone or full, or another program has removed the draft.
+        """
         self.stop()
-        if self._file is None:
+        file, self._file = self._file, None
+        if file is None:
             return
-        self._file.close()
-        self._file = None
         give_back(self._key, self)
         try:
+            file.close()
             os.replace(self._draft, self.path)
-        except OSError as cause:
+        except (OSError, soundfile.SoundFileError) as cause:
             raise DeviceError(
-                f"{self.path} cannot be completed: {cause.strerror or cause}. Somebody else wrote or removed its draft "
-                f"{self._draft.name}; write to a folder of your own."
+                f"{self.path} cannot be completed: {reason_of(cause).rstrip('.')}. The disk may be gone or full, or "
+                f"another program removed the draft {self._draft.name}; write to a folder of your own."
             ) from cause
 
     def abort(self) -> None:
         """Stop and leave no file, for a run that failed."""
         self.stop()
-        if self._file is not None:
-            self._file.close()
-            self._file = None
+        file, self._file = self._file, None
+        if file is not None:
             give_back(self._key, self)
-            with contextlib.suppress(FileNotFoundError):
+            with contextlib.suppress(OSError, soundfile.SoundFileError):  # the first error says what is wrong
+                file.close()
+            with contextlib.suppress(OSError):
                 self._draft.unlink()
 
     @property

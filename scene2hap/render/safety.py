@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError
-from scene2hap.haptics import ActuatorProfile
+from scene2hap.haptics import ActuatorProfile, check_actuator_limits
 from scene2hap.render.guards import Gate, PeakGuard, PowerGuard, SlewGuard
 
 Block = NDArray[np.float32]
@@ -65,10 +65,7 @@ class Budget:
     max_frequency_hz: float = 1000.0
 
     def __post_init__(self) -> None:
-        peak = checks.number("max_amplitude", self.max_amplitude, "-", above=0.0, at_most=1.0, error=ConfigError)
-        checks.number("max_rms", self.max_rms, "-", at_least=0.02 * peak, at_most=1.0, error=ConfigError)
-        checks.number("rms_window_s", self.rms_window_s, "s", at_least=0.1, at_most=3600.0, error=ConfigError)
-        checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", at_least=20.0, error=ConfigError)
+        check_actuator_limits(self.max_amplitude, self.max_rms, self.rms_window_s, self.max_frequency_hz)
 
     @classmethod
     def of(cls, profile: ActuatorProfile) -> Budget:

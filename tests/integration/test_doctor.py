@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,10 @@ from numpy.typing import NDArray
 from scipy.signal import chirp, correlate
 
 from scene2hap.cli import doctor, main
+from scene2hap.cli.console import Console
+from scene2hap.devices.link import CarryOn, LiveSink
+from scene2hap.devices.protocol import SinkFormat
+from scene2hap.render.safety import SafetyLayer
 from sound_server import RATE, Recorder, SoundServer, missing
 from sound_takes import undisturbed
 
@@ -81,6 +86,54 @@ def test_the_sweep_visits_one_hand_after_the_other_and_is_quiet(tmp_path: Path) 
 def test_invalid_sink_is_refused(sink: str, sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "-q", "--sweep", sink]) == 1
     assert sentence in capsys.readouterr().err
+
+
+def test_a_sweep_that_reaches_no_device_is_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(doctor, "SWEEP_S", 0.1)
+    sink = json.dumps({"kind": "serial", "port": str(tmp_path / "ttyACM0")})
+    assert main(["doctor", "-q", "--sweep", sink]) == 1
+    told = " ".join(capsys.readouterr().err.split())
+    assert "error: no sample of the sweep reached a device: no serial port" in told
+
+
+class FarLine:
+    """A device that stores its blocks of 48 frames."""
+
+    underruns, latency_s = 0, None
+
+    def __init__(self) -> None:
+        self.blocks: list[NDArray[np.float32]] = []
+
+    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+        return format.sample_rate_hz
+
+    def wanted(self, timeout_s: float) -> int:
+        time.sleep(0.001)
+        return 48
+
+    def send(self, block: NDArray[np.float32]) -> None:
+        self.blocks.append(block)
+
+    def disconnect(self) -> None: ...
+
+
+def test_an_interrupted_sweep_fades_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(safety: SafetyLayer, seconds: float) -> None:
+        while len(line.blocks) < 1000:  # within the first sweep, from 0.5 to 2.5 s
+            safety.feed()
+            time.sleep(0.02)
+        raise KeyboardInterrupt
+
+    line = FarLine()
+    monkeypatch.setattr(doctor, "_keep_fed", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        doctor.sweep(LiveSink(line, "far device"), ("left",), Console(quiet=True))
+    x = np.concatenate(line.blocks)[:, 0]
+    assert np.abs(x[-4800:-960]).max() > 0.05
+    assert np.abs(x[-4:]).max() < 1e-3
+    assert np.abs(np.diff(x)).max() < 0.1 * 2 * np.pi * 400 / RATE
 
 
 @pytest.mark.parametrize(

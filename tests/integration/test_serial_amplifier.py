@@ -108,6 +108,19 @@ def test_every_sample_arrives_bit_exact(tmp_path: Path, events: list[SinkEvent])
     assert len(played) >= SECONDS * 4000 - 400
 
 
+def test_many_channels_are_sent_in_blocks_that_a_frame_holds(tmp_path: Path, events: list[SinkEvent]) -> None:
+    """16 channels of 64 frames are 2048 bytes; a PCM frame holds 1024 (docs/serial-protocol.md)."""
+    kept = Kept(channels=16)
+    with Plug(tmp_path, kept) as plug:
+        sink = SerialAmplifierSink(str(plug.path), baud_rate=2_000_000, block_frames=64, on_event=events.append)
+        sink.open(SinkFormat(4000, tuple(f"hand {number}" for number in range(16))))
+        sink.start(lambda n_frames: np.full((n_frames, 16), np.arange(16) / 32767, dtype=np.float32))
+        assert eventually(lambda: sink.stats.frames >= 2000)
+        sink.close()
+    assert kinds(events) == ["connected"], events
+    assert (kept.samples[200:] == np.arange(16)).all()
+
+
 def test_a_session_of_48_khz_is_converted(tmp_path: Path) -> None:
     kept = Kept()
     clock = itertools.count()

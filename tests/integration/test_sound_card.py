@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 
-from scene2hap.devices.protocol import SinkEvent
+from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.soundcard import SoundCardSink
 from sound_server import DEVICE, RATE, SoundServer, missing
 from sound_takes import TONES_HZ, TOUCHES, Game, session_on, take_alone, undisturbed
@@ -163,6 +163,17 @@ def test_hands_on_the_back_channels_of_a_game_pad() -> None:
     assert not peaks[:2].any()
     assert peaks[2] == pytest.approx(0.3, rel=0.05)
     assert peaks[3] > 0.1
+
+
+def test_a_single_hand_is_played_on_its_channel_alone(server: SoundServer) -> None:
+    recorder = server.record()
+    with SoundCardSink(DEVICE) as sink:
+        sink.open(SinkFormat(RATE, ("left",)))
+        sink.start(lambda n_frames: np.full((n_frames, 1), 0.25, dtype=np.float32))
+        assert sink.wait_connected(10.0)
+        time.sleep(1.0)
+    heard = recorder.stop()
+    assert np.abs(heard).max(axis=0).tolist() == [0.25, 0.0]
 
 
 def test_missing_device_is_refused(server: SoundServer) -> None:

@@ -1,7 +1,10 @@
 """PCM and OSC by UDP over the loopback, with independent receivers."""
 
+import contextlib
 import re
 import socket
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -70,6 +73,32 @@ def test_the_receiver_of_the_page_gets_every_sample(listener: socket.socket) -> 
     first = sink.stats.dropped_frames + 400
     np.testing.assert_array_equal(after_fade[:, 0] * 2**20, np.arange(first, first + len(after_fade)))
     np.testing.assert_array_equal(after_fade[:, 1], -after_fade[:, 0])
+
+
+@pytest.mark.parametrize("end", ["", "raise RuntimeError", "os.kill(os.getpid(), signal.SIGINT)"])
+def test_a_program_that_ends_without_stop_silences_the_receiver(listener: socket.socket, end: str) -> None:
+    program = f"""
+import os, signal, sys, numpy as np
+from scene2hap.devices.protocol import SinkFormat
+from scene2hap.devices.udp import UdpSink
+sink = UdpSink("127.0.0.1", int(sys.argv[1]))
+sink.open(SinkFormat(8000, ("left",)))
+sink.start(lambda n: np.ones((n, 1), dtype=np.float32))
+while sink.stats.frames < 800:
+    pass
+{end}
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", program, str(listener.getsockname()[1])], timeout=60, stderr=subprocess.DEVNULL
+    )
+    assert (ended.returncode == 0) is (end == "")
+    kinds = []
+    listener.setblocking(False)
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            kinds.append(listener.recv(2048)[1])
+    assert 3 in kinds
+    assert kinds[-1] == 5, "the last datagram is no MUTE"
 
 
 def test_udp_stream_is_paced_by_the_clock(listener: socket.socket) -> None:

@@ -342,7 +342,7 @@ def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, 
     heard = FeltLevel(felt.rate, felt.channels, context.actuator)
     for block in blocks if is_flat(context.actuator) else _equalized(blocks, felt, context):
         heard.hear(block)
-        held.write(block.tobytes())
+        held.write(np.ascontiguousarray(block).data)
     now_db, gain = heard.level_db(), 1.0
     if now_db > _NOTHING_DB and not is_noise(felt.before.peak, heard.peak, is_chosen=felt.follows_anchor):
         asked_db = sensation_level_db(context.intensity)
@@ -395,4 +395,4 @@ def _check_target(source: Path, output: Path, suffixes: Collection[str], *, over
     if output.is_dir():
         raise AudioError(f"{output} is a folder. Choose another name.")
     if output.exists() and not overwrite:
-        raise AudioError(f"{output} exists. Choose another name, or allow overwriting (--force).")
+        raise AudioError(f"{output} exists. Choose another name, or allow overwriting (overwrite=True, --force).")

@@ -12,22 +12,26 @@ cdef Py_ssize_t WARM = onsets.WARM, LOOK = onsets.LOOK, APART = onsets.APART, SP
 cdef Py_ssize_t FIRST_AFTER = onsets.AFTER[0], LAST_AFTER = onsets.AFTER[1]
 
 
-def followed(const double[::1] energies, double mean, double loudest, Py_ssize_t n_known):
-    cdef Py_ssize_t k, n = energies.shape[0]
-    cdef double energy, most
-    means, loudests = np.empty(n), np.empty(n)
-    cdef double[::1] each_mean = means, each_loudest = loudests
-    for k in range(n):
-        energy, each_mean[k], each_loudest[k] = energies[k], mean, loudest
-        if n_known + k < WARM:
-            mean += (energy - mean) / (n_known + k + 1)
-        else:
-            most = 8.0 * mean + QUIETEST
-            mean += ((energy if energy < most else most) - mean) / WARM
-        loudest *= FORGET
-        if energy > loudest:
-            loudest = energy
-    return means, loudests, mean, loudest
+def followed(const double[:, ::1] energies, double[:, ::1] memory, Py_ssize_t n_known):
+    cdef Py_ssize_t band, k, n = energies.shape[1]
+    cdef double energy, most, mean, loudest
+    found = np.empty((2, 3, n))
+    cdef double[:, :, ::1] each = found
+    for band in range(2):
+        mean, loudest = memory[band, 0], memory[band, 1]
+        for k in range(n):
+            energy = energies[band, k]
+            each[band, 0, k], each[band, 1, k], each[band, 2, k] = energy, mean, loudest
+            if n_known + k < WARM:
+                mean += (energy - mean) / (n_known + k + 1)
+            else:
+                most = 8.0 * mean + QUIETEST
+                mean += ((energy if energy < most else most) - mean) / WARM
+            loudest *= FORGET
+            if energy > loudest:
+                loudest = energy
+        memory[band, 0], memory[band, 1] = mean, loudest
+    return found
 
 
 cdef struct Onset:
@@ -37,19 +41,21 @@ cdef struct Onset:
 
 
 def onsets_among(
-    const double[:, :] sound,
-    const double[:, :] ticks,
+    const double[:, :, ::1] steps,
     Py_ssize_t n,
     Py_ssize_t n_known,
     double[::1] memory,
     bint spares_sustained,
 ):
     cdef Py_ssize_t k
+    cdef const double[:, ::1] sound = steps[0], ticks = steps[1]
     cdef double last = memory[0], before = memory[1], height_before = memory[2], since, energy
     cdef Onset onset
-    found, lowered = [], np.ones(n)
+    found, lowered = [], np.empty(n)
     cdef double[::1] shares = lowered
+    cdef bint is_lowered = False
     for k in range(n):
+        shares[k] = 1.0
         if n_known + k >= WARM and (sound[0, k] > RISE * sound[1, k] or ticks[0, k] > RISE * ticks[1, k]):
             onset.height, onset.left, onset.is_sustained = 0.0, 0.0, False
             highest(sound, k, spares_sustained, &onset)
@@ -63,11 +69,12 @@ def onsets_among(
         energy = sound[0, k]
         if n_known + k - last < SPARED and energy > 2.0 * before:
             shares[k] = sqrt(before / energy)
+            is_lowered = True
     memory[0], memory[1], memory[2] = last, before, height_before
-    return found, lowered
+    return found, lowered if is_lowered else None
 
 
-cdef void highest(const double[:, :] band, Py_ssize_t k, bint spares_sustained, Onset* onset) noexcept:
+cdef void highest(const double[:, ::1] band, Py_ssize_t k, bint spares_sustained, Onset* onset) noexcept:
     """Replace an onset by that of this band, if it is higher."""
     cdef Py_ssize_t i, at = k
     cdef double most = RISE * band[1, k], after = 0.0

@@ -25,7 +25,7 @@ from scene2hap.audio.anchor import BAND_Q, Anchor, reachable_hz
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.tactile.stages import ShiftStage, Signal, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.stages import ShiftStage, Signal, SosStage, Stage, StageStream, through
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.audio.tracked_anchor import TrackedAnchor
 from scene2hap.errors import ConfigError
@@ -162,11 +162,11 @@ class _Tracking:
         return np.empty(0)
 
     def _filtered(self, x: Signal) -> Signal:
-        y = self._gain * _through(self._band, x)
+        y = self._gain * through(self._band, x)
         if not self._retiring:
             return y
         rising = np.arange(self._n_faded + 1, self._n_faded + len(x) + 1) / self._fade
-        y = rising * y + (1.0 - rising) * self._retiring_gain * _through(self._retiring, x)
+        y = rising * y + (1.0 - rising) * self._retiring_gain * through(self._retiring, x)
         self._n_faded += len(x)
         if self._n_faded == self._fade:
             self._retiring = []
@@ -195,9 +195,3 @@ def _bandpass(f_hz: Signal, centre_hz: float, q: float) -> Signal:
     """Return the gain of a band-pass at these frequencies [-]."""
     r = np.maximum(f_hz, 1e-3) / centre_hz
     return np.asarray(1.0 / np.sqrt(1.0 + (q * (r - 1.0 / r)) ** 2))
-
-
-def _through(stages: list[Stage], x: Signal) -> Signal:
-    for stage in stages:
-        x = stage.run(x)
-    return x

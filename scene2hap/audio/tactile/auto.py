@@ -27,7 +27,7 @@ from scene2hap.audio.tactile.envelope import EnvelopeCarrier
 from scene2hap.audio.tactile.following import HEADROOM_DB, Following
 from scene2hap.audio.tactile.onsets import WithOnsets
 from scene2hap.audio.tactile.roughness import Roughened
-from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream
+from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream, WholeSteps
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.haptics import ActuatorProfile
 
@@ -67,7 +67,7 @@ class Auto(Adaptive):
         rendered = None if is_known else _rendered(context.actuator, sample_rate_hz)
         bed = Following(bed, sample_rate_hz, bed_db, felt_hz, is_live=not is_known, rendered=rendered)
         onsets = WithOnsets(bed, carrier_hz(context), sample_rate_hz, bed_follows=is_known, bed_db=context.band_db)
-        parts: list[Stage] = [SosStage(heard_sections(sample_rate_hz)), onsets]
+        parts: list[Stage] = [WholeSteps(onsets.step), SosStage(heard_sections(sample_rate_hz)), onsets]
         if bed_db is None:
             return StageStream(*parts)
         return StageStream(*parts, Scaled(_ROOM if rendered is None else _ROOM * 10 ** (-HEADROOM_DB / 20)))

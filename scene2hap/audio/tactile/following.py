@@ -21,6 +21,8 @@ that is missing, so that the rise and fall of the whole sound is felt:
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import lfilter
@@ -42,10 +44,11 @@ _STEPS, _AHEAD = 6, 3
 _LIVE_STEPS = 24
 """Steps of a live window. They are as long as those of the stage of onsets, which gives whole steps, so that the
 follower need not wait."""
-_MEAN_S = 2.0
+FORGET = float(np.exp(-STEP_S / 2.0))
+"""Share of the mean over two seconds that is kept from one step to the next [-]."""
 HEADROOM_DB = 6.0
 """Most by which the drive of a rendered bed may exceed the level of its sound [dB]; the sine supplies the rest."""
-_NOTHING = 1e-12
+NOTHING = 1e-12
 """Energy below which there is neither sound nor bed (-120 dB re full scale)."""
 
 
@@ -78,8 +81,8 @@ class Following:
         self._window = window / window.sum()
         # Of sound, bed and rendered bed, by steps, from before the start.
         self._energies = np.zeros((len(self._heard), len(window) - self._n_ahead))
-        self._forget = float(np.exp(-STEP_S / _MEAN_S))
-        self._means = np.zeros((2, 1))
+        self._means = np.zeros(2)
+        self._rising = np.arange(self._step) / self._step
         self._gains = np.empty((2, 0))  # of bed and sine, at the beginning of the next step
 
     def run(self, x: Signal) -> Signal:
@@ -96,8 +99,6 @@ class Following:
         return np.concatenate(parts)
 
     def _followed(self, x: Signal, y: Signal) -> Signal:
-        if y.size == 0:
-            return y  # small live blocks seldom complete a step of the onset stage
         self._waiting = np.concatenate([self._waiting, y]) if self._waiting.size else y
         parts = (x, y) if self._rendered is None else (x, y, self._rendered.run(y))
         energies = [of.next(part) for of, part in zip(self._heard, parts, strict=True)]
@@ -105,66 +106,60 @@ class Following:
         n = self._energies.shape[1] - len(self._window) + 1
         if n < 1:
             return np.empty(0)
-        gains = np.concatenate([self._gains, self._next_gains(n)], axis=1)
+        found = gains_of(self._energies, self._window, np.nan if self._bed_db is None else self._bed_db, self._means)
+        gains = np.concatenate([self._gains, found], axis=1)
         if self._gains.size == 0:
             gains[1, 0] = 0.0  # a sine that begins at once clicks
         self._energies = self._energies[:, n:]
         self._gains = gains[:, -1:]
         return self._released(*gains)
 
-    def _next_gains(self, n: int) -> Signal:
-        """Return the gains of bed and sine at the beginnings of n steps (2, n), each from its window."""
-        # Sums of windows one by one, since the rounding of a convolution depends on the block size.
-        sound, drive, *felt = (sliding_window_view(self._energies, len(self._window), axis=1) * self._window).sum(
-            axis=2
-        )
-        bed = felt[0] if felt else drive
-        usual_db = self._usual_db(np.stack([sound, bed]))
-        lifts = _lifts_db(sound, bed, usual_db)
-        most = np.full(n, MOST_LIFTED_DB)
-        if felt:
-            most = np.clip(HEADROOM_DB - _ratio_db(sound, drive), -MOST_LOWERED_DB, MOST_LIFTED_DB)
-        gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, most) / 20.0)
-        lacking = 10.0 ** (np.maximum(lifts, most) / 10.0) - 10.0 ** (most / 10.0)
-        return np.stack([gains, np.sqrt(2.0 * (bed + _NOTHING) * lacking)])
-
-    def _usual_db(self, around: Signal) -> Signal | float:
-        if self._bed_db is not None:
-            return self._bed_db
-        share = [1.0 - self._forget], [1.0, -self._forget]
-        means, self._means = lfilter(*share, around, axis=1, zi=self._means)
-        return _ratio_db(*means)
-
     def _released(self, gains: Signal, amplitudes: Signal) -> Signal:
         """Return the n - 1 steps between gains of the bed (n,), each faded from one gain to the next, plus the sine."""
         n = (len(gains) - 1) * self._step
         y, self._waiting = self._waiting[:n], self._waiting[n:]
         start, self._n_made = self._n_made, self._n_made + n
-        felt = faded(y, gains, self._step)
-        if self._sine is None or n == 0:
-            return felt
-        for k in np.flatnonzero(amplitudes[:-1] + amplitudes[1:]).tolist():
-            at = k * self._step
-            _, sine = self._sine.values(start + at, self._step)
-            felt[at : at + self._step] += faded(sine, amplitudes[k : k + 2], self._step)
+        felt = faded(y, gains, self._rising)
+        if self._sine is not None and np.count_nonzero(amplitudes):
+            felt += self._sine.times(faded(np.ones(n), amplitudes, self._rising), start)[1]
         return felt
 
 
-def _lifts_db(sound: Signal, bed: Signal, usual_db: Signal | float) -> Signal:
-    """Return the gain that the bed needs [dB]; 0 within `FREE_DB`."""
-    beyond = _ratio_db(sound, bed) - usual_db
-    return np.asarray(np.clip(beyond, -FREE_DB, FREE_DB) - beyond)
+@compiled
+def gains_of(energies: Signal, window: Signal, usual_db: float, means: Signal) -> Signal:
+    """Return the gains of bed and sine at the beginnings of n steps (2, n), each from its window.
+
+    Parameters: energies : of sound, bed and rendered bed, if it differs, by steps (2 or 3, n + len(window) - 1);
+    usual_db : M, nan if unknown; means : the filtered energies of sound and bed (2,), updated by this function.
+    """
+    # Sums of windows one by one, since the rounding of a convolution depends on the block size.
+    sound, drive, *felt = (sliding_window_view(energies, len(window), axis=1) * window).sum(axis=2)
+    bed = felt[0] if felt else drive
+    usual: Signal | float = usual_db
+    if math.isnan(usual_db):
+        slow, left = lfilter([1.0 - FORGET], [1.0, -FORGET], [sound, bed], axis=1, zi=means[:, None])
+        usual, means[:] = _ratio_db(*slow), left[:, 0]
+    beyond = _ratio_db(sound, bed) - usual
+    lifts = np.clip(beyond, -FREE_DB, FREE_DB) - beyond
+    most = np.full(len(bed), MOST_LIFTED_DB)
+    if felt:
+        most = np.clip(HEADROOM_DB - _ratio_db(sound, drive), -MOST_LOWERED_DB, MOST_LIFTED_DB)
+    gains = 10.0 ** (np.clip(lifts, -MOST_LOWERED_DB, most) / 20.0)
+    lacking = 10.0 ** (np.maximum(lifts, most) / 10.0) - 10.0 ** (most / 10.0)
+    return np.stack([gains, np.sqrt(2.0 * (bed + NOTHING) * lacking)])
 
 
 def _ratio_db(sound: Signal, bed: Signal) -> Signal:
     """Return the level of the bed relative to its sound [dB], from their energies (n,)."""
-    return np.asarray(10.0 * np.log10((bed + _NOTHING) / (sound + _NOTHING)))
+    return np.asarray(10.0 * np.log10((bed + NOTHING) / (sound + NOTHING)))
 
 
 @compiled
-def faded(y: Signal, gains: Signal, step: int) -> Signal:
-    """Apply a gain that changes linearly from one of gains (n + 1,) to the next in each of n steps of y."""
-    rising = np.arange(step) / step
+def faded(y: Signal, gains: Signal, rising: Signal) -> Signal:
+    """Apply a gain that changes from one of gains (n + 1,) to the next in each of n steps of y.
+
+    Parameters: rising : the share of the later gain in each sample of a step.
+    """
     ramp = (gains[1:] - gains[:-1])[:, None] * rising
     ramp += gains[:-1, None]
     felt = ramp.reshape(-1)

@@ -16,14 +16,14 @@ its onset (at most 60 ms) times this ratio, so that events and bed keep their re
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections import deque
 from typing import NamedTuple
 
 import numpy as np
 from scipy.signal import butter
 
 from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
-from scene2hap.audio.tactile.step_energies import StepEnergies
+from scene2hap.audio.tactile.step_energies import mean_squares
 from scene2hap.compiled import compiled
 
 STEP_S = 0.0025
@@ -78,13 +78,13 @@ class WithOnsets:
     ) -> None:
         self._bed, self._rate_hz = bed, sample_rate_hz
         self._share = None if bed_db is None else 10 ** (bed_db / 10)
-        self._step = max(1, round(STEP_S * sample_rate_hz))
+        self.step = max(1, round(STEP_S * sample_rate_hz))
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
         self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
-        self._energies = StepEnergies(self._step), StepEnergies(self._step)  # of the sound and of its ticks
         self._waiting = np.empty(0)  # samples whose onsets are not decided
         self._watch, self._n_made = _Watch(spares_sustained=bed_follows), 0
-        self._past = np.zeros(max(1, round(AROUND_S * sample_rate_hz)))  # of the bed
+        self._n_around = max(1, round(AROUND_S * sample_rate_hz))
+        self._past = deque([np.zeros(self._n_around)])  # of the bed, in parts
         longest = max(1, round(DULL_S * sample_rate_hz))
         self._carrier = np.sin(2.0 * np.pi * carrier_hz / sample_rate_hz * np.arange(longest))
         self._due: list[_Due] = []
@@ -93,20 +93,25 @@ class WithOnsets:
     def run(self, x: Signal) -> Signal:
         """Return the samples for which onsets are decided."""
         self._waiting = np.concatenate([self._waiting, x])
-        energies = [of.next(heard) for of, heard in zip(self._energies, (x, self._high.run(x)), strict=True)]
+        n_whole = len(self._waiting) // self.step
+        new = self._waiting[self._watch.n_waiting * self.step : n_whole * self.step]
+        if new.size == 0:
+            return new
         first = self._watch.n_decided
-        onsets, shares = self._watch.decided(*energies)
-        self._due += [one._replace(begin=(first + one.begin) * self._step) for one in onsets]
-        n = len(shares) * self._step
+        energies = np.array([mean_squares(new, self.step), mean_squares(self._high.run(new), self.step)])
+        onsets, shares = self._watch.decided(energies)
+        self._due += [one._replace(begin=(first + one.begin) * self.step) for one in onsets]
+        n = (n_whole - self._watch.n_waiting) * self.step
         spared, self._waiting = self._waiting[:n], self._waiting[n:]
-        lowered = np.flatnonzero(shares < 1.0)
-        spared.reshape(-1, self._step)[lowered] *= shares[lowered, None]
+        if shares is not None:
+            lowered = np.flatnonzero(shares < 1.0)
+            spared.reshape(-1, self.step)[lowered] *= shares[lowered, None]
         return self._mixed(self._bed.run(spared))
 
     def rest(self) -> Signal:
         """Return the last samples, as if silence followed."""
-        n_left = len(self._waiting) % self._step
-        parts = [self.run(np.zeros(self._watch.look * self._step))]
+        n_left = len(self._waiting) % self.step
+        parts = [self.run(np.zeros(self._watch.look * self.step))]
         parts.append(self._mixed(self._bed.run(self._waiting[:n_left])))
         return np.concatenate([*parts, self._mixed(self._bed.rest())])
 
@@ -114,13 +119,16 @@ class WithOnsets:
         """Return the next samples of the bed, with their bursts added."""
         begin, end = self._n_made, self._n_made + len(bed)
         self._n_made = end
-        n_past = len(self._past)
-        around = np.concatenate([self._past, bed]) if len(bed) < n_past or self._due else bed
-        self._past = around[len(around) - n_past :]
+        self._past.append(bed)
         while self._due and self._due[0].begin < end:
             due = self._due.pop(0)
-            at = due.begin - begin
-            self._bursts.append((due.begin, self._burst(due, around[at : at + n_past])))
+            at, n = due.begin - begin, self._n_around
+            before = bed[at - n : at] if at >= n else np.concatenate(self._past)[at : at + n]
+            self._bursts.append((due.begin, self._burst(due, before)))
+        excess = len(bed)
+        while excess >= len(self._past[0]):
+            excess -= len(self._past.popleft())
+        self._past[0] = self._past[0][excess:]
         out = bed.copy() if self._bursts else bed
         for start, burst in self._bursts:
             first, last = max(start, begin), min(start + len(burst), end)
@@ -134,7 +142,7 @@ class WithOnsets:
         amplitude = math.sqrt(2.0 * due.height)
         if self._share is not None:
             least = min(amplitude, TICK_ABOVE_BED * bed) if due.is_hidden else 0.0
-            energy = max(due.height, due.energy * self._step / (n * _MEAN_SQUARE))
+            energy = max(due.height, due.energy * self.step / (n * _MEAN_SQUARE))
             amplitude = max(least, math.sqrt(2.0 * self._share * energy))
         if bed > NO_BED * amplitude:
             amplitude = _limited(amplitude, bed)
@@ -163,44 +171,50 @@ class _Due(NamedTuple):
 
 
 @compiled
-def followed(energies: Signal, mean: float, loudest: float, n_known: int) -> tuple[Signal, Signal, float, float]:
-    """Return slow mean and recent maximum before each of the energies (n,), both (n,), and their values at the end.
+def followed(energies: Signal, memory: Signal, n_known: int) -> Signal:
+    """Return the energies of two bands (2, n), with slow mean and recent maximum before each: (2, 3, n).
 
-    Parameters: mean, loudest : slow mean and recent maximum after the n_known earlier steps.
+    Parameters: memory : slow mean and recent maximum after the n_known earlier steps (2, 2), updated by this function.
     """
-    means, loudests = [], []
-    for n, energy in enumerate(energies.tolist(), n_known):
-        means.append(mean)
-        loudests.append(loudest)
-        if n < WARM:
-            mean += (energy - mean) / (n + 1)
-        else:
-            # The mean rises slowly in an onset; otherwise the next onset would be missed.
-            mean += (min(energy, 8.0 * mean + QUIETEST) - mean) / WARM
-        loudest = max(energy, FORGET * loudest)
-    return np.array(means), np.array(loudests), mean, loudest
+    found = np.empty((2, 3, energies.shape[1]))
+    found[:, 0] = energies
+    for band, of_band in enumerate(energies.tolist()):
+        (mean, loudest), before = memory[band].tolist(), []
+        for n, energy in enumerate(of_band, n_known):
+            before.append((mean, loudest))
+            if n < WARM:
+                mean += (energy - mean) / (n + 1)
+            else:
+                # The mean rises slowly in an onset; otherwise the next onset would be missed.
+                mean += (min(energy, 8.0 * mean + QUIETEST) - mean) / WARM
+            loudest = max(energy, FORGET * loudest)
+        found[band, 1:] = np.reshape(before, (-1, 2)).T
+        memory[band] = mean, loudest
+    return found
 
 
 @compiled
 def onsets_among(
-    sound: Signal, ticks: Signal, n: int, n_known: int, memory: Signal, spares_sustained: bool
-) -> tuple[list[tuple[int, float, float]], Signal]:
+    steps: Signal, n: int, n_known: int, memory: Signal, spares_sustained: bool
+) -> tuple[list[tuple[int, float, float]], Signal | None]:
     """Find the onsets that begin in the first n steps, and the attenuation of the bed's input after each.
 
-    Parameters: sound, ticks : energy, slow mean and recent maximum of each step of both bands (3, m), where m exceeds n
-    by the steps that measure an onset; n_known : number of earlier steps; memory : step of the last onset, energy of
+    Parameters: steps : energy, slow mean and recent maximum of each step of sound and ticks (2, 3, m), where m exceeds
+    n by the steps that measure an onset; n_known : number of earlier steps; memory : step of the last onset, energy of
     the sound before it, and energy of the onset (3,), updated by this function; spares_sustained : no burst for
     sustained onsets.
-    Returns: onsets (step, energy, share of the energy after `LOOK` steps); amplitude of the bed's input (n,) [-].
+    Returns: onsets (step, energy, share of the energy after `LOOK` steps); amplitude of the bed's input (n,) [-], None
+    if all are 1.
     """
     onsets, shares = [], np.ones(n)
+    sound, ticks = steps
     last, before, height_before = memory.tolist()
     rising = (sound[0] > RISE * sound[1]) | (ticks[0] > RISE * ticks[1])
     for k in range(n):
         number = n_known + k
         # The beginning of a sound is no onset: its mean is not known yet.
         if rising[k] and number >= WARM:
-            height, left, is_sustained = _highest((sound, ticks), k)
+            height, left, is_sustained = _highest(steps, k)
             since = number - last
             least = 0.0 if since >= APART else LOUDER * height_before
             if height > least and not (is_sustained and spares_sustained):
@@ -212,10 +226,10 @@ def onsets_among(
         if number - last < SPARED and energy > 2.0 * before:
             shares[k] = (before / energy) ** 0.5
     memory[:] = last, before, height_before
-    return onsets, shares
+    return onsets, shares if (shares < 1.0).any() else None
 
 
-def _highest(bands: Sequence[Signal], k: int) -> tuple[float, float, bool]:
+def _highest(bands: Signal, k: int) -> tuple[float, float, bool]:
     """Return the higher onset of both bands at a step: its energy (0 without an onset), the share of this energy after
     `LOOK` steps, and True if it is sustained."""
     found = 0.0, 0.0, False
@@ -237,22 +251,23 @@ class _Watch:
         self._spares_sustained = spares_sustained
         self.look = SPARED if spares_sustained else LOOK
         self.n_decided = 0
-        self._steps = [np.empty((3, 0)), np.empty((3, 0))]  # energy, slow mean and recent maximum of sound and ticks
-        self._means = [(0.0, 0.0), (0.0, 0.0)]
+        self._steps = np.empty((2, 3, 0))  # energy, slow mean and recent maximum of sound and ticks
+        self._means = np.zeros((2, 2))
         self._memory = np.array([-float(SPARED), 0.0, 0.0])
 
-    def decided(self, *energies: Signal) -> tuple[list[_Due], Signal]:
-        """Return the result of `onsets_among` for the steps that these energies (n,) of sound and ticks decide."""
-        n_known = self.n_decided + self._steps[0].shape[1]
-        for band, of_band in enumerate(energies):
-            means, loudests, mean, loudest = followed(of_band, *self._means[band], n_known)
-            self._means[band] = mean, loudest
-            self._steps[band] = np.concatenate([self._steps[band], [of_band, means, loudests]], axis=1)
-        sound, ticks = self._steps
-        n = max(0, sound.shape[1] - self.look)
-        onsets, shares = onsets_among(sound, ticks, n, self.n_decided, self._memory, self._spares_sustained)
-        due = [_measured(sound, *one) for one in onsets]
-        self._steps = [sound[:, n:], ticks[:, n:]]
+    @property
+    def n_waiting(self) -> int:
+        """The number of steps that are not decided."""
+        return self._steps.shape[2]
+
+    def decided(self, energies: Signal) -> tuple[list[_Due], Signal | None]:
+        """Return the result of `onsets_among` for the steps that these energies (2, n) of sound and ticks decide."""
+        found = followed(energies, self._means, self.n_decided + self.n_waiting)
+        steps = np.concatenate([self._steps, found], axis=2)
+        n = max(0, steps.shape[2] - self.look)
+        onsets, shares = onsets_among(steps, n, self.n_decided, self._memory, self._spares_sustained)
+        due = [_measured(steps[0], *one) for one in onsets]
+        self._steps = steps[:, :, n:]
         self.n_decided += n
         return due, shares
 

@@ -65,10 +65,9 @@ class StageStream:
         return _joined([self._through(stage.rest(), i + 1) for i, stage in enumerate(self.stages)])
 
     def _through(self, x: Signal, first: int) -> Samples:
-        for stage in self.stages[first:]:
-            x = stage.run(x)
-        if x.size and not -1.0 <= x.min() <= x.max() <= 1.0:
-            self.n_clipped += int(np.count_nonzero(np.abs(x) > 1.0))
+        x = through(self.stages[first:], x)
+        if x.size and (size := np.abs(x)).max() > 1.0:
+            self.n_clipped += int(np.count_nonzero(size > 1.0))
             x = np.clip(x, -1.0, 1.0)
         return x.astype(np.float32)
 
@@ -79,6 +78,15 @@ def _joined(parts: list[Samples]) -> Samples:
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
+def through(stages: Sequence[Stage], x: Signal) -> Signal:
+    """Return the next samples of stages in series."""
+    for stage in stages:
+        if x.size == 0:
+            break
+        x = stage.run(x)
+    return x
+
+
 class Chain:
     """Stages in series, as one stage."""
 
@@ -87,9 +95,7 @@ class Chain:
 
     def run(self, x: Signal) -> Signal:
         """Return the next samples; stages with latency hold some back."""
-        for stage in self.stages:
-            x = stage.run(x)
-        return x
+        return through(self.stages, x)
 
     def rest(self) -> Signal:
         """Return the samples that all stages have held back."""
@@ -99,18 +105,47 @@ class Chain:
         return left
 
 
+class WholeSteps:
+    """A `Stage` that holds samples back until a step of them is complete, and returns whole steps.
+
+    Stages that decide by steps make nothing of less. Small blocks then cost them no calls.
+    """
+
+    def __init__(self, step: int) -> None:
+        self._step = step
+        self._held: list[Signal] = []
+        self._n_held = 0
+
+    def run(self, x: Signal) -> Signal:
+        """Return the steps that are complete now."""
+        self._held.append(x)
+        self._n_held += len(x)
+        if self._n_held < self._step:
+            return x[:0]
+        held = np.concatenate(self._held)
+        self._n_held %= self._step
+        n = len(held) - self._n_held
+        self._held = [held[n:]]
+        return held[:n]
+
+    def rest(self) -> Signal:
+        """Return the samples of the incomplete step."""
+        return np.concatenate([np.empty(0), *self._held])
+
+
 class SosStage:
     """A filter of second-order sections (n_sections, 6) with carried state."""
 
     def __init__(self, sections: Signal) -> None:
         self.sections = sections
         self.state = np.zeros((len(sections), 2))
+        self._rows = self.state[:, None]  # as `through_sections` needs it
 
     def run(self, x: Signal) -> Signal:
         """Return as many samples as given."""
         if x.size == 0:
             return x
-        y: Signal = through_sections(self.sections, x[None], self.state[:, None])[0]
+        y: Signal = through_sections(self.sections, x[None], self._rows)[0]
         return y
 
     def rest(self) -> Signal:

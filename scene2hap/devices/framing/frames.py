@@ -67,10 +67,14 @@ class Frame:
     payload: bytes = b""
 
     def __post_init__(self) -> None:
-        if len(self.payload) != self.payload_size or self.payload_size > MAX_PAYLOAD:
+        n_bytes = len(self.payload)
+        if n_bytes > MAX_PAYLOAD:
             raise DeviceError(
-                f"a {self.type.name} frame has {len(self.payload)} bytes of payload; it must be "
-                f"{self.payload_size}, and at most {MAX_PAYLOAD}."
+                f"a {self.type.name} frame has {n_bytes} bytes of payload; it must be at most {MAX_PAYLOAD}."
+            )
+        if n_bytes != self.payload_size:
+            raise DeviceError(
+                f"a {self.type.name} frame has {n_bytes} bytes; by its header it must be {self.payload_size}."
             )
 
     @property

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -67,9 +68,14 @@ def test_a_csv_file_is_read_with_or_without_a_heading(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("50,-6\n", "has 1 rows"),
+        ("50,-6\n", "fewer than two rows"),
         ("50,-6\n200,loud\n", "must be a frequency"),
-        ("200,0\n100,0\n", "above 200"),
+        ("200,0\n100,0\n", r"wrong\.csv: response_db has 100 Hz after 200 Hz"),
+        ("100,0\n50,-6\n200,-6\n", r"wrong\.csv: response_db has 50 Hz after 100 Hz"),
+        ("0,0\n100,-6\n", r"wrong\.csv: response_db\[0\]\[0\] is 0 Hz"),
+        ("kHz,dB\n0.04,-12\n0.8,0\n", r"wrong\.csv: max_frequency_hz is 0\.8 Hz.* in Hz, not in kHz"),
+        ("Hz;dB\n50;-6\n200;0\n", r"a row '50;-6'; .* a comma between them"),
+        ("50,5;-6,5\n200;0\n", r"a row '50,5;-6,5'; .* decimals after a point"),
         ("50,0\n200\n", "must be a frequency"),
         ("50,0\n100,nan\n", "finite"),
     ],
@@ -91,3 +97,12 @@ def test_profile_is_built_from_name_fields_or_object() -> None:
             actuator_profile(wrong)
     with pytest.raises(ConfigError, match="rising"):
         ActuatorProfile("odd", response_db=((100.0, 0.0), (100.0, 1.0)))
+
+
+@pytest.mark.parametrize(
+    "limits", [{"max_frequency_hz": 15.0}, {"rms_window_s": 0.01}, {"max_rms": 0.001}, {"name": 3}], ids=str
+)
+def test_limits_that_cannot_be_played_are_refused_by_the_profile(limits: dict[str, Any]) -> None:
+    """The safety layer refuses them too, but only when a session starts, after the bake."""
+    with pytest.raises(ConfigError, match=next(iter(limits))):
+        actuator_profile(limits)

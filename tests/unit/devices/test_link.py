@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scene2hap.devices.link import LiveSink
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent, SinkFormat
 from scene2hap.errors import DeviceError, DeviceLost, DeviceNotFound
+from scene2hap.render.safety import Budget, SafetyLayer
 from serial_bench import eventually
 
 FORMAT = SinkFormat(1000, ("left", "right"))
@@ -22,6 +23,7 @@ class ScriptedLine:
     def __init__(self) -> None:
         self.there = True
         self.wants = True
+        self.rate_hz = 0  # the session's
         self.error: Exception | None = None
         self.underruns = 0
         self.latency_s: float | None = 0.01
@@ -33,7 +35,7 @@ class ScriptedLine:
         if not self.there:
             raise DeviceNotFound("no device.")
         self.connects += 1
-        return format.sample_rate_hz
+        return self.rate_hz or format.sample_rate_hz
 
     def wanted(self, timeout_s: float) -> int:
         time.sleep(min(timeout_s, 0.001))
@@ -133,6 +135,58 @@ def test_lost_device_is_reconnected_with_a_fade(bench: Bench, error: Exception) 
     assert x[back] < 0.01
     assert np.abs(np.diff(x[back:])).max() < 0.04  # pi / 2 / 50 at its steepest
     assert bench.sink.stats.faults == isinstance(error, ZeroDivisionError)
+
+
+@pytest.mark.parametrize("rate_hz", [2000, 4000, 8000])
+def test_a_device_of_another_rate_gets_the_whole_fade_out(bench: Bench, rate_hz: int) -> None:
+    """A tone of 100 Hz fades out over 8 ms. Every frame of it arrives, so no step is larger than those of the tone."""
+    bench.line.rate_hz = rate_hz
+    safety = SafetyLayer(Budget(), 48000, 1)
+    n_asked = 0
+
+    def tone(n_frames: int) -> NDArray[np.float32]:
+        nonlocal n_asked
+        t = np.arange(n_asked, n_asked + n_frames) / 48000
+        n_asked += n_frames
+        return (0.5 * np.sin(2 * np.pi * 100 * t)).astype(np.float32)[:, None]
+
+    bench.sink.open(SinkFormat(48000, ("left",)))
+    bench.sink.start(safety.guard(tone))
+    assert eventually(lambda: n_asked > 12_000)
+    safety.release()
+    assert safety.silent.wait(10)
+    bench.sink.stop()
+    x = bench.line.samples[:, 0]
+    assert np.abs(x[-4:]).max() < 1e-3
+    # The tone changes by 0.5 * 2 pi 100 / s, the raised cosine by 0.5 * pi / 2 / 8 ms at most.
+    steepest = 0.5 * 2 * np.pi * 100 + 0.5 * np.pi / 2 / 0.008
+    assert np.abs(np.diff(x, append=0.0)).max() < 1.05 * steepest / rate_hz
+
+
+def test_blocks_stay_within_full_scale_at_any_rate(bench: Bench) -> None:
+    bench.line.rate_hz = 8000
+    n_asked = 0
+
+    def square(n_frames: int) -> NDArray[np.float32]:
+        nonlocal n_asked
+        n_asked += n_frames
+        return np.tile(np.sign(np.sin(np.arange(n_asked - n_frames, n_asked) / 50 + 0.1))[:, None], 2).astype("f4")
+
+    bench.sink.open(SinkFormat(48000, ("left", "right")))
+    bench.sink.start(square)
+    assert eventually(lambda: n_asked > 48_000)
+    bench.sink.stop()
+    assert np.abs(bench.line.samples).max() == 1.0
+
+
+def test_stop_returns_if_a_device_of_another_rate_takes_no_more_samples(bench: Bench) -> None:
+    bench.line.rate_hz = 4000
+    bench.start()
+    assert eventually(lambda: len(bench.line.taken) > 20)
+    bench.line.wants = False
+    bench.sink.stop()
+    assert not bench.sink.stats.connected
+    assert bench.line.disconnects == 1
 
 
 def test_a_stalled_device_resumes_with_a_fade(bench: Bench) -> None:

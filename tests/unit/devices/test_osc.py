@@ -45,6 +45,12 @@ def test_gain_messages_are_sent_per_hand_and_clip() -> None:
         ({"samples": "int24"}, '"int16"'),
         ({"sample_rate_hz": 0}, "at least 500"),
         ({"block_frames": 0}, "at least 1"),
+        ({"block_frames": 1.5}, "whole number"),
+        ({"port": 9000.5}, "whole number"),
+        ({"sample_rate_hz": 8000.5}, "whole number"),
+        ({"on_event": "print"}, "on_event is 'print'; it must be a function"),
+        ({"content": "osc", "clips": ["radio"]}, "must map each source"),
+        ({"content": "osc", "clips": {"radio": 1}}, "must map each source"),
     ],
 )
 def test_settings_out_of_bounds_are_refused(settings: dict[str, object], words: str) -> None:
@@ -53,7 +59,16 @@ def test_settings_out_of_bounds_are_refused(settings: dict[str, object], words: 
 
 
 @pytest.mark.parametrize(
-    "settings", [{"baud_rate": 300}, {"sample_rate_hz": 1}, {"buffer_s": 0}, {"block_frames": 1000}]
+    "settings",
+    [
+        {"baud_rate": 300},
+        {"baud_rate": 115200.5},
+        {"sample_rate_hz": 1},
+        {"sample_rate_hz": 4000.5},
+        {"buffer_s": 0},
+        {"block_frames": 1000},
+        {"block_frames": 2.5},
+    ],
 )
 def test_serial_settings_out_of_bounds_are_refused(settings: dict[str, object]) -> None:
     with pytest.raises(ConfigError, match=next(iter(settings))):

@@ -26,7 +26,7 @@ def test_channel_maps_route_hands_to_channels(channels: object, columns: list[in
     assert sink._card_line.columns(FORMAT) == columns
 
 
-@pytest.mark.parametrize("channels", [[0, 1], [1, 1], [1.5, 2], {"left": True}, ["1"], [1, 300]])
+@pytest.mark.parametrize("channels", [[0, 1], [1, 1], [1.5, 2], {"left": True}, ["1"], [1, 300], 5])
 def test_invalid_channels_are_refused(channels: object) -> None:
     with pytest.raises(ConfigError, match="channel"):
         SoundCardSink(channels=channels)
@@ -42,6 +42,18 @@ def test_every_hand_needs_a_channel() -> None:
 def test_invalid_latencies_are_refused(latency: object) -> None:
     with pytest.raises(ConfigError, match="latency"):
         SoundCardSink(latency=latency)
+
+
+@pytest.mark.parametrize("rate", [0, -1, "48k", "48000", 44100.5, 1e9, True, float("nan")])
+def test_invalid_rates_are_refused(rate: object) -> None:
+    with pytest.raises(ConfigError, match="sample_rate_hz"):
+        SoundCardSink(sample_rate_hz=rate)
+
+
+@pytest.mark.parametrize("device", ["", 1.5, True])
+def test_invalid_devices_are_refused(device: object) -> None:
+    with pytest.raises(ConfigError, match="a name, an index or None"):
+        SoundCardSink(device)
 
 
 @pytest.mark.parametrize("frames", [0, 8, 10_000, 64.0, True, None])

@@ -3,6 +3,7 @@
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -84,13 +85,32 @@ def test_sink_that_lags_too_far_skips_ahead_with_a_crossfade() -> None:
     tee = TeeSink([a, b])
     tee.open(FORMAT)
     tee.start(Counting())
-    b.take(10)
-    a.take(150)  # b is 140 behind, more than 100
+    b.take(20)
+    for _ in range(8):
+        a.take(20)  # b is 140 behind, more than 100 and a block of 20
     rising = np.arange(1, 21) / 20
-    np.testing.assert_allclose(b.take(20), (1 - rising) * np.arange(10, 30) + rising * np.arange(150, 170), atol=1e-3)
-    np.testing.assert_array_equal(b.take(5), np.arange(170, 175))
-    a.take(2000)  # too far behind for samples to fade from
-    np.testing.assert_allclose(b.take(20), rising * np.arange(2150, 2170), atol=1e-3)
+    np.testing.assert_allclose(b.take(20), (1 - rising) * np.arange(20, 40) + rising * np.arange(160, 180), atol=1e-3)
+    np.testing.assert_array_equal(b.take(5), np.arange(180, 185))
+    for _ in range(100):
+        a.take(20)  # too far behind for samples to fade from
+    np.testing.assert_allclose(b.take(20), rising * np.arange(2160, 2180), atol=1e-3)
+    tee.stop()
+
+
+@pytest.mark.parametrize("n_long", [150, 1024])
+def test_a_device_of_long_blocks_does_not_hurry_the_others(n_long: int) -> None:
+    """Both devices play at the same rate, one in blocks that are longer than the lag of 0.1 s."""
+    long, short = Device(), Device()
+    tee = TeeSink([long, short])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    got_long, got_short = [], []
+    for n in range(0, 3 * n_long, 10):
+        if n % n_long == 0:
+            got_long.append(long.take(n_long))
+        got_short.append(short.take(10))
+    for got in (np.concatenate(got_long), np.concatenate(got_short)):
+        np.testing.assert_array_equal(got, np.arange(len(got)))
     tee.stop()
 
 
@@ -133,6 +153,43 @@ def test_events_and_gains_are_passed_on() -> None:
     assert told == [event]
     tee.show("frame")
     assert device.shown == ["frame"]
+
+
+class FullDisk(MemorySink):
+    """A recorder that fails from its 100th frame on."""
+
+    def pull(self, n_frames: int) -> NDArray[np.float32]:
+        if len(self.samples) >= 100:
+            raise DeviceError("the disk is full.")
+        return super().pull(n_frames)
+
+
+@pytest.mark.parametrize("on_event", [lambda events: events.append, lambda events: lambda event: 1 / 0])
+def test_a_recorder_that_fails_does_not_silence_the_devices(on_event: Any) -> None:
+    events: list[SinkEvent] = []
+    device, full, memory = Device(), FullDisk(), MemorySink()
+    tee = TeeSink([full, device, memory], on_event=on_event(events))
+    tee.open(FORMAT)
+    tee.start(Counting())
+    got = np.concatenate([device.take(50) for _ in range(6)])
+    np.testing.assert_array_equal(got, np.arange(300))
+    np.testing.assert_array_equal(memory.samples[:, 0], np.arange(300))
+    np.testing.assert_array_equal(full.samples[:, 0], np.arange(100))
+    assert tee.stats.faults == (1 if events else 2)
+    if events:
+        assert [event.kind for event in events] == ["fault"]
+        assert events[0].message == "FullDisk gets no more of the mix, the other sinks play on: the disk is full."
+    tee.close()
+
+
+def test_a_failing_recorder_without_a_device_raises() -> None:
+    tee = TeeSink([FullDisk(), MemorySink()])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    tee.pull(100)
+    with pytest.raises(DeviceError, match="the disk is full"):
+        tee.pull(1)
+    tee.close()
 
 
 def test_tee_is_built_from_settings(tmp_path: Path) -> None:

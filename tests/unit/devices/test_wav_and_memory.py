@@ -1,5 +1,9 @@
 """The sinks without a clock: WAV file and memory."""
 
+import contextlib
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -95,3 +99,52 @@ def test_a_full_disk_is_an_error_of_the_sink_and_leaves_no_file(tmp_path: Path) 
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
     sink.abort()
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows keeps its handles apart from the descriptors of Python")
+@pytest.mark.parametrize("end", ["close", "abort"])
+def test_a_disk_that_is_gone_at_the_end_is_an_error_of_the_sink(tmp_path: Path, end: str) -> None:
+    """The closed descriptor of the file stands for the lost disk: nothing more can be written to it."""
+    sink = WavSink(tmp_path / "touch.wav")
+    sink.open(SinkFormat(48_000, ("left",)))
+    sink.start(lambda n: np.zeros((n, 1), np.float32))
+    sink.pull(100)
+    (path,) = tmp_path.glob(".touch.wav.*.part")
+    draft = path.stat()
+    for descriptor in range(3, 256):
+        with contextlib.suppress(OSError):
+            if os.path.samestat(os.fstat(descriptor), draft):
+                os.close(descriptor)
+    if end == "close":
+        with pytest.raises(DeviceError, match=r"touch\.wav cannot be completed: .* disk may be gone"):
+            sink.close()
+    else:
+        sink.abort()
+        assert not list(tmp_path.iterdir())
+    sink.close()
+    sink.open(SinkFormat(48_000, ("left",)))  # the file is not claimed any more
+    sink.abort()
+
+
+def test_two_programs_that_write_one_file_do_not_mix_their_samples(tmp_path: Path) -> None:
+    path = tmp_path / "touch.wav"
+    other = f"""
+import numpy as np
+from scene2hap.devices.protocol import SinkFormat
+from scene2hap.devices.wav import WavSink
+sink = WavSink({str(path)!r})
+sink.open(SinkFormat(48_000, ("left",)))
+sink.start(lambda n: np.full((n, 1), 0.25, np.float32))
+sink.pull(5000)
+sink.close()
+"""
+    sink = WavSink(path)
+    sink.open(SinkFormat(48_000, ("left",)))
+    sink.start(lambda n: np.full((n, 1), 0.5, np.float32))
+    sink.pull(1000)
+    subprocess.run([sys.executable, "-c", other], check=True, timeout=60)
+    assert set(soundfile.read(path)[0]) == {0.25}
+    sink.pull(1000)
+    sink.close()
+    np.testing.assert_array_equal(soundfile.read(path)[0], np.full(2000, 0.5))
+    assert list(tmp_path.iterdir()) == [path]

@@ -33,10 +33,12 @@ def test_kernels_filter_cut_sounds_alike(seed: int, n_sections: int, n_rows: int
 @given(seed=seeds, n_known=st.sampled_from([0, 5, 23, 24, 1000]))
 def test_kernels_follow_the_same_mean_and_maximum(seed: int, n_known: int) -> None:
     rng = np.random.default_rng(seed)
-    energies = np.exp(rng.uniform(-20.0, 0.0, 200)) * (rng.random(200) < 0.8)
-    kinds = both("audio.tactile.onsets.followed")
-    plain, compiled = (kind(energies, 1e-5, 1e-3, n_known) for kind in kinds)
-    for one, other in zip(compiled, plain, strict=True):
+    energies = np.exp(rng.uniform(-20.0, 0.0, (2, 200))) * (rng.random((2, 200)) < 0.8)
+    answers = []
+    for kernel in both("audio.tactile.onsets.followed"):
+        memory = np.array([[1e-5, 1e-3], [1e-6, 1e-2]])
+        answers.append((kernel(energies, memory, n_known), memory))
+    for one, other in zip(*answers, strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-13)
 
 
@@ -52,15 +54,15 @@ def test_kernels_find_the_same_onsets_and_lower_the_bed_alike(
     sound = 1e-4 * rng.uniform(0.2, 2.0, n + beyond) + 0.1 * strokes[: n + beyond]
     ticks = sound * rng.uniform(0.0, 1.0, n + beyond)
     follow = both("audio.tactile.onsets.followed")[0]
-    bands = [np.array([band, *follow(band, 1e-4, 1e-3, n_known)[:2]]) for band in (sound, ticks)]
+    steps = follow(np.array([sound, ticks]), np.array([[1e-4, 1e-3], [1e-4, 1e-3]]), n_known)
     answers = []
     for kernel in both("audio.tactile.onsets.onsets_among"):
         memory, found, shares = np.array([-24.0, 0.0, 0.0]), [], []
         for begin, end in ((0, 130), (130, n)):
-            parts = [band[:, begin : end + beyond] for band in bands]
-            onsets, lowered = kernel(*parts, end - begin, n_known + begin, memory, spares)
+            part = np.ascontiguousarray(steps[:, :, begin : end + beyond])
+            onsets, lowered = kernel(part, end - begin, n_known + begin, memory, spares)
             found += [(begin + k, height, left) for k, height, left in onsets]
-            shares.append(lowered)
+            shares.append(np.ones(end - begin) if lowered is None else lowered)
         answers.append((found, np.concatenate(shares), memory))
     (plain, plain_shares, plain_memory), (compiled, compiled_shares, compiled_memory) = answers
     assert [k for k, *_ in compiled] == [k for k, *_ in plain]
@@ -91,8 +93,30 @@ def test_kernels_find_the_same_step_energies_and_fade_alike(seed: int, step: int
     x, gains = rng.standard_normal(step * n), rng.uniform(0.1, 5.0, n + 1)
     plain, compiled = (kernel(x, step) for kernel in both("audio.tactile.step_energies.mean_squares"))
     np.testing.assert_allclose(compiled, plain, rtol=1e-12)
-    plain, compiled = (kernel(x, gains, step) for kernel in both("audio.tactile.following.faded"))
+    rising = np.arange(step) / step
+    plain, compiled = (kernel(x, gains, rising) for kernel in both("audio.tactile.following.faded"))
     np.testing.assert_allclose(compiled, plain, rtol=1e-13)
+
+
+@steady
+@given(
+    seed=seeds,
+    n_bands=st.sampled_from([2, 3]),
+    size=st.sampled_from([6, 24]),
+    usual_db=st.sampled_from([float("nan"), 0.0, -9.0]),
+)
+def test_kernels_find_the_same_gains(seed: int, n_bands: int, size: int, usual_db: float) -> None:
+    """Levels from silence to full scale, so that beds are within the free range, too strong, too weak and absent."""
+    rng = np.random.default_rng(seed)
+    sound = 10 ** rng.uniform(-2.0, 2.0, 200).cumsum().clip(-8.0, 0.0) * (rng.random(200) < 0.95)
+    bands = sound * 10 ** rng.choice([0.0, 0.1, 1.0, -2.0, -5.0], (n_bands, 1)) * rng.uniform(0.9, 1.1, (n_bands, 200))
+    window = rng.uniform(0.1, 1.0, size)
+    answers = []
+    for kernel in both("audio.tactile.following.gains_of"):
+        means = np.array([1e-3, 1e-4])
+        answers.append((kernel(bands, window / window.sum(), usual_db, means), means))
+    for one, other in zip(*answers, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-12)
 
 
 @steady
