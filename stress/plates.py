@@ -259,7 +259,6 @@ class Campaign:
                     print(f"* {line}", flush=True)
             for cache in CACHES:
                 cache.cache_clear()
-        gc.collect()  # bodies and their caches refer to each other
         return len(numbers), outcomes
 
 

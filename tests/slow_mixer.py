@@ -54,10 +54,13 @@ def slow_mix(
     h, up = kaiser_low_pass(rate_in_hz, rate_out_hz)
     down = rate_in_hz // math.gcd(rate_in_hz, rate_out_hz)
     out = upfirdn(h, mix, up, down, axis=0)[:n_frames]
-    threshold, release = 10 ** (-3 / 20), math.exp(-1 / rate_out_hz)
-    down_by = np.zeros(n_hands)
+    threshold, release, attack = 10 ** (-3 / 20), math.exp(-1 / rate_out_hz), math.exp(-1 / (0.002 * rate_out_hz))
+    held, down_by = np.zeros((2, n_hands))
     for k, sample in enumerate(out):
-        wanted = 1 - threshold / np.maximum(np.abs(sample), threshold)
-        down_by = np.maximum(release * down_by, wanted)
-        out[k] = sample * (1 - down_by)
-    return out
+        wanted = np.log(np.maximum(np.abs(sample), threshold) / threshold)
+        held = np.maximum(release * held, wanted)
+        down_by = attack * down_by + (1 - attack) * held
+        out[k] = sample * np.exp(-down_by)
+    beyond = np.maximum(np.abs(out) - threshold, 0.0)
+    guarded = np.sign(out) * (threshold + (1 - threshold) * np.tanh(beyond / (1 - threshold)))
+    return np.where(beyond > 0.0, guarded, out)

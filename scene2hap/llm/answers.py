@@ -7,10 +7,11 @@ Class docstrings are sent to models as part of the schema, so a change of one ch
 
 from __future__ import annotations
 
+import json
 import re
-from typing import Annotated, Self
+from typing import Annotated, Self, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from scene2hap.haptics import LONGEST_PASSAGE_S, LONGEST_TURN_S
 
@@ -38,7 +39,7 @@ def _without_vibrate(text: str) -> str:
 
 
 class Answer(BaseModel):
-    """Base of all answers: nothing missing, nothing extra."""
+    """Base of all answers: nothing missing, nothing extra. `read_answer` leaves out what is extra."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
 
@@ -118,3 +119,27 @@ class VibrationAnswer(Answer):
         if (self.on_s is None) != (self.off_s is None):
             raise ValueError("on_s and off_s belong together; give both, or null for both")
         return self
+
+
+AnswerType = TypeVar("AnswerType", bound=Answer)
+
+
+def read_answer(shape: type[AnswerType], text: str) -> AnswerType:
+    """Read an answer from its JSON. Fields that it should not have are left out, since they do no harm.
+
+    Models add comments and sources where no server enforces the schema, and would add them again after a repair.
+    Raises: pydantic.ValidationError: a field is missing or wrong.
+    """
+    try:
+        return shape.model_validate_json(text)
+    except ValidationError as error:
+        extra = [problem["loc"] for problem in error.errors(include_url=False) if problem["type"] == "extra_forbidden"]
+        if not extra:
+            raise
+    fields = json.loads(text)
+    for *path, name in extra:
+        owner = fields
+        for step in path:
+            owner = owner[step]
+        del owner[name]
+    return shape.model_validate_json(json.dumps(fields))

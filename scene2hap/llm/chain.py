@@ -183,9 +183,12 @@ class _Chain:
 
         # Objects that are likely to vibrate need more calls, so they go first.
         order = sorted(firsts, key=lambda object_id: not _seems_to_vibrate(self._scene.object(object_id)))
-        ended = await asyncio.gather(*(analyse(self._scene.object(key)) for key in order), return_exceptions=True)
+        try:
+            ended = await asyncio.gather(*(analyse(self._scene.object(key)) for key in order), return_exceptions=True)
+        finally:
+            if self._questions.closed_by is not None:
+                await asyncio.gather(*self._materials.values(), return_exceptions=True)
         if self._questions.closed_by is not None:
-            await asyncio.gather(*self._materials.values(), return_exceptions=True)
             raise self._questions.closed_by
         found = [_known(outcome) for outcome in ended]
         analyses = dict(zip(order, found, strict=True))

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import asyncio
 import inspect
+import warnings
 from collections.abc import Mapping, Sequence
 from functools import cache
-from typing import Any, TypeVar
+from typing import Any
 
 from pydantic import ValidationError
 
 from scene2hap import checks
+from scene2hap.counted import counted
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
-from scene2hap.llm.answers import Answer
+from scene2hap.llm.answers import Answer, AnswerType, read_answer
 from scene2hap.llm.backends import chat
+from scene2hap.llm.finish_reasons import is_whole
+from scene2hap.llm.json_text import first_object
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
-
-AnswerType = TypeVar("AnswerType", bound=Answer)
 
 
 class Questions:
@@ -26,6 +28,7 @@ class Questions:
 
     An error that would affect every further question (an exhausted budget, a rejected key, a recording that does not
     match) stops all questions. Running calls are completed, so that their answers are kept, and no new call begins.
+    So does a cancellation, as by Ctrl-C; a second one ends the running calls too.
     """
 
     def __init__(
@@ -40,6 +43,7 @@ class Questions:
     ) -> None:
         self.report = InferenceReport()
         self.closed_by: Exception | None = None
+        self._n_running = 0
         self._backend = backend
         self._prompts = prompts
         self._slots = asyncio.Semaphore(concurrency)
@@ -58,6 +62,34 @@ class Questions:
         if not isinstance(reply, LLMReply):
             raise ConfigError(f"{by} gave {checks.described(reply)}; it must be an LLMReply(text, model).")
         return reply
+
+    async def _kept(self, request: LLMRequest) -> LLMReply:
+        """Return the backend's reply. A cancelled call ends first, since it is paid for and a cache may keep it."""
+        self._n_running += 1
+        running = asyncio.ensure_future(self._completed(request))
+        try:
+            return await asyncio.shield(running)
+        except asyncio.CancelledError:
+            if not running.done():
+                self._close_for_cancellation()
+                await asyncio.wait([running])
+            if not running.cancelled():
+                running.exception()  # asyncio would report an error that nobody reads
+            raise
+        finally:
+            running.cancel()  # has an effect only after a second cancellation
+            self._n_running -= 1
+
+    def _close_for_cancellation(self) -> None:
+        if self.closed_by is not None:
+            return
+        self.closed_by = BackendUnavailable("the questions were cancelled.")
+        warnings.warn(
+            f"stopping: {counted(self._n_running, 'question')} to the model will be answered first, since the answers "
+            "are paid for. Interrupt again to stop at once.",
+            chat.BackendWarning,
+            stacklevel=2,
+        )
 
     async def ask(
         self,
@@ -94,7 +126,7 @@ class Questions:
             raise self.closed_by
         self.report.calls[request.component] += 1
         try:
-            reply = await self._completed(request)
+            reply = await self._kept(request)
         except Exception as problem:  # a backend of a user's own may raise any error
             if isinstance(problem, chat.UnusableAnswer):  # it was billed although it is unusable
                 self.report.take(LLMReply("", problem.model, usage=problem.usage, service_tier=problem.service_tier))
@@ -126,10 +158,10 @@ def _validated(reply: LLMReply, shape: type[AnswerType], about: str) -> AnswerTy
     chat.require_willing(chat.Said(reply.text, reply.model, reply.finish_reason), about)
     if not reply.text.strip():
         raise BadAnswer(f"{about}: {reply.model} answered without content.", reply.text)
-    if reply.finish_reason != "stop":
+    if not is_whole(reply.finish_reason):
         raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
     try:
-        return shape.model_validate_json(reply.text)
+        return read_answer(shape, first_object(reply.text) or reply.text)
     except ValidationError as cause:
         fault = checks.first_problem(cause)
         given = "" if fault.kind == "missing" else f" is {checks.represented(fault.value)}"

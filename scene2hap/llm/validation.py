@@ -11,7 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer
+from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer, read_answer
 from scene2hap.llm.plausibility import implausible
 from scene2hap.llm.protocol import Component
 
@@ -48,7 +48,7 @@ def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None 
     """
     doubtful = implausible(component, _fields(text), facts or {})
     try:
-        answer = ANSWERS[component].model_validate_json(text)
+        answer = read_answer(ANSWERS[component], text)
     except ValidationError as error:
         problems = error.errors(include_url=False)
         reasons = [_in_words(problem) for problem in problems[:_MOST_SHOWN]]

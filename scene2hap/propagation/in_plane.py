@@ -12,11 +12,10 @@ Source: Bardell, Langley, Dunsdon, On the free in-plane vibration of isotropic r
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.ritz import axis_basis, products
 
@@ -49,13 +48,18 @@ class InPlaneModes:
         self.squares[:3] = 0.0
         self._vectors = vectors.reshape(2, n * n, -1) / np.sqrt(per_area)
 
+    @property
+    def nbytes(self) -> int:
+        """Memory [byte]."""
+        return int(self._vectors.nbytes)
+
     def shapes(self, points_m: Floats) -> Floats:
         """Displacement of points (n, 2) [m] along x and y in each mode (2, n, n_modes) [kg^-1/2]."""
         shapes: Floats = products(self._x, self._y, points_m) @ self._vectors
         return shapes
 
 
-@lru_cache(maxsize=128)
+@cached_while_used
 def in_plane_modes(plate: Plate, mass_kg: float) -> InPlaneModes:
     """Return a plate's in-plane modes. Cached, since every change of a contact prepares the scene again."""
     return InPlaneModes(plate, mass_kg)

@@ -42,7 +42,7 @@ from scene2hap.propagation.domain import (
     warn_if_thick,
 )
 from scene2hap.propagation.infinite_plate import InfiniteBody
-from scene2hap.propagation.lattice.bending_lattice import LONGEST, narrow_side_m
+from scene2hap.propagation.lattice.bending_lattice import LONGEST, MOST_NODES, n_nodes_of, narrow_side_m
 from scene2hap.propagation.lattice.lattice_body import lattice_body
 from scene2hap.propagation.lattice.lattice_modes import (
     LatticeModes,
@@ -61,7 +61,7 @@ CELLS_PER_WAVE = 4.0
 """Fewest cells in a bending wavelength; with four, the lattice turns it 0.7 % too fast."""
 FINEST = 256
 LEAST_LIMIT_HZ = 1.0
-"""Vibration below this frequency is not felt, so a lattice with a lower limit is of no use."""
+"""Vibration below this frequency is not felt, so a lattice with a lower limit is of no use: the plate has no edges."""
 
 
 class CoarsenedWarning(UserWarning):
@@ -111,9 +111,10 @@ class MassSpringDamper:
         """Return a plate as a body for coupling up to `max_frequency_hz` [Hz]; see `lattice_body`.
 
         A lattice may need more cells, nodes or modes than can be solved in seconds, such as a rug's. The body is then a
-        `SplitBody`: a lattice up to the highest possible frequency, and a plate without edges above it.
-        Raises: ModelDomainError: even the lowest modes are too many, or `outside_domain` is "raise" and a `SplitBody`
-        is needed. Warns: CoarsenedWarning, otherwise.
+        `SplitBody`: a lattice up to the highest possible frequency, and a plate without edges above it. A plate with
+        too many modes at `LEAST_LIMIT_HZ`, such as a carpet, has no edges at any frequency.
+        Raises: ModelDomainError: the lattice takes too many nodes at any frequency, or `outside_domain` is "raise" and
+        the plate is coarsened. Warns: CoarsenedWarning, otherwise.
         """
         eta, limit_hz = floored_loss(plate, self.loss_floor), max_frequency_hz
         while self._is_too_much(plate, limit_hz) and limit_hz > LEAST_LIMIT_HZ:
@@ -122,12 +123,14 @@ class MassSpringDamper:
         if is_coarsened and self.outside_domain == "raise":
             raise ModelDomainError(_coarsened(plate, max_frequency_hz, limit_hz))
         resolution = max(self.resolution, min(_needed_resolution(plate, limit_hz), FINEST))
-        body = lattice_body(plate, resolution, limit_hz, eta)
         if not is_coarsened:
-            return body
+            return lattice_body(plate, resolution, limit_hz, eta)
+        has_edges = limit_hz > LEAST_LIMIT_HZ or n_nodes_of(plate, self.resolution) > MOST_NODES
+        edgeless = InfiniteBody(plate, eta)
+        body = SplitBody(lattice_body(plate, resolution, limit_hz, eta), edgeless, limit_hz) if has_edges else edgeless
         if self.outside_domain == "warn":
-            _warn_coarsened(plate, max_frequency_hz, limit_hz)
-        return SplitBody(body, InfiniteBody(plate, eta), limit_hz)
+            _warn_coarsened(plate, max_frequency_hz, limit_hz if has_edges else 0.0)
+        return body
 
     def _is_too_much(self, plate: Plate, frequency_hz: float) -> bool:
         needed = _needed_resolution(plate, frequency_hz)

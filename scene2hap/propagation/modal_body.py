@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.bands.octaves import OctaveSums
+from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.coupled.many_joints import among, has_many, rows_at_once
 from scene2hap.propagation.coupled.response_basis import AnyFloat
@@ -25,7 +26,7 @@ NO_RETURN = 3.0
 """Decay exponent eta k L / 4 of a wave along the shorter side L above which it has no noticeable echo (26 dB)."""
 
 
-@lru_cache(maxsize=128)
+@cached_while_used
 def modal_body(
     plate: Plate, max_frequency_hz: float, loss_factor: float, fineness: Fineness = FINE
 ) -> ModalBody | SplitBody:
@@ -77,7 +78,12 @@ class ModalBody:
         self._among_forces = ByteBoundedLru(self._symmetric)
         self._among_many = ByteBoundedLru(self._shapes_among, room=2)
         self._coupled = ByteBoundedLru(self._between, room=2)
-        self._sums = ByteBoundedLru(lambda frequencies_hz: self.terms.sums(*self._damped(frequencies_hz)), room=4)
+        self._sums = ByteBoundedLru(self._sums_at, room=4)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory [byte], without the cached values, which `ByteBoundedLru` bounds."""
+        return self.terms.nbytes
 
     def receptance(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
@@ -115,6 +121,9 @@ class ModalBody:
         n_points, n_forces, n_terms = terms.shape
         flat: NDArray[np.complex128] = self._sums(frequencies_hz)(terms.reshape(-1, n_terms))
         return flat.reshape(n_points, n_forces, len(frequencies_hz)).transpose(2, 0, 1)
+
+    def _sums_at(self, frequencies_hz: NDArray[np.float64]) -> OctaveSums:
+        return self.terms.sums(*self._damped(frequencies_hz))
 
     def _symmetric(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         terms = self._at_forces(points_m)(points_m)

@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.domain import as_frequencies, warn_if_slow
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 from scene2hap.propagation.points import as_points
@@ -147,6 +148,11 @@ class PlateModes:
         """Numbers of basis functions along length and width."""
         return sum(basis.n_functions for basis in self.x), sum(basis.n_functions for basis in self.y)
 
+    @property
+    def nbytes(self) -> int:
+        """Memory [byte], with the factors that are computed when they are first needed."""
+        return sum(block.vectors.nbytes + 8 * len(block.vectors) ** 2 for block in self.blocks)
+
     @cached_property
     def frequencies_hz(self) -> NDArray[np.float64]:
         """Natural frequencies (n_modes,) float64 [Hz], rising; 0 for rigid motions, of which a free plate has three."""
@@ -269,7 +275,7 @@ def _wavenumber(plate: Plate, frequency_hz: float) -> float:
     return plate.wavenumber_per_root_omega * math.sqrt(2 * math.pi * frequency_hz)
 
 
-@lru_cache(maxsize=128)  # enough for a room of plates; a sheet with a hundred modes takes some 8 MB
+@cached_while_used
 def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
     k = _wavenumber(plate, max_frequency_hz)
     terms, largest = _terms(plate, k, fineness), largest_block(plate, max_frequency_hz, fineness)

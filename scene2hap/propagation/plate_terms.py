@@ -168,6 +168,11 @@ class PlateTerms:
         shapes = self._in_cosines(self._spread([block.vectors for block in self.modes.blocks])[:, order])
         self._phi = self.first(shapes.T).T.copy()
 
+    @property
+    def nbytes(self) -> int:
+        """Memory of the modes [byte]."""
+        return self.modes.nbytes + self._phi.nbytes
+
     def first(self, values: Floats) -> Floats:
         """Select from values (n, n_products) those of the products that modes consist of (n, n_first)."""
         along, across = self._n_first

@@ -1,2 +1,6 @@
-cdef double turned_down(double x, double *u, double threshold, double release) noexcept
+cdef struct Reduction:
+    double held     # h
+    double applied  # u
+
+cdef double turned_down(double x, Reduction* last, double threshold, double release, double attack) noexcept
 cdef double limited(double x, double threshold) noexcept

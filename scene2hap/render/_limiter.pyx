@@ -1,6 +1,6 @@
 """The compiled twin of the kernel in `limiter`."""
 
-from libc.math cimport copysign, fabs, tanh
+from libc.math cimport copysign, exp, fabs, fmax, log, tanh
 
 from scene2hap.render import limiter
 
@@ -19,26 +19,27 @@ def limit_in_place(Sample[:, :] mix, scratch, double threshold):
                 mix[i, k] = <Sample>limited(mix[i, k], threshold)
 
 
-def turn_down_in_place(Sample[:, :] mix, double[::1] held, scratch, double threshold, powers):
+def turn_down_in_place(Sample[:, :] mix, double[:, ::1] held, scratch, double threshold, const double[:, :] decays):
     cdef Py_ssize_t i, k
-    cdef double u, release
+    cdef Reduction last
     if not mix.shape[1]:
         return
-    release = powers[0]
     for i in range(mix.shape[0]):
-        u = held[i]
+        last.held, last.applied = held[0, i], held[1, i]
         for k in range(mix.shape[1]):
-            mix[i, k] = <Sample>turned_down(mix[i, k], &u, threshold, release)
-        held[i] = u if u >= NOTHING else 0
+            mix[i, k] = <Sample>turned_down(mix[i, k], &last, threshold, decays[0, 0], decays[1, 0])
+        held[0, i] = last.held if last.held >= NOTHING else 0
+        held[1, i] = last.applied if last.applied >= NOTHING else 0
 
 
-cdef double turned_down(double x, double *u, double threshold, double release) noexcept:
-    """Turn down the next sample. `u` is the reduction of the last sample (0 for none) and is updated."""
+cdef double turned_down(double x, Reduction* last, double threshold, double release, double attack) noexcept:
+    """Turn down the next sample. `last` is the reduction at the last sample [Np], and is updated."""
     cdef double level = fabs(x)
-    u[0] *= release
-    if level > threshold and 1 - threshold / level > u[0]:
-        u[0] = 1 - threshold / level
-    return x * (1 - u[0])
+    last.held *= release
+    if level > threshold:
+        last.held = fmax(last.held, log(level / threshold))
+    last.applied = attack * last.applied + (1 - attack) * last.held
+    return x * exp(-last.applied) if last.applied else x
 
 
 cdef double limited(double x, double threshold) noexcept:

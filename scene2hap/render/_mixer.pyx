@@ -2,7 +2,7 @@
 
 from libc.math cimport fabs
 
-from scene2hap.render._limiter cimport limited, turned_down
+from scene2hap.render._limiter cimport Reduction, limited, turned_down
 from scene2hap.render._tactile_mix cimport TactileMix
 from scene2hap.render._upsampler cimport PolyphaseFilter
 
@@ -24,8 +24,8 @@ cdef class Playhead:
     cdef TactileMix mix
     cdef PolyphaseFilter filter
     cdef float[:, ::1] inputs, outputs
-    cdef double[::1] held
-    cdef double release
+    cdef double[:, ::1] held
+    cdef double release, attack
     cdef object incoming, tactile_rate_hz, sample_rate_hz
     cdef long long up, down, tick, cell_begin, cell_frame, cell_end_frame
 
@@ -35,8 +35,8 @@ cdef class Playhead:
         self.filter, self.inputs, self.outputs = upsampler.filter, upsampler.inputs, upsampler.outputs(0)
         self.up, self.down = upsampler.up, upsampler.down
         self.tactile_rate_hz, self.sample_rate_hz = rates_hz
-        self.held = np.zeros(self.outputs.shape[0])
-        self.release = limiter.releases(rates_hz[1], 1)[0]
+        self.held = np.zeros((2, self.outputs.shape[0]))
+        self.release, self.attack = limiter.decays(rates_hz[1], 1)[:, 0]
         self.tick = self.cell_frame = self.cell_end_frame = 0
         self.cell_begin = -CELL
 
@@ -44,7 +44,8 @@ cdef class Playhead:
         cdef long long frame = self.position, stop, begin = frame
         cdef long long end = frame + out.shape[0]
         cdef Py_ssize_t hand, k
-        cdef double x, u
+        cdef double x
+        cdef Reduction last
         while frame < end:
             if frame == self.cell_end_frame:
                 self.enter_cell()
@@ -54,11 +55,13 @@ cdef class Playhead:
             if self.mix.compute():
                 self.filter.fill(self.outputs, self.inputs, self.cell_frame * self.down - self.cell_begin * self.up)
             for hand in range(out.shape[1]):
-                u = self.held[hand]
+                last.held, last.applied = self.held[0, hand], self.held[1, hand]
                 for k in range(stop - frame):
-                    x = turned_down(self.outputs[hand, frame - self.cell_frame + k], &u, THRESHOLD, self.release)
+                    x = self.outputs[hand, frame - self.cell_frame + k]
+                    x = turned_down(x, &last, THRESHOLD, self.release, self.attack)
                     out[frame - begin + k, hand] = <float>(limited(x, THRESHOLD) if fabs(x) > THRESHOLD else x)
-                self.held[hand] = u if u >= NOTHING else 0
+                self.held[0, hand] = last.held if last.held >= NOTHING else 0
+                self.held[1, hand] = last.applied if last.applied >= NOTHING else 0
             frame = stop
         self.position = end
 

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.compiled import compiled
 from scene2hap.errors import ConfigError, SessionError
-from scene2hap.render.limiter import THRESHOLD, limit_in_place, releases, turn_down_in_place
+from scene2hap.render.limiter import THRESHOLD, decays, limit_in_place, turn_down_in_place
 from scene2hap.render.loop_bank import CELL, LoopBank
 from scene2hap.render.tactile_mix import Block, Gains, TactileMix
 from scene2hap.render.upsampler import Upsampler
@@ -70,9 +70,9 @@ class Playhead:
         self._outputs = upsampler.outputs(0)
         self._scratch = np.zeros((2, *self._outputs.shape))
         self._soft = np.zeros_like(self._outputs)
-        # Gain reduction of the last sample, and its value before this cell, since the cell may be computed again.
-        self._held, self._held_before = np.zeros((2, len(self._outputs)))
-        self._releases = releases(self._sample_rate_hz, self._outputs.shape[1])
+        # Gain reduction at the last sample, and its value before this cell, since the cell may be computed again.
+        self._held, self._held_before = np.zeros((2, 2, len(self._outputs)))
+        self._decays = decays(self._sample_rate_hz, self._outputs.shape[1])
         self._tick = 0
         self._cell_begin = -CELL
         self._cell_frame = self._cell_end_frame = 0
@@ -96,7 +96,7 @@ class Playhead:
     def _limit(self, cell: Block) -> None:
         n = cell.shape[1]
         self._held[:] = self._held_before
-        turn_down_in_place(cell, self._held, self._scratch[:2, :, :n], THRESHOLD, self._releases[:n])
+        turn_down_in_place(cell, self._held, self._scratch[:2, :, :n], THRESHOLD, self._decays[:, :n])
         limit_in_place(cell, self._soft[:, :n], THRESHOLD)
 
     def _enter_cell(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import shutil
@@ -9,10 +10,11 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from concurrent.futures import Future, ThreadPoolExecutor
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -21,10 +23,27 @@ import trimesh
 from batch_server import answered
 from llm_server import KEY, serving
 from rooms_of_things import THINGS, digests, write_scenes
-from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, TriMesh, bake, bake_many, load_scene
+from scene2hap import (
+    Box,
+    CacheBackend,
+    HapticBundle,
+    LLMReply,
+    LLMRequest,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    TriMesh,
+    bake,
+    bake_many,
+    load_scene,
+)
 from scene2hap.baking.many.record import scene_digest
+from scene2hap.baking.many.run import abake_many
 from scene2hap.cli import main
 from scene2hap.errors import ConfigError
+from scene2hap.llm.backends.chat import BackendWarning
+from scene2hap.llm.lexicon import LexiconBackend
+from scene2hap.scene.scene_warning import SceneWarning
 
 N_SCENES = 3
 
@@ -141,6 +160,63 @@ def test_model_is_queried_from_the_main_process_once_per_question(
         assert again.kept == again.calls
     assert digests(tmp_path / "a") == digests(tmp_path / "b")
     assert not list((tmp_path / "a" / ".bake-many").glob("*.draft"))
+
+
+class Held:
+    """The lexicon behind a network address. Each call waits until it is released."""
+
+    identity: ClassVar = {"model": "held", "base_url": "http://127.0.0.1:1/v1"}
+
+    def __init__(self) -> None:
+        self.calls: list[asyncio.Event] = []
+
+    async def complete(self, request: LLMRequest) -> LLMReply:
+        self.calls.append(asyncio.Event())
+        await self.calls[-1].wait()
+        return await LexiconBackend().complete(request)
+
+
+def test_a_cancelled_run_keeps_the_answers_that_all_its_scenes_have_paid_for(
+    scenes: list[Path], tmp_path: Path
+) -> None:
+    async def cancelled() -> None:
+        held = Held()
+        config = {"llm": CacheBackend(held, tmp_path / "answers")}
+        running = asyncio.ensure_future(abake_many(scenes[:2], tmp_path / "out", config=config))
+        while len(held.calls) < 2:
+            await asyncio.sleep(0.01)
+        running.cancel()
+        for released in held.calls:
+            await asyncio.sleep(0.1)
+            assert not running.done()
+            released.set()
+        with pytest.raises(asyncio.CancelledError):
+            await running
+        assert len(held.calls) == 2
+
+    with pytest.warns(BackendWarning, match="stopping"):
+        asyncio.run(cancelled())
+    assert len(list((tmp_path / "answers").glob("*.json"))) == 2
+
+
+def test_reading_a_scene_hides_only_the_warnings_that_workers_repeat(
+    scenes: list[Path], plain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def reading(*arguments: Any, **more: Any) -> SceneSnapshot:
+        warnings.warn("of a model", BackendWarning, stacklevel=1)
+        warnings.warn("of the scene", SceneWarning, stacklevel=1)
+        return load_scene(*arguments, **more)
+
+    monkeypatch.setattr("scene2hap.baking.many.run.load_scene", reading)
+    with serving(by=answered) as server, warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        before = list(warnings.filters)
+        llm = {"kind": "local", "model": "scripted", "base_url": f"{server.base_url}/v1"}
+        bake_many(scenes[:1], tmp_path / "out", config={"llm": llm, "cache_dir": str(tmp_path / "cache")})
+        assert warnings.filters == before
+    said = [str(warning.message) for warning in seen]
+    assert "of a model" in said
+    assert "of the scene" not in said
 
 
 def radios(folder: Path, n: int) -> list[Path]:

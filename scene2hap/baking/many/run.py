@@ -45,6 +45,9 @@ from scene2hap.llm.wrappers.stack import Wrapper
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.files import scene_stem
 from scene2hap.scene.load import load_scene
+from scene2hap.scene.looks.textures import TextureWarning
+from scene2hap.scene.plausibility.units import UnitWarning
+from scene2hap.scene.scene_warning import SceneWarning
 from scene2hap.scene.snapshot import SceneSnapshot
 
 Report = TypeVar("Report")
@@ -208,7 +211,18 @@ class Run:
                 self.progress(str(found), self.names[path], self.done, self.total)
             return found
 
-        return await asyncio.gather(*(one(path) for path in paths))
+        with warnings.catch_warnings():
+            # Workers repeat the warnings of a scene when they check it. The filters belong to all threads, so they are
+            # set once here and not by each thread that reads a scene.
+            for category in (SceneWarning, TextureWarning, UnitWarning):
+                warnings.simplefilter("ignore", category)
+            running = [asyncio.ensure_future(one(path)) for path in paths]
+            try:
+                return await asyncio.gather(*running)
+            except asyncio.CancelledError:
+                # `gather` ends with the first cancelled scene. Others wait for answers that are paid for.
+                await asyncio.wait(running)
+                raise
 
     async def _scene(self, path: Path) -> SceneReport:
         """Bake one scene, or return a report with its error."""
@@ -260,7 +274,7 @@ class Run:
     async def _inferred(self, path: Path, backend: LLMBackend) -> _Inferred:
         """Read a scene and infer it with the model."""
         begun = time.perf_counter()
-        scene = await asyncio.to_thread(_read, path, self.options)
+        scene = await asyncio.to_thread(load_scene, path, **self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = await self._captured(path, scene) if self.pictures else scene
         wishes = {key: VIBRATES for key, wish in wishes_at(self._target(path), scene).items() if wish.vibrates}
@@ -311,13 +325,6 @@ class Run:
 
     def _work(self, name: str, ending: str) -> Path:
         return self.folder / WORK / f"{name}{ending}"
-
-
-def _read(path: Path, options: Mapping[str, Any]) -> SceneSnapshot:
-    """Read a scene without its warnings, since workers repeat them when they check it."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return load_scene(path, **options)
 
 
 def _with(report: SceneReport, made: Counters) -> SceneReport:

@@ -10,6 +10,7 @@ from typing import Any
 from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
 from scene2hap.llm.backends.http_client import HttpReply
 from scene2hap.llm.backends.http_errors import failure, server_error
+from scene2hap.llm.finish_reasons import is_cut
 from scene2hap.llm.protocol import LLMRequest
 from scene2hap.llm.quoting import shown
 from scene2hap.llm.refusals import FILTERED_REQUEST, is_filtered, refusal_in
@@ -86,16 +87,21 @@ def about(request: LLMRequest) -> str:
 def read_chat(reply: HttpReply, model: str) -> Said:
     """Read a chat completion. `model` is used if the server does not name one.
 
-    Raises: BackendUnavailable: an error status, or an error under status 200. BadAnswer: not a chat completion.
+    Raises: BackendUnavailable: an error status, or an error under status 200. UnusableAnswer: not a chat completion.
     """
     body = json_object(reply)
     choices = body.get("choices")
     choice = choices[0] if isinstance(choices, list) and choices else None
     message = choice.get("message") if isinstance(choice, dict) else None
     if choice is None or not isinstance(message, dict):
-        raise BadAnswer(f"{reply.url} sent no chat completion. Check base_url and the dialect.", reply.text)
+        raise UnusableAnswer(
+            f"{reply.url} sent no chat completion. Check base_url and the dialect.",
+            reply.text,
+            model=text_of(body.get("model")) or model,
+            usage=_usage(body.get("usage")),
+        )
     return Said(
-        content=text_of(message.get("content")),
+        content=_content(message),
         model=text_of(body.get("model")) or model,
         finish_reason=text_of(choice.get("finish_reason")) or "stop",
         usage=_usage(body.get("usage")),
@@ -105,12 +111,27 @@ def read_chat(reply: HttpReply, model: str) -> Said:
     )
 
 
+def _content(message: Mapping[str, Any]) -> str:
+    """Return the text of a message.
+
+    Some services send it in parts. Some send the answer as the arguments of a tool, although none was offered.
+    """
+    content, calls = message.get("content"), message.get("tool_calls")
+    parts = content if isinstance(content, list) else ()
+    text = text_of(content) or "".join(text_of(part.get("text")) for part in parts if isinstance(part, dict))
+    if text or message.get("refusal"):
+        return text
+    call = calls[0] if isinstance(calls, list) and calls else None
+    function = call.get("function") if isinstance(call, dict) else message.get("function_call")
+    return text_of(function.get("arguments")) if isinstance(function, dict) else ""
+
+
 def require_whole(said: Said, about: str) -> None:
     """Reject an answer that must not be parsed, even if its content looks valid.
 
     Raises: UnusableAnswer: cut short, with the partial answer; RefusedAnswer: filtered or refused.
     """
-    if said.finish_reason == "length":
+    if is_cut(said.finish_reason):
         raise unusable(
             said,
             f"{about}: {said.model} was cut off at its token limit. Raise max_tokens (or num_ctx), or switch off "
@@ -168,7 +189,9 @@ def json_object(reply: HttpReply) -> dict[str, Any]:
             retryable=True,
         )
     if not isinstance(body, dict):
-        raise BackendUnavailable(f"{reply.url} answered {reply.status} without a JSON object. Check base_url.")
+        is_stream = reply.text.lstrip().startswith(("data:", "event:"))
+        hint = "It streams, which was not requested: switch that off at the server." if is_stream else "Check base_url."
+        raise BackendUnavailable(f"{reply.url} answered {reply.status} without a JSON object. {hint}")
     if body.get("error"):
         raise BackendUnavailable(f"{reply.url} answered {reply.status} with an error: {server_error(reply).message}.")
     return body

@@ -88,6 +88,22 @@ def owner_of_part(reading: NameReading, whole_m: Sequence[float]) -> tuple[NameR
     return None
 
 
+def mounted_on(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReading, str] | None:
+    """Return the object named before a wall, floor or ceiling that is too short to be one; None if there is none.
+
+    "monitor_wall" of 0.4 m is a monitor that hangs on a wall. Only objects of known mass count, since a part of a
+    "house_wall" is no house.
+    """
+    if reading.row is None or reading.row.noun not in _SHELLS or not 0.0 < max(size_m) < _SHORT_SHELL_M:
+        return None
+    before = _before_head(reading)
+    if before.row is None or before.row.mass_kg is None:
+        return None
+    why = f"It is {max(size_m):.2g} m long; a {reading.row.noun} of a room is longer, so that word is its place."
+    trust = round(_OWNER * min(before.confidence, reading.confidence), 3)
+    return replace(before, name=reading.name, words=reading.words, confidence=trust), why
+
+
 def _before_head(reading: NameReading) -> NameReading:
     """Read the words before the recognised part of a name."""
     words, head = reading.words, tuple(reading.head.split())

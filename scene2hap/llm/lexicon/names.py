@@ -6,9 +6,11 @@
 3. The last noun is the object, as in English compounds, and the longest match is used: a sink counter is a counter, a
    coffee machine is no coffee. Words for tools, sides, colours and rooms are never the object.
 4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee). A
-   container precedes its content (crate_tomatoes), a noun its material (tableGlass), and a wall the opening in it
-   (wall_doorway). Links of robots are called by their joints (shoulder_pan_link), which are no objects.
-5. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
+   container precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in it
+   (wall_doorway), and a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their
+   joints (shoulder_pan_link), which are no objects.
+5. The room or zone of a machine is no machine (engine_room).
+6. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
 """
 
 from __future__ import annotations
@@ -75,16 +77,19 @@ def read_name(name: str) -> NameReading:
     unknown = NameReading(name, tuple(tokens), None, _UNKNOWN, unread=unread, material=_material_in(tokens))
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
-    nouns = [noun for noun in _nouns(tokens) if not _is_of_robot(tokens, noun)]
+    counted = word_split.counted_words(name)
+    nouns = [noun for noun in _nouns(tokens, counted) if not _is_of_robot(tokens, noun)]
     clause = _before_preposition(tokens, nouns)
     nouns = [noun for noun in nouns if noun.end <= clause]
     if not nouns:
         return unknown
-    head = _head(tokens, nouns)
+    head = _head(tokens, nouns, counted)
     turned = _object_first(tokens[:clause], nouns)
     if turned is not None:
         trust *= 1.0 if turned.row is head.row else _OBJECT_FIRST
         head = turned
+    if head.row.vibrates and set(tokens[head.end : min(head.end + 1, clause)]) & words.SURROUNDINGS:
+        return unknown
     in_nouns = {i for noun in (*nouns, head) for i in range(noun.start, noun.end)}
     behind = tuple(tokens[i] for i in range(head.end, clause) if i not in in_nouns and not _is_beside(tokens[i]))
     before = tuple(word for word in tokens[: head.start] if word in unread)
@@ -113,12 +118,16 @@ def _material_in(tokens: Sequence[str]) -> str | None:
     return next((words.MATERIAL_WORDS[word] for word in tokens if word in words.MATERIAL_WORDS), None)
 
 
-def _nouns(tokens: Sequence[str]) -> list[_Noun]:
-    """Return the table's nouns in a name, longest first from the right, without overlap; in reading order."""
+def _nouns(tokens: Sequence[str], counted: frozenset[str]) -> list[_Noun]:
+    """Return the table's nouns in a name, longest first from the right, without overlap; in reading order.
+
+    A number divides nouns: "table_4_legs" has no table leg. `counted` are the words after a number.
+    """
     found = []
     end = len(tokens)
     while end > 0:
-        for start in range(max(0, end - _LONGEST_NOUN), end):
+        longest = 1 if tokens[end - 1] in counted else _LONGEST_NOUN
+        for start in range(max(0, end - longest), end):
             noun = _noun_at(tokens, start, end)
             if noun is not None:
                 found.append(noun)
@@ -155,8 +164,11 @@ def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:
     return len(tokens)
 
 
-def _head(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun:
-    """Return the noun that names the object: the last one, skipping leftovers, materials, content and wall openings."""
+def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str]) -> _Noun:
+    """Return the noun that names the object: the last, but for leftovers, materials, content, openings, counted parts.
+
+    The number of a machine is a serial: "truck_2_wheels" are the wheels of one truck.
+    """
     left = list(nouns)
     while len(left) > 1:
         last, previous = left[-1], left[-2]
@@ -166,10 +178,15 @@ def _head(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun:
         # A vessel counts as content of a container only in the plural: "crate_bottles", but "box_plate".
         is_content = held and (last.plural or last.row.role == "content")
         is_opening = previous.row.noun in words.SHELLS and last.row.noun in words.OPENINGS
-        if word not in words.LEFTOVER_NOUNS and not (is_material or is_content or is_opening):
+        is_counted = tokens[last.start] in counted and _is_countable(last.row) and not previous.row.vibrates
+        if word not in words.LEFTOVER_NOUNS and not (is_material or is_content or is_opening or is_counted):
             break
         left.pop()
     return left[-1]
+
+
+def _is_countable(row: ObjectRow) -> bool:
+    return row.role == "part" or row.noun in words.COUNTED
 
 
 def _object_first(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun | None:

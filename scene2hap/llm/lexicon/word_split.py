@@ -15,6 +15,8 @@ _TRANSLATED = 0.9
 _RUN_TOGETHER = 0.9
 _SLIP = 0.6
 
+_COUNTED = re.compile(r"(?<!\d)(?:[2-9]|1\d)[\W_]*([^\W\d_]+)")
+
 _SHORTEST_PIECE = 3  # letters; shorter pieces occur inside almost any word
 _SHORT_PIECES = frozenset({"tv", "pc"})
 _LONGEST_RUN = 40  # letters; longer words do not occur
@@ -25,18 +27,32 @@ def read_words(name: str) -> tuple[list[str], float]:
     """Return the words of a name, translated, split and corrected, and the confidence in them [0..1]."""
     trust = 1.0
     tokens: list[str] = []
-    for word in _without_shades(split_words(name)):
+    for word in _joined(_without_shades(split_words(name))):
         pieces, factor = _known_pieces(word)
         tokens.extend(pieces)
         trust *= factor
     return tokens, trust
 
 
+def counted_words(name: str) -> frozenset[str]:
+    """Return the words directly after a number from 2 to 19, as read: "seats" in "Sofa 2 seats".
+
+    Only plurals count. Serials have zeros.
+    """
+    after = (next(_at_capitals(run)).casefold() for run in _COUNTED.findall(_plain(name)))
+    pieces = (_known_pieces(word)[0][0] for word in after)
+    return frozenset(word for word in pieces if len(tuple(words.forms(word))) > 1)
+
+
 def split_words(name: str) -> list[str]:
     """Split a name into words in lower case, without digits, accents, signs and the possessive "'s"."""
-    plain = "".join(letter for letter in unicodedata.normalize("NFKD", name) if not unicodedata.combining(letter))
-    plain = re.sub(r"['\u2019]s\b", "", plain)
+    plain = re.sub(r"['\u2019]s\b", "", _plain(name))
     return [part.casefold() for run in re.findall(r"[^\W\d_]+", plain) for part in _at_capitals(run)]
+
+
+def _plain(name: str) -> str:
+    """Return a name without accents."""
+    return "".join(letter for letter in unicodedata.normalize("NFKD", name) if not unicodedata.combining(letter))
 
 
 def _without_shades(tokens: Sequence[str]) -> list[str]:
@@ -46,6 +62,18 @@ def _without_shades(tokens: Sequence[str]) -> list[str]:
         for word, after in zip(tokens, (*tokens[1:], ""), strict=False)
         if word not in ("light", "dark") or after not in words.COLOURS
     ]
+
+
+def _joined(tokens: Sequence[str]) -> list[str]:
+    """Join neighbours that are one foreign noun together: "lave", "linge"."""
+    joined: list[str] = []
+    for word in tokens:
+        pair = joined[-1] + word if joined else ""
+        if pair in translations.english() and not (is_known(joined[-1]) and is_known(word)):
+            joined[-1] = pair
+        else:
+            joined.append(word)
+    return joined
 
 
 def _at_capitals(run: str) -> Iterator[str]:
@@ -78,6 +106,9 @@ def _known_pieces(word: str) -> tuple[tuple[str, ...], float]:
     pieces = _cut(word)
     if pieces:
         return pieces, _RUN_TOGETHER
+    meaning = translations.compound(word)
+    if meaning:
+        return meaning, _TRANSLATED * _RUN_TOGETHER
     meant = _meant(word)
     return ((meant,), _SLIP) if meant else ((word,), 1.0)
 

@@ -105,7 +105,7 @@ TOY_WORDS = frozenset({"toy", "miniature", "replica", "fake"})
 _MATERIALS = _set("""
     steel iron aluminum aluminium copper brass bronze glass plastic ceramic porcelain marble granite concrete brick
     stone oak pine spruce beech birch walnut maple teak mahogany bamboo plywood mdf cork leather fabric cotton rubber
-    silicone vinyl pvc acrylic terracotta slate limestone sandstone wood metal cardboard linoleum
+    silicone vinyl pvc acrylic terracotta slate limestone sandstone wood metal cardboard linoleum plexiglass
 """)
 
 MATERIAL_WORDS = {
@@ -120,6 +120,13 @@ MATERIAL_WORDS = {
     "linen": "fabric",
     "wicker": "bamboo",
     "rattan": "bamboo",
+    "alu": "aluminum",
+    "inox": "stainless steel",
+    "cement": "concrete",
+    "textile": "fabric",
+    "wool": "fabric",
+    "denim": "fabric",
+    "foam": "foam",
 }
 """Adjectives of material -> a name in the material table. Colours that are metals (gold, silver) are left out."""
 
@@ -131,20 +138,12 @@ PAINT_WORDS = {
     "tiles": "ceramic",
     "china": "porcelain",
     "mirror": "glass",
-    "alu": "aluminum",
-    "inox": "stainless steel",
     "plaster": "plaster",
     "stucco": "plaster",
-    "cement": "concrete",
     "asphalt": "asphalt",
     "cloth": "fabric",
-    "textile": "fabric",
-    "wool": "fabric",
-    "denim": "fabric",
     "carpet": "carpet",
-    "foam": "foam",
     "paper": "paper",
-    "plexiglass": "plexiglass",
     "nylon": "nylon",
 }
 """Words in the names of surface materials. In the names of objects, some of these words are objects."""
@@ -152,9 +151,15 @@ PAINT_WORDS = {
 MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
 """Nouns that name a material after another noun (tableGlass), not another object."""
 
-LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house", "backsplash", "splashback"})
+LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house", "backsplash", "splashback", "wc"})
 """Nouns that are no objects after another noun. Exporters write "Burner_mat_0", designers "ham_trash" and
-"sofa_orange". A "counter_backsplash" is a counter with a backsplash."""
+"sofa_orange". A "counter_backsplash" is a counter with a backsplash, a "mirror_wc" hangs in one."""
+
+SURROUNDINGS = _set("room house bay station depot pit shed area zone spot spawn volume trigger waypoint")
+"""Words directly after a machine that say that the object is only the place around it (engine_room, printer_area)."""
+
+COUNTED = frozenset({"seat", "cushion", "pillow", "shelf", "stove burner"})
+"""Nouns besides parts that count something of the noun before them: a "sofa 2 seats" is a sofa."""
 
 ROBOT_NOUNS = {
     **dict.fromkeys(("roll", "pan", "lift", "palm"), frozenset({"link", "joint"})),

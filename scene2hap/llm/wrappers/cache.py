@@ -20,6 +20,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, reason_of
+from scene2hap.llm.finish_reasons import is_whole
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
 from scene2hap.llm.validation import find_fault
@@ -125,7 +126,7 @@ class CacheBackend(Wrapper):
 
     async def _ask(self, request: LLMRequest) -> LLMReply:
         reply = await self.inner.complete(request)
-        if reply.finish_reason != "stop" or find_fault(request.component, reply.text) is not None:
+        if not is_whole(reply.finish_reason) or find_fault(request.component, reply.text) is not None:
             self._rejected += 1
             return reply
         # Read the identity again: inside a wrapper without `ready`, a backend finds its model only while it answers.

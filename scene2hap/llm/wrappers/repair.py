@@ -9,6 +9,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.llm.backends.chat import Said, UnusableAnswer, about as describe, require_willing, unusable
+from scene2hap.llm.finish_reasons import is_whole
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.validation import Fault, find_fault
@@ -51,7 +52,7 @@ class RepairBackend(Wrapper):
             require_willing(said, about)
             if not reply.text.strip():
                 raise unusable(said, f"{about}: {reply.model} answered without content.", reply.text)
-            if reply.finish_reason != "stop":
+            if not is_whole(reply.finish_reason):
                 message = f"{about}: the answer ended by {reply.finish_reason!r}, not by itself."
                 raise unusable(said, message, reply.text)
             text = first_object(reply.text) or reply.text

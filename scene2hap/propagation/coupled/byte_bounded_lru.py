@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections import OrderedDict, deque
 from collections.abc import Callable, Iterator
+from inspect import ismethod
 from itertools import count
 from threading import Lock
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
-from weakref import ReferenceType, ref
+from weakref import ReferenceType, WeakMethod, ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +33,9 @@ class ByteBoundedLru(Generic[Answer]):
     """LRU cache of a function of arrays: at most `room` values, and at most `MOST_BYTES` over all instances.
 
     Each instance holds its values, so that they are freed together with the instance: a value may refer to all data of
-    its body, which its `nbytes` does not count. Safe to call from several threads: a worker prepares a field while the
-    game's thread evaluates another.
+    its body, which its `nbytes` does not count. The object of a bound method is referred to weakly: it has the cache as
+    an attribute, and only the garbage collector could free such a cycle. Safe to call from several threads: a worker
+    prepares a field while the game's thread evaluates another.
     """
 
     # Owner and size of every value of all instances, the most recently used last.
@@ -45,7 +47,8 @@ class ByteBoundedLru(Generic[Answer]):
     _numbers: ClassVar[Iterator[int]] = count()
 
     def __init__(self, function: Callable[..., Answer], room: int = 16) -> None:
-        self._function, self._room, self._number = function, room, next(self._numbers)
+        self._function = WeakMethod(function) if ismethod(function) else lambda: function
+        self._room, self._number = room, next(self._numbers)
         self._own: OrderedDict[_Key, Answer] = OrderedDict()
 
     def __del__(self) -> None:
@@ -59,7 +62,9 @@ class ByteBoundedLru(Generic[Answer]):
                 self._shelf.move_to_end(key)
                 self._own.move_to_end(key)
                 return self._own[key]
-        answer = self._function(*arrays)
+        function = self._function()
+        assert function is not None, "the caller holds the object of the method"
+        answer: Answer = function(*arrays)
         with self._lock:
             if key not in self._own:
                 self._put(key, answer)

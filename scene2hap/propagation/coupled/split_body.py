@@ -21,6 +21,11 @@ class SplitBody:
     limit_hz: float
 
     @property
+    def nbytes(self) -> int:
+        """Memory of the body below the limit [byte], 0 if it has no known size."""
+        return int(getattr(self.below, "nbytes", 0))
+
+    @property
     def loss_factor(self) -> float:
         """See `ElasticBody`."""
         return self.below.loss_factor

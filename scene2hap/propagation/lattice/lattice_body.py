@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.coupled.many_joints import among as among_many, has_many
 from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
@@ -23,7 +23,7 @@ from scene2hap.propagation.lattice.lattice_modes import TERMS, lattice_modes
 from scene2hap.propagation.plate import Plate
 
 
-@lru_cache(maxsize=32)
+@cached_while_used
 def lattice_body(plate: Plate, resolution: int, max_frequency_hz: float, loss_factor: float) -> LatticeBody:
     """The body of a plate. Cached, since every change of a contact prepares the scene again."""
     return LatticeBody(plate, resolution, max_frequency_hz, loss_factor)
@@ -71,6 +71,11 @@ class LatticeBody:
         self.modes = lattice_modes(plate, resolution, max_frequency_hz)
         self._from_forces = ByteBoundedLru(self._pushed)
         self._spectra = ByteBoundedLru(self._spectrum, room=4)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of the modes [byte], which is most of it, without the cached values, which `ByteBoundedLru` bounds."""
+        return self.modes.shapes.nbytes
 
     def receptance(
         self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]

@@ -52,6 +52,9 @@ class FieldKeeper:
     ) -> None:
         self._desk = Desk(model, bands)
         self._state = state
+        # For the fields that the keeper holds: only the garbage collector could free a cycle of strong references, and
+        # a game may switch it off, or call `gc.freeze`.
+        self._weak: FieldKeeper = weakref.proxy(self)
         self._is_background, self._skips_unreachable = is_background, skips_unreachable
         self._worker: Thread | None = None
         self._is_stranger_touched = self._is_expectant = False
@@ -103,7 +106,8 @@ class FieldKeeper:
         """The field in use, for these sources and connected objects. It switches to each newer field by itself."""
         if self._heard is not None and self._heard[1:] == (source_ids, reach):
             return self._heard[0]
-        gained = self._in_use(source_ids, reach, self._note_touched)
+        keeper = self._weak
+        gained = self._in_use(source_ids, reach, lambda touched: keeper._note_touched(touched))
         self._heard = (gained, source_ids, reach)
         return gained
 
@@ -114,11 +118,11 @@ class FieldKeeper:
     def _in_use(
         self, source_ids: tuple[str, ...], reach: Reach, note: Callable[[Sequence[TouchedPoint]], None]
     ) -> FieldInUse:
-        now, n_bands = self._state.graph.pose, self._desk.bands.n_bands
+        now, n_bands, keeper = self._state.graph.pose, self._desk.bands.n_bands, self._weak
 
         def as_now(one: Prepared) -> LastField:
-            then = one.situation.poses
-            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: one.situation is self._requested)
+            then, situation = one.situation.poses, one.situation
+            return LastField(one.field, then, now, source_ids, n_bands, reach, lambda: situation is keeper._requested)
 
         gained = FieldInUse(source_ids, as_now, note)
         gained.use(self.in_use, self._whole)

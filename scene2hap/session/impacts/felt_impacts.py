@@ -113,7 +113,9 @@ class Impacts:
         self._last: dict[tuple[str, str | None], int] = {}
         self._looked_at: object = None
         self._point_field: PointField | None = None
-        self._worker: ThreadPoolExecutor | None = None
+        # Several workers, since preparing a scene in advance, or for an impact, may take longer than another impact may
+        # wait. Their threads start with the first task.
+        self._workers = ThreadPoolExecutor(3, thread_name_prefix="scene2hap impacts")
         self._waiting: list[Future[None]] = []
         self._ahead = self._prepared_ahead() if config.prepares_impacts else None
         self._recent: deque[Impact] = deque(maxlen=KEPT)
@@ -290,16 +292,10 @@ class Impacts:
                 else:
                     self.n_left_out += 1
 
-        self._waiting.append(self._submit(work))
+        self._waiting.append(self._workers.submit(work))
 
     def _prepared_ahead(self) -> StruckAhead:
         from scene2hap.session.impacts.struck_ahead import StruckAhead  # by need: the physical models
 
-        return StruckAhead(self._config.propagation, self._state, self._submit)
-
-    def _submit(self, work: Callable[[], None]) -> Future[None]:
-        if self._worker is None:
-            # Several workers, since preparing a scene in advance, or for an impact, may take longer than another impact
-            # may wait.
-            self._worker = ThreadPoolExecutor(3, thread_name_prefix="scene2hap impacts")
-        return self._worker.submit(work)
+        # No reference to this object: only the garbage collector could free such a cycle.
+        return StruckAhead(self._config.propagation, self._state, self._workers.submit)

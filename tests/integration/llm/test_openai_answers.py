@@ -1,16 +1,18 @@
 """Replies of OpenAI that must not be parsed, in the order in which they are checked."""
 
+import json
 from typing import Any
 
 import pytest
 
 from llm_asking import ask, failed, openai
-from llm_server import Scripted, refused, said
+from llm_server import GOOD, Scripted, refused, said
 from openai_schema import openai_serving
 from scene2hap import (
     RepairBackend,
 )
 from scene2hap.errors import AnswerRefused, BadAnswer
+from scene2hap.llm.backends.chat import UnusableAnswer
 
 
 def test_truncation_is_reported_before_other_faults() -> None:
@@ -40,6 +42,45 @@ def test_refusal_is_reported_and_not_repaired() -> None:
 def test_null_content_is_a_bad_answer() -> None:
     with openai_serving(said(None)) as server, pytest.raises(BadAnswer, match="without content"):
         ask(openai(server))
+
+
+_TEXT = json.dumps(GOOD["scene_analyzer"])
+_CALL = {"name": "scene_analyzer", "arguments": _TEXT}
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        {"content": [{"type": "text", "text": _TEXT[:9]}, {"type": "text", "text": _TEXT[9:]}]},
+        {"content": None, "tool_calls": [{"id": "1", "type": "function", "function": _CALL}]},
+        {"content": "", "function_call": _CALL},
+    ],
+    ids=["parts", "tool", "function"],
+)
+def test_content_of_services_that_only_resemble_openai_is_read(message: dict[str, Any]) -> None:
+    body = {"model": "m", "choices": [{"index": 0, "finish_reason": "stop", "message": message}]}
+    with openai_serving(Scripted(body)) as server:
+        assert ask(openai(server)).text == _TEXT
+
+
+@pytest.mark.parametrize("call", [None, 7, [], [None], [{"function": 7}], [{"function": {"arguments": 7}}]])
+def test_a_tool_without_arguments_is_no_content(call: object) -> None:
+    body = {"choices": [{"index": 0, "message": {"content": None, "tool_calls": call}}]}
+    with openai_serving(Scripted(body)) as server, pytest.raises(BadAnswer, match="without content"):
+        ask(openai(server))
+
+
+def test_a_stream_that_was_not_requested_is_named() -> None:
+    error = failed(Scripted(b'data: {"choices": [{"delta": {"content": "{"}}]}\n\ndata: [DONE]\n\n'))
+    assert "It streams, which was not requested" in str(error)
+    assert not error.retryable
+
+
+def test_a_completion_without_choices_is_paid_for() -> None:
+    body = {"model": "m", "choices": [], "usage": {"prompt_tokens": 9, "completion_tokens": 0}}
+    with openai_serving(Scripted(body)) as server, pytest.raises(UnusableAnswer) as caught:
+        ask(openai(server))
+    assert (caught.value.model, caught.value.usage["prompt_tokens"]) == ("m", 9)
 
 
 @pytest.mark.parametrize("body", [{}, {"choices": []}, {"choices": [{}]}, {"choices": ["a"]}, {"choices": {"a": 1}}])

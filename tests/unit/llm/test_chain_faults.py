@@ -138,7 +138,7 @@ def test_lost_connection_affects_only_the_running_request() -> None:
     ("change", "sentence"),
     [
         (lambda request, answer: {**answer, "confidence": 7}, r"object_analyzer about '\w+': confidence is 7: "),
-        (lambda request, answer: {**answer, "colour": "red"}, "colour"),
+        (lambda request, answer: {**answer, "colour": "red", "usage": 7}, "usage is 7"),
         (
             lambda request, answer: LLMReply("I think it is a table.", "scripted"),
             r"'I think.*Invalid JSON.*must be JSON of",
@@ -150,6 +150,20 @@ def test_error_describes_an_invalid_answer(change: object, sentence: str) -> Non
     with pytest.raises(BadAnswer, match=sentence) as caught:
         infer_haptics(SCENE, Scripted(object_analyzer=change))
     assert caught.value.raw_text
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda request, answer: {**answer, "colour": "red", "sources": [1]},
+        lambda request, answer: {**answer, "states": [{**state, "tone_hz": 60} for state in answer["states"]]},
+        lambda request, answer: LLMReply(f"Sure:\n```json\n{json.dumps(answer)}\n```", "scripted"),
+        lambda request, answer: LLMReply(json.dumps(answer), "scripted", "end_turn"),
+    ],
+    ids=["extra fields", "extra fields of a state", "fences", "the name of another service for the end"],
+)
+def test_what_does_no_harm_costs_no_answer(change: object) -> None:
+    assert infer_haptics(SCENE, Scripted(object_analyzer=change)) == infer_haptics(SCENE, Scripted())
 
 
 def test_unreachable_backend_raises_connection_error() -> None:

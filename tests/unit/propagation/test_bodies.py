@@ -1,6 +1,5 @@
 """Bodies: rigid or elastic classification, points of the world on a body, and caches of responses."""
 
-import gc
 import math
 import weakref
 from collections import OrderedDict
@@ -8,6 +7,7 @@ from collections import OrderedDict
 import numpy as np
 import pytest
 
+from garbage import no_garbage_collection
 from scene2hap import (
     Bands,
     Contact,
@@ -159,9 +159,9 @@ def test_cached_values_are_released_with_their_body(monkeypatch: pytest.MonkeyPa
     body.receptance(np.array([[0.1, 0.2]]), np.array([[0.3, 0.2]]), np.array([100.0]))
     modes = weakref.ref(body.terms)
     assert len(ByteBoundedLru._shelf) == 2
-    del body
-    gc.collect()
-    assert modes() is None
+    with no_garbage_collection():
+        del body
+        assert modes() is None
     other = ByteBoundedLru(lambda array: 2 * array)
     other(np.array([1.0]))
     assert len(ByteBoundedLru._shelf) == 1

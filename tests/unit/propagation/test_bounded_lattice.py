@@ -9,6 +9,7 @@ import pytest
 from scene2hap import materials
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.coupled.split_body import SplitBody
+from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.lattice import lattice_modes
 from scene2hap.propagation.lattice.lattice_body import LatticeBody
 from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper, _warn_coarsened
@@ -38,6 +39,16 @@ def test_rug_is_coarsened_within_the_budget_with_a_warning(small_budget: float) 
     found = body.receptance(at, at, np.array([0.5 * body.limit_hz, 2 * body.limit_hz, 900.0]))
     assert np.isfinite(found).all()
     assert (found[:, [0, 1], [0, 1]].imag < 0).all()
+
+
+@pytest.mark.parametrize("top_hz", np.linspace(120.0, 300.0, 13))
+def test_carpet_has_no_edges_at_any_top_frequency(top_hz: float) -> None:
+    """A carpet of a living room has some 190 modes per hertz, so no edge is felt: it answers as an infinite plate."""
+    carpet = Plate(4.01192, 3.46417, 0.002, materials.lookup("carpet"))
+    body = MassSpringDamper(outside_domain="ignore").elastic_body(carpet, float(top_hz))
+    at, f = np.array([[1.0, 1.5], [2.0, 1.7]]), np.array([10.0, 60.0, 120.0])
+    expected = InfiniteBody(carpet, carpet.material.loss_factor).receptance(at, at, f)
+    np.testing.assert_allclose(body.receptance(at, at, f), expected, rtol=1e-12)
 
 
 def test_coarsening_can_be_refused_or_silent(small_budget: float, recwarn: pytest.WarningsRecorder) -> None:

@@ -200,6 +200,9 @@ def test_floors_of_wet_rooms_are_tiled(name: str, place: str, material: str) -> 
         ("chair", ["wood_oak", "fabric_red"], "wood"),  # two materials: the lexicon's table decides
         ("glass_table", ["wood"], "glass"),  # the object's name has priority
         ("fridge", ["wood"], "steel"),  # a machine keeps its usual material
+        ("bath_mat", ["wood"], "fabric"),  # kits name colours of cloth so
+        ("sofa", ["leather"], "leather"),
+        ("wooden_bath_mat", ["wood"], "wood"),
         ("Object_7", ["Marble_White"], "marble"),
         ("Object_7", ["Material.001", "lambert1"], "unknown"),
     ],

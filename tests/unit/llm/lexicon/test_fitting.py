@@ -81,5 +81,37 @@ def test_an_object_too_thick_for_the_part_it_is_named_after_is_the_whole(
     assert ("too thick for" in answer.category_reason) == (category not in parts)
 
 
+@pytest.mark.parametrize(
+    ("name", "length_m", "category"),
+    [
+        ("patientMonitor_wall", 0.4, "patient monitor"),
+        ("PA_Loudspeaker_ceiling", 0.3, "speaker"),
+        ("fridge_wall", 3.0, "wall"),
+        ("house_wall", 0.4, "wall"),
+        ("wall", 0.4, "wall"),
+    ],
+)
+def test_a_wall_or_ceiling_too_short_to_be_one_is_the_place_of_the_object(
+    name: str, length_m: float, category: str
+) -> None:
+    answer = judge(Measured(name, (length_m, 0.3, 0.05)))
+    assert answer.object_category == category
+    assert ("that word is its place" in answer.category_reason) == (category != "wall")
+
+
+@pytest.mark.parametrize(
+    ("name", "material"),
+    [
+        ("tractor_tire", "rubber"),
+        ("drill_cable", "pvc"),
+        ("truck_windshield", "glass"),
+        ("car_dashboard", "plastic"),
+        ("oven_door", "steel"),
+    ],
+)
+def test_a_part_is_of_its_owner_s_material_only_if_it_is_cut_from_the_same_sheet(name: str, material: str) -> None:
+    assert judge(Measured(name, (0.6, 0.4, 0.05))).material_category == material
+
+
 def test_without_the_size_of_the_whole_the_name_decides() -> None:
     assert judge(Measured("chairCushion", (0.4, 0.4, 0.05))).object_category == "cushion"

@@ -134,7 +134,42 @@ NAMES = {
     "kitchencounter_straight_B_backsplash": "counter",
     "backsplash_tiles": "tile",
     "stove_multi_countertop": "cooktop",
+    # a number of parts belongs to the noun before it; a serial does not, and nothing counts of a machine
+    "Sofa 2 seats": "sofa",
+    "Sofa2Seats_LOD1": "sofa",
+    "sofa_02_seats": "seat",
+    "Table_4legs": "table",
+    "cabinet 3 drawers": "cabinet",
+    "chair_leg_2": "leg",
+    "truck_2_wheels": "wheel",
+    # the place around a machine, or beside a thing
+    "engine_room": None,
+    "pump_house": None,
+    "printer_area_01": None,
+    "server_room_floor": "floor",
+    "mirror_wc": "mirror",
+    "wc": "toilet",
+    # what belongs to a machine, or shows it
+    "drill_manual": "book",
+    "generator_gasket": "gasket",
+    "excavator_schematic": "blueprint",
+    "tractor_hood": "bonnet",
+    "fan_guard": "vent grille",
+    "crane_operator": "machine operator",
+    # inside a car and on a ship
+    "Steering column": "steering column",
+    "Gear lever": "gear shift",
+    "GloveBox_01": "glove box",
+    "porthole_round": "porthole",
     # other languages
+    "Klavierhocker": "music stool",
+    "Gartenstuhl_02": "garden chair",
+    "Kuechentisch": "table",
+    "Waschmaschinentuer": "door",
+    "Staubsaugerbeutel": "bag",
+    "Waschmaschinenzorgon": None,
+    "lave-linge": "washing machine",
+    "Haut Parleur": "speaker",
     "Waschmaschine_01": "washing machine",
     "Kühlschrank": "refrigerator",
     "silla.002": "chair",
@@ -198,7 +233,10 @@ def test_confidence_falls_with_unread_words_and_spelling_errors() -> None:
 
 @pytest.mark.parametrize(
     ("name", "material"),
-    [("WoodenDoor", "wood"), ("tableGlass", "glass"), ("stainless_steel_sink", "stainless steel"), ("door", None)],
+    [
+        *[("WoodenDoor", "wood"), ("tableGlass", "glass"), ("stainless_steel_sink", "stainless steel"), ("door", None)],
+        *[("foam_block", "foam"), ("cushion_wool", "fabric"), ("sink_inox", "stainless steel")],
+    ],
 )
 def test_adjective_names_a_material(name: str, material: str | None) -> None:
     assert read_name(name).material == material

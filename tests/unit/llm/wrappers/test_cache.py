@@ -186,6 +186,11 @@ def test_bad_answers_are_returned_but_not_stored(tmp_path: Path, reply: LLMReply
     assert files(tmp_path) == []
 
 
+def test_an_answer_is_stored_if_it_ended_by_itself_in_the_words_of_another_service(tmp_path: Path) -> None:
+    ask(CacheBackend(answering(LLMReply(ANSWER.text, "m", "end_turn")), tmp_path))
+    assert ask(CacheBackend(answering(LLMReply("asked again", "m")), tmp_path)).text == ANSWER.text
+
+
 def test_failures_are_raised_and_not_stored(tmp_path: Path) -> None:
     error = BackendUnavailable("away", retryable=True)
 

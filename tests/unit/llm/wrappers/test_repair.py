@@ -58,7 +58,7 @@ def test_invalid_numbers_are_requested_again_without_images(wrong: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", ["no JSON", '{"density_kg_m3": 700}', oak(more=1), "[]", oak(more=1, damping_ratio=7)]
+    "wrong", ["no JSON", '{"density_kg_m3": 700}', "[]", '{"density_kg_m3": 700, "damping_ratio": 7}']
 )
 def test_other_faults_are_requested_again_with_images(wrong: str) -> None:
     inner = scripted(wrong, oak())
@@ -122,7 +122,14 @@ def test_code_fences_are_removed_without_a_request() -> None:
     assert len(inner.requests) == 1
 
 
-@pytest.mark.parametrize("reason", ["length", "content_filter", "tool_calls"])
+@pytest.mark.parametrize("reason", ["stop", "STOP", "eos_token", "end_turn", "COMPLETE", "tool_calls"])
+def test_answers_that_ended_by_themselves_and_have_extra_fields_need_no_repair(reason: str) -> None:
+    inner = scripted(LLMReply(oak(more=1), "m", reason))
+    assert asyncio.run(RepairBackend(inner).complete(ASKED)).text == oak(more=1)
+    assert len(inner.requests) == 1
+
+
+@pytest.mark.parametrize("reason", ["length", "MAX_TOKENS", "content_filter", "error"])
 def test_truncated_answers_are_not_repaired(reason: str) -> None:
     inner = scripted(LLMReply(oak(), "m", reason))
     with pytest.raises(BadAnswer, match=reason):
