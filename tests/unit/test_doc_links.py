@@ -165,6 +165,12 @@ def test_the_list_of_decisions_is_whole() -> None:
         assert f"- [{title}]({page.name})" in listed
 
 
+def test_the_index_has_every_page_of_figures() -> None:
+    listed = links(ROOT / "docs" / "README.md")
+    pages = (ROOT / "docs" / "figures").glob("*.md")
+    assert [page.name for page in pages if f"figures/{page.name}" not in listed] == []
+
+
 def test_the_site_has_every_page() -> None:
     """docs/index.md lists every page; the build of the site would report a missing one only later."""
     index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8").splitlines()
