@@ -137,6 +137,7 @@ FIGURES = {
         needs="scenes",
     ),
     "bands": Figure("propagation", "benchmarks/bands.py", 1),
+    "many-contacts": Figure("propagation", "benchmarks/many_contacts.py", 8, has_times=True),
     "model-choice": Figure("propagation", "benchmarks/model_choice.py", 2, has_times=True),
     "spawning-10": Figure("spawning", "benchmarks/spawning.py --alive 10", 0.5, has_times=True),
     "spawning-200": Figure("spawning", "benchmarks/spawning.py --alive 200", 0.5, has_times=True),

@@ -1,4 +1,4 @@
-"""Time and memory to prepare a floor with many objects on it, as a table in Markdown (docs/propagation.md).
+"""Time and memory to prepare a floor with many objects on it, as a table in Markdown (docs/figures/propagation.md).
 
 OMP_NUM_THREADS=1 python benchmarks/many_contacts.py [--crates 10 60 120 200] [--seconds 120]
 

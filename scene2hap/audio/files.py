@@ -29,6 +29,11 @@ MAX_FILE_SAMPLES, SAMPLES_PER_BYTE = 1 << 26, 16
 """Most samples of all channels together (assumed: ten minutes of stereo at 48 kHz, decoded in a second or two), and
 further samples for each byte of the file (assumed: Ogg at 48 kbit/s has 7). A megabyte of FLAC may hold hours of
 silence at 655 kHz."""
+SUFFIXES = frozenset(
+    {".wav", ".flac", ".ogg", ".mp3", ".aif", ".aiff", ".au", ".caf", ".oga", ".opus", ".rf64", ".w64"}
+)
+"""Suffixes of sound files, by which they are found in folders. A file that is given by itself may have any suffix."""
+
 MAX_CHANNELS = 64
 """Most channels: those of seventh-order ambisonics; each has a conversion stream of its own, which takes memory."""
 

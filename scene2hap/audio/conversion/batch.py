@@ -13,14 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.audio.conversion.stream import FORMATS, Conversion, convert, settled
+from scene2hap.audio.files import SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.counted import first_of
 from scene2hap.errors import AudioError, Scene2HapError
 
 _MOST_NAMED = 3
-_READ = frozenset({*FORMATS, ".aif", ".aiff", ".au", ".caf", ".oga", ".opus", ".rf64", ".w64"})
-"""Suffixes of sound files, which are converted in folders. A file that is given by itself may have any suffix."""
 
 Progress = Callable[[str, int, int], None]
 """Called with (file, number of files done, number of all files)."""
@@ -147,5 +146,5 @@ def _found(sources: Sequence[Path], output: Path) -> Iterator[tuple[Path, Path]]
             continue
         for path in sorted(source.rglob("*")):
             is_output = path.resolve().is_relative_to(output.resolve()) and output.resolve() != source.resolve()
-            if path.suffix.lower() in _READ and path.is_file() and not is_output:
+            if path.suffix.lower() in SUFFIXES and path.is_file() and not is_output:
                 yield path, path.relative_to(source)

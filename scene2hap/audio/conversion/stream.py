@@ -52,7 +52,7 @@ FORMATS = {
     ".ogg": ("OGG", "VORBIS"),
     ".mp3": ("MP3", "MPEG_LAYER_III"),
 }
-"""Format and coding of output files, by suffix; input files may have any of them."""
+"""Format and coding of output files, by suffix; `audio.files.SUFFIXES` has those that are read."""
 
 BLOCK_FRAMES = 65_536
 _FULL_SCALE = 2.0**23

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scene2hap.audio.clip import AudioClip, Credit
-from scene2hap.audio.files import read_clip
+from scene2hap.audio.files import SUFFIXES, read_clip
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.word_stems import noun_phrase, stems
 from scene2hap.errors import AudioError, ConfigError, reason_of
@@ -18,8 +18,6 @@ from scene2hap.haptics import VibrationDescription
 from scene2hap.text_files import read_small_text
 
 INDEX_NAME = "sounds.csv"
-
-_SUFFIXES = frozenset({".wav", ".flac", ".ogg", ".mp3"})
 
 
 class UnreadableSound(UserWarning):
@@ -73,7 +71,7 @@ class FolderLibrary:
             yield from self._listed(index)
             return
         for path in self.folder.rglob("*"):
-            if path.suffix.lower() in _SUFFIXES:
+            if path.suffix.lower() in SUFFIXES:
                 yield path, set(stems(path.stem)), Credit(path.stem, "unknown", "unknown")
 
     def _listed(self, index: Path) -> Iterator[tuple[Path, set[str], Credit]]:

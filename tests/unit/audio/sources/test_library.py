@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import soundfile
 
 from scene2hap.audio.clip import Credit
 from scene2hap.audio.files import write_wav
@@ -126,3 +127,11 @@ def test_index_with_a_field_of_a_megabyte_is_refused(tmp_path: Path) -> None:
     (tmp_path / "sounds.csv").write_text(f"file,keywords\na.wav,{'x' * 200_000}\n", encoding="utf-8")
     with pytest.raises(ConfigError, match="cannot be read as CSV"):
         FolderLibrary(tmp_path).find(describe("pump", "pump"))
+
+
+@pytest.mark.parametrize("suffix", [".aif", ".aiff", ".caf", ".AU"])
+def test_library_finds_every_kind_of_sound_that_convert_finds(tmp_path: Path, suffix: str) -> None:
+    """Sounds of a recording program need not be converted before a bake; docs/audio.md lists the kinds."""
+    kind = {".aif": "AIFF", ".aiff": "AIFF", ".caf": "CAF", ".au": "AU"}[suffix.lower()]
+    soundfile.write(tmp_path / f"desk fan{suffix}", 0.1 * np.ones(100), 8000, format=kind)
+    assert titles(tmp_path, "fan", "fan whirring") == ["desk fan"]
