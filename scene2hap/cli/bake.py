@@ -18,6 +18,7 @@ from scene2hap.baking.scene import with_locked
 from scene2hap.bundle import read_overrides, require_replaceable
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
+from scene2hap.cli.specs import given_spec
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import ConfigError
 from scene2hap.llm.dry_run import dry_run
@@ -145,8 +146,11 @@ def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
         others = given if isinstance(given, list) else [given]
         settings["audio"] = [{"kind": "library", "folder": arguments.sounds}, *others]
     if arguments.llm:
-        kind, _, model = arguments.llm.partition(":")
-        settings["llm"] = {"kind": kind, "model": model} if model else {"kind": kind}
+        given_llm = given_spec("--llm", arguments.llm)
+        if isinstance(given_llm, str):
+            kind, _, model = given_llm.partition(":")
+            given_llm = {"kind": kind, "model": model} if model else {"kind": kind}
+        settings["llm"] = given_llm
     if arguments.base_url:
         if not isinstance(settings.get("llm"), dict):
             raise ConfigError("--base-url needs a model to ask there. Name one with --llm KIND:MODEL.")
@@ -155,7 +159,7 @@ def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
         "max_cost_usd": arguments.max_cost,
         "cache_dir": arguments.cache,
         "actuator": arguments.actuator,
-        "tactile": arguments.tactile,
+        "tactile": given_spec("--tactile", arguments.tactile) if arguments.tactile else None,
     }
     for name, value in given_alone.items():
         if value is not None:

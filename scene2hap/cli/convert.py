@@ -43,7 +43,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="flat",
         help=f"one of {', '.join(ACTUATORS)}, or a CSV file of its response in Hz and dB",
     )
-    parser.add_argument("--intensity", type=float, default=1.0, metavar="0..1", help="of the source, default 1")
+    parser.add_argument(
+        "--intensity", type=float, default=1.0, metavar="0..1", help="of the source, above 0, default 1"
+    )
     parser.add_argument(
         "--format", choices=[suffix[1:] for suffix in FORMATS], default="wav", help="of files in a folder, default wav"
     )

@@ -486,7 +486,7 @@ class HapticSession:
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
         """Wait until workers have prepared the present scene, all loops and all detailed meshes, for loading screens.
 
-        Returns: False after the timeout [s].
+        Returns: False after the timeout [s]. True also if the model cannot prepare the scene (`stats.fields_failed`).
         """
         if timeout_s is not None:
             timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)

@@ -118,6 +118,14 @@ def test_your_own_sounds_come_first(room: Path, tmp_path: Path) -> None:
     assert loops["refrigerator"]["on"]["credit"]["author"] == "scene2hap synthesizer"
 
 
+def test_model_and_converter_of_a_bake_may_have_settings(room: Path, tmp_path: Path) -> None:
+    """As for `--sink` and `--converter`, an object in JSON has a kind and its settings."""
+    made = tmp_path / "made.bundle"
+    tactile = '{"kind": "auto", "q": 3.0}'
+    assert main(["bake", str(room), "-o", str(made), "--llm", '{"kind": "lexicon"}', "--tactile", tactile]) == 0
+    assert json.loads((made / "bundle.json").read_text())["made_with"]["tactile"]["q"] == 3.0
+
+
 def test_settings_from_a_file(room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     settings = tmp_path / "s.toml"
     settings.write_text('[bake]\ntactile = {kind = "svf_bandpass", center_hz = 120.0}\n[session]\nbands = "loud"\n')
