@@ -10,12 +10,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap.contact.geometry.spread import spread, spread_few
-from scene2hap.contact.geometry.vectors import Floats, Triple, along, highest, upright_frame
+from scene2hap.contact.geometry.vectors import Floats, Triple, along, cross, highest, upright_frame
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
+_FLAT = 0.01  # Triangles lie in one plane if they leave it by less than this share of the unevenness (assumed).
 # Without a level base face, corners up to this height above the lowest one bear as well (assumed: a little more than
 # the slack of triangle patches, since feet of models are often 1 mm uneven).
 _FEET_M = 0.0012
@@ -105,13 +107,14 @@ class _Face(NamedTuple):
 
 
 def _lowest_face(triangles: Floats, uneven: float, upwards: Floats, plane: Floats) -> _Face | None:
-    """Return the lowest level face, None if it has no area."""
+    """Return the lowest level face, None if it has no area, or if only a part of it is level."""
     heights = along(upwards, triangles)
-    level = triangles[..., highest(heights) <= heights.min() + uneven]
+    is_level = highest(heights) <= heights.min() + uneven
+    level = triangles[..., is_level]
     a, b, c = np.stack([along(way, level) for way in plane.T], axis=1)
     u, v = b - a, c - a
     area = float(np.abs(u[0] * v[1] - u[1] * v[0]).sum()) / 2
-    if area <= 0:
+    if area <= 0 or _goes_on(triangles, is_level, _FLAT * uneven, upwards):
         return None
     corners = np.unique(level.reshape(3, -1).T, axis=0)
     rows = outline(corners @ plane)
@@ -119,6 +122,21 @@ def _lowest_face(triangles: Floats, uneven: float, upwards: Floats, plane: Float
     # A face drawn from both sides has its area twice.
     is_filled = any(abs(area - n * around) <= _COVER * around for n in (1, 2))
     return _Face(corners, corners[rows], is_filled)
+
+
+def _goes_on(triangles: Floats, is_level: NDArray[np.bool_], flat: float, upwards: Floats) -> bool:
+    """Return True if other triangles lie in the plane of the level ones.
+
+    A flat face that is tilted by about the tolerance has such triangles. Which of its triangles are level depends on
+    how the face is cut into triangles.
+    """
+    a, b, c = triangles[..., is_level].transpose(1, 0, 2)
+    normals = cross(b - a, c - a)
+    # Triangles may face either way.
+    normal = (normals * np.sign(along(upwards, normals))).sum(axis=1)
+    depths = along(normal / np.linalg.norm(normal), triangles)
+    in_plane = highest(np.abs(depths - depths[:, is_level].mean())) <= flat
+    return bool((in_plane & ~is_level).any())
 
 
 def triples(points: Floats) -> tuple[Triple, ...]:

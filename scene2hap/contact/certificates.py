@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Container, Iterable, Mapping
 
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.broad_phase import BroadPhase
@@ -37,16 +37,18 @@ class Certificates:
         # By id: refusals minus certificates issued since, and moves that are left until the next attempt.
         self._refusals: dict[str, tuple[int, int]] = {}
 
-    def issue(self, body: Body, resting: Resting | None, normal: Triple | None) -> bool:
+    def issue(self, body: Body, resting: Resting | None, normal: Triple | None, moving: Container[str]) -> bool:
         """Issue a certificate to a body that rests as given, or touches nothing, if planes separate it from all others.
 
-        The certificates of its neighbours get the same planes. If the proof fails, count a refusal and return False.
+        The certificates of its neighbours get the same planes. A certificate that a body of `moving` pins would end
+        with the next move of that body, as on a tray or in a vehicle. If the proof fails, or for such a certificate,
+        count a refusal and return False.
         """
         x, on, top_m, pins = body.id, "", -math.inf, set[str]()
         planes: dict[str, tuple[Plane, ...]] = {}
         if resting is not None:
             on, top_m = resting.support.id, resting.rest.top_m
-            known = self._planes_on(body, resting)
+            known = None if on in moving else self._planes_on(body, resting)
             if known is None:
                 return self._refuse(x)
             planes[on] = known
@@ -64,7 +66,7 @@ class Certificates:
                 if its_own is not None:
                     theirs.append((its_own, apart.other))
                 continue
-            free = None if its_own is not None else _free_around(body, other)
+            free = None if its_own is not None or z in moving else _free_around(body, other)
             if free is None:
                 return self._refuse(x)
             planes[z] = free

@@ -7,7 +7,7 @@ when its certificate ends, it gets a new one or its contacts are searched from n
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Container, Mapping, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad_phase import BroadPhase
@@ -79,8 +79,9 @@ class ContactFinder:
                 self._drop_pair(x, y, found, recheck)
         proven = {}
         pending = [*added]
+        moving = {body.id for body in placed}
         for body in placed:
-            junction = self._certify(body, dirty, recheck) if certificates.may_be_issued(body.id) else None
+            junction = self._certify(body, moving, dirty, recheck) if certificates.may_be_issued(body.id) else None
             if junction is None:
                 pending.append(body)
             else:
@@ -117,7 +118,9 @@ class ContactFinder:
         self._unsupported.discard(x)
         self._holders.on_several.discard(x)
 
-    def _certify(self, body: Body, dirty: set[Pair], recheck: set[str]) -> dict[Pair, Junction | None] | None:
+    def _certify(
+        self, body: Body, moving: Container[str], dirty: set[Pair], recheck: set[str]
+    ) -> dict[Pair, Junction | None] | None:
         """Issue a certificate to a body if possible. Returns its junctions, None without a certificate.
 
         Its stored pairs are dropped. Pairs and bodies that this may change go into `dirty` and `recheck`.
@@ -126,7 +129,7 @@ class ContactFinder:
         resting = self._certificates.resting(body, self._held.get(x, ()))
         if resting is not None:
             bond = self._holders.support(x, resting.support.id, Support(1.0, resting.rest.fall_m), lies=True)
-        if not self._certificates.issue(body, resting, None if bond is None else bond.normal):
+        if not self._certificates.issue(body, resting, None if bond is None else bond.normal, moving):
             return None
         body_pairs = self._body_pairs.get(x, {})
         for y, body_pair in body_pairs.items():

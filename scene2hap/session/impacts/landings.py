@@ -121,6 +121,9 @@ class Landings:
             return found
         for landing in found:
             self._tracks[landing.object_id].land(now)
+            # Else the other one, which moves too, as in a vehicle, would land on this one in one of the next updates.
+            if (other := self._tracks.get(landing.onto)) is not None:
+                other.meet(now)
         # Two objects that met each other landed once.
         met = {(one.object_id, one.onto) for one in found}
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]

@@ -71,6 +71,12 @@ class MotionTrack:
         self.turn(update)
         self.stopped_m = stopped_m
 
+    def meet(self, update: int) -> None:
+        """Begin another motion after another object landed on this one, which may go on."""
+        step_m = self.step_m
+        self.turn(update)
+        self.step_m = step_m
+
     @property
     def is_falling(self) -> bool:
         """Whether it moved far enough in one direction, in more than one step; a single step may be a teleport."""

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from contact_scenes import box, boxes, floor, on_floor, scene
-from scene2hap.contact import finder
+from scene2hap.contact import certificates, finder
 from scene2hap.contact.body import Body
 from scene2hap.contact.certificate import Extent, separated
 from scene2hap.contact.graph import ContactGraph
@@ -269,3 +269,37 @@ def test_planes_divide_the_free_distance_in_halves() -> None:
         separated(both[0], Extent.of(Body.of(box("c", (0.1, 0.1, 0.1), (0.103, 0.0, 0.0)), 1), is_fixed=True), TOUCH_M)
         is None
     )
+
+
+def test_no_certificate_relies_on_a_body_that_moves(looked_at: Looked, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a vehicle that moves as a whole each certificate would end in the next frame, after all the work of its proof.
+
+    Once the vehicle stands still, a cup that is pushed gets one soon.
+    """
+    issued: list[str] = []
+    keep = certificates.Certificate
+
+    def watched(extent: Extent, *given: Any) -> Any:
+        issued.append(extent.body.id)
+        return keep(extent, *given)
+
+    monkeypatch.setattr(certificates, "Certificate", watched)
+    shelf = boxes(
+        "shelf",
+        *[((0.6, 0.02, 0.3), (0.0, height, 0.0)) for height in (0.01, 0.4, 0.79)],
+        ((0.02, 0.8, 0.3), (0.31, 0.4, 0.0)),
+        at_m=(2.0, 0.0, 0.0),
+    )
+    on_shelf = box("bottle", (0.08, 0.2, 0.08), (2.0, 0.51, 0.0))
+    objects = [floor(), TABLE, JAR, CUP, shelf, on_shelf]
+    graph = ContactGraph(scene(*objects))
+    for frame in range(1, 40):
+        vehicle = Pose((0.05 * frame, 0.0, 0.0), yaw(0.01 * frame))
+        graph.update({item.id: vehicle.compose(item.pose) for item in objects})
+        assert is_as_built(graph, *objects)
+    assert not {"table", "cup", "jar", "bottle"}.intersection(issued)
+    for frame in range(30):
+        looked_at(graph)
+        graph.update({"cup": vehicle.compose(Pose((0.2, 0.75, 0.1 + 0.003 * frame)))})
+        assert is_as_built(graph, *objects)
+    assert "cup" not in looked_at(graph)

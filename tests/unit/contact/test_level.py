@@ -6,12 +6,15 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings, strategies as st
 
-from contact_scenes import box, boxes
+from contact_scenes import box, boxes, thing
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.polygons import clipped
+from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.level import rest_on, rest_points
 from scene2hap.contact.pair import BodyPair
 from scene2hap.scene.pose import Pose
+from scene2hap.scene.shapes import TriMesh
+from scene2hap.scene.snapshot import SceneSnapshot
 
 TURNS = st.floats(-3.0, 3.0)
 PLACES = st.tuples(st.floats(-0.6, 0.6), st.floats(-0.5, 0.5))
@@ -97,3 +100,19 @@ def test_a_box_around_a_turned_body_holds_it() -> None:
         corners = body.pose.to_world(body.shape.corners)
         assert body.low == pytest.approx(corners.min(axis=0))
         assert body.high == pytest.approx(corners.max(axis=0))
+
+
+@pytest.mark.parametrize("cut", [(0, 1, 2, 3), (1, 2, 3, 0)])
+@pytest.mark.parametrize("tilt_rad", [(1e-4, 1e-4), (1e-4, -1e-4), (-1e-4, 1e-4), (1.2e-4, 0.8e-4)])
+def test_a_flat_face_is_level_as_a_whole_or_not_at_all(
+    cut: tuple[int, int, int, int], tilt_rad: tuple[float, float]
+) -> None:
+    # A physics engine tilts what rests by some 0.1 mrad. The plate stands on its four corners, however it is cut.
+    corners = [(x, y, z) for y in (0.0, 0.01) for x, z in ((-0.2, -0.15), (0.2, -0.15), (0.2, 0.15), (-0.2, 0.15))]
+    faces = [[first + cut[k] for k in half] for first in (0, 4) for half in ((0, 1, 2), (0, 2, 3))]
+    plate = thing("plate", TriMesh(np.array(corners), np.array(faces)), Pose())
+    table = thing("table", TriMesh(np.array(corners) * (3, 1, 2) - (0.0, 0.01, 0.0), np.array(faces)), Pose())
+    vehicle = Pose.from_euler((3.0, 1.0, -2.0), tilt_rad, order="xz")
+    posed = [thing(x.id, x.geometry, vehicle.compose(x.pose)) for x in (plate, table)]
+    own = vehicle.to_own(ContactGraph(SceneSnapshot("tilted", "y", tuple(posed))).arrays.points_m)
+    assert sorted(map(tuple, np.round(own[:, [0, 2]], 3))) == [(-0.2, -0.15), (-0.2, 0.15), (0.2, -0.15), (0.2, 0.15)]
