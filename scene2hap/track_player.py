@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -66,7 +67,8 @@ def play_track(
     state = _TrackState(session.snapshot)
     rate = session.config.sample_rate_hz
     origin = session.position
-    n_frames = max(1, round(track.duration_s * update_rate_hz))
+    # A last frame that is shorter than the others counts too, or the track would end before its time.
+    n_frames = max(1, math.ceil(track.duration_s * update_rate_hz - 1e-9))
     waiting = deque(track.steps)
     for i in range(n_frames):
         time_s = i / update_rate_hz

@@ -82,14 +82,17 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def silence(session: HapticSession, muted: Sequence[str], solo: Sequence[str]) -> None:
-    """Mute the sources in `muted`. If `solo` names any sources, mute all others too.
+    """Mute the sources in `muted`. If `solo` names any sources, play these and mute the others. The rest stays.
 
     Raises: UnknownObject: an id is not a source; then nothing is muted.
     """
     for source_id in (*muted, *solo):
         session.set_source(source_id)
     for source_id in session.source_ids:
-        session.set_source(source_id, mute=source_id in muted or bool(solo and source_id not in solo))
+        if source_id in muted or (solo and source_id not in solo):
+            session.set_source(source_id, mute=True)
+        elif solo:
+            session.set_source(source_id, mute=False)
 
 
 class Actuator:

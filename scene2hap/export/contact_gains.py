@@ -57,7 +57,8 @@ def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -
     if not excitations:
         return ()
     field = model.prepare(network, excitations, Bands.dominant())
-    hertz = {one.source_id: one.frequency_tactile_hz for one in excitations}
+    law = model if isinstance(model, ExponentialPlate) else None
+    hertz = {one.source_id: law.frequency_hz(one) for one in excitations} if law is not None else {}
     found = []
     for contact in contacts:
         for here, there in ((contact.a, contact.b), (contact.b, contact.a)):
@@ -66,7 +67,6 @@ def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -
                 if gain < LEAST_GAIN or source == here:
                     continue
                 body = known.get(here)
-                is_law = isinstance(model, ExponentialPlate) and isinstance(body, Plate)
-                decay = float(body.wavenumber_rad_m(hertz[source])) if is_law and isinstance(body, Plate) else None
+                decay = float(body.wavenumber_rad_m(hertz[source])) if hertz and isinstance(body, Plate) else None
                 found.append(ContactPath(source, here, there, contact.point_m, gain, decay))
     return tuple(sorted(found, key=lambda path: (path.source, -path.gain)))

@@ -105,7 +105,7 @@ class ExponentialPlate:
         crossing = [self.crossing_cost(contact.weight) for contact in network.contacts]
         source_ids = tuple(excitation.source_id for excitation in excitations)
         arrivals = cheapest_arrivals(price, network.contacts, crossing, source_ids, self.max_hops)
-        dominant = np.array([self._frequency_hz(item) for item in excitations])
+        dominant = np.array([self.frequency_hz(item) for item in excitations])
         return ExponentialField(source_ids, arrivals, price, bands, dominant, self._floor)
 
     def live(
@@ -120,7 +120,7 @@ class ExponentialPlate:
         paths = LivePaths(graph, prices, self.crossing_cost, source_ids, self.max_hops)
         gamma: GammaAt | GammaOver
         if bands.kind == "dominant":
-            gamma = GammaAt(np.array([self._frequency_hz(item) for item in excitations]))
+            gamma = GammaAt(np.array([self.frequency_hz(item) for item in excitations]))
         else:
             gamma = GammaOver(BandRms(bands.edges_hz))
         return LiveLaw(paths, source_ids, gamma, self._floor)
@@ -128,7 +128,7 @@ class ExponentialPlate:
     def _prices(self, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands) -> dict[str, float]:
         """Return the cost of a metre through each body, after checking that thin-plate theory holds for it."""
         if self.outside_domain != "ignore":
-            top_hz = max(bands.edges_hz, default=max((self._frequency_hz(item) for item in excitations), default=0.0))
+            top_hz = max(bands.edges_hz, default=max((self.frequency_hz(item) for item in excitations), default=0.0))
             for object_id, body in bodies.items():
                 if isinstance(body, Plate):
                     check_thin(object_id, body, top_hz, self.outside_domain)
@@ -143,7 +143,8 @@ class ExponentialPlate:
     def _floor(self) -> float:
         return 0.0 if self.floor_db is None else 10 ** (self.floor_db / 20)
 
-    def _frequency_hz(self, excitation: Excitation) -> float:
+    def frequency_hz(self, excitation: Excitation) -> float:
+        """Return the frequency [Hz] at which the law is evaluated for a source under `Bands.dominant()`."""
         return excitation.frequency_raw_hz if self.frequency == "raw" else excitation.frequency_tactile_hz
 
 

@@ -369,9 +369,12 @@ class HapticSession:
         Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
         """
         was_running = self._sources[source_id].is_running
-        self._hand_frames.levels_changed(self._sources.set(source_id, on, state, gain_db, mute))
+        is_other_state = self._sources.set(source_id, on, state, gain_db, mute)
+        self._hand_frames.levels_changed(is_other_state)
         self._switching = self._switching or self._new_switching()
-        self._switching.switched(source_id, was_running, self._now, by_hand=on is not None)
+        # The turn of a state must not outlive it: another one may run all the time.
+        by_hand = on is not None or is_other_state
+        self._switching.switched(source_id, was_running, self._now, by_hand=by_hand)
 
     def set_user(
         self,

@@ -15,7 +15,7 @@ from scene2hap.audio.files import write_wav
 from scene2hap.cli import main
 from scene2hap.cli.play import silence
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
-from scene2hap.session import HapticSession
+from scene2hap.session import HapticSession, Touch
 
 THINGS = {
     "radio": (0.3, 0.2, 0.15),
@@ -99,6 +99,26 @@ def test_edits_of_a_designer_stay_when_the_actuator_changes(
     silence(session, [], [first])
     muted = {key for key in session.source_ids if session._sources[key].level.is_muted}
     assert muted == set(session.source_ids) - {first}
+
+
+def test_play_keeps_the_mute_of_the_bundle(kitchen: Callable[..., Path]) -> None:
+    """`play` without options is felt like `render`; a muted source plays only if it is asked for."""
+    folder = str(kitchen())
+    first, *others = HapticBundle.load(folder).loops
+    assert main(["edit", folder, "mute", first, "-q"]) == 0
+    bundle = HapticBundle.load(folder)
+    for muted, solo, silent in (
+        ([], [], {first}),
+        (others[:1], [], {first, *others[:1]}),
+        ([], [first], {*others}),
+        ([], others[:1], {first, *others[1:]}),
+    ):
+        session = HapticSession(bundle)
+        silence(session, muted, solo)
+        touches = [Touch("left", item.id, item.pose.position_m) for item in bundle.snapshot.objects]
+        gains = session.would_feel([one for one in touches if one.object_id in session.source_ids])
+        felt = {one for i, one in enumerate(session.source_ids) if gains[:, i].any()}
+        assert felt == set(session.source_ids) - silent
 
 
 def test_wrong_id_or_material_keeps_the_bundle_unchanged(

@@ -77,6 +77,24 @@ def test_paths_give_the_gains_of_a_session(exported: tuple[Path, dict[str, Any]]
     assert frame.gain("left", "smartphone") == pytest.approx(max(away) * level, rel=0.02)
 
 
+def test_the_decay_of_a_path_is_at_the_frequency_of_the_law(kitchen_bundle: Path, tmp_path: Path) -> None:
+    """Wavenumbers grow with the root of the frequency, so decays at raw and tactile frequencies have that ratio."""
+    bundle = HapticBundle.load(kitchen_bundle)
+    decays = []
+    for frequency in ("raw", "tactile"):
+        config = {"propagation": {"kind": "exponential_plate", "frequency": frequency}}
+        export_bundle(bundle, tmp_path / frequency, "pcm", config=config)
+        paths = json.loads((tmp_path / frequency / "manifest.json").read_text(encoding="utf-8"))["paths"]
+        decays.append({(one["source"], one["object_id"]): one["decay_per_m"] for one in paths if one["decay_per_m"]})
+    raw, tactile = decays
+    shared = raw.keys() & tactile.keys()
+    assert {source for source, _ in shared} >= {"smartphone", "refrigerator"}
+    for source, on in shared:
+        (loop,) = bundle.loops[source].values()
+        ratio = np.sqrt(loop.frequency_raw_hz / loop.frequency_tactile_hz)
+        assert raw[source, on] / tactile[source, on] == pytest.approx(ratio, rel=1e-9)
+
+
 def test_the_report_is_text_and_json(exported: tuple[Path, dict[str, Any]]) -> None:
     folder, _ = exported
     rows = json.loads((folder / "report.json").read_text(encoding="utf-8"))["files"]

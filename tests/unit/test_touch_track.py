@@ -49,6 +49,15 @@ def test_json_and_csv_give_the_same_track(tmp_path: Path) -> None:
     assert TouchTrack.load(tmp_path / "touches.json") == TouchTrack.load(tmp_path / "touches.csv")
 
 
+@pytest.mark.parametrize(("duration_s", "update_rate_hz"), [(1.5, 1.0), (1.0, 3.0), (1.4, 3.0), (0.504, 100.0)])
+def test_a_track_is_played_to_its_end(duration_s: float, update_rate_hz: float) -> None:
+    sink = MemorySink()
+    with HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink) as session:
+        track = TouchTrack.parse({"duration_s": duration_s, "steps": []})
+        play_track(session, track, sink, update_rate_hz=update_rate_hz)
+        assert len(sink.samples) == round(duration_s * RATE)
+
+
 def play(document: object = DOCUMENT) -> list[PlayedFrame]:
     frames: list[PlayedFrame] = []
     sink = MemorySink()

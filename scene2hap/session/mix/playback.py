@@ -44,9 +44,10 @@ class MixerInstance:
 
     def __init__(self, config: SessionConfig, bank: SlotBank, hands: tuple[int, ...], position: int) -> None:
         rate = config.sample_rate_hz
-        # It begins at a whole number of tactile samples, so that its loops are in phase with those of other mixers.
+        # It begins at a whole number of tactile samples, so that its loops are in phase with those of other mixers,
+        # and not after `position`, or its hands and loops would be felt late: up to 10 ms at 44.1 kHz.
         unit = rate // math.gcd(rate, bank.sample_rate_hz)
-        self._begin = -(-position // unit) * unit
+        self._begin = position // unit * unit
         self.bank = bank.shifted(self._begin * bank.sample_rate_hz // rate)
         self.hands = hands
         self.mixer = Mixer(
@@ -56,6 +57,7 @@ class MixerInstance:
             ramp_s=max(config.control_period_s, MIN_RAMP_S),
             skip_silent=config.skip.silent_bands,
         )
+        self.mixer.render(position - self._begin)
         self._nothing = np.zeros((len(hands), 0, config.bands.n_bands), dtype=np.float32)
         # The target gains, their slots, and the request for them: an equal request is skipped.
         self._gains, self._slots = self._nothing, list[int]()
@@ -84,14 +86,9 @@ class MixerInstance:
     def render(self, position: int, n_frames: int) -> Block:
         """Samples (n_frames, n_hands) from frame `position` of the session's clock on; it must not decrease."""
         behind = position - self._begin - self.mixer.position
-        if behind == 0:
-            return self.mixer.render(n_frames)
         if behind > 0:
             self.mixer.render(behind)
-            return self.mixer.render(n_frames)
-        n_waiting = min(n_frames, -behind)
-        silence = np.zeros((n_waiting, len(self.hands)), dtype=np.float32)
-        return np.concatenate([silence, self.mixer.render(n_frames - n_waiting)])
+        return self.mixer.render(n_frames)
 
     def _send(self, gains: NDArray[np.float32], slots: list[int], at_frame: int) -> None:
         self.mixer.set_loops(gains, slots, at_frame - self._begin)

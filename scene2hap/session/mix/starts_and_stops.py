@@ -35,7 +35,8 @@ class Switching:
         self._known: tuple[str, ...] | None = None
 
     def switched(self, source_id: str, was_running: bool, now: int, *, by_hand: bool = True) -> None:
-        """Start or stop a source if it was switched. Switching on by a person begins a new on-time."""
+        """Start or stop a source if it was switched. A person who switches it on, or to another state, begins a new
+        on-time."""
         source = self._sources[source_id]
         if by_hand and source.is_on and source.is_resting:
             source.is_resting = False

@@ -143,6 +143,24 @@ def test_a_sine_passes_other_actuators(f_max: float) -> None:
         assert y.max() <= 0.8
 
 
+@pytest.mark.parametrize("rate", [8000, 44100, 48000])
+@pytest.mark.parametrize("f_max", [50.0, 230.0, 800.0, 1000.0])
+def test_the_whole_band_of_an_actuator_keeps_its_level(f_max: float, rate: int) -> None:
+    """A loop's stated level is that at the actuator, also for an LRA, whose sources are all near its upper end."""
+    for f in (f_max, 0.85 * f_max):
+        layer = SafetyLayer(Budget(max_frequency_hz=f_max), rate, 1)
+        t = np.arange(3 * rate) / rate
+        y = layer.process(column(0.5 * np.sin(2 * np.pi * f * t)))[rate:, 0].astype(np.float64)
+        assert 20 * math.log10(math.sqrt(2 * np.mean(y**2)) / 0.5) > -0.3
+        assert layer.stats.slew_limited == 0
+
+
+def test_the_low_pass_falls_beyond_the_band() -> None:
+    for f, at_most_db in ((460.0, -12.0), (920.0, -36.0)):
+        y = SafetyLayer(Budget(max_frequency_hz=230.0), RATE, 1).process(sine(f, 3.0, 0.2))[RATE:, 0]
+        assert 20 * math.log10(math.sqrt(2 * np.mean(y.astype(np.float64) ** 2)) / 0.2) < at_most_db
+
+
 def test_a_square_leaves_little_above_the_band() -> None:
     y = SafetyLayer(ActuatorProfile(), RATE, 1).process(square(250.0, 3.0))[RATE:, 0].astype(np.float64)
     power = np.abs(np.fft.rfft(y)) ** 2

@@ -71,8 +71,8 @@ def test_actuator_profile_sets_the_safety_limits() -> None:
     with HapticSession(*table_with_two_phones(), config, sink=sink) as session:
         session.update(touches=TOUCHES)
         sink.pull(8000)
-    # Second order: 100 Hz is 2.3 octaves above the corner, -27.5 dB.
-    assert np.abs(sink.samples[4000:8000, 0]).max() == pytest.approx(0.3 * (20.5 / 100) ** 2, rel=0.05)
+    # Fourth order: 100 Hz is 1.8 octaves above the corner at 29 Hz, -43 dB.
+    assert np.abs(sink.samples[4000:8000, 0]).max() == pytest.approx(0.3 * (2**0.5 * 20.5 / 100) ** 4, rel=0.05)
 
 
 def test_a_sink_with_a_clock_falls_silent_without_updates(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -184,6 +184,24 @@ def test_adding_a_hand_does_not_change_other_hands() -> None:
     np.testing.assert_allclose(changing.render(4410)[:, :2], still.render(4410), atol=1e-6)
 
 
+def test_an_added_hand_feels_at_once_what_a_hand_from_the_start_would() -> None:
+    # At 44.1 kHz every 441st frame is at a whole tactile sample: 3 frames after 12345, and 439 after 12350.
+    on_table = Touch("foot", "table", ON_TABLE.point_m)
+    for n_frames in (12345, 12350):
+        added = session(sample_rate_hz=44100)
+        still = HapticSession(*table_with_two_phones(), {"sample_rate_hz": 44100}, hands=("left", "right", "foot"))
+        for s in (added, still):
+            s.update()
+            s.render(n_frames)
+        added.add_hand("foot")
+        outs = []
+        for s in (added, still):
+            s.update(touches=[on_table])
+            outs.append(s.render(4410)[:, 2])
+        assert np.abs(outs[1]).max() > 0.01
+        np.testing.assert_allclose(outs[0], outs[1], atol=1e-6)
+
+
 def test_hands_keep_to_the_channels_of_a_sink_that_runs() -> None:
     with HapticSession(*table_with_two_phones(), CONFIG, sink=MemorySink()) as s:
         with pytest.raises(SessionError, match="MemorySink has one channel per hand from its start"):

@@ -133,6 +133,27 @@ def test_source_switches_by_its_duty_cycle() -> None:
     assert (envelope(made, 0.8)[2:] > 0.5 * e.max()).all()
 
 
+@pytest.mark.parametrize("after_s", [0.1, 1.2])
+@pytest.mark.parametrize("turn", [(None, None), (2.0, 1.0)])
+def test_another_state_has_its_own_turns(after_s: float, turn: tuple[float | None, float | None]) -> None:
+    """In the on-time and in the rest of the state before: on for the new state's own on-time, None for ever."""
+    made = session()
+    phone = made._sources["phone"]
+    first, other = phone.rows
+    cyclic = replace(phone.inferred[first], on_s=1.0, off_s=100.0)
+    phone.inferred = {first: cyclic, other: replace(phone.inferred[other], on_s=turn[0], off_s=turn[1])}
+    made.set_source("phone", on=True)
+    full = envelope(made, after_s).max()
+    made.set_source("phone", state=other)
+    is_running = envelope(made, 6.0)[2:] > 0.3 * full
+    assert is_running[:36].all()
+    if turn[0] is None:
+        assert is_running.all()
+    else:
+        changes = np.flatnonzero(is_running[1:] != is_running[:-1]) + 3
+        np.testing.assert_allclose(changes * 0.05, [2.0, 3.0, 5.0], atol=0.1)
+
+
 def test_pause_stops_the_duty_cycle() -> None:
     made = session({"on_s": 1.0, "off_s": 100.0})
     envelope(made, 0.1)
