@@ -81,6 +81,7 @@ def test_a_program_that_ends_without_stop_silences_the_receiver(listener: socket
 import os, signal, sys, numpy as np
 from scene2hap.devices.protocol import SinkFormat
 from scene2hap.devices.udp import UdpSink
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background process inherits that it is ignored
 sink = UdpSink("127.0.0.1", int(sys.argv[1]))
 sink.open(SinkFormat(8000, ("left",)))
 sink.start(lambda n: np.ones((n, 1), dtype=np.float32))
