@@ -1,9 +1,9 @@
 """The anchor of a source: the strong component of its spectrum by which it is felt.
 
 A sound's strongest component may be so low, or so irregular, that no drive below full scale brings it to the planned
-sensation level. The anchor is the strongest component that comes within 2 dB of this level. Components are lines, which
-exceed the noise around them, or, in a sound without lines, the strongest bands of noise. If no component within 14 dB
-of the strongest can reach the level:
+sensation level. The anchor is the strongest component of all, if it is above 60 Hz and comes within 6 dB of this level;
+else the strongest that comes within 2 dB. Components are lines, which exceed the noise around them, or, in a sound
+without lines, the strongest bands of noise. If no component within 14 dB of the strongest can reach the level:
 
 - If the actuator does not render the strongest, its band is shifted to the frequency at which the actuator is felt
   best.
@@ -52,6 +52,8 @@ MISSED_DB = 3.0
 ACCEPTED_DB = 2.0
 """Level error up to which a component is preferred to weaker ones that reach the level [dB]. Loops have up to 1 dB less
 than computed here."""
+ACCEPTED_OF_STRONGEST_DB = 6.0
+"""The bound `ACCEPTED_DB` for the strongest component, by which a source is recognized: it is rather felt weaker."""
 CARRIED_DB = 6.0
 """A component that is too high is shifted down if it is felt better there by more than this [dB]. Touch is 4 dB less
 sensitive at 350 Hz than at 250, 19 dB at 500, and feels nothing at 900. A component that is too low keeps its
@@ -115,7 +117,9 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
             bands = strongest_bands_hz(magnitude, sample_rate_hz, RANGE_HZ, FAINTEST_DB)
             lowest, highest = rendered_hz(sample_rate_hz, actuator)
             candidates += [hz for hz in bands if lowest <= hz <= highest] or [one.hz for one in near]
-    found, missed_db = needs.first_met(candidates)
+    # A slow one would be kept as roughness alone; rather take a line that reaches the level.
+    identity_hz = strongest.hz if strongest.hz > ROUGH_HZ[1] else 0.0
+    found, missed_db = needs.first_met(candidates, strongest_hz=identity_hz)
     loudest = audible[0]
     if not loudest.is_line:  # the highest peak of noise is anywhere
         bands = strongest_bands_hz(magnitude, sample_rate_hz, audible_hz, 0.0)
@@ -198,8 +202,13 @@ class _Needs:
         self._above = np.cumsum(self._power[:0:-1] / np.square(np.square(self._f[:0:-1])))[::-1]
         self._latest: tuple[tuple[float, float | None], NDArray[np.complex128], Signal] | None = None
 
-    def first_met(self, candidates_hz: list[float], q: float | None = None) -> tuple[Anchor | None, float]:
-        """Return the first accepted candidate, or the one that is nearest to the level; and its level error [dB]."""
+    def first_met(
+        self, candidates_hz: list[float], q: float | None = None, *, strongest_hz: float = 0.0
+    ) -> tuple[Anchor | None, float]:
+        """Return the first accepted candidate, or the one that is nearest to the level; and its level error [dB].
+
+        Parameters: strongest_hz : the strongest component, which is accepted with a larger error, 0 for none.
+        """
         best: tuple[Anchor | None, float] = None, np.inf
         for own_hz in candidates_hz:
             band, signal = self._band(own_hz, q)
@@ -209,10 +218,10 @@ class _Needs:
             crest_db = self._level_db - reached_db - float(drive_db(own_hz, self._level_db, self._actuator))
             anchor = Anchor(own_hz, crest_db, band_q=q)
             missed_db = self.missed_db(anchor)
+            if missed_db <= (ACCEPTED_OF_STRONGEST_DB if own_hz == strongest_hz else ACCEPTED_DB):
+                return anchor, missed_db
             if missed_db < best[1]:
                 best = anchor, missed_db
-            if missed_db <= ACCEPTED_DB:
-                break
         return best
 
     def felt(self, found: Anchor | None, missed_db: float, strongest: Component) -> Anchor:

@@ -33,13 +33,19 @@ def test_anchor_is_the_component_that_is_felt_most() -> None:
 
 
 def test_anchor_is_the_strongest_component_if_its_level_is_hardly_missed() -> None:
-    """With 1.5 dB missing, the strongest component stays the anchor; with 4 dB missing, the next one is."""
-    x = tones(f105=0.5, f220=0.15)
-    for missed_db, expected_hz in ((1.5, 105.0), (4.0, 220.0)):
-        level_db = HIGHEST_PEAK_DB + missed_db - float(threshold_db(105.0))
+    """With 5 dB missing, the strongest component stays the anchor; with 7 dB missing, the next one is. A component
+    below 60 Hz stays with 1.5 dB missing, but not with 5 dB."""
+    for strongest_hz, missed_db, is_anchor in (
+        (105.0, 5.0, True),
+        (105.0, 7.0, False),
+        (50.0, 1.5, True),
+        (50.0, 5.0, False),
+    ):
+        x = tones(**{f"f{strongest_hz:.0f}": 0.5, "f220": 0.15})
+        level_db = HIGHEST_PEAK_DB + missed_db - float(threshold_db(strongest_hz))
         found = anchor_of(x, RATE, level_db, actuator_profile("flat"))
         assert found is not None
-        assert found.frequency_hz == pytest.approx(expected_hz, abs=0.1)
+        assert found.frequency_hz == pytest.approx(strongest_hz if is_anchor else 220.0, abs=0.1)
 
 
 def test_anchor_is_not_a_component_14_db_below_the_strongest() -> None:
