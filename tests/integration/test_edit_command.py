@@ -102,7 +102,7 @@ def test_edits_of_a_designer_stay_when_the_actuator_changes(
 
 
 def test_play_keeps_the_mute_of_the_bundle(kitchen: Callable[..., Path]) -> None:
-    """`play` without options is felt like `render`; a muted source plays only if it is asked for."""
+    """`play` without options is felt like `render`; a muted source plays only by an option."""
     folder = str(kitchen())
     first, *others = HapticBundle.load(folder).loops
     assert main(["edit", folder, "mute", first, "-q"]) == 0

@@ -96,7 +96,7 @@ def costs_by_hops(
         for object_id, rows in _by_object(owner, entered[_useful(costs, crossing, entered)]).items():
             if object_id in price_per_m:
                 own = by_object[object_id]
-                way = price_per_m[object_id] * _distances(points_m[rows // 2], points_m[own // 2]) + crossing[own // 2]
+                way = price_per_m[object_id] * distances_m(points_m[rows // 2], points_m[own // 2]) + crossing[own // 2]
                 onward = (costs[:, rows, None] + way).min(axis=1)
                 improved[:, own ^ 1] = np.minimum(improved[:, own ^ 1], onward)
         entered = np.flatnonzero((improved < costs).any(axis=0))
@@ -123,7 +123,8 @@ def _by_object(owner: Sequence[str], rows: NDArray[np.intp]) -> dict[str, NDArra
     return {object_id: np.array(own, dtype=np.intp) for object_id, own in grouped.items()}
 
 
-def _distances(from_m: NDArray[np.float64], to_m: NDArray[np.float64]) -> NDArray[np.float64]:
+def distances_m(from_m: NDArray[np.float64], to_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the distances (n, m) of points (n, 3) from points (m, 3) [m]."""
     # Explicit differences, since the Gram-matrix shortcut loses half the digits for close points; axis by axis, since
     # numpy is slow along an axis of three.
     x, y, z = (np.subtract.outer(a, b) for a, b in zip(from_m.T, to_m.T, strict=True))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.paths.prepared_paths import Sides, costs_by_hops
+from scene2hap.propagation.paths.prepared_paths import Sides, costs_by_hops, distances_m
 from scene2hap.scene.objects import Contact
 
 Point = tuple[float, float, float]
@@ -59,7 +59,7 @@ class TracedPaths:
         found = np.full((len(self._rows), len(points_m)), -1, dtype=np.intp)
         if own is None or object_id not in self._price_per_m:
             return found
-        apart_m = np.linalg.norm(points_m[:, None].astype(np.float64) - self._sides.points_m[own // 2], axis=2)
+        apart_m = distances_m(points_m.astype(np.float64), self._sides.points_m[own // 2])
         within = self._price_per_m[object_id] * apart_m
         for row in range(len(found)):
             found[row] = self._cheapest(row, own, within)
@@ -87,18 +87,22 @@ class TracedPaths:
 
     def _way(self, row: int, source_id: str, side: int, n_before: int) -> Way:
         """Return the way to the owner of a side with at most `n_before` contacts before the last one."""
-        key = row, side, n_before
-        if key not in self._ways:
-            owner, by_object, points_m, _ = self._sides
-            behind, before = owner[side ^ 1], Way((source_id,))
-            if behind != source_id:
-                entries = by_object[behind]
-                through_m = np.linalg.norm(points_m[entries // 2] - points_m[side // 2], axis=1)
-                costs = self._by_hops[n_before - 1][row, entries] + self._price_per_m[behind] * through_m
-                before = self._way(row, source_id, int(entries[costs.argmin()]), n_before - 1)
+        owner, by_object, points_m, _ = self._sides
+        pending: list[tuple[int, int]] = []
+        while (row, side, n_before) not in self._ways:
+            pending.append((side, n_before))
+            behind = owner[side ^ 1]
+            if behind == source_id:
+                break
+            entries = by_object[behind]
+            through_m = distances_m(points_m[[side // 2]], points_m[entries // 2])[0]
+            costs = self._by_hops[n_before - 1][row, entries] + self._price_per_m[behind] * through_m
+            side, n_before = int(entries[costs.argmin()]), n_before - 1
+        way = self._ways.get((row, side, n_before), Way((source_id,)))
+        for side, n_before in reversed(pending):
             x, y, z = points_m[side // 2].tolist()
-            self._ways[key] = Way((*before.objects, owner[side]), (*before.entries_m, (x, y, z)))
-        return self._ways[key]
+            way = self._ways[row, side, n_before] = Way((*way.objects, owner[side]), (*way.entries_m, (x, y, z)))
+        return way
 
 
 class PathsToPoint:

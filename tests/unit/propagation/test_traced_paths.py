@@ -123,3 +123,12 @@ def test_no_contact_and_no_source_give_no_path() -> None:
     assert PathsToPoint({"table": 1.0}, [], [], None, "table", (0.0, 0.0, 0.0)).way("phone") is None
     assert PathsToPoint({"table": 1.0}, [], [], None, "table", (0.0, 0.0, 0.0)).way("table") == Way(("table",))
     assert TracedPaths({"table": 1.0}, [], [], (), None).entered("table", np.zeros((2, 3))).shape == (0, 2)
+
+
+def test_a_row_of_objects_may_be_longer_than_pythons_stack() -> None:
+    n = 1500
+    contacts = [Contact(f"o{i:04d}", f"o{i + 1:04d}", (float(i), 0.0, 0.0)) for i in range(n)]
+    prices = {f"o{i:04d}": 0.0 for i in range(n + 1)}
+    way = PathsToPoint(prices, contacts, [0.1] * n, None, f"o{n:04d}", (float(n), 0.0, 0.0)).way("o0000")
+    assert way is not None
+    assert way.objects == tuple(prices)
