@@ -62,7 +62,7 @@ def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
     """Return one list of members for each object; the first member names it. One list for all if no collection."""
     some = [member for member in members if any(len(piece.vertices) for piece in member.pieces)]
     items = [member for member in some if member.name == group_name or has_own_noun(member.name, group_name)]
-    if len(items) < 2 or not _stand_apart(some, items):
+    if not stand_apart(some, items):
         return [list(members)]
     limits.at_most(f"the number of items in the group {group_name[:80]!r}", len(items), "MAX_OBJECTS")
     found = [[item] for item in items]
@@ -82,8 +82,10 @@ def has_own_noun(name: str, group_name: str) -> bool:
     return bool(nouns) and not {nouns[-1], nouns[-1].removesuffix("s"), nouns[-1].removesuffix("es")} & _PART_WORDS
 
 
-def _stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
-    """Return True if the boxes of the items form at least two separate sets."""
+def stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
+    """Return True if the boxes of the items form at least two separate sets. The gap is relative to all members."""
+    if len(items) < 2:
+        return False
     reach = _APART * float(np.linalg.norm(np.ptp(joined(_boxes(members)), axis=0)))
     boxes = _boxes(items)
     linked, left = [0], np.arange(1, len(items))

@@ -6,8 +6,8 @@ their own nodes above. The rule "authored" undoes this:
 a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
    child that has children is an object by itself.
 b. A node without a mesh, and its leaf children without names or with names that begin with the node's name, are one
-   object: `Cooktop` with `Cooktop_Burner_mat`. Rules (a) to (d) apply to all other children, such as the knobs
-   `Controller` below `Cooktop`.
+   object: `Cooktop` with `Cooktop_Burner_mat`. So are its children whose names say nothing (`cube` over `mesh_geom`),
+   if they are joined. Rules (a) to (d) apply to all other children, such as the knobs `Controller` below `Cooktop`.
 c. A node without a mesh that contains only one object, directly or through other such nodes, gives that object its name
    and place (`washing_machine` over `washer(Clone)`). The name of the outermost such node is used. Names that exporters
    give to their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never used.
@@ -29,7 +29,8 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene.group_split import Member, split
+from scene2hap.scene.empty_names import says_nothing
+from scene2hap.scene.group_split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
 Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]
@@ -125,9 +126,12 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
     if node.is_object:
         return _Subtree([Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)], has_head=True)
     members = [Member(node.name, frame, node.pieces)] if node.pieces else []
+    unnamed = _unnamed_parts(node, frame)
     below = []
     for child in node.children:
-        if _is_part(child, node):
+        if child in unnamed:
+            members += _members(child, frame)
+        elif _is_part(child, node):
             members.append(Member(child.name, frame @ child.matrix, child.pieces))
         else:
             below.append(_authored(child, frame))
@@ -158,6 +162,19 @@ def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
     if node.pieces:
         return True
     return _names_a_thing(node) and (not child.name or _continues(child.name, node.name))
+
+
+def _unnamed_parts(node: AuthoredNode, frame: Matrix) -> list[AuthoredNode]:
+    """Return the children below which no name says what they are, if they are joined: an engine's own mesh nodes."""
+    if node.pieces or not _names_a_thing(node):
+        return []
+    found = [x for x in node.children if all(says_nothing(y.name) and not y.is_object for y in x.walk())]
+    members = [member for child in found for member in _members(child, frame)]
+    return [] if stand_apart(members, members) else found
+
+
+def _members(node: AuthoredNode, above: Matrix) -> list[Member]:
+    return [Member("", frame, (piece,)) for frame, piece in _all_parts(node, above)]
 
 
 def _continues(name: str, start: str) -> bool:

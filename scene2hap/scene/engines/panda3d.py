@@ -28,18 +28,22 @@ from scene2hap.scene.rigid_meshes import rigid_part
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredNode, Matrix
 
+_VIEWPOINT = "camera"
+"""Name of the node above Panda3D's camera. What is below it, such as a sky or a tool in the hand, has its own name."""
+
 
 def snapshot(
-    render: Any, *, name: str | None = None, up_axis: UpAxis = "z", group: Grouping = "authored"
+    render: Any, *, name: str | None = None, up_axis: UpAxis | None = None, group: Grouping = "authored"
 ) -> SceneSnapshot:
     """Return the scene below a NodePath, in the coordinates of the graph's root.
 
-    Parameters: render : a `panda3d.core.NodePath`; name : of the scene, None means the NodePath's; up_axis : "z" unless
-        the game set `coordinate-system` to y-up; group : the rule by which nodes become objects.
+    Parameters: render : a `panda3d.core.NodePath`; name : of the scene, None means the NodePath's; up_axis : None means
+        Panda3D's own, which `coordinate-system` sets; group : the rule by which nodes become objects.
     Raises: MissingExtra: Panda3D is not installed. SceneError: there are no triangles, or a number is invalid.
     """
-    if up_axis not in ("y", "z"):
-        raise SceneError(f"up_axis is {up_axis!r}; it must be 'y' or 'z'.")
+    if up_axis not in ("y", "z", None):
+        raise SceneError(f"up_axis is {up_axis!r}; it must be 'y', 'z' or None.")
+    up_axis = up_axis or _up_axis(engine("panda3d.core"))
     graph = _Graph.read(render)
     maker = ObjectMaker(up_axis)
     objects = []
@@ -49,6 +53,10 @@ def snapshot(
     if not objects:
         raise SceneError(f"scene {title!r} draws no triangles; nothing in it can be touched.")
     return SceneSnapshot(title, up_axis, with_relative_heights(objects, up_axis))
+
+
+def _up_axis(core: Any) -> UpAxis:
+    return "y" if core.get_default_coordinate_system() in (core.CS_yup_right, core.CS_yup_left) else "z"
 
 
 def nodes(render: Any, *, group: Grouping = "authored") -> dict[str, Any]:
@@ -156,11 +164,15 @@ class _Graph:
         return [child for child in children if not child.is_hidden()]
 
     def _name(self, path: Any, is_below: bool) -> str:
-        """Return the authored name. The root of a graph has none; a loaded model is named after its file:
-        `lamp.egg`."""
+        """Return the authored name, or none: the root of a graph and the node that moves the camera are no things.
+
+        A loaded model is named after its file: `lamp.egg`.
+        """
         if not is_below and not path.has_parent():
             return ""
         name = str(path.get_name()).strip()
+        if name == _VIEWPOINT and path.find("**/+Camera"):
+            return ""
         return name.partition(".")[0] if isinstance(path.node(), self.core.ModelRoot) else name
 
 

@@ -67,6 +67,19 @@ def test_pieces_without_names_are_one_object() -> None:
     assert list(objects(group("Bed", mesh(""), mesh("")))) == ["Bed"]
 
 
+def test_children_whose_names_say_nothing_belong_to_the_node_that_has_a_name() -> None:
+    tree = group("table", group("cube", mesh("mesh_geom")), group("mug", group("sphere", mesh("mesh_geom"))))
+    assert {name: len(pieces) for name, pieces in objects(tree).items()} == {"table": 1, "mug": 1}
+
+
+def test_joined_children_whose_names_say_nothing_are_one_object() -> None:
+    assert objects(group("table", mesh("Cube"), mesh("Cube.001", at=0.5))) == {"table": ["Cube", "Cube.001"]}
+
+
+def test_children_that_stand_apart_are_separate_objects_whatever_their_names() -> None:
+    assert list(objects(group("table", mesh("Cube"), mesh("Cube.001", at=5.0)))) == ["Cube", "Cube.001"]
+
+
 def test_leaves_with_different_names_are_separate_objects() -> None:
     assert list(objects(group("Set", mesh("Set_base"), mesh("Vase")))) == ["Set", "Vase"]
 

@@ -189,6 +189,25 @@ def test_hidden_nodes_and_coarser_levels_are_left_out() -> None:
     np.testing.assert_allclose(scene.object("lamp").bounds_m[1], (1, 1, 1), atol=1e-6)
 
 
+def test_what_hangs_below_the_camera_keeps_its_own_name() -> None:
+    render = core.NodePath("render")
+    camera = render.attach_new_node("camera")
+    camera.attach_new_node(core.Camera("cam"))
+    attach(camera, "drill")
+    attach(render.attach_new_node("camera"), "body")  # a thing on a shelf
+    assert [item.id for item in snapshot(render).objects] == ["drill", "camera"]
+
+
+@pytest.mark.parametrize(("system", "axis"), [("y-up-left", "y"), ("y-up", "y"), ("z-up-left", "z"), ("z-up", "z")])
+def test_up_axis_is_that_of_the_engine(system: str, axis: str) -> None:
+    page = core.load_prc_file_data("", f"coordinate-system {system}")
+    try:
+        assert snapshot(graph()).up_axis == axis
+        assert snapshot(graph(), up_axis="z").up_axis == "z"
+    finally:
+        core.unload_prc_file(page)
+
+
 def test_loaded_model_is_named_after_its_file() -> None:
     render = core.NodePath("render")
     model = render.attach_new_node(core.ModelRoot("reading lamp.egg.pz"))
