@@ -92,9 +92,7 @@ class Output:
             return
         rate = self._config.sample_rate_hz
         watchdog_s = self._config.watchdog_s if has_clock(self._sink) else None
-        safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s)
-        if self._limits is not None:
-            safety.hold(self._limits)
+        safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s, limits=self._limits)
         claim_sink(self._sink, self)
         try:
             self._sink.open(SinkFormat(rate, tuple(hands)))
