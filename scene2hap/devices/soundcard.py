@@ -40,6 +40,9 @@ CHUNK_S = 0.005
 CATCHING_UP = 1.05
 """Rate at which the ring is refilled after a burst, relative to the playback rate."""
 
+BUFFERED_S = 0.03
+"""Time that a sound server buffers beyond the latency that the driver states [s]; 10 ms were measured."""
+
 BLOCK_FRAMES = 256
 FADE_S = 0.005
 
@@ -234,7 +237,7 @@ class _CardLine:
         self._ring.write(wide)
 
     def disconnect(self) -> None:
-        """Fade out, play the buffered samples, and release the device."""
+        """Fade out, wait until the fade has been played, and release the device."""
         stream, self._stream = self._stream, None
         if stream is None:
             return
@@ -242,8 +245,10 @@ class _CardLine:
         deadline = time.monotonic() + _LONGEST_FADE_S
         while portaudio.is_active(stream) and not self._ring.is_silent and time.monotonic() < deadline:
             time.sleep(FADE_S / 2)
-        # A driver that requests no samples would block `drain` for ever.
-        portaudio.close_stream(stream, drain=portaudio.is_active(stream) and self._ring.is_silent)
+        if portaudio.is_active(stream) and self._ring.is_silent:
+            # Silence follows the fade until it has been played: PortAudio drops what ALSA has buffered when it stops.
+            time.sleep(stream.latency + BUFFERED_S)
+        portaudio.close_stream(stream)
         self.latency_s = None
 
 
