@@ -35,6 +35,11 @@ class Card:
     n_channels: int
     rate_hz: int
 
+    @property
+    def may_drop_channels(self) -> bool:
+        """True for a sound server behind ALSA: it takes any number of channels, and drops those that its card lacks."""
+        return self.interface == "ALSA" and "(hw:" not in self.name
+
     def __str__(self) -> str:
         return f"{self.index}: {self.name!r} ({self.interface}, {self.n_channels} channels, {self.rate_hz} Hz)"
 

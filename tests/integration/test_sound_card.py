@@ -226,6 +226,19 @@ def test_a_single_hand_is_played_on_its_channel_alone(server: SoundServer) -> No
     assert np.abs(heard).max(axis=0).tolist() == [0.25, 0.0]
 
 
+@pytest.mark.parametrize("n_hands", [2, 3])
+def test_channels_that_a_server_may_drop_are_mentioned(server: SoundServer, n_hands: int) -> None:
+    """The server's card has two channels, of which it says nothing."""
+    events: list[SinkEvent] = []
+    sink = SoundCardSink(DEVICE, on_event=events.append)
+    sink.open(SinkFormat(RATE, ("left", "right", "back")[:n_hands]))
+    sink.start(lambda n_frames: np.zeros((n_frames, n_hands), dtype=np.float32))
+    assert sink.wait_connected(10.0)
+    wait_for(lambda: events)
+    sink.close()
+    assert ("plays nothing on those that the card lacks" in events[0].message) == (n_hands > 2)
+
+
 def test_missing_device_is_refused(server: SoundServer) -> None:
     events: list[SinkEvent] = []
     sink = SoundCardSink("no such card", on_event=events.append)
