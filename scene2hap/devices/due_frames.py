@@ -4,13 +4,17 @@ from __future__ import annotations
 
 
 class Pace:
-    """Counter of frames at a rate from a start time. After a pause of over `max_lag_s` [s] the excess is dropped."""
+    """Counter of frames at a rate from a start time. After a pause of over `max_lag_s` [s] the excess is dropped.
+
+    `n_pauses` is the number of these pauses so far.
+    """
 
     def __init__(self, rate_hz: float, max_lag_s: float = 0.5) -> None:
         self._rate_hz = rate_hz
         self._max_lag_s = max_lag_s
         self._since_s = 0.0
         self._taken = 0
+        self.n_pauses = 0
 
     def restart(self, now_s: float) -> None:
         """Restart the count at a time."""
@@ -24,6 +28,7 @@ class Pace:
         if due > most:
             # After a machine has slept, the missed frames must not all be due at once.
             self._taken += due - most
+            self.n_pauses += 1
             return most
         return due
 

@@ -60,7 +60,8 @@ return."""
 class Line(Protocol):
     """Connection to one device. All methods are called on the sink's thread and may raise DeviceError at any time.
 
-    Any thread may read `underruns` and `latency_s` (None if unknown) for `stats`.
+    Any thread may read `underruns` and `latency_s` (None if unknown) for `stats`. A line may have a `remark`: a
+    sentence on its present connection, which the message of the event "connected" includes.
     """
 
     @property
@@ -210,7 +211,8 @@ class LiveSink:
             if not self._stopping.is_set():
                 self._connects += 1
                 self._playing.set()
-                self._report_once("connected", f"{self._name} plays at {rate_hz} Hz.")
+                remark = getattr(self._line, "remark", "")
+                self._report_once("connected", f"{self._name} plays at {rate_hz} Hz. {remark}".rstrip())
                 self._play(format, rate_hz)
         except DeviceError as cause:
             return str(cause)

@@ -182,7 +182,7 @@ class Recording:
 
     def __exit__(self, *_: object) -> None:
         stream, self._stream = self._stream, None
-        portaudio.close_stream(stream, drain=False)
+        portaudio.close_stream(stream)
 
     def take(self) -> Take:
         """Return the recording so far. Raises: DeviceError: no block has arrived."""

@@ -1,5 +1,8 @@
 """PortAudio through the package sounddevice: search for devices, and translation of its errors.
 
+PortAudio is ended when the program ends, after the sinks: to end it while a stream plays cuts the sound, and may hang.
+sounddevice is imported late and would end it first.
+
 PortAudio lists devices only at its start, so finding a device that was plugged in later needs a restart. A restart ends
 every stream, so it is done only while none of ours is open. The lock prevents that two threads call PortAudio at once;
 callbacks run without the lock.
@@ -7,6 +10,8 @@ callbacks run without the lock.
 
 from __future__ import annotations
 
+import atexit
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -30,8 +35,21 @@ class Card:
     n_channels: int
     rate_hz: int
 
+    @property
+    def may_drop_channels(self) -> bool:
+        """True for a sound server behind ALSA: it takes any number of channels, and drops those that its card lacks."""
+        return self.interface == "ALSA" and "(hw:" not in self.name
+
     def __str__(self) -> str:
         return f"{self.index}: {self.name!r} ({self.interface}, {self.n_channels} channels, {self.rate_hz} Hz)"
+
+
+@atexit.register
+def _end() -> None:
+    """End PortAudio, unless a driver does not return and a stream is still open."""
+    sounddevice = sys.modules.get("sounddevice")
+    if sounddevice is not None and _open_streams == 0:
+        sounddevice._exit_handler()
 
 
 def require_sounddevice() -> None:
@@ -127,12 +145,12 @@ def is_active(stream: Any) -> bool:
         return False
 
 
-def close_stream(stream: Any, *, drain: bool) -> None:
-    """Close a stream. If `drain`, its buffered samples are played first."""
+def close_stream(stream: Any) -> None:
+    """Close a stream at once."""
     global _open_streams
     with _LOCK:
         try:
-            (stream.stop if drain else stream.abort)(ignore_errors=True)
+            stream.abort(ignore_errors=True)
         finally:
             stream.close(ignore_errors=True)
             _open_streams -= 1
@@ -196,6 +214,7 @@ def _sounddevice() -> Any:
             f"PortAudio cannot be loaded: {cause}. On Debian and Ubuntu: apt-get install libportaudio2; elsewhere "
             "reinstall the package sounddevice, which brings it."
         ) from cause
+    atexit.unregister(sounddevice._exit_handler)  # in favour of `_end`
     return sounddevice
 
 

@@ -40,8 +40,18 @@ CHUNK_S = 0.005
 CATCHING_UP = 1.05
 """Rate at which the ring is refilled after a burst, relative to the playback rate."""
 
+BUFFERED_S = 0.03
+"""Time that a sound server buffers beyond the latency that the driver states [s]; 10 ms were measured."""
+
 BLOCK_FRAMES = 256
 FADE_S = 0.005
+
+STEREO = 2
+_DROPPING = (
+    "It is a sound server, which says nothing of the card's channels and plays nothing on those that the card lacks. "
+    "If a hand on channel 3 or above feels nothing, choose the card itself, or a profile with more channels: "
+    "`pactl list sinks` shows them."
+)
 
 _LONGEST_FADE_S = 0.5
 
@@ -127,7 +137,7 @@ class _CardLine:
         self._wide: Block = np.zeros((0, 0), dtype=np.float32)
         self._gaps = self._flags = 0
         self.latency_s: float | None = None
-        self.device = ""
+        self.device = self.remark = ""
 
     @property
     def underruns(self) -> int:
@@ -171,7 +181,7 @@ class _CardLine:
         if n_channels > card.n_channels:
             raise DeviceError(f"sound card {card.name!r} has {card.n_channels} channels; a hand is on {n_channels}.")
         # A sound server plays a stream of one channel on all actuators.
-        n_channels = min(max(2, n_channels), card.n_channels)
+        n_channels = min(max(STEREO, n_channels), card.n_channels)
         rate_hz, n_channels = self._setting(card, n_channels, format.sample_rate_hz)
         # The stream's latency is known only after its callback has started, so the ring must exist before.
         if self._ring.shape != (rate_hz, n_channels):
@@ -192,6 +202,7 @@ class _CardLine:
         self._wide = np.zeros((self._ahead, n_channels), dtype=np.float32)
         self.latency_s = float(self._stream.latency) + self._ahead / rate_hz
         self.device = card.name
+        self.remark = _DROPPING if card.may_drop_channels and max(self._columns) >= STEREO else ""
         return rate_hz
 
     def _setting(self, card: portaudio.Card, n_channels: int, session_rate_hz: int) -> tuple[int, int]:
@@ -234,7 +245,7 @@ class _CardLine:
         self._ring.write(wide)
 
     def disconnect(self) -> None:
-        """Fade out, play the buffered samples, and release the device."""
+        """Fade out, wait until the fade has been played, and release the device."""
         stream, self._stream = self._stream, None
         if stream is None:
             return
@@ -242,8 +253,10 @@ class _CardLine:
         deadline = time.monotonic() + _LONGEST_FADE_S
         while portaudio.is_active(stream) and not self._ring.is_silent and time.monotonic() < deadline:
             time.sleep(FADE_S / 2)
-        # A driver that requests no samples would block `drain` for ever.
-        portaudio.close_stream(stream, drain=portaudio.is_active(stream) and self._ring.is_silent)
+        if portaudio.is_active(stream) and self._ring.is_silent:
+            # Silence follows the fade until it has been played: PortAudio drops what ALSA has buffered when it stops.
+            time.sleep(stream.latency + BUFFERED_S)
+        portaudio.close_stream(stream)
         self.latency_s = None
 
 

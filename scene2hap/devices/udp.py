@@ -20,6 +20,10 @@ from scene2hap.errors import ConfigError
 ANNOUNCE_S = 1.0
 """Interval of announcements [s]. From them a receiver that starts late learns rate and channels."""
 
+LATEST_S = 0.05
+"""Time after which a receiver has gone silent [s]. What is later is left out: a backlog would overflow the receiver's
+buffer, or delay it from then on."""
+
 _SAMPLES = {"int16": SampleFormat.INT16, "float32": SampleFormat.FLOAT32}
 
 
@@ -81,7 +85,7 @@ class PcmLine:
         self._block_frames = self._wish
         self._datagrams = datagrams
         self._samples = format
-        self._pace = Pace(self._rate_hz)
+        self._pace = Pace(self._rate_hz, LATEST_S + self._wish / self._rate_hz)
         self._sequence = 0
         self._announcement = b""
         self._announced_s = 0.0
@@ -89,8 +93,8 @@ class PcmLine:
 
     @property
     def underruns(self) -> int:
-        """Number of datagrams that the system did not queue."""
-        return self._datagrams.not_sent
+        """Number of datagrams that the system did not queue, and of times that one came too late for the receiver."""
+        return self._datagrams.not_sent + self._pace.n_pauses
 
     def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
         """Announce the stream."""

@@ -15,7 +15,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -273,9 +272,14 @@ def _coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> str:
     )
 
 
-@lru_cache(maxsize=4096)
+_WARNED_OF: set[Plate] = set()
+
+
 def _warn_coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> None:
-    warn_of(_coarsened(plate, max_frequency_hz, limit_hz), CoarsenedWarning)
+    """Warn of a plate once, whatever the highest frequency."""
+    if plate not in _WARNED_OF:
+        _WARNED_OF.add(plate)
+        warn_of(_coarsened(plate, max_frequency_hz, limit_hz), CoarsenedWarning)
 
 
 def _summed(terms: NDArray[Any], ratio: NDArray[Any] | float) -> NDArray[Any]:

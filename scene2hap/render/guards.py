@@ -11,10 +11,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.render import limiter
+
 Signal = NDArray[np.float64]
 
-RELEASE_S = 0.3
-"""Release time constant of the peak guard [s]: several periods of the slowest vibration that is felt."""
+FULL_SCALE_S = 0.05
+"""Time in which a limit changes by full scale, so that a change of profile does not click [s]."""
 
 WINDOW_PARTS = 4
 """The power guard's time constant is the budget's window divided by this."""
@@ -52,22 +54,31 @@ class Gate:
 
 
 class PeakGuard:
-    """A limiter that reduces the gain of each channel at once when it exceeds the limit, and releases slowly.
+    """A limiter that turns each channel down to its limit, by the idea of `scene2hap.render.limiter`.
 
-        u[n] = max_{k <= n} c[k] a^(n - k),   c = max(0, 1 - P / |x|),   y = x (1 - u)
+        h[n] = max(a h[n - 1], ln(|x[n]| / t)),   u[n] = q u[n - 1] + (1 - q) h[n],   z = x exp(-u)
+        y = z up to t,   sign(z) (t + (P - t) tanh((|z| - t) / (P - t))) beyond
 
-    So a signal that stays too loud is scaled rather than clipped. Symbols: P limit, a release per frame.
+    So a signal that stays too loud is scaled rather than clipped, and turned down without a click. Symbols: P limit; t
+    where it begins to act, 3 dB below the limit, or as far below as full scale is above it; a, q release and attack per
+    frame. A limit of full scale changes nothing within full scale.
 
-    `limit` is a number, or one for each channel (n_channels,); it may be replaced at any time.
+    `limit` is a number, or one for each channel (n_channels,). It may be replaced at any time; the limits in force
+    change linearly to the new ones. A limit that rises is felt within seconds, by the release.
     """
 
     _CELL = 4096
 
-    def __init__(self, limit: float, sample_rate_hz: float, n_channels: int) -> None:
-        self.limit: float | NDArray[np.float64] = limit
-        self._release = math.exp(-1.0 / (RELEASE_S * sample_rate_hz))
+    def __init__(self, limit: float | NDArray[np.float64], sample_rate_hz: float, n_channels: int) -> None:
+        from scipy.signal import lfilter
+
+        self.limit, self.n_channels = limit, n_channels
+        self._now = np.broadcast_to(limit, n_channels)
+        self._step = 1.0 / (FULL_SCALE_S * sample_rate_hz)
+        self._release, self._attack = limiter.decays(sample_rate_hz, 1)[:, 0]
         self._powers = self._release ** np.arange(self._CELL)[:, None]
-        self._held = np.zeros(n_channels)
+        self._smooth = lfilter
+        self._held, self._applied = np.zeros((2, n_channels))
         self._frame = 0
         self.n_limited = 0
 
@@ -81,24 +92,47 @@ class PeakGuard:
         return np.concatenate(parts) if parts else x
 
     def _within_a_cell(self, x: Signal) -> Signal:
-        level, limit = np.abs(x), self.limit
-        is_over = level > limit
+        level, limit = np.abs(x), self._limits(len(x))
+        threshold = limit * np.maximum(limiter.THRESHOLD, limit)
+        is_over = level > threshold
         powers = self._powers[self._frame : self._frame + len(x)]
         self._frame += len(x)
         y = x
-        if is_over.any() or self._held.any():
+        if is_over.any() or self._held.any() or self._applied.any():
             self.n_limited += int(is_over.sum())
-            excess = np.where(is_over, 1.0 - limit / np.maximum(level, limit), 0.0)
+            wanted = np.log(np.maximum(level, threshold) / threshold)
             # Values are divided by the decay since the cell's first frame. A decaying maximum then is a plain running
             # maximum, without accumulated rounding.
-            held = np.maximum(np.maximum.accumulate(excess / powers, axis=0), self._held)
+            held = np.maximum(np.maximum.accumulate(wanted / powers, axis=0), self._held)
             self._held = held[-1]
-            y = np.clip(x * (1.0 - held * powers), -limit, limit)
+            q = self._attack
+            reduction, last = self._smooth([1 - q], [1, -q], held * powers, axis=0, zi=self._applied[None])
+            self._applied = last[0]
+            y = _bent(x * np.exp(-reduction), threshold, limit)
         if self._frame == self._CELL:
             self._frame = 0
             self._held = self._held * self._release**self._CELL
-            self._held[self._held < 1e-7] = 0.0
+            for state in (self._held, self._applied):
+                state[state < limiter.NOTHING] = 0.0
         return y
+
+    def _limits(self, n_frames: int) -> Signal:
+        """Return the limits in force (n_frames or 1, n_channels) and advance them."""
+        left = self.limit - self._now
+        if not left.any():
+            return self._now[None]
+        farthest = self._step * np.arange(1, n_frames + 1)[:, None]
+        limits: Signal = self._now + np.clip(left, -farthest, farthest)
+        self._now = limits[-1]
+        return limits
+
+
+def _bent(z: Signal, threshold: Signal, limit: Signal) -> Signal:
+    """Return the signal, bent beyond a threshold so that it stays within the limit."""
+    rest = np.maximum(limit - threshold, np.finfo(np.float64).tiny)
+    excess = np.maximum(np.abs(z) - threshold, 0.0)
+    bent = np.minimum(threshold + rest * np.tanh(excess / rest), limit)
+    return np.where(excess > 0.0, np.copysign(bent, z), z)
 
 
 class PowerGuard:

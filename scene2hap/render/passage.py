@@ -10,7 +10,9 @@ else s = sqrt(a) for a source that spins.
 A passage begins or ends in phase with the loop itself, so the change between them is seamless. After its end it is the
 loop, or silence, for as long as nothing replaces it: a game may not update for a while. A passage that begins during
 another one continues from the present amplitude. If the curve has another speed there, the difference fades over
-the rest of the passage.
+the rest of the passage. A stop also continues from the present place in the loop. A start has to end in phase, so it
+continues from the place near its own that sounds most like the present one, and the difference fades as well: two
+places out of phase would cancel each other while one fades into the other.
 """
 
 from __future__ import annotations
@@ -26,6 +28,12 @@ from scene2hap.render.loop_bank import CELL, Block, LoopBank, StoredLoop, stored
 
 LEAD_S = 0.03
 """Time that a decaying loop continues unchanged while it replaces the steady one [s]."""
+SEARCH_S = 0.0125
+"""Largest distance of that place from the start's own [s of the loop]: half a period of 40 Hz."""
+_ALIKE_S = 0.025
+"""Length over which two places are compared [s of the loop]."""
+_NEARER = 0.1
+"""Likeness that the farthest place must have more than the start's own [-], since a shift bends the pitch."""
 _GRID = np.linspace(0.0, 1.0, 4097)
 """Shares of the time at which an amplitude is searched: 7 ms apart in the longest passage."""
 
@@ -82,11 +90,19 @@ class Passage(LoopBank):
     """A bank of one loop that starts or stops, once.
 
     Parameters: steady : the bank of the loop itself; begin : tactile sample of the clock at which the passage starts;
-        lasts_s : from standstill to full speed, or back [s]; since : speed and amplitude at its start. From the sample
-        `end` on, it is the steady loop or silence.
+        lasts_s : from standstill to full speed, or back [s]; since : speed and amplitude at its start; after : the
+        passage that it interrupts, if any. From the sample `end` on, it is the steady loop or silence.
     """
 
-    def __init__(self, steady: LoopBank, begin: int, lasts_s: float, course: Course, since: Running) -> None:
+    def __init__(
+        self,
+        steady: LoopBank,
+        begin: int,
+        lasts_s: float,
+        course: Course,
+        since: Running,
+        after: Passage | None = None,
+    ) -> None:
         rate = self.sample_rate_hz = steady.sample_rate_hz
         self.n_bands = steady.n_bands
         self._begin, self._course, self._lasts = begin, course, lasts_s * rate
@@ -101,6 +117,9 @@ class Passage(LoopBank):
         played = np.concatenate([[0.0], np.cumsum(speed[:-1])])
         # A start is in phase with the loop at its end, a stop at its beginning.
         at = played - played[n] + n if course.goes_up else played
+        if after is not None and is_under_way:
+            at += self._shift(steady, at[0], after._place(begin) - begin, len(at))
+        self._at = at
         low = math.floor(at.min())
         source = steady.taken(0, begin + low - 1, math.ceil(at.max()) - low + 4)
         samples = _between(source, at - low + 1) * amplitude[:, None].astype(np.float32)
@@ -125,6 +144,27 @@ class Passage(LoopBank):
         """Return speed and amplitude at a tactile sample."""
         x = self._share(np.array([at]))
         return Running(float(self._speed(x)[0]), float(self._course.amplitude(x)[0]))
+
+    def _place(self, at: int) -> float:
+        """Return the sample of the loop that is played at a tactile sample; both on the common clock."""
+        k = min(at - self._begin, len(self._at) - 1)
+        return self._begin + float(self._at[k]) + at - self._begin - k
+
+    def _shift(self, steady: LoopBank, own: float, present: float, n_samples: int) -> Signal:
+        """Return how far the places in the loop are shifted (n_samples,), to continue from the present one."""
+        if not self._course.goes_up:
+            return np.full(n_samples, present - own)
+        farthest, n = round(SEARCH_S * self.sample_rate_hz), round(_ALIKE_S * self.sample_rate_hz)
+        first = math.floor(own) - farthest
+        near = steady.taken(0, self._begin + first, 2 * farthest + n)
+        heard = steady.taken(0, self._begin + math.floor(present), n)
+        places = np.lib.stride_tricks.sliding_window_view(near, n, axis=0)
+        size = np.sqrt((places**2).sum(axis=(1, 2))) + 1e-9
+        likeness = np.einsum("pbn,nb->p", places, heard) / (size * (float(np.sqrt((heard**2).sum())) + 1e-9))
+        shifts = first + np.arange(len(places)) + present % 1.0 - own
+        shift = shifts[np.argmax(likeness - _NEARER * np.abs(shifts) / farthest)]
+        x = np.minimum(np.arange(n_samples) / (self.end - self._begin), 1.0)
+        return np.asarray(shift * (0.5 + 0.5 * np.cos(np.pi * x)))
 
     def _share(self, at: NDArray[np.int_]) -> Signal:
         """Return shares of the time (n,) at tactile samples (n,)."""

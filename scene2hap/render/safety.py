@@ -91,7 +91,7 @@ class SafetyLayer:
     """The safety layer of `n_channels` outputs.
 
     Parameters: watchdog_s : time without `feed` after which the output fades to zero [s], None for sinks that do not
-        follow wall-clock time; clock : returns the time [s].
+        follow wall-clock time; limits : see `hold`; clock : returns the time [s].
     Raises: ConfigError: a budget or a watchdog that is out of bounds.
     """
 
@@ -102,6 +102,7 @@ class SafetyLayer:
         n_channels: int,
         *,
         watchdog_s: float | None = None,
+        limits: NDArray[np.float64] | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         from scipy.signal import butter, sosfilt
@@ -127,7 +128,7 @@ class SafetyLayer:
         self._filter = sosfilt
         self._state = np.zeros((len(self._sos), 2, n_channels))
         self._gate = Gate(round(FADE_IN_S * sample_rate_hz), round(FADE_OUT_S * sample_rate_hz))
-        self._peak = PeakGuard(peak, sample_rate_hz, n_channels)
+        self._peak = PeakGuard(peak if limits is None else np.minimum(limits, peak), sample_rate_hz, n_channels)
         self._power = (
             PowerGuard(budget.max_rms, budget.rms_window_s, peak, sample_rate_hz, n_channels)
             if budget.max_rms < peak

@@ -30,6 +30,7 @@ from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
 from scene2hap.errors import SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
+from scene2hap.render.guards import PeakGuard
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
@@ -69,7 +70,7 @@ from scene2hap.session.mix.sources import SourceInfo, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.scene_state import SceneState
-from scene2hap.session.user_profile import PersonalLimit, UserProfile
+from scene2hap.session.user_profile import UserProfile
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -146,7 +147,7 @@ class HapticSession:
         self._follows_landings, self._prepares_impacts = self.config.impacts, self.config.prepares_impacts
         self._output = Output(sink, self.config)
         self._user: UserProfile | None = None
-        self._limit: PersonalLimit | None = None
+        self._limit: PeakGuard | None = None
         if user is not None:
             self._use_profile(UserProfile.parse(user))
         self._progress = _Progress()
@@ -342,7 +343,7 @@ class HapticSession:
         DeviceError: it cannot be opened again.
         """
         hands = checks.names("hands", (*self.hands, name))
-        with self._output.reopened_for(hands, self._rendered):
+        with self._output.reopened_for(hands, self._mixed):
             self._playback.add_hand()
             self._use_hands(hands)
 
@@ -351,7 +352,7 @@ class HapticSession:
         if not isinstance(name, str) or name not in self.hands:
             raise SessionError(unknown_hand(name, self.hands))
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
-        with self._output.reopened_for(hands, self._rendered):
+        with self._output.reopened_for(hands, self._mixed):
             self._playback.remove_hand(self.hands.index(name))
             self._use_hands(hands)
 
@@ -392,7 +393,7 @@ class HapticSession:
         if other is not None:
             if self._limit is None:
                 # The limits begin at full scale, so that they do not click.
-                self._limit = PersonalLimit(np.ones(len(self._hands)), self.config.sample_rate_hz)
+                self._limit = PeakGuard(1.0, self.config.sample_rate_hz, len(self._hands))
             self._use_profile(other)
         self._hand_frames.levels_changed()
 
@@ -507,7 +508,9 @@ class HapticSession:
                 "the sink of this session renders, and would miss the samples that you take with `render`. Use the "
                 "sink's own samples, such as `sink.pull`, or a session without a sink."
             )
-        return self._rendered(n_frames)
+        mix, limit = self._mixed(n_frames), self._limit
+        # A sink has the limits of a profile in its safety layer.
+        return mix if limit is None else limit.pass_through(mix.astype(np.float64)).astype(np.float32)
 
     def render_s(self, seconds: float) -> Block:
         """Return the next `seconds` [s] of the mix. See `render`.
@@ -517,11 +520,10 @@ class HapticSession:
         """
         return self.render(self._whole.of(seconds))
 
-    def _rendered(self, n_frames: int) -> Block:
+    def _mixed(self, n_frames: int) -> Block:
         if type(n_frames) is not int or not 0 <= n_frames <= MAX_RENDERED_FRAMES:
             n_frames = given_frames(n_frames)
-        mix = self._playback.render(n_frames)
-        return mix if self._limit is None else self._limit.applied(mix)
+        return self._playback.render(n_frames)
 
     @property
     def position(self) -> int:
@@ -542,7 +544,7 @@ class HapticSession:
         actuator's budget is out of bounds. Warns: SceneWarning: nothing vibrates.
         """
         self._mistakes.in_sources(self._sources.ids)
-        self._output.start(self._rendered, self.hands)
+        self._output.start(self._mixed, self.hands)
 
     def stop(self) -> None:
         """Fade out, stop the sink and release it; may be called twice."""
@@ -642,9 +644,9 @@ class HapticSession:
         self._user = user
         self._hand_frames.use_profile(user)
         limits = user.limits(self._hands, self.config.actuator.name)
-        if self._limit is None:
-            self._limit = PersonalLimit(limits, self.config.sample_rate_hz)
-        self._limit.limits = limits
+        if self._limit is None or self._limit.n_channels != len(limits):
+            self._limit = PeakGuard(limits, self.config.sample_rate_hz, len(limits))
+        self._limit.limit = limits
         self._output.hold(limits)
         warn_if_other_hands(tuple(user.hands), self._hands)
 

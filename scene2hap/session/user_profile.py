@@ -1,8 +1,9 @@
 """Levels and limits of one person, for each hand, device and frequency.
 
-`UserProfile` holds the settings. `PersonalGains` applies the levels to gains before they are mixed, `PersonalLimit` the
-limits to the mix. Pruning uses the highest level of any hand and band, which is part of each source's level. Each hand
-and band gets its share of that level after pruning. So a source is left out only if no hand would feel it.
+`UserProfile` holds the settings. `PersonalGains` applies the levels to gains before they are mixed. The peak guard
+(`scene2hap.render.guards`) holds the limits. Pruning uses the highest level of any hand and band, which is part of each
+source's level. Each hand and band gets its share of that level after pruning. So a source is left out only if no hand
+would feel it.
 """
 
 from __future__ import annotations
@@ -18,10 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, field_validator
 
 from scene2hap import checks
-from scene2hap.devices.protocol import Block
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
-from scene2hap.render.limiter import soft_limit
 from scene2hap.session.frame import Gains
 from scene2hap.session.hand_gains import HandGains
 from scene2hap.session.mix.sources import LoopRow
@@ -33,9 +32,6 @@ MOST_DB = 40.0
 
 LEAST_AMPLITUDE = 1e-4
 """Smallest limit: -80 dB re full scale, which cannot be felt on any actuator. Mute for silence."""
-
-FULL_SCALE_S = 0.05
-"""Time in which a limit changes by full scale, so that a change of profile does not click [s]."""
 
 _MOST_POINTS = 1000
 
@@ -137,30 +133,6 @@ class PersonalGains:
         shares, full = self.shares, gained.full
         mixed = gained.mixed * (shares if gained.columns is None else shares[:, list(gained.columns)])
         return HandGains(lambda: _given(full) * shares, mixed, gained.columns)
-
-
-class PersonalLimit:
-    """Holds each output within its limit, with the soft limiter.
-
-    `limits` (n_hands,) [-] may be replaced at any time; the limits in force change linearly to the new ones.
-    """
-
-    def __init__(self, limits: NDArray[np.float64], sample_rate_hz: float) -> None:
-        self.limits = self._now = limits
-        self._step = 1.0 / (FULL_SCALE_S * sample_rate_hz)
-
-    def applied(self, mix: Block) -> Block:
-        """The mix (n_frames, n_hands) within the limits."""
-        wanted = self.limits
-        if len(self._now) != len(wanted):  # a hand came or went, and the output was silent meanwhile
-            self._now = wanted
-        if not len(mix) or ((self._now == 1.0).all() and (wanted == 1.0).all()):
-            return mix
-        farthest = self._step * np.arange(1, len(mix) + 1)[:, None]
-        limits = self._now + np.clip(wanted - self._now, -farthest, farthest)
-        self._now = limits[-1]
-        held: Block = (soft_limit((mix / limits).astype(np.float32)) * limits).astype(np.float32)
-        return held
 
 
 def _frequencies_hz(rows: Sequence[LoopRow], bands: Bands) -> NDArray[np.float64]:

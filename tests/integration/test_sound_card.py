@@ -5,12 +5,17 @@ Without a server the tests are skipped with a list of packages to install; with 
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from scipy.signal import butter, sosfiltfilt
 
 from scene2hap.devices.protocol import SinkEvent, SinkFormat
 from scene2hap.devices.soundcard import SoundCardSink
@@ -75,6 +80,51 @@ def test_sound_card_fades_in_and_fades_out_when_the_game_stops(server: SoundServ
     recorder.stop()
     first = int(np.flatnonzero(heard)[0])
     assert heard[first : first + 48].max() < 0.01
+
+
+def level_at_end_db(heard: NDArray[np.float32]) -> float:
+    """Largest sample above 1 kHz at the end of the sound, relative to the largest sample."""
+    last = int(np.flatnonzero(np.abs(heard).max(axis=1) > 1e-6)[-1])
+    high = sosfiltfilt(butter(6, 1000.0, "highpass", fs=RATE, output="sos"), heard, axis=0)
+    return float(20 * np.log10(np.abs(high[last - RATE // 50 : last + RATE // 100]).max() / np.abs(heard).max()))
+
+
+def test_the_card_plays_the_fade_of_a_stop(server: SoundServer) -> None:
+    """PortAudio drops what is in ALSA's buffer when it stops, 0.1 s here; a sound that is cut has -6 to -20 dB."""
+    sink = SoundCardSink(DEVICE)
+    recorder = server.record()
+    with session_on(sink) as session:
+        assert sink.wait_connected(10.0)
+        game = Game(session, lambda _: 0.01)
+        game.start()
+        time.sleep(1.0)
+        game.kill()
+    time.sleep(0.3)
+    assert level_at_end_db(recorder.stop()) < -50.0
+
+
+@pytest.mark.parametrize("last_line", ["pass", "raise ValueError"])
+def test_a_program_that_ends_fades_out_on_the_card(server: SoundServer, last_line: str) -> None:
+    """sounddevice ends PortAudio at the end of a program, which cut the sound, and sometimes never returned."""
+    program = f"""
+import sys, time
+sys.path.insert(0, {str(Path(__file__).parents[1])!r})
+from scene2hap.devices.soundcard import SoundCardSink
+from sound_takes import TOUCHES, session_on
+sink = SoundCardSink({DEVICE!r})
+session = session_on(sink)
+session.start()
+assert sink.wait_connected(10.0)
+end = time.monotonic() + 0.7
+while time.monotonic() < end:
+    session.update(touches=TOUCHES)
+    time.sleep(0.01)
+{last_line}
+"""
+    recorder = server.record()
+    subprocess.run([sys.executable, "-c", program], stderr=subprocess.DEVNULL, timeout=60, check=False)
+    time.sleep(0.3)
+    assert level_at_end_db(recorder.stop()) < -50.0
 
 
 def test_unplugged_sound_card_is_reconnected(server: SoundServer) -> None:
@@ -174,6 +224,19 @@ def test_a_single_hand_is_played_on_its_channel_alone(server: SoundServer) -> No
         time.sleep(1.0)
     heard = recorder.stop()
     assert np.abs(heard).max(axis=0).tolist() == [0.25, 0.0]
+
+
+@pytest.mark.parametrize("n_hands", [2, 3])
+def test_channels_that_a_server_may_drop_are_mentioned(server: SoundServer, n_hands: int) -> None:
+    """The server's card has two channels, of which it says nothing."""
+    events: list[SinkEvent] = []
+    sink = SoundCardSink(DEVICE, on_event=events.append)
+    sink.open(SinkFormat(RATE, ("left", "right", "back")[:n_hands]))
+    sink.start(lambda n_frames: np.zeros((n_frames, n_hands), dtype=np.float32))
+    assert sink.wait_connected(10.0)
+    wait_for(lambda: events)
+    sink.close()
+    assert ("plays nothing on those that the card lacks" in events[0].message) == (n_hands > 2)
 
 
 def test_missing_device_is_refused(server: SoundServer) -> None:

@@ -113,6 +113,34 @@ def test_udp_stream_is_paced_by_the_clock(listener: socket.socket) -> None:
         assert time.monotonic() - began > 0.29
 
 
+def test_a_late_sender_sends_no_backlog_and_counts_it(listener: socket.socket) -> None:
+    """After 50 ms a receiver is silent, and it buffers 20 to 30 ms: blocks that are later would only delay it."""
+    n_calls = 0
+
+    def fill(n_frames: int) -> NDArray[np.float32]:
+        nonlocal n_calls
+        n_calls += 1
+        if n_calls == 10:
+            time.sleep(0.4)
+        return np.zeros((n_frames, 1), dtype=np.float32)
+
+    listener.settimeout(1.0)
+    sink = UdpSink("127.0.0.1", listener.getsockname()[1])
+    sink.open(SinkFormat(8000, ("left",)))
+    sink.start(fill)
+    times_s = []
+    end = time.monotonic() + 1.0
+    while time.monotonic() < end:
+        listener.recv(2048)
+        times_s.append(time.monotonic())
+    found = sink.stats.underruns
+    sink.close()
+    gap = int(np.argmax(np.diff(times_s))) + 1
+    assert times_s[gap] - times_s[gap - 1] > 0.3
+    assert np.searchsorted(times_s, times_s[gap] + 0.02) - gap < 12
+    assert found >= 1
+
+
 def test_receiver_that_starts_later_gets_the_stream(listener: socket.socket) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as reserved:
         reserved.bind(("127.0.0.1", 0))

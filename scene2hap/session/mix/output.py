@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -92,9 +93,7 @@ class Output:
             return
         rate = self._config.sample_rate_hz
         watchdog_s = self._config.watchdog_s if has_clock(self._sink) else None
-        safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s)
-        if self._limits is not None:
-            safety.hold(self._limits)
+        safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s, limits=self._limits)
         claim_sink(self._sink, self)
         try:
             self._sink.open(SinkFormat(rate, tuple(hands)))
@@ -104,9 +103,13 @@ class Output:
                 self._release(self._sink, _discard(self._sink))
             raise
         self._safety = safety
+        if has_clock(self._sink):
+            # A program may end without `stop`: by an error, by Ctrl-C, or at the end of its code. Called before the
+            # sink's own end, which does not fade.
+            atexit.register(self.stop)
 
     def stop(self) -> None:
-        """Fade out, stop the sink and release it; may be called twice."""
+        """Fade out, stop the sink and release it, as at the end of the program; may be called twice."""
         if self._sink is not None and self._safety is not None:
             self._fade_out()
             self._release(self._sink, self._sink.close)
@@ -121,6 +124,7 @@ class Output:
 
     def _release(self, sink: ActuatorSink, end: Callable[[], None]) -> None:
         """Stop a sink and call `end`, `close` or `abort`, also if it does not stop; then give it back."""
+        atexit.unregister(self.stop)
         try:
             try:
                 sink.stop()

@@ -279,16 +279,23 @@ class Playback:
         self._routes.clear()
 
     def pass_over(
-        self, row: LoopRow, of: LoopRow, at_frame: int, lasts_s: float, course: Course, since: Running
+        self,
+        row: LoopRow,
+        of: LoopRow,
+        at_frame: int,
+        lasts_s: float,
+        course: Course,
+        since: Running,
+        after: Passage | None,
     ) -> Passage | None:
-        """Add a row that plays another row once while it starts or stops, from a frame on.
+        """Add a row that plays another row once while it starts or stops, from a frame on; see `Passage`.
 
         Returns None if the other row is still being prepared.
         """
         ready = self._ready.get(of)
         if ready is None:
             return None
-        passage = Passage(ready.bank, self._tactile(at_frame), lasts_s, course, since)
+        passage = Passage(ready.bank, self._tactile(at_frame), lasts_s, course, since, after)
         self._let_in(row, PreparedLoop(passage, ready.peaks), 1)
         return passage
 

@@ -99,7 +99,8 @@ class Switching:
             steady = source.row
             row = LoopRow(source_id, source.state, steady.loop)
             course = Course(goes_up, inferred.spins, steady.loop.start_up if goes_up else steady.loop.wind_down)
-            passage = self._playback.pass_over(row, steady, now, lasts_s, course, since)
+            after = None if before is None else before.passage
+            passage = self._playback.pass_over(row, steady, now, lasts_s, course, since, after)
             if passage is not None:
                 self._passing[source_id] = _Passing(passage, self._playback.end_frame(passage))
                 self._sources.let_pass(source_id, row)

@@ -12,7 +12,7 @@ from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.lattice import lattice_modes
 from scene2hap.propagation.lattice.lattice_body import LatticeBody
-from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper, _warn_coarsened
+from scene2hap.propagation.mass_spring_damper import _WARNED_OF, CoarsenedWarning, MassSpringDamper
 from scene2hap.propagation.plate import Plate
 
 # Values typical of felt, chosen for its softness; 1.5 m x 1 m x 10 mm.
@@ -23,7 +23,7 @@ RUG = Plate(1.5, 1.0, 0.01, FELT)
 @pytest.fixture
 def small_budget(monkeypatch: pytest.MonkeyPatch) -> float:
     monkeypatch.setattr(lattice_modes, "MOST_WORK", 3e6)
-    _warn_coarsened.cache_clear()
+    _WARNED_OF.clear()
     return 3e6
 
 
@@ -39,6 +39,14 @@ def test_rug_is_coarsened_within_the_budget_with_a_warning(small_budget: float) 
     found = body.receptance(at, at, np.array([0.5 * body.limit_hz, 2 * body.limit_hz, 900.0]))
     assert np.isfinite(found).all()
     assert (found[:, [0, 1], [0, 1]].imag < 0).all()
+
+
+def test_a_coarsened_plate_is_mentioned_once_for_all_frequencies(
+    small_budget: float, recwarn: pytest.WarningsRecorder
+) -> None:
+    for top_hz in (1000.0, 990.0, 700.0):
+        MassSpringDamper(resolution=8).elastic_body(RUG, top_hz)
+    assert [item.category for item in recwarn.list] == [CoarsenedWarning]
 
 
 @pytest.mark.parametrize("top_hz", np.linspace(120.0, 300.0, 13))

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings, strategies as st
 from numpy.typing import NDArray
+from scipy.signal import butter, sosfiltfilt
 
 from scene2hap import ActuatorProfile
 from scene2hap.errors import ConfigError
+from scene2hap.render.guards import PeakGuard
 from scene2hap.render.safety import FADE_OUT_S, Budget, SafetyLayer
 
 RATE = 48000
@@ -135,12 +137,47 @@ def test_a_full_scale_sine_passes(frequency_hz: float, phase: float) -> None:
 
 
 @pytest.mark.parametrize("f_max", [50.0, 230.0, 800.0])
-def test_a_sine_passes_other_actuators(f_max: float) -> None:
-    layer = SafetyLayer(Budget(max_amplitude=0.8, max_frequency_hz=f_max), RATE, 1)
+@pytest.mark.parametrize(("most", "passes"), [(0.8, 0.64), (0.5, 0.35), (0.1, 0.07)])
+def test_a_sine_passes_other_actuators(f_max: float, most: float, passes: float) -> None:
+    """Up to 3 dB below the limit, or as far below as full scale is above it: -1.9 dB for -1.9 dB."""
+    layer = SafetyLayer(Budget(max_amplitude=most, max_frequency_hz=f_max), RATE, 1)
     for f in (20.0, f_max / 2):
-        y = layer.process(sine(f, 3.0, 0.8))[RATE:, 0].astype(np.float64)
-        assert 20 * math.log10(y.max() / 0.8) > -0.5
-        assert y.max() <= 0.8
+        y = layer.process(sine(f, 3.0, passes))[RATE:, 0].astype(np.float64)
+        assert 20 * math.log10(y.max() / passes) > -0.5
+
+
+def level_above_1khz_db(y: NDArray[np.float64]) -> float:
+    """Largest sample of what is above 1 kHz, relative to the largest sample. The ends are left out."""
+    high = sosfiltfilt(butter(6, 1000.0, "highpass", fs=RATE, output="sos"), y)
+    inner = slice(RATE // 10, -RATE // 10)
+    return 20 * math.log10(np.abs(high[inner]).max() / np.abs(y[inner]).max())
+
+
+@pytest.mark.parametrize(("most", "f", "at_most_db"), [(0.3, 150.0, -38.0), (0.3, 60.0, -46.0)])
+def test_a_source_too_loud_for_the_actuator_does_not_click(most: float, f: float, at_most_db: float) -> None:
+    """It begins over 20 ms and needs up to 9.5 dB less. A limiter that acts at once has -25 dB to -35 dB."""
+    x = sine(f, 2.0, 0.9).astype(np.float64)
+    x *= (0.5 - 0.5 * np.cos(np.pi * np.clip(np.arange(len(x)) / RATE - 0.5, 0.0, 0.02) / 0.02))[:, None]
+    guard = PeakGuard(most, RATE, 1)
+    y = guard.pass_through(x)[:, 0]
+    assert np.abs(y).max() <= most
+    assert level_above_1khz_db(y) < at_most_db
+    assert guard.n_limited > 0
+    held = np.abs(np.fft.rfft(y[-RATE:] * np.hanning(RATE)))
+    odd = [3 * round(f), 5 * round(f), 7 * round(f)]
+    assert math.hypot(*held[odd]) < 2e-3 * held[round(f)]
+
+
+def test_a_limit_that_changes_does_not_click_and_is_kept() -> None:
+    guard = PeakGuard(np.array([1.0]), RATE, 1)
+    x = sine(150.0, 3.0, 0.6).astype(np.float64)
+    y = [guard.pass_through(x[:RATE])]
+    guard.limit = np.array([0.1])
+    y.append(guard.pass_through(x[RATE : 2 * RATE]))
+    guard.limit = np.array([1.0])
+    y.append(guard.pass_through(x[2 * RATE :]))
+    assert np.abs(y[1][RATE // 20 :]).max() <= 0.1
+    assert level_above_1khz_db(np.concatenate(y)[:, 0]) < -50.0
 
 
 @pytest.mark.parametrize("rate", [8000, 44100, 48000])

@@ -105,6 +105,40 @@ def test_interrupted_start_continues_from_its_level() -> None:
     assert after[-1] == pytest.approx(steady, rel=0.05)
 
 
+@pytest.mark.parametrize("after_s", [0.1, 0.2, 0.3, 0.4])
+@pytest.mark.parametrize("goes_up", [True, False])
+def test_interrupted_start_or_stop_has_no_gap(goes_up: bool, after_s: float) -> None:
+    """Two places of a loop that are out of phase cancel each other while one fades into the other, over 20 ms."""
+    made = session({"start_up_s": 2.0, "wind_down_s": 2.0, "spins": True})
+    made.set_source("alarm", on=False)
+    made.set_source("phone", on=goes_up)
+    envelope(made, 2.5)
+    made.set_source("phone", on=not goes_up)
+    first = round(50 * (after_s if goes_up else 2.0 - after_s))
+    blocks = []
+    for k in range(first + 10):
+        if k == first:
+            made.set_source("phone", on=goes_up)
+        made.update(touches=TOUCH)
+        blocks.append(made.render(RATE // 50))
+    level = np.sqrt(np.convolve(np.concatenate(blocks)[:, 0] ** 2, np.ones(720) / 720, "valid"))
+    before = level[first * RATE // 50 - 2000 :][:1000].mean()
+    assert level[first * RATE // 50 - 720 :][:3500].min() > 0.84 * before
+
+
+def test_interrupted_start_ends_in_phase() -> None:
+    made, plain = session({"start_up_s": 1.0, "wind_down_s": 1.0, "spins": True}), session()
+    for one in (made, plain):
+        one.set_source("alarm", on=False)
+        envelope(one, 0.5)
+        one.set_source("phone", on=False)
+        envelope(one, 0.3)
+        one.set_source("phone", on=True)
+        envelope(one, 1.5)
+        one.update(touches=TOUCH)
+    np.testing.assert_allclose(made.render(4800), plain.render(4800), atol=1e-4)
+
+
 def test_switching_causes_no_click() -> None:
     made = session({"start_up_s": 0.3, "wind_down_s": 0.6, "spins": True})
     blocks = []
