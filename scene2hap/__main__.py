@@ -4,26 +4,44 @@ import signal
 import sys
 import threading
 from _thread import interrupt_main
+from types import FrameType
 
 INTERRUPTED = 130
 """Exit status of an interrupted program: 128 and the number of the signal, as shells report it."""
+TERMINATED = 143
+"""Exit status of a program that SIGTERM ended: `kill`, a service manager, a container or a batch system."""
 _AGAIN_S = 0.05
 
 
 def main() -> int:
-    """Run the command line. Ctrl-C ends it at any time with status 130 and without a traceback."""
+    """Run the command line. Ctrl-C or SIGTERM ends it at any time with status 130 or 143 and without a traceback."""
     sys.unraisablehook = _interrupt_again
+    terminations: list[int] = []
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        """Do what Ctrl-C does at present."""
+        terminations.append(number)
+        on_interrupt = signal.getsignal(signal.SIGINT)
+        (on_interrupt if callable(on_interrupt) else signal.default_int_handler)(number, frame)
+
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN and hasattr(signal, "pthread_sigmask"):
+        # A shell lets its background processes ignore Ctrl-C. It stays without effect there, but has a handler.
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGTERM, interrupt)
     try:
         # Imported here, since an interrupt may come during imports, which take a second.
         from scene2hap.cli import main as run
 
-        return run()
+        status = run()
     except KeyboardInterrupt:
         print("scene2hap: interrupted.", file=sys.stderr)
-        return INTERRUPTED
+        status = INTERRUPTED
     finally:
         # Python would print a traceback for an interrupt while it exits.
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    return TERMINATED if terminations and status == INTERRUPTED else status
 
 
 def _interrupt_again(unraisable: "sys.UnraisableHookArgs") -> None:

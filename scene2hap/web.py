@@ -192,9 +192,12 @@ async def exchange(
         never = isinstance(
             cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL | httpx.TooManyRedirects
         )
-        problem = scrub(str(cause)) or type(cause).__name__
+        problem = (scrub(str(cause)) or type(cause).__name__).rstrip(".")
+        proxy = " It goes through the proxy of HTTP_PROXY, HTTPS_PROXY or ALL_PROXY, unless NO_PROXY names the host."
         raise BackendUnavailable(
-            f"{url} cannot be reached: {problem}. Check the network, the server and the address.", retryable=not never
+            f"{url} cannot be reached: {problem}. Check the network, the server and the address."
+            f"{proxy if transport is None and getproxies().keys() & {'http', 'https', 'all'} else ''}",
+            retryable=not never,
         ) from _without_frames(cause, scrub)
     return WebReply(url, response.status_code, content, dict(response.headers))
 
@@ -259,6 +262,8 @@ def _client(transport: Transport | None, timeout_s: float, check: Callable[..., 
     import httpx
 
     try:
+        for proxy in getproxies().values():
+            _ = urlsplit(proxy).port  # raises for a port that is no number up to 65535
         return httpx.AsyncClient(
             transport=transport,
             timeout=httpx.Timeout(timeout_s, connect=min(CONNECT_TIMEOUT_S, timeout_s)),

@@ -29,7 +29,7 @@ from scene2hap.llm.material_check import Estimate, from_model, from_table, witho
 from scene2hap.llm.plausibility import row_of
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import LLMBackend
-from scene2hap.llm.questions import Questions
+from scene2hap.llm.questions import Questions, Slots
 from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
@@ -93,7 +93,7 @@ async def infer_scene(
     questions = Questions(
         backend,
         Prompts.load(settings.prompts),
-        settings.concurrency,
+        getattr(backend, "slots", None) or Slots(settings.concurrency),
         user_prompt=user_prompt,
         temperature=settings.temperature,
         wishes=wishes,

@@ -23,8 +23,20 @@ from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
 
 
+class Slots:
+    """Limit of concurrent questions, which the questions of several scenes can share.
+
+    `n_running` questions are with the backend now; `is_stopping` is true once a cancellation has been reported.
+    """
+
+    def __init__(self, n_slots: int) -> None:
+        self.free = asyncio.Semaphore(n_slots)
+        self.n_running = 0
+        self.is_stopping = False
+
+
 class Questions:
-    """Send questions to a backend, at most `concurrency` at once, and keep the report.
+    """Send questions to a backend, as many at once as there are slots, and keep the report.
 
     An error that would affect every further question (an exhausted budget, a rejected key, a recording that does not
     match) stops all questions. Running calls are completed, so that their answers are kept, and no new call begins.
@@ -35,7 +47,7 @@ class Questions:
         self,
         backend: LLMBackend,
         prompts: Prompts,
-        concurrency: int,
+        slots: Slots,
         *,
         user_prompt: str = "",
         temperature: float = 0.2,
@@ -43,10 +55,9 @@ class Questions:
     ) -> None:
         self.report = InferenceReport()
         self.closed_by: Exception | None = None
-        self._n_running = 0
         self._backend = backend
         self._prompts = prompts
-        self._slots = asyncio.Semaphore(concurrency)
+        self._slots = slots
         self._user_prompt = user_prompt
         self._temperature = temperature
         self._wishes = wishes or {}
@@ -65,7 +76,7 @@ class Questions:
 
     async def _kept(self, request: LLMRequest) -> LLMReply:
         """Return the backend's reply. A cancelled call ends first, since it is paid for and a cache may keep it."""
-        self._n_running += 1
+        self._slots.n_running += 1
         running = asyncio.ensure_future(self._completed(request))
         try:
             return await asyncio.shield(running)
@@ -78,15 +89,18 @@ class Questions:
             raise
         finally:
             running.cancel()  # has an effect only after a second cancellation
-            self._n_running -= 1
+            self._slots.n_running -= 1
 
     def _close_for_cancellation(self) -> None:
         if self.closed_by is not None:
             return
         self.closed_by = BackendUnavailable("the questions were cancelled.")
+        if self._slots.is_stopping:
+            return
+        self._slots.is_stopping = True
         warnings.warn(
-            f"stopping: {counted(self._n_running, 'question')} to the model will be answered first, since the answers "
-            "are paid for. Interrupt again to stop at once.",
+            f"stopping: {counted(self._slots.n_running, 'question')} to the model will be answered first, since the "
+            "answers are paid for. Interrupt again to stop at once.",
             chat.BackendWarning,
             stacklevel=2,
         )
@@ -114,7 +128,7 @@ class Questions:
             images=images,
             temperature=self._temperature,
         )
-        async with self._slots:
+        async with self._slots.free:
             reply = await self._counted(request)
         answer = _validated(reply, shape, chat.about(request))
         kept_as = f", {reply.key[:19]}" if reply.key else ""

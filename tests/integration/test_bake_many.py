@@ -199,6 +199,24 @@ def test_a_cancelled_run_keeps_the_answers_that_all_its_scenes_have_paid_for(
     assert len(list((tmp_path / "answers").glob("*.json"))) == 2
 
 
+def test_a_cancelled_run_sends_no_question_that_waits_for_another_scene(scenes: list[Path], tmp_path: Path) -> None:
+    async def cancelled() -> None:
+        held = Held()
+        running = asyncio.ensure_future(abake_many(scenes[:2], tmp_path, config={"llm": held, "concurrency": 1}))
+        while not held.calls:
+            await asyncio.sleep(0.01)
+        await asyncio.sleep(0.5)  # the other scene waits
+        running.cancel()
+        await asyncio.sleep(0.1)
+        held.calls[0].set()
+        with pytest.raises(asyncio.CancelledError):
+            await asyncio.wait_for(running, 5.0)
+        assert len(held.calls) == 1
+
+    with pytest.warns(BackendWarning, match="1 question to the model"):
+        asyncio.run(cancelled())
+
+
 def test_reading_a_scene_hides_only_the_warnings_that_workers_repeat(
     scenes: list[Path], plain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -1,4 +1,4 @@
-"""Ctrl-C ends the program quietly with status 130: during imports, in a command, and where Python drops exceptions."""
+"""Ctrl-C and SIGTERM end the program quietly with status 130 or 143, wherever it is, and with the answers paid for."""
 
 from __future__ import annotations
 
@@ -6,10 +6,14 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
 import pytest
+
+from batch_server import answered
+from llm_server import Asked, Scripted, serving
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for one process")
 
@@ -90,3 +94,40 @@ def test_a_command_ends_quietly_whenever_it_is_interrupted(after_s: float, tmp_p
     assert "Traceback" not in errors
     assert "ignored" not in errors
     assert not (tmp_path / "bundle").exists() or status == 0
+
+
+IN_BACKGROUND = """import os, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
+"""
+
+
+@pytest.mark.parametrize("shell", [IN_FOREGROUND, IN_BACKGROUND], ids=["foreground", "background"])
+def test_sigterm_keeps_the_answers_that_are_paid_for(shell: str, tmp_path: Path) -> None:
+    scene = Path(__file__).parents[2] / "scene2hap" / "demo" / "kitchen.glb"
+    began, go_on = threading.Event(), threading.Event()
+
+    def slow(asked: Asked) -> Scripted:
+        began.set()
+        go_on.wait(30.0)
+        return answered(asked)
+
+    with serving(by=slow) as server:
+        arguments = ["bake", str(scene), "-o", str(tmp_path / "bundle"), "--cache", str(tmp_path / "cache")]
+        arguments += ["--llm", "local:scripted", "--base-url", f"{server.base_url}/v1", "--no-pictures"]
+        command = [sys.executable, "-c", shell, "-c", WHOLE_PROGRAM, *arguments]
+        with subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        ) as process:
+            try:
+                assert began.wait(30.0)
+                process.send_signal(signal.SIGTERM)
+                time.sleep(0.5)
+                go_on.set()
+                _, errors = process.communicate(timeout=30)
+            finally:
+                process.kill()
+    assert process.returncode == 143
+    assert "1 question to the model will be answered first" in errors
+    assert len(list((tmp_path / "cache").glob("*.json"))) == 1
+    assert len(server.asked) == 1

@@ -38,6 +38,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
+from scene2hap.llm.questions import Slots
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import identity, reports
 from scene2hap.llm.wrappers.prices import price_list
@@ -143,16 +144,18 @@ def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
 
 
 class _Limited(Wrapper):
-    """Limit the number of concurrent questions over all scenes."""
+    """Limit the number of concurrent questions over all scenes: `infer_scene` takes the slots of its backend.
+
+    A question that waits for a slot is not sent after a cancellation.
+    """
 
     def __init__(self, inner: Any, n_at_once: int) -> None:
         super().__init__(inner)
-        self._slots = asyncio.Semaphore(n_at_once)
+        self.slots = Slots(n_at_once)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """Return the inner backend's answer, waiting if too many questions are in progress."""
-        async with self._slots:
-            return await self.inner.complete(request)
+        """Return the inner backend's answer."""
+        return await self.inner.complete(request)
 
 
 @dataclass(frozen=True)

@@ -120,6 +120,7 @@ def _checked_url(base_url: str) -> str:
         raise ConfigError(f"base_url is {checks.represented(base_url)}; it must be a text with the server's address.")
     try:
         parts = urlsplit(base_url)
+        _ = parts.port  # raises for a port that is no number up to 65535
     except ValueError as cause:
         raise ConfigError(f"base_url is no address: {cause}. It must look like 'https://api.openai.com/v1'.") from cause
     if "@" in parts.netloc or parts.query:

@@ -2,15 +2,18 @@
 
 1. A name is split into words at separators, digits and changes of case. Run-together words are split if all pieces are
    known ("kitchentable").
-2. A preposition and all words after it are ignored ("bottle_of_wine").
+2. A preposition and all words after it are ignored ("table_with_vase"), and so is a remark in parentheses after a noun
+   ("train_(railroad_vehicle)"). A "bottle_of_wine" is a wine bottle if the table has one, else a bottle.
 3. The last noun is the object, as in English compounds, and the longest match is used: a sink counter is a counter, a
    coffee machine is no coffee. Words for tools, sides, colours and rooms are never the object.
-4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee). A
-   container precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in it
-   (wall_doorway), and a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their
-   joints (shoulder_pan_link), which are no objects.
+4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee), but
+   a machine comes before its parts and before what it works with: a printer_label is no label printer. A container
+   precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in it (wall_doorway), and
+   a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their joints
+   (shoulder_pan_link), which are no objects.
 5. The room or zone of a machine is no machine (engine_room).
-6. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
+6. The size of a metric thread says that the object belongs to a bolt: "washer_M8" is no washing machine.
+7. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
 """
 
 from __future__ import annotations
@@ -35,6 +38,7 @@ _LONGEST_NOUN = 4  # words
 _HOLDS = {"container": ("vessel", "content"), "vessel": ("content",)}
 # 3ds Max gives its primitives such names; "Box_01" is a box.
 _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
+_THREAD = re.compile(r"(?<![^\W_])M\d{1,2}(?![^\W_xX])")
 
 
 @dataclass(frozen=True)
@@ -79,11 +83,14 @@ def read_name(name: str) -> NameReading:
         return unknown
     counted = word_split.counted_words(name)
     nouns = [noun for noun in _nouns(tokens, counted) if not _is_of_robot(tokens, noun)]
-    clause = _before_preposition(tokens, nouns)
+    clause, remark = _before_preposition(tokens, nouns), _before_remark(name, tokens, nouns)
+    said = tokens[remark:]
+    clause = min(clause, remark)
     nouns = [noun for noun in nouns if noun.end <= clause]
     if not nouns:
         return unknown
     head = _head(tokens, nouns, counted)
+    head = _of_a_kind(tokens, head, clause) or _of_a_bolt(name, tokens, head) or head
     turned = _object_first(tokens[:clause], nouns)
     if turned is not None:
         trust *= 1.0 if turned.row is head.row else _OBJECT_FIRST
@@ -94,7 +101,7 @@ def read_name(name: str) -> NameReading:
     behind = tuple(tokens[i] for i in range(head.end, clause) if i not in in_nouns and not _is_beside(tokens[i]))
     before = tuple(word for word in tokens[: head.start] if word in unread)
     trust *= (_UNREAD_BEFORE if before else 1.0) * (_UNREAD_AFTER if behind else 1.0)
-    rest = [*tokens[: head.start], *tokens[head.end : clause]]
+    rest = [*tokens[: head.start], *tokens[head.end : clause], *said]
     return NameReading(
         name,
         tuple(tokens),
@@ -103,7 +110,7 @@ def read_name(name: str) -> NameReading:
         head=" ".join(tokens[head.start : head.end]),
         unread=before + behind,
         material=_material_in(rest),
-        toy=any(word in words.TOY_WORDS for word in tokens[: head.start]),
+        toy=any(word in words.TOY_WORDS for word in (*tokens[: head.start], *said)),
         whole=_whole(tokens, head, nouns),
     )
 
@@ -164,6 +171,29 @@ def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:
     return len(tokens)
 
 
+def _before_remark(name: str, tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:
+    """Return the number of words before a remark in parentheses, if one of them is a noun; else that of all words."""
+    before = len(word_split.read_words(name.partition("(")[0])[0])
+    return before if any(noun.end <= before for noun in nouns) else len(tokens)
+
+
+def _of_a_kind(tokens: Sequence[str], head: _Noun, clause: int) -> _Noun | None:
+    """Return the noun of the table that "X of Y" means (Y X), or None."""
+    if tokens[clause : clause + 1] != ["of"] or head.end != clause:
+        return None
+    kind = tokens[clause + 1 :]
+    spelled = ([*kind[start:], *tokens[head.start : head.end]] for start in range(len(kind)))
+    found = (_noun_at(written, 0, len(written)) for written in spelled if len(written) <= _LONGEST_NOUN)
+    return next((_Noun(noun.row, head.start, head.end, head.plural) for noun in found if noun is not None), None)
+
+
+def _of_a_bolt(name: str, tokens: Sequence[str], head: _Noun) -> _Noun | None:
+    """Return the ring or nut of a bolt that a noun means beside the size of a thread, or None."""
+    written = ["bolt", *tokens[head.start : head.end]]
+    noun = _noun_at(written, 0, len(written)) if _THREAD.search(name) else None
+    return noun and _Noun(noun.row, head.start, head.end, head.plural)
+
+
 def _head(tokens: Sequence[str], nouns: Sequence[_Noun], counted: frozenset[str]) -> _Noun:
     """Return the noun that names the object: the last, but for leftovers, materials, content, openings, counted parts.
 
@@ -200,10 +230,20 @@ def _object_first(tokens: Sequence[str], nouns: Sequence[_Noun]) -> _Noun | None
     if len(telling) < 2:
         return None
     first, second = telling[-2:]
+    if _is_of_machine(nouns, first, second):
+        return None
     entry = word_split.nouns().get(tokens[second] + tokens[first])
     if entry is None or entry[1] != (tokens[second], tokens[first]) or _noun_at((tokens[first], tokens[second]), 0, 2):
         return None
     return _Noun(entry[0], first, second + 1, plural=False)
+
+
+def _is_of_machine(nouns: Sequence[_Noun], first: int, second: int) -> bool:
+    """Return True if a machine is followed by its part or by what it works with: "sander_belt", "printer_label"."""
+    before, after = (next((noun for noun in nouns if noun.start == i), None) for i in (first, second))
+    if before is None or after is None or before.row.noun in words.GENERAL_NOUNS:
+        return False
+    return before.row.vibrates and after.row.role in ("part", "content")
 
 
 def _whole(tokens: Sequence[str], head: _Noun, nouns: Sequence[_Noun]) -> ObjectRow | None:

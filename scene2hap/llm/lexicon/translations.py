@@ -17,44 +17,98 @@ _ENGLISH = frozenset({"four", "lit", "cubo", "piso", "bank", "trap", "kop", "wan
 
 _COMPOUNDING = ("de", "nl")
 _SHORTEST_PIECE = 3  # letters
+_SHORTEST_HEAD = 5  # letters; shorter words of German end hundreds of English words ("furni-tur")
 _LINKS = ("", "n", "s", "en", "es", "e")
+
+_PLURALS: dict[str, dict[str, tuple[str, ...]]] = {
+    "de": {"en": ("",), "er": ("",), "e": ("",), "n": ("",), "s": ("",)},
+    "nl": {"en": ("",), "n": ("",), "s": ("",)},
+    "es": {"es": ("",), "s": ("",)},
+    "pt": {"oes": ("ao",), "es": ("",), "s": ("",)},
+    "fr": {"s": ("",), "x": ("",)},
+    "it": {"i": ("o", "e"), "e": ("a",)},
+    "pl": {"y": ("a", ""), "i": ("a", ""), "a": ("o",), "e": ("",)},
+    "ru": {"ы": ("а", ""), "и": ("а", "ь", ""), "а": ("о",)},
+}
+"""Endings of plurals by language, and the endings of their singulars. An umlaut is an accent, which is removed."""
+
+OF = frozenset({"de", "du", "des", "di", "del", "della", "da", "do"})
+"""Words of Romance languages between an object and its kind: "porte de garage" is a garage door."""
+
+ARTICLES = frozenset({"la", "le", "les", "el", "los", "las", "il", "lo", "gli"})
 
 
 @cache
 def english() -> dict[str, tuple[str, ...]]:
     """Return the English words by foreign word. If two languages share a word, the first one in the file is used."""
     found: dict[str, tuple[str, ...]] = {}
-    for _, word, meaning in _rows():
-        if word not in _ENGLISH:
-            found.setdefault(word, meaning)
+    for language, word, meaning in _rows():
+        for spelled in (word, _folded(language, word)):
+            if spelled not in _ENGLISH:
+                found.setdefault(spelled, meaning)
     return found
+
+
+def plural(word: str) -> tuple[str, ...]:
+    """Return the English words of a foreign plural ("stuhle": chair), () if no language has its singular."""
+    if word in english():
+        return ()
+    return next((meaning for language in _PLURALS if (meaning := _plural_in(language, word))), ())
 
 
 def compound(word: str) -> tuple[str, ...]:
-    """Return the English words of a German or Dutch compound ("gartenstuhl"), () if a piece of it is unknown.
+    """Return the English words of a German or Dutch compound ("gartenstuhl"), () if its last piece is unknown.
 
-    The last piece is the object, as in English. A linking "n", "s", "en" or "es" may follow the other pieces.
+    The last piece is the object, as in English; it may be a plural. A linking "n", "s", "en" or "es" may follow the
+    first piece. An unknown first piece is returned as it is, since it is only the kind of the object ("puppenhaus").
     """
-    for pieces in _pieces().values():
-        for end in range(len(word) - _SHORTEST_PIECE, _SHORTEST_PIECE - 1, -1):
-            head, last = word[:end], pieces.get(word[end:])
-            if last is None:
-                continue
-            stems = (head.removesuffix(link) for link in _LINKS if head.endswith(link))
-            first = next((pieces[stem] for stem in stems if stem in pieces), None)
-            if first is not None:
-                return (*first, *last)
-    return ()
+    return next((found for language in _COMPOUNDING if (found := _compound_in(language, word))), ())
+
+
+def _compound_in(language: str, word: str) -> tuple[str, ...]:
+    kind_of: tuple[str, ...] = ()
+    pieces, word = _dictionaries()[language], _folded(language, word)
+    for end in range(_SHORTEST_PIECE, len(word) - _SHORTEST_PIECE + 1):
+        head, tail = word[:end], word[end:]
+        singular = pieces.get(tail)
+        last = singular or _plural_in(language, tail)
+        if not last:
+            continue
+        stems = (head.removesuffix(link) for link in _LINKS if head.endswith(link))
+        first = next((pieces[stem] for stem in stems if stem in pieces), None)
+        if first is not None:
+            return (*first, *last)
+        if not kind_of and len(tail) >= _SHORTEST_HEAD + (0 if singular else 2) and tail not in _ENGLISH:
+            kind_of = (head, *last)
+    return kind_of
+
+
+def _plural_in(language: str, word: str) -> tuple[str, ...]:
+    """Return the English words of a plural of one language, () if it is none."""
+    word = _folded(language, word)
+    singulars = (
+        word.removesuffix(ending) + singular
+        for ending, replaced in _PLURALS[language].items()
+        if word.endswith(ending)
+        for singular in replaced
+    )
+    known = _dictionaries()[language]
+    return next((known[word] for word in singulars if word in known and word not in _ENGLISH), ())
 
 
 @cache
-def _pieces() -> dict[str, dict[str, tuple[str, ...]]]:
-    """Return the words of each language that writes compounds as one word."""
-    found: dict[str, dict[str, tuple[str, ...]]] = {language: {} for language in _COMPOUNDING}
+def _dictionaries() -> dict[str, dict[str, tuple[str, ...]]]:
+    """Return the English words by foreign word, for each language."""
+    found: dict[str, dict[str, tuple[str, ...]]] = {language: {} for language in _PLURALS}
     for language, word, meaning in _rows():
-        if language in found and len(word) >= _SHORTEST_PIECE:
-            found[language].setdefault(word, meaning)
+        if len(word) >= _SHORTEST_PIECE:
+            found[language].setdefault(_folded(language, word), meaning)
     return found
+
+
+def _folded(language: str, word: str) -> str:
+    """Return a German word with its umlauts as plain letters, whether they were written "ü" or "ue"."""
+    return word.replace("ae", "a").replace("oe", "o").replace("ue", "u") if language == "de" else word
 
 
 def _rows() -> Iterator[tuple[str, str, tuple[str, ...]]]:

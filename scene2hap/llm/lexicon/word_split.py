@@ -17,6 +17,8 @@ _SLIP = 0.6
 
 _COUNTED = re.compile(r"(?<!\d)(?:[2-9]|1\d)[\W_]*([^\W\d_]+)")
 
+_BETWEEN = words.PREPOSITIONS | translations.OF
+
 _SHORTEST_PIECE = 3  # letters; shorter pieces occur inside almost any word
 _SHORT_PIECES = frozenset({"tv", "pc"})
 _LONGEST_RUN = 40  # letters; longer words do not occur
@@ -27,7 +29,7 @@ def read_words(name: str) -> tuple[list[str], float]:
     """Return the words of a name, translated, split and corrected, and the confidence in them [0..1]."""
     trust = 1.0
     tokens: list[str] = []
-    for word in _joined(_without_shades(split_words(name))):
+    for word in _in_english_order(_joined(_without_shades(split_words(name)))):
         pieces, factor = _known_pieces(word)
         tokens.extend(pieces)
         trust *= factor
@@ -51,8 +53,9 @@ def split_words(name: str) -> list[str]:
 
 
 def _plain(name: str) -> str:
-    """Return a name without accents."""
-    return "".join(letter for letter in unicodedata.normalize("NFKD", name) if not unicodedata.combining(letter))
+    """Return a name without accents. Unicode has no accent for the stroke of the Polish "ł"."""
+    letters = unicodedata.normalize("NFKD", name.replace("ł", "l").replace("Ł", "L"))
+    return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
 
 def _without_shades(tokens: Sequence[str]) -> list[str]:
@@ -74,6 +77,28 @@ def _joined(tokens: Sequence[str]) -> list[str]:
         else:
             joined.append(word)
     return joined
+
+
+def _in_english_order(tokens: Sequence[str]) -> list[str]:
+    """Put the kind of a foreign object before it: "porte de garage" becomes "garage porte"."""
+    ordered: list[str] = []
+    rest = list(tokens)
+    while rest:
+        word = rest.pop(0)
+        kind = 0
+        while word in translations.OF and ordered and kind < len(rest) and rest[kind] not in _BETWEEN:
+            kind += 1
+        if any(map(_is_foreign, (*ordered[-1:], *rest[:kind]))) and kind:
+            of = [part for part in rest[:kind] if part not in translations.ARTICLES]
+            ordered[-1:] = [*of, ordered[-1]]
+            rest = rest[kind:]
+        else:
+            ordered.append(word)
+    return ordered
+
+
+def _is_foreign(word: str) -> bool:
+    return not is_known(word) and bool(translations.english().get(word) or translations.plural(word))
 
 
 def _at_capitals(run: str) -> Iterator[str]:
@@ -106,6 +131,9 @@ def _known_pieces(word: str) -> tuple[tuple[str, ...], float]:
     pieces = _cut(word)
     if pieces:
         return pieces, _RUN_TOGETHER
+    meaning = translations.plural(word)
+    if meaning:
+        return meaning, _TRANSLATED
     meaning = translations.compound(word)
     if meaning:
         return meaning, _TRANSLATED * _RUN_TOGETHER
@@ -132,7 +160,7 @@ def _is_piece(text: str) -> bool:
     """Return True if a word can be part of a run-together word: a noun or a word beside nouns, not a fragment."""
     if text in _SHORT_PIECES:
         return True
-    if len(text) < _SHORTEST_PIECE or text in words.PREPOSITIONS:
+    if len(text) < _SHORTEST_PIECE:
         return False
     return any(form in _whole_words() and _is_long_enough(form) for form in words.forms(text))
 
@@ -181,7 +209,7 @@ def _vocabulary() -> frozenset[str]:
 
 @cache
 def _whole_words() -> frozenset[str]:
-    return frozenset({*nouns(), *words.MATERIAL_WORDS}) | side_words()
+    return (frozenset({*nouns(), *words.MATERIAL_WORDS}) | side_words()) - words.PREPOSITIONS
 
 
 @cache

@@ -151,6 +151,9 @@ PAINT_WORDS = {
 MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
 """Nouns that name a material after another noun (tableGlass), not another object."""
 
+GENERAL_NOUNS = frozenset({"machine"})
+"""Nouns whose neighbour names the kind of the object in either order: coffee machine, machine_coffee."""
+
 LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house", "backsplash", "splashback", "wc"})
 """Nouns that are no objects after another noun. Exporters write "Burner_mat_0", designers "ham_trash" and
 "sofa_orange". A "counter_backsplash" is a counter with a backsplash, a "mirror_wc" hangs in one."""
@@ -172,8 +175,11 @@ SHELLS = frozenset({"wall", "brick wall", "concrete wall", "dungeon wall", "tile
 OPENINGS = frozenset({"window", "door", "doorway", "arch", "gate", "window frame"})
 """Openings that building kits use to name a piece of wall: "wall_window_closed" is a wall."""
 
-PREPOSITIONS = _set("of with on in for at by from under near without beside behind inside over against")
-"""The noun before one of these is the object: a bottle of wine, a table with a vase."""
+PREPOSITIONS = _set("""
+    of with on in for at by from under near without beside behind inside over against
+    mit ohne auf met voor avec sans pour con sin para senza per
+""")
+"""The noun before one of these is the object: a bottle of wine, a table with a vase, ein Stuhl mit Lehne."""
 
 _IRREGULAR = {
     "shelves": "shelf",

@@ -170,4 +170,4 @@ def _key(request: LLMRequest, identity: dict[str, Any]) -> str:
 
 
 def _cannot_write(folder: Path, cause: OSError) -> ConfigError:
-    return ConfigError(f"cannot write the cache {folder}: {reason_of(cause)}. Give a folder that can be written.")
+    return ConfigError(f"cannot write the cache {folder}: {reason_of(cause)}. Free its disk, or give another folder.")

@@ -133,8 +133,24 @@ def test_get_sends_the_key_and_has_its_own_timeout() -> None:
         asyncio.run(endpoint.get("slow", 0.02))
 
 
-def test_error_names_an_invalid_proxy_without_its_password(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("ALL_PROXY", "nonsense://me:hunter2@127.0.0.1")
+@pytest.mark.parametrize("proxy", ["nonsense://me:hunter2@127.0.0.1", "http://me:hunter2@127.0.0.1:99999"])
+def test_error_names_an_invalid_proxy_without_its_password(proxy: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ALL_PROXY", proxy)
     with pytest.raises(ConfigError, match="Check ALL_PROXY") as caught:
         asyncio.run(Endpoint("https://model.example", Secret(), 1.0).post("chat", {}))
     assert "hunter2" not in "".join(traceback.format_exception(caught.value))
+
+
+def test_error_names_the_proxy_that_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("http_proxy", "http://me:hunter2@127.0.0.1:1")
+    monkeypatch.delenv("no_proxy", raising=False)
+    monkeypatch.delenv("NO_PROXY", raising=False)
+    with pytest.raises(BackendUnavailable, match="through the proxy of HTTP_PROXY") as caught:
+        asyncio.run(Endpoint("http://model.example/v1", Secret(), 5.0).post("chat", {}))
+    assert "hunter2" not in "".join(traceback.format_exception(caught.value))
+
+
+@pytest.mark.parametrize("port", ["114340", "abc"])
+def test_address_with_an_impossible_port_is_refused(port: str) -> None:
+    with pytest.raises(ConfigError, match="base_url is no address: [Pp]ort"):
+        Endpoint(f"http://127.0.0.1:{port}/v1", Secret(), 1.0)

@@ -124,7 +124,9 @@ NAMES = {
     "chairDesk": "desk chair",
     "stoolBar": "bar stool",
     "tableGlass": "table",
-    "bottle_of_wine": "bottle",
+    "bottle_of_wine": "wine bottle",
+    "bottle_of_sealant": "bottle",
+    "can_of_soda": "soda can",
     "table_with_vase": "table",
     "towel_on_washer": "towel",
     "shelf_with_radio": "shelf",
@@ -156,6 +158,21 @@ NAMES = {
     "tractor_hood": "bonnet",
     "fan_guard": "vent grille",
     "crane_operator": "machine operator",
+    # a machine before what it works with, or before its part, is no machine; a general word is
+    "printer_label": "label",
+    "pump_oil": "olive oil",
+    "sander_belt": "belt",
+    "machine_coffee": "coffee machine",
+    "Freezer_Chest_Open": "freezer",
+    # the size of a thread beside a homonym
+    "washer_M8": "flat washer",
+    "washer_large_M5x20": "flat washer",
+    "washer_M": "washing machine",
+    "BMW_M3_car": "car",
+    # a remark in parentheses
+    "train_(railroad_vehicle)": "train",
+    "mixer_(kitchen_tool)": "mixer",
+    "Chevrolet (car)": "car",
     # inside a car and on a ship
     "Steering column": "steering column",
     "Gear lever": "gear shift",
@@ -168,6 +185,35 @@ NAMES = {
     "Waschmaschinentuer": "door",
     "Staubsaugerbeutel": "bag",
     "Waschmaschinenzorgon": None,
+    "Zorgonflasche": "bottle",
+    "Babyflasche": "baby bottle",
+    "furniture": None,
+    "riverbank": None,
+    # umlauts, and plurals of other languages
+    "Bäume": "tree",
+    "Baeume": "tree",
+    "Stühle_03": "chair",
+    "Stuehle": "chair",
+    "Küchenschränke": "cabinet",
+    "Kuehlschraenke": "refrigerator",
+    "Tür": "door",
+    "stoelen": "chair",
+    "sillas": "chair",
+    "cajones": "drawer",
+    "rideaux": "curtain",
+    "sedie": "chair",
+    "tavoli": "table",
+    "krzesła": "chair",
+    "Stół": "table",
+    "лампы": "lamp",
+    # the kind of an object after "de", and what stands with it
+    "Rideau de douche": "shower curtain",
+    "porte_de_garage": "garage door",
+    "ventilador de techo": "ceiling fan",
+    "puerta de la ducha": "shower door",
+    "Stuhl mit Tisch": "chair",
+    "mesa con lampara": "table",
+    "constable": None,
     "lave-linge": "washing machine",
     "Haut Parleur": "speaker",
     "Waschmaschine_01": "washing machine",
@@ -240,6 +286,11 @@ def test_confidence_falls_with_unread_words_and_spelling_errors() -> None:
 )
 def test_adjective_names_a_material(name: str, material: str | None) -> None:
     assert read_name(name).material == material
+
+
+def test_a_remark_in_parentheses_names_material_and_toy() -> None:
+    assert read_name("Tisch (Holz)").material == "wood"
+    assert read_name("car (toy)").toy
 
 
 def test_toys_and_parts_are_distinguished_from_the_whole_object() -> None:
