@@ -59,7 +59,7 @@ class Plan(NamedTuple):
         body_pair, bond = self.body_pair, self.bond
         if self.rest is not None:
             x, y = (body_pair.a, body_pair.b) if bond.faller == body_pair.a.id else (body_pair.b, body_pair.a)
-            points = rest_points(x, y, self.rest)
+            points = rest_points(x, y, self.rest, self.within_m)
         else:
             points = body_pair.points(bond.way_m, self.within_m)
         n = len(points)
