@@ -92,7 +92,7 @@ cdef void compare(Nearest* search, const Nodes* leaves) noexcept:
     cdef Py_ssize_t i, j
     cdef int row, nearest = 0, axis
     cdef double distance
-    meet(&found, face_of(&search.guest, leaves.guest), face_of(&search.host, leaves.host), search.best)
+    meet(&found, face_of(&search.guest, leaves.guest), face_of(&search.host, leaves.host), search.best, -1.0)
     if not found.n:
         return
     for row in range(1, found.n):
@@ -133,6 +133,7 @@ cdef struct Points:
 cdef struct Spreading:
     Tree guest, host
     double within
+    double loose                  # crossings between ends within this distance are left out
     double way[3]
     double[MAX_POINTS][3] places  # the next point is to be far from each of these
     int n_places
@@ -146,12 +147,19 @@ cdef struct Spreading:
 
 
 def contact_points(host, guest, turn, shift, way, double within):
+    return points_without(host, guest, turn, shift, way, within, within) or points_without(
+        host, guest, turn, shift, way, within, -1.0
+    )
+
+
+cdef points_without(host, guest, turn, shift, way, double within, double loose):
+    """Return the contact points without crossings between ends within `loose`."""
     cdef Spreading search
     cdef double[MAX_POINTS][6] chosen
     cdef Placement at = placement_of(turn, shift), moved = at
     cdef int k, n
     memset(&search, 0, sizeof(Spreading))
-    search.within = within
+    search.within, search.loose = within, loose
     for k in range(3):
         search.way[k] = way[k]
         moved.shift[k] = at.shift[k] + search.way[k]
@@ -301,7 +309,7 @@ cdef void collect(Spreading* search, const Nodes* leaves) noexcept:
     cdef double[3] middle
     cdef double apart
     cdef int row, axis, k
-    meet(&found, face_of(&search.guest, leaves.guest), face_of(&search.host, leaves.host), search.within)
+    meet(&found, face_of(&search.guest, leaves.guest), face_of(&search.host, leaves.host), search.within, search.loose)
     for row in range(found.n):
         if found.distance[row] > search.within:
             continue

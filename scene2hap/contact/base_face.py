@@ -18,11 +18,12 @@ from scene2hap.contact.geometry.vectors import Floats, Triple, along, cross, hig
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
 _FLAT = 0.01  # Triangles lie in one plane if they leave it by less than this share of the unevenness (assumed).
-# Without a level base face, corners up to this height above the lowest one bear as well (assumed: a little more than
-# the slack of triangle patches, since feet of models are often 1 mm uneven).
-_FEET_M = 0.0012
+# Without a level base face, corners up to this height above the lowest one bear as well: at least, as a share of the
+# shape's size, and at most (assumed: a little more than the slack of triangle patches, `rule.slack_m`, since feet of
+# models are often 1 mm uneven).
+_FEET_M, _FEET_SIZES, _MOST_FEET_M = 0.0012, 1.2e-3, 0.0048
 # A level face smaller than this share of the outline of those corners is no base face: the lowest face of a vase may be
-# a tiny triangle.
+# a tiny triangle. Nor is one of several feet if another foot bears as well, as that of a table with one short leg.
 _CRUMB = 0.5
 _FEW = 24  # Up to this many points, plain Python is faster than numpy.
 _COVER = 1e-3  # An outline is filled if the area of its triangles differs from its own by less than this share.
@@ -49,25 +50,32 @@ def uneven_m(size_m: float) -> float:
     return min(_UNEVEN * size_m, _UNEVEN_M)
 
 
-def base_face_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) -> BaseFace:
+def feet_m(size_m: float) -> float:
+    """Return how far above the lowest corner others bear as well [m] in a shape with this diagonal."""
+    return min(max(_FEET_M, _FEET_SIZES * size_m), _MOST_FEET_M)
+
+
+def base_face_of(corners: Floats, triangles: Floats, uneven: float, lowest: float, up: Triple) -> BaseFace:
     """Return the base face while the shape's own direction `up` points up: its lowest level face, or its lowest corners
     if that face is tiny.
 
-    Parameters: corners (n, 3), triangles (3, 3, m) of the shape [m]; uneven : see `uneven_m`.
+    Parameters: corners (n, 3), triangles (3, 3, m) of the shape [m]; uneven : see `uneven_m`; lowest : see `feet_m`.
     """
     upwards, plane = _frame(up)
     heights = corners @ upwards
     # Meshes repeat a corner where normals or colours differ.
     least = heights.min()
-    feet = list(dict.fromkeys(triples(corners[heights <= least + _FEET_M])))
+    feet = list(dict.fromkeys(triples(corners[heights <= least + lowest])))
     if len(feet) == 1:
         return BaseFace((feet[0],), (feet[0],), feet[0], 0.0, False, False)
     corners = np.array(feet)
     around = corners[outline(corners @ plane)]
     has_face = np.count_nonzero(corners @ upwards <= least + uneven) > 2
     face = _lowest_face(triangles, uneven, upwards, plane) if has_face else None
-    if face is not None and polygon_area(face.outline_m @ plane) < _CRUMB * polygon_area(around @ plane):
-        face = None
+    if face is not None:
+        share = _CRUMB if face.is_filled else 1 - _COVER
+        if polygon_area(face.outline_m @ plane) < share * polygon_area(around @ plane):
+            face = None
     if face is not None:
         corners, around = face.corners_m, face.outline_m
     middle = (around.min(axis=0) + around.max(axis=0)) / 2

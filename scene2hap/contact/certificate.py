@@ -164,7 +164,7 @@ def resting_on(body: Body, support: Body) -> Resting | None:
 
 def junction_of(body: Body, resting: Resting, normal: Triple | None) -> Junction:
     """Return the contact points of a resting body and its support, with weight 1."""
-    points = rest_points(body, resting.support, resting.rest)
+    points = rest_points(body, resting.support, resting.rest, 0.0)  # the whole base face bears
     return Junction(points, _ONES[: len(points)], (normal,) * len(points))
 
 

@@ -18,7 +18,6 @@ from scene2hap.contact.mesh_distance import Gap
 from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by, box_distance_m
 from scene2hap.contact.rule import (
     CLEAR_M,
-    SLACK_M,
     TOUCH_M,
     Support,
     fall_reach_m,
@@ -26,6 +25,7 @@ from scene2hap.contact.rule import (
     hang_reach_m,
     hangs,
     level_supports,
+    slack_m,
     supports,
     supports_nearby,
     weight,
@@ -59,7 +59,7 @@ class Plan(NamedTuple):
         body_pair, bond = self.body_pair, self.bond
         if self.rest is not None:
             x, y = (body_pair.a, body_pair.b) if bond.faller == body_pair.a.id else (body_pair.b, body_pair.a)
-            points = rest_points(x, y, self.rest)
+            points = rest_points(x, y, self.rest, self.within_m)
         else:
             points = body_pair.points(bond.way_m, self.within_m)
         n = len(points)
@@ -211,7 +211,7 @@ class Holders:
         body_pair = self.body_pairs.get(a, {}).get(b)
         if body_pair is None:
             return None
-        slack_m = SLACK_M
+        within_m = slack = slack_m(min(body_pair.a.size_m, body_pair.b.size_m))
         bond = NO_BOND
         for x, y in ((a, b), (b, a)):
             held = self.held.get(x)
@@ -224,11 +224,11 @@ class Holders:
                 share = weight(gap.distance_m, TOUCH_M)
                 if share > bond.weight:
                     bond = Bond(share, NO_WAY, direction(gap), False, a)
-                    slack_m += gap.distance_m
+                    within_m = slack + gap.distance_m
         if bond.weight < 1:
             share, play_m = body_pair.enclosed()
             if share > bond.weight:
-                bond, slack_m = Bond(share, NO_WAY, None, False, a), SLACK_M + play_m
+                bond, within_m = Bond(share, NO_WAY, None, False, a), slack + play_m
         if bond.weight <= 0:
             return None
-        return Plan(body_pair, bond, slack_m, body_pair.rest(bond.faller) if bond.lies else None)
+        return Plan(body_pair, bond, within_m, body_pair.rest(bond.faller) if bond.lies else None)

@@ -75,8 +75,11 @@ def _beside(x: Body, y: Body) -> Rest | None:
     return Rest(math.inf, False, -math.inf) if x.stance.is_block and y.stance.is_block else None
 
 
-def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
-    """Return contact points in the world, half way between x's base face and y's top face where these overlap."""
+def rest_points(x: Body, y: Body, rest: Rest, slack_m: float) -> tuple[Triple, ...]:
+    """Return contact points in the world, half way between x's base face and y's top face where these overlap.
+
+    Corners of the base face up to `slack_m` outside the top face count.
+    """
     base_face = x.stance.posed_base_face
     a, v_axis = x.up_axis, x.v_axis
     px, py = x.position_m, y.position_m
@@ -89,7 +92,7 @@ def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
     else:
         top_face = y.stance.top_face
         assert top_face is not None
-        ring = clipped(x.stance.base_outline, u - py[0], v - py[v_axis], top_face.edges)
+        ring = clipped(x.stance.base_outline, u - py[0], v - py[v_axis], top_face.edges, slack_m)
         level = [(pu + py[0], pv + py[v_axis]) for pu, pv in _chosen(ring, y.stance)]
     if a == 1:
         return tuple([(pu, height, pv) for pu, pv in level])

@@ -183,16 +183,24 @@ def contact_points(
     x, y, z = shift
     u, v, w = rotated(turn, _triple(guest.low))
     posed = _posed(guest.triangles, turn, (x + way[0], y + way[1], z + way[2]))
-    found = [np.empty((6, 0))]
-    for i, j in _near(posed, boxes_of(posed), host, within):
-        p, q = posed.take(i, axis=2), host.triangles.take(j, axis=2)
-        every = meetings(p, q, guest.features[i], host.features[j])
-        near = every.distance <= within
-        found.append(np.concatenate([every.on_p[:, near] - np.array(way)[:, None], every.on_q[:, near]]))
-    ends = np.concatenate(found, axis=1)
+    # Loose crossings count where there is nothing else.
+    ends = _ends_within(host, guest, posed, way, within, within)
+    if not ends.size:
+        ends = _ends_within(host, guest, posed, way, within, -1.0)
     ends = ends[:, np.lexsort(ends[::-1])]
     chosen = spread((ends[:3] + ends[3:]) / 2, (u + x, v + y, w + z))
     return [(_triple(ends[:3, k]), _triple(ends[3:, k])) for k in chosen]
+
+
+def _ends_within(host: Shape, guest: Shape, posed: Floats, way: Triple, within: float, loose: float) -> Floats:
+    """Return the ends (6, n) of contact points without crossings between ends within `loose`."""
+    found = [np.empty((6, 0))]
+    for i, j in _near(posed, boxes_of(posed), host, within):
+        p, q = posed.take(i, axis=2), host.triangles.take(j, axis=2)
+        every = meetings(p, q, guest.features[i], host.features[j], loose)
+        near = every.distance <= within
+        found.append(np.concatenate([every.on_p[:, near] - np.array(way)[:, None], every.on_q[:, near]]))
+    return np.concatenate(found, axis=1)
 
 
 @compiled

@@ -31,10 +31,10 @@ from scene2hap.contact.level import Rest
 TOUCH_M = 0.004
 """Gap at which any two surfaces cease to touch (tuned: cups on saucers stand 6 mm above the table)."""
 
-PATCH_SHARE = 0.25
-"""How much farther apart than the nearest points a contact patch may be, as a share of the tolerance (assumed): the
-feet of a chair are never quite level."""
-SLACK_M = PATCH_SHARE * TOUCH_M
+# How much farther apart than its nearest points a contact patch may be (assumed): as a share of the tolerance, since
+# the feet of a chair are never quite level; and as a share of the smaller object's size, since poses tremble. A tilt of
+# 0.5 mrad lifts one end of a rail of 6 m by 3 mm.
+_SLACK, _SLACK_SIZES = 0.25, 1e-3
 
 CLEAR_M = 1e-4
 """Gap below which the vector between two surfaces has no reliable direction (assumed)."""
@@ -95,6 +95,15 @@ def weights(gaps_m: Floats, tolerance_m: float) -> Floats:
     between = (x > 0) & (x < 1)
     found[between] = [0.5 * (1 + math.cos(math.pi * one)) for one in x[between].tolist()]
     return found
+
+
+@lru_cache(_SIZES)
+def slack_m(size_m: float, tolerance_m: float = TOUCH_M) -> float:
+    """Return how much farther apart than its nearest points a contact patch may be [m], at most the tolerance.
+
+    Parameters: size_m : the diagonal of the smaller object; tolerance_m : gap at which two surfaces cease to touch.
+    """
+    return min(max(_SLACK * tolerance_m, _SLACK_SIZES * size_m), tolerance_m)
 
 
 @lru_cache(_SIZES)

@@ -10,7 +10,7 @@ from weakref import WeakValueDictionary
 
 import numpy as np
 
-from scene2hap.contact.base_face import BaseFace, base_face_of, top_of, triples, uneven_m
+from scene2hap.contact.base_face import BaseFace, base_face_of, feet_m, top_of, triples, uneven_m
 from scene2hap.contact.geometry.broad import Boxes
 from scene2hap.contact.geometry.features import Features, features_of
 from scene2hap.contact.geometry.rays import first_hits
@@ -38,7 +38,7 @@ class Shape:
         self.low, self.high = self.box.low[:, 0], self.box.high[:, 0]
         # The diagonal of the box in the shape's own frame, since a rotation would change that of the AABB.
         self.size_m = float(np.linalg.norm(self.high - self.low))
-        self._uneven_m = uneven_m(self.size_m)
+        self._uneven_m, self._feet_m = uneven_m(self.size_m), feet_m(self.size_m)
         self.middle: Triple = triples((self.low + self.high)[None] / 2)[0]
         self.half: Triple = triples((self.high - self.low)[None] / 2)[0]
         self._base_faces: dict[Triple, BaseFace] = {}
@@ -107,7 +107,7 @@ class Shape:
     def base_face(self, up: Triple) -> BaseFace:
         """Return the base face for the shape's direction `up`, which the caller has rounded."""
         return self._cached(
-            self._base_faces, up, lambda: base_face_of(self.corners, self.triangles, self._uneven_m, up)
+            self._base_faces, up, lambda: base_face_of(self.corners, self.triangles, self._uneven_m, self._feet_m, up)
         )
 
     def top(self, up: Triple) -> tuple[Triple, ...] | None:

@@ -10,7 +10,7 @@ from scene2hap.contact.holders import NO_WAY, direction
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
 from scene2hap.contact.pair import apart_by
-from scene2hap.contact.rule import PATCH_SHARE, weight
+from scene2hap.contact.rule import slack_m, weight
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 
@@ -62,6 +62,6 @@ class TouchFinder:
         share = 0.0 if gap is None else weight(gap.distance_m, tolerance_m)
         if gap is None or share <= 0:
             return None
-        ends = mesh_pair.patch(NO_WAY, PATCH_SHARE * tolerance_m + gap.distance_m)
+        ends = mesh_pair.patch(NO_WAY, gap.distance_m + slack_m(min(one.size_m, other.size_m), tolerance_m))
         normal, n = direction(gap), len(ends)
         return Junction(tuple([x.middle_m for x in ends]), (share,) * n, (normal,) * n) if ends else None

@@ -70,12 +70,13 @@ def inside_edges(outline, double du, double dv, edges):
     return outermost, innermost
 
 
-def clipped(outline, double du, double dv, edges):
+def clipped(outline, double du, double dv, edges, double slack_m):
     cdef Py_ssize_t k, m, n = len(outline)
     cdef Corner* ring = corners_of(outline, n, du, dv)
     cdef Corner* cut
     cdef Corner last
     cdef double nu, nv, offset, here, before, share
+    cdef bint is_in, was_in
     for nu, nv, offset in edges:
         # Each corner yields at most two: itself, and an intersection before it.
         cut, m = <Corner*>PyMem_Malloc((2 * n + 1) * sizeof(Corner)), 0
@@ -87,12 +88,13 @@ def clipped(outline, double du, double dv, edges):
             before = nu * last.u + nv * last.v - offset
         for k in range(n):
             here = nu * ring[k].u + nv * ring[k].v - offset
-            if (here < 0) != (before < 0):
+            is_in, was_in = here >= -slack_m, before >= -slack_m
+            if is_in != was_in and (here < 0) != (before < 0):
                 share = before / (before - here)
                 cut[m].u = last.u + share * (ring[k].u - last.u)
                 cut[m].v = last.v + share * (ring[k].v - last.v)
                 m += 1
-            if here >= 0:
+            if is_in:
                 cut[m] = ring[k]
                 m += 1
             last, before = ring[k], here

@@ -21,5 +21,5 @@ cdef struct Meetings:
 
 cdef void measure_face(Face* face) noexcept
 cdef void shrink(Face* face) noexcept
-cdef void meet(Meetings* found, const Face* p, const Face* q, double within) noexcept
+cdef void meet(Meetings* found, const Face* p, const Face* q, double within, double loose) noexcept
 cdef bint measure_heights(double* least, double* most, const Face* p, const Face* q) noexcept

@@ -112,18 +112,18 @@ cdef inline bint has_corner(const Face* face, int i) noexcept:
     return face.features >> (3 + i) & 1
 
 
-cdef void meet(Meetings* found, const Face* p, const Face* q, double within) noexcept:
+cdef void meet(Meetings* found, const Face* p, const Face* q, double within, double loose) noexcept:
     """Collect the local meetings of a pair's features within reach, in the order of `triangles.meetings`."""
     cdef double over_p[3]
     cdef double over_q[3]
     found.n = 0
     if not heights_over(over_q, q, p, within + ROUNDING_M) or not heights_over(over_p, p, q, within + ROUNDING_M):
         return
-    meet_edges(found, p, q, within)
+    meet_edges(found, p, q, within, loose)
     meet_corners(found, p, q, over_q, within, False)
     meet_corners(found, q, p, over_p, within, True)
-    cross_edges(found, p, q, over_q)
-    cross_edges(found, q, p, over_p)
+    cross_edges(found, p, q, over_q, loose)
+    cross_edges(found, q, p, over_p, loose)
 
 
 cdef inline void add(Meetings* found, double distance, const double* on_p, const double* on_q) noexcept:
@@ -134,7 +134,7 @@ cdef inline void add(Meetings* found, double distance, const double* on_p, const
     found.n += 1
 
 
-cdef void meet_edges(Meetings* found, const Face* p, const Face* q, double within) noexcept:
+cdef void meet_edges(Meetings* found, const Face* p, const Face* q, double within, double loose) noexcept:
     """Add the nearest points of the nine pairs of edges. The edges' boxes reject most of them early."""
     cdef Box[3] of_q
     cdef Box of_p
@@ -171,7 +171,38 @@ cdef void meet_edges(Meetings* found, const Face* p, const Face* q, double withi
             less(gap, on_p, on_q)
             distance2 = dot(gap, gap)
             if distance2 <= reach2:
+                if loose >= 0 and 0 < s < 1 and 0 < t < 1 and goes_on_both_sides(r, p.edges[i], q.edges[j], loose):
+                    continue
                 add(found, sqrt(distance2), on_p, on_q)
+
+
+cdef bint goes_on_both_sides(const double* r, const double* d, const double* g, double loose) noexcept:
+    """Return True if two edges have ends within `loose` of each other's edge on both sides of their nearest points."""
+    cdef double a = dot(d, d), b = dot(d, g), e = dot(g, g), c = dot(d, r), f = dot(g, r)
+    cdef double loose2 = loose * loose, s, t
+    cdef double[3] way
+    cdef bint p0, p1, q0, q1
+    cdef int axis
+    a, e = a if a > 0 else 1.0, e if e > 0 else 1.0
+    t = cut(f / e)
+    for axis in range(3):
+        way[axis] = r[axis] - t * g[axis]
+    p0 = dot(way, way) <= loose2
+    t = cut((f + b) / e)
+    for axis in range(3):
+        way[axis] = r[axis] + d[axis] - t * g[axis]
+    p1 = dot(way, way) <= loose2
+    s = cut(-c / a)
+    for axis in range(3):
+        way[axis] = r[axis] + s * d[axis]
+    q0 = dot(way, way) <= loose2
+    s = cut((b - c) / a)
+    for axis in range(3):
+        way[axis] = r[axis] + s * d[axis] - g[axis]
+    q1 = dot(way, way) <= loose2
+    if b >= 0:
+        return (p0 or q0) and (p1 or q1)
+    return (p0 or q1) and (p1 or q0)
 
 
 cdef inline void edge_box(Box* box, const Face* one, int i) noexcept:
@@ -201,8 +232,10 @@ cdef void meet_corners(
                 add(found, distance, other.corners[i], foot)
 
 
-cdef void cross_edges(Meetings* found, const Face* other, const Face* own, const double* heights) noexcept:
-    """Add the points where the other's edges intersect a face."""
+cdef void cross_edges(
+    Meetings* found, const Face* other, const Face* own, const double* heights, double loose
+) noexcept:
+    """Add the points where the other's edges intersect a face, but not between ends within `loose`."""
     cdef double point[3]
     cdef double start, end, s, in_plane
     cdef int i, axis
@@ -213,6 +246,8 @@ cdef void cross_edges(Meetings* found, const Face* other, const Face* own, const
         if not has_edge(other, i):
             continue
         start, end = heights[i], heights[(i + 1) % 3]
+        if fabs(start) * own.root <= loose and fabs(end) * own.root <= loose:
+            continue
         if start * end < 0 and fabs(start) > in_plane and fabs(end) > in_plane:
             s = start / (start - end)
             for axis in range(3):

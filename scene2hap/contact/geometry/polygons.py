@@ -64,9 +64,10 @@ def inside_edges(outline: Sequence[Point], du: float, dv: float, edges: Sequence
 
 
 @compiled
-def clipped(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Triple]) -> list[Point]:
-    """Clip an outline, moved by (du, dv), to the inside of all edges.
+def clipped(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Triple], slack_m: float) -> list[Point]:
+    """Clip an outline, moved by (du, dv), to the inside of all edges; corners up to `slack_m` outside an edge are kept.
 
+    Without the slack, two sides that nearly coincide would cross anywhere along them, as rounding decides.
     Source: I. E. Sutherland, G. W. Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32.
     """
     ring = [(u + du, v + dv) for u, v in outline]
@@ -75,10 +76,11 @@ def clipped(outline: Sequence[Point], du: float, dv: float, edges: Sequence[Trip
         cut: list[Point] = []
         for k, here in enumerate(inside):
             before = inside[k - 1]
-            if (here < 0) != (before < 0):
+            is_in, was_in = here >= -slack_m, before >= -slack_m
+            if is_in != was_in and (here < 0) != (before < 0):
                 (u1, v1), (u2, v2), share = ring[k - 1], ring[k], before / (before - here)
                 cut.append((u1 + share * (u2 - u1), v1 + share * (v2 - v1)))
-            if here >= 0:
+            if is_in:
                 cut.append(ring[k])
         ring = cut
     return ring

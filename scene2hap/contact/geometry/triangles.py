@@ -5,6 +5,10 @@ where an edge intersects the other triangle. All of these local meetings are ret
 they include the corners of the contact patch, which a single nearest point would miss. Only the `features` of meshes
 are tested.
 
+Two surfaces that nearly lie on each other also cross somewhere, and a rotation of 0.1 mrad moves that crossing from one
+end to the other. A crossing of an edge is therefore *loose*, and no contact point, if it lies between two others: both
+ends of the edge are within reach of the face, or the edges are within reach of each other on both sides of it.
+
 Source: C. Ericson, Real-Time Collision Detection (2005), section 5.1.9 (segments), 5.1.10 (triangles), 3.4 (barycentric
 coordinates). Differs: a vertex is only measured against the inside of a face; its edges are left to the segments.
 
@@ -39,17 +43,18 @@ class Meetings(NamedTuple):
     on_q: Floats
 
 
-def meetings(p: Floats, q: Floats, of_p: Features, of_q: Features) -> Meetings:
+def meetings(p: Floats, q: Floats, of_p: Features, of_q: Features, loose: float = -1.0) -> Meetings:
     """Return the 21 local meetings of each pair (3, 3, n), limited to their features (n,).
 
-    Nine are of two edges, six of a vertex and a face, six of an edge that intersects a face.
+    Nine are of two edges, six of a vertex and a face, six of an edge that intersects a face. Loose crossings are left
+    out: those between ends within `loose` [m]; by default none.
     """
     n = p.shape[2]
     every = Meetings(np.empty((_N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)), np.empty((3, _N_MEETINGS, n)))
-    _fill(every, 0, _edges_with_edges(p, q))
+    _fill(every, 0, _edges_with_edges(p, q, loose))
     # Both directions at once, p's corners at q's faces and q's at p's: numpy's cost is per call on few triangles.
     faces = _Faces.of(np.concatenate([q, p], axis=2), np.concatenate([p, q], axis=2))
-    for first, (distance, points, feet) in ((9, faces.meet_vertices()), (15, faces.meet_edges())):
+    for first, (distance, points, feet) in ((9, faces.meet_vertices()), (15, faces.meet_edges(loose))):
         _fill(every, first, Meetings(distance[:, :n], points[..., :n], feet[..., :n]))
         _fill(every, first + 3, Meetings(distance[:, n:], feet[..., n:], points[..., n:]))
     edges_p, corners_p = _present(of_p)
@@ -127,12 +132,14 @@ class _Faces(NamedTuple):
         distance = np.where(self._inside(self.corners), np.abs(self.height) * np.sqrt(self.area2), np.inf)
         return Meetings(distance, self.corners, feet)
 
-    def meet_edges(self) -> Meetings:
-        """Return the points where the others' edges intersect the faces."""
+    def meet_edges(self, loose: float) -> Meetings:
+        """Return the points where the others' edges intersect the faces, but not between ends within `loose`."""
         start, end = self.height, _next(self.height, 0)
         # An edge in the plane, up to rounding, has no reliable crossing. Its vertices give the meeting instead.
-        in_plane = _IN_PLANE_M / np.sqrt(self.area2)
+        length = np.sqrt(self.area2)
+        in_plane = _IN_PLANE_M / length
         crosses = (start * end < 0) & (np.abs(start) > in_plane) & (np.abs(end) > in_plane)
+        crosses &= (np.abs(start) * length > loose) | (np.abs(end) * length > loose)
         s = start / np.where(crosses, start - end, 1.0)
         points = _next(self.corners, 1)
         points -= self.corners
@@ -168,8 +175,11 @@ def _next(corners: Floats, axis: int) -> Floats:
     return corners.take([1, 2, 0], axis=axis)
 
 
-def _edges_with_edges(p: Floats, q: Floats) -> Meetings:
-    """Return the nearest points of all nine pairs of edges; on parallel edges, at the start of p's edge if possible."""
+def _edges_with_edges(p: Floats, q: Floats, loose: float) -> Meetings:
+    """Return the nearest points of all nine pairs of edges; on parallel edges, at the start of p's edge if possible.
+
+    Points inside both edges are left out where the edges are within `loose` of each other on both sides of them.
+    """
     d, g = (_next(p, 1) - p)[:, :, None], (_next(q, 1) - q)[:, None]
     start_p, start_q = p[:, :, None], q[:, None]
     r = start_p - start_q
@@ -187,7 +197,27 @@ def _edges_with_edges(p: Floats, q: Floats) -> Meetings:
     on_q += start_q
     gap = on_p - on_q
     n = p.shape[2]
-    return Meetings(np.sqrt(dot(gap, gap)).reshape(9, n), on_p.reshape(3, 9, n), on_q.reshape(3, 9, n))
+    distance = np.sqrt(dot(gap, gap))
+    if loose >= 0:
+        is_between = (s > 0) & (s < 1) & (t > 0) & (t < 1)
+        is_between &= _goes_on_both_sides(r, d, g, loose)
+        distance[is_between] = np.inf
+    return Meetings(distance.reshape(9, n), on_p.reshape(3, 9, n), on_q.reshape(3, 9, n))
+
+
+def _goes_on_both_sides(r: Floats, d: Floats, g: Floats, loose: float) -> Marks:
+    """Mark the pairs of edges d and g, whose starts are r apart, that have ends within `loose` of each other's edge on
+    both sides of their nearest points."""
+    a, b, e = dot(d, d), dot(d, g), dot(g, g)
+    a, e = np.where(a > 0, a, 1.0), np.where(e > 0, e, 1.0)
+    c, f = dot(d, r), dot(g, r)
+    start_p = r - _cut(f / e) * g
+    end_p = r + d - _cut((f + b) / e) * g
+    start_q = r + _cut(-c / a) * d
+    end_q = r + _cut((b - c) / a) * d - g
+    p0, p1, q0, q1 = (dot(way, way) <= loose * loose for way in (start_p, end_p, start_q, end_q))
+    goes_on: Marks = np.where(b >= 0, (p0 | q0) & (p1 | q1), (p0 | q1) & (p1 | q0))
+    return goes_on
 
 
 def _cut(shares: Floats) -> Floats:

@@ -43,7 +43,7 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     elif math.isfinite(least):
         assert rest.fall_m == pytest.approx(gap, abs=1e-12)
         assert least == pytest.approx(gap, abs=1e-9)
-        points = np.array(rest_points(upper, lower, rest))
+        points = np.array(rest_points(upper, lower, rest, 0.0))
         for body, half in ((upper, (0.15, 0.05, 0.1)), (lower, (0.4, 0.1, 0.25))):
             own = np.abs(body.pose.to_own(points))
             assert (own[:, [0, 2]] <= np.array(half)[[0, 2]] + 1e-9).all()
@@ -52,8 +52,19 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
 
 def test_a_clipped_square_loses_its_corner() -> None:
     square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-    ring = clipped(square, 0.0, 0.0, [(-math.sqrt(0.5), -math.sqrt(0.5), -1.5 * math.sqrt(0.5))])
+    ring = clipped(square, 0.0, 0.0, [(-math.sqrt(0.5), -math.sqrt(0.5), -1.5 * math.sqrt(0.5))], 0.0)
     assert {(round(u, 9), round(v, 9)) for u, v in ring} == {(0, 0), (1, 0), (1, 0.5), (0.5, 1), (0, 1)}
+
+
+@pytest.mark.parametrize(
+    ("out_m", "right_side"),
+    [(0.0009, {(-0.0009, -1.0), (0.0009, 1.0)}), (0.003, {(-0.003, -1.0), (0.0, 0.0), (0.0, 1.0)})],
+)
+def test_a_corner_up_to_the_slack_outside_an_edge_is_kept(out_m: float, right_side: set[tuple[float, float]]) -> None:
+    """The right side of a strip crosses an edge at u = 0. Beyond the slack of 1 mm the strip is cut at that edge."""
+    strip = [(-0.1, -1.0), (-out_m, -1.0), (out_m, 1.0), (-0.1, 1.0)]
+    ring = clipped(strip, 0.0, 0.0, [(-1.0, 0.0, 0.0)], 0.001)
+    assert {(round(u, 9), round(v, 9)) for u, v in ring} == right_side | {(-0.1, -1.0), (-0.1, 1.0)}
 
 
 def test_a_leaning_body_stands_on_its_lowest_edge() -> None:

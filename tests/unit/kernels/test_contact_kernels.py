@@ -164,9 +164,12 @@ def test_kernels_intersect_outlines_bit_for_bit(seed: int) -> None:
     plain, twin = both("contact.geometry.polygons.edges_of")
     edges = plain(outlines[1])
     assert twin(outlines[1]) == edges
-    for plain, twin in (both("contact.geometry.polygons.inside_edges"), both("contact.geometry.polygons.clipped")):
-        for move in ((0.0, 0.0), tuple(rng.uniform(-1, 1, 2).tolist())):
-            assert twin(outlines[0], *move, edges) == plain(outlines[0], *move, edges)
+    for move in ((0.0, 0.0), tuple(rng.uniform(-1, 1, 2).tolist())):
+        plain, twin = both("contact.geometry.polygons.inside_edges")
+        assert twin(outlines[0], *move, edges) == plain(outlines[0], *move, edges)
+        plain, twin = both("contact.geometry.polygons.clipped")
+        for slack_m in (0.0, 0.001, 0.3):
+            assert twin(outlines[0], *move, edges, slack_m) == plain(outlines[0], *move, edges, slack_m)
 
 
 @steady
