@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
@@ -52,6 +52,16 @@ class AudioClip:
     sample_rate_hz: int
     credit: Credit = field(default_factory=lambda: Credit("untitled", "unknown", "unknown"))
     is_vibration: bool = False
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            samples: ArrayLike,
+            sample_rate_hz: int,
+            credit: Credit = ...,
+            is_vibration: bool = ...,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         most_hz = MAX_SAMPLE_RATE_HZ

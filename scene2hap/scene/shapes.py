@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from pydantic import PlainSerializer, PlainValidator
 
 from scene2hap import checks
@@ -46,6 +47,10 @@ class Box:
     size_m: tuple[float, float, float]
     kind: Literal["box"] = "box"
 
+    if TYPE_CHECKING:
+
+        def __init__(self, size_m: Iterable[float], kind: Literal["box"] = ...) -> None: ...
+
     def __post_init__(self) -> None:
         size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=SceneError)
         object.__setattr__(self, "size_m", size)
@@ -72,6 +77,10 @@ class TriMesh:
     vertices_m: Vertices
     faces: Faces
     kind: Literal["mesh"] = "mesh"
+
+    if TYPE_CHECKING:
+
+        def __init__(self, vertices_m: ArrayLike, faces: ArrayLike, kind: Literal["mesh"] = ...) -> None: ...
 
     def __post_init__(self) -> None:
         vertices = _frozen_array("vertices_m", self.vertices_m, np.float64)
@@ -124,6 +133,20 @@ class TriMesh:
 
 
 Geometry = Box | TriMesh
+
+
+class MeshLike(Protocol):
+    """A mesh of another package, such as trimesh."""
+
+    @property
+    def vertices(self) -> ArrayLike:
+        """Points (n, 3) [m]."""
+        ...
+
+    @property
+    def faces(self) -> ArrayLike:
+        """Indices into the vertices (m, 3)."""
+        ...
 
 
 def geometry_of(value: object, owner: str) -> Geometry:
