@@ -147,7 +147,10 @@ class ObjectHaptics:
             object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, ConfigError))
         confidence = checks.number("confidence", self.confidence, "-", at_least=0.0, at_most=1.0, error=ConfigError)
         object.__setattr__(self, "confidence", confidence)
-        object.__setattr__(self, "states", tuple(self.states))
+        wanted = "a list, as [SourceState('on', 0.5, 'fan humming', 'fan humming')]"
+        object.__setattr__(
+            self, "states", checks.instances("states", self.states, SourceState, wanted, error=ConfigError)
+        )
         if self.vibrates and not self.states:
             raise ConfigError(f"{self.object_category!r} vibrates but has no state; give it at least one SourceState.")
 

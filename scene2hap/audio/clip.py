@@ -79,6 +79,9 @@ class AudioClip:
         object.__setattr__(self, "samples", samples)
         object.__setattr__(self, "sample_rate_hz", int(rate))
 
+    def __repr__(self) -> str:
+        return f"AudioClip({self.credit.title!r}, {self.duration_s:.3g} s, {self.sample_rate_hz} Hz)"
+
     @property
     def duration_s(self) -> float:
         """Length [s]."""

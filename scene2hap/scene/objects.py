@@ -14,7 +14,7 @@ from pydantic import InstanceOf
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import bounds_of
+from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.pose import Pose
@@ -174,8 +174,8 @@ class SceneObject:
 
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
-        """Lowest and highest corner (2, 3) [m] in the world."""
-        return bounds_of(self.pose.to_world(self.geometry.mesh.vertices_m))
+        """Lowest and highest corner (2, 3) [m] in the world. Read-only."""
+        return frozen(bounds_of(self.pose.to_world(self.geometry.mesh.vertices_m)))
 
     def plate_coordinates(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Return world points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.

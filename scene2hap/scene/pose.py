@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import vector
+from scene2hap.scene.geometry import frozen, vector
 from scene2hap.scene.scene_warning import warn_of
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical.
@@ -68,15 +68,14 @@ class Pose:
 
     @cached_property
     def rotation(self) -> NDArray[np.float64]:
-        """Rotation matrix (3, 3) [-], own axes in its columns."""
+        """Rotation matrix (3, 3) [-], own axes in its columns. Read-only."""
         x, y, z, w = self.rotation_xyzw
-        return np.array(
-            [
-                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-            ]
-        )
+        rows = [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+        return frozen(np.array(rows))
 
     @cached_property
     def _position(self) -> NDArray[np.float64]:

@@ -26,6 +26,7 @@ from scene2hap.bundle.contents import require_same_scene
 from scene2hap.bundle.differences import changed_objects
 from scene2hap.calls import clear_calls, read_only
 from scene2hap.contact.graph import ContactChange
+from scene2hap.counted import counted
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
 from scene2hap.errors import SceneError, SessionError, UnknownObject
@@ -549,6 +550,10 @@ class HapticSession:
         self._output.stop()
 
     close = stop
+
+    def __repr__(self) -> str:
+        counts = f"{counted(len(self.object_ids), 'object')}, {counted(len(self.source_ids), 'source')}"
+        return f"HapticSession({counts}, hands {', '.join(self.hands)})"
 
     def __reduce__(self) -> NoReturn:
         raise SessionError(

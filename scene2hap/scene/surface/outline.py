@@ -43,7 +43,7 @@ class Outline:
         def __init__(self, rings_m: Iterable[ArrayLike]) -> None: ...
 
     def __post_init__(self) -> None:
-        rings = tuple(_ring(k, ring) for k, ring in enumerate(self.rings_m))
+        rings = tuple(_ring(k, ring) for k, ring in enumerate(checks.items("rings_m", self.rings_m, error=SceneError)))
         object.__setattr__(self, "rings_m", rings)
         n_corners = sum(map(len, rings))
         if not 3 <= n_corners <= MOST_CORNERS:
