@@ -81,9 +81,14 @@ _NAMES_IN = {
     "scene2hap.devices.wav": ("WavSink",),
 }
 _MODULE_OF = {name: module for module, names in _NAMES_IN.items() for name in names}
+# Those that need no extra, since help() and completion in notebooks import them all.
 _PACKAGES = (
     "audio",
+    "baking",
+    "bundle",
+    "clips",
     "contact",
+    "demo",
     "devices",
     "engines",
     "errors",
@@ -93,7 +98,9 @@ _PACKAGES = (
     "materials",
     "propagation",
     "render",
+    "report",
     "scene",
+    "session",
     "testing",
 )
 
@@ -120,7 +127,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__, *_PACKAGES})
+    return sorted({*__all__, *_PACKAGES, *(name for name in globals() if name.startswith("__"))})
 
 
 if TYPE_CHECKING:

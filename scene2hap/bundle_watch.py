@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import os
 import threading
-from pathlib import Path
 from types import TracebackType
 from typing import Self
 
@@ -31,7 +31,7 @@ class BundleWatch:
     Raises: BundleError: the folder does not exist.
     """
 
-    def __init__(self, session: HapticSession, folder: str | Path) -> None:
+    def __init__(self, session: HapticSession, folder: str | os.PathLike[str]) -> None:
         self.problem = ""
         self._session, self._folder = session, checks.path("folder", folder, error=BundleError)
         if not self._folder.is_dir():

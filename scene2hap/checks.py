@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import islice
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 from scene2hap.errors import ConfigError, Scene2HapError
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from pydantic import ValidationError
 
+
+Kind = TypeVar("Kind")
 
 _SECRET_NAME = re.compile(r"(key|token|secret|password)s?$", re.IGNORECASE)
 
@@ -246,12 +248,29 @@ def near_files(path: Path) -> str:
 def items(name: str, value: object, *, at_most: int = 10_000, error: type[Scene2HapError]) -> tuple[Any, ...]:
     """Return the items of a sequence, or raise `error` if it is no sequence or has more than `at_most` items."""
     try:
-        found = tuple(islice(value, at_most + 1))  # type: ignore[call-overload]  # see the except clause
+        found = value if type(value) is tuple else tuple(islice(value, at_most + 1))  # type: ignore[call-overload]
     except Exception as cause:  # a foreign `__iter__` may raise any error
         raise error(f"{name} is {represented(value)}; it must be a sequence.") from cause
     if len(found) > at_most:
         raise error(f"{name} has more than {at_most} items. Give fewer.")
     return found
+
+
+_MOST_ITEMS = 10_000_000  # only an endless generator has more
+
+
+def instances(
+    name: str, value: object, kind: type[Kind], wanted: str, *, error: type[Scene2HapError]
+) -> tuple[Kind, ...]:
+    """Return the items of a sequence, all of one type. Raises: `error`: any other value; states what is wanted."""
+    wrong = value
+    if not isinstance(value, str | Mapping | kind):
+        found = items(name, value, at_most=_MOST_ITEMS, error=error)
+        others = [item for item in found if not isinstance(item, kind)]
+        if not others:
+            return found
+        wrong = others[0]
+    raise error(f"{name} is or has {described(wrong)}; it must be {wanted}.")
 
 
 def texts(name: str, value: object, *, error: type[Scene2HapError]) -> tuple[str, ...]:

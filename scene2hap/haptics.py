@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,6 +115,24 @@ class ObjectHaptics:
     mass_kg: float | None = None
     feet: Material | None = None
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            object_category: str,
+            material_category: str,
+            material: Material | None,
+            estimated_size_m: Iterable[float],
+            usage: str,
+            vibrates: bool,
+            states: Iterable[SourceState] = ...,
+            confidence: float = ...,
+            reasons: Mapping[str, str] = ...,
+            provenance: Mapping[str, str] = ...,
+            mass_kg: float | None = ...,
+            feet: Material | None = ...,
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         size = checks.vector("estimated_size_m", self.estimated_size_m, "m", size=3, at_least=0.0, error=ConfigError)
         if self.material is not None and size[2] <= 0.0:
@@ -129,7 +147,10 @@ class ObjectHaptics:
             object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, ConfigError))
         confidence = checks.number("confidence", self.confidence, "-", at_least=0.0, at_most=1.0, error=ConfigError)
         object.__setattr__(self, "confidence", confidence)
-        object.__setattr__(self, "states", tuple(self.states))
+        wanted = "a list, as [SourceState('on', 0.5, 'fan humming', 'fan humming')]"
+        object.__setattr__(
+            self, "states", checks.instances("states", self.states, SourceState, wanted, error=ConfigError)
+        )
         if self.vibrates and not self.states:
             raise ConfigError(f"{self.object_category!r} vibrates but has no state; give it at least one SourceState.")
 
@@ -199,6 +220,21 @@ class ActuatorProfile:
     max_rms: float = 1.0
     rms_window_s: float = 1.0
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            name: str = ...,
+            min_frequency_hz: float = ...,
+            max_frequency_hz: float = ...,
+            resonance_hz: float | None = ...,
+            q: float | None = ...,
+            response_db: Iterable[Iterable[float]] = ...,
+            max_amplitude: float = ...,
+            max_rms: float = ...,
+            rms_window_s: float = ...,
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         checks.text("name", self.name, error=ConfigError)
         points = tuple(
@@ -244,6 +280,15 @@ class Bands:
     edges_hz: tuple[float, ...]
     kind: Literal["edges", "dominant"] = "edges"
     octaves: float = 0.0
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            edges_hz: Iterable[float],
+            kind: Literal["edges", "dominant"] = ...,
+            octaves: float = ...,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         octaves = checks.number("octaves", self.octaves, "octaves", at_least=0.0, at_most=2.0, error=ConfigError)

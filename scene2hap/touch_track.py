@@ -9,7 +9,6 @@ from __future__ import annotations
 import csv
 import json
 import os
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
@@ -137,7 +136,7 @@ class TouchTrack(BaseModel):
 
         Raises: SessionError: it cannot be read, or a step is wrong; the message names step and field.
         """
-        path = Path(path)
+        path = checks.path("path", path, error=SessionError)
         try:
             text = read_small_text(path)
             document = _from_csv(text) if path.suffix.lower() == ".csv" else json.loads(text)

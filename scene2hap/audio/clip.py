@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
@@ -53,6 +53,16 @@ class AudioClip:
     credit: Credit = field(default_factory=lambda: Credit("untitled", "unknown", "unknown"))
     is_vibration: bool = False
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            samples: ArrayLike,
+            sample_rate_hz: int,
+            credit: Credit = ...,
+            is_vibration: bool = ...,
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         most_hz = MAX_SAMPLE_RATE_HZ
         rate = checks.number("sample_rate_hz", self.sample_rate_hz, "Hz", at_least=1, at_most=most_hz, error=AudioError)
@@ -68,6 +78,9 @@ class AudioClip:
         samples.flags.writeable = False
         object.__setattr__(self, "samples", samples)
         object.__setattr__(self, "sample_rate_hz", int(rate))
+
+    def __repr__(self) -> str:
+        return f"AudioClip({self.credit.title!r}, {self.duration_s:.3g} s, {self.sample_rate_hz} Hz)"
 
     @property
     def duration_s(self) -> float:

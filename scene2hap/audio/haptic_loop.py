@@ -95,6 +95,10 @@ class HapticLoop:
     wind_down: RunCurve | None = None
 
     def __post_init__(self) -> None:
+        for name in ("audible", "tactile"):
+            if not isinstance(getattr(self, name), AudioClip):
+                given = checks.described(getattr(self, name))
+                raise AudioError(f"{name} is {given}; it must be an AudioClip, as AudioClip(samples, sample_rate_hz).")
         shapes = [(len(clip.samples), clip.sample_rate_hz) for clip in (self.audible, self.tactile)]
         if shapes[0] != shapes[1]:
             raise AudioError(

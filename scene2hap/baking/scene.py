@@ -7,7 +7,6 @@ The best candidate is chosen, looped and converted into a tactile signal.
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -291,11 +290,10 @@ def _all_are_known(loops: Mapping[str, Mapping[str, HapticLoop]]) -> bool:
     """Return True if every loop has a fingerprint. Warns: BundleWarning: loops without one."""
     unknown = [key for key, states in loops.items() if not all(loop.fingerprint for loop in states.values())]
     if unknown:
-        warnings.warn(
+        warn_of(
             f"the loops of {counted(len(unknown), 'source')} ({first_of(unknown, 3)}) have no fingerprint, as in "
             "older bundles, and stay as they are. Give actuator or tactile to make them again.",
             BundleWarning,
-            stacklevel=3,
         )
     return not unknown
 
@@ -312,7 +310,7 @@ def _warn_of_weak(
             felt = loops[key][state].felt
             doubt = level_doubt(f"{key}, {state},", felt.level_db, felt.asked_level_db) if felt is not None else ""
             if doubt:
-                warnings.warn(doubt, LevelWarning, stacklevel=3)
+                warn_of(doubt, LevelWarning)
 
 
 async def _infer(
@@ -402,7 +400,7 @@ def _of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> d
         )
     known = {item.id for item in scene.objects}
     for object_id in overrides.keys() - known:
-        warnings.warn(f"the override of {object_id!r} is dropped: the scene has no such object any more.", stacklevel=3)
+        warn_of(f"the override of {object_id!r} is dropped: the scene has no such object any more.", BundleWarning)
     return {key: wish for key, wish in overrides.items() if key in known}
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import os
-import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
@@ -30,6 +29,7 @@ from scene2hap.baking.recorded_times import NO_RUNS, Runs, runs_of, shown_runs
 from scene2hap.blas_threads import one_blas_thread
 from scene2hap.bundle import BundleWarning, Override
 from scene2hap.haptics import ObjectHaptics, SourceState, VibrationDescription
+from scene2hap.scene.scene_warning import warn_of
 
 Progress = Callable[[str, str, int, int], None]
 """Called with (stage, step, number done, total number)."""
@@ -273,16 +273,14 @@ def _pitch_hz(object_id: str, state: str, wishes: Mapping[str, Override], config
     limits = f"pitch_hz of {object_id!r} is {wanted_hz:g} Hz; "
     if not getattr(config.tactile, "follows_target", False):
         name = type(config.tactile).__name__
-        warnings.warn(
-            f"{limits}{name} does not move sources. Use the converter 'adaptive'.", BundleWarning, stacklevel=2
-        )
+        warn_of(f"{limits}{name} does not move sources. Use the converter 'adaptive'.", BundleWarning)
         return None
     played_hz = min(max(wanted_hz, actuator.min_frequency_hz), actuator.max_frequency_hz)
     if played_hz != wanted_hz:
         limits += (
             f"the actuator {actuator.name!r} plays {actuator.min_frequency_hz:g} to {actuator.max_frequency_hz:g} Hz"
         )
-        warnings.warn(f"{limits}. The loop is at {played_hz:g} Hz.", BundleWarning, stacklevel=2)
+        warn_of(f"{limits}. The loop is at {played_hz:g} Hz.", BundleWarning)
     return played_hz
 
 

@@ -12,6 +12,10 @@ from contextlib import asynccontextmanager
 from typing import Any
 from urllib.parse import urlsplit
 
+from websockets.asyncio.server import ServerConnection, serve
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+
 from scene2hap import __version__, checks
 from scene2hap.bridge.config import BridgeConfig, is_loopback
 from scene2hap.bridge.connection import Connection
@@ -19,17 +23,8 @@ from scene2hap.bridge.host import Host
 from scene2hap.bridge.hosted_session import error_message
 from scene2hap.bridge.messages import VERSION, Hello, parse_request, read_document
 from scene2hap.bridge.udp import FrameDatagrams
-from scene2hap.errors import BridgeError, ConfigError, MissingExtra, Scene2HapError
+from scene2hap.errors import BridgeError, ConfigError, Scene2HapError
 from scene2hap.propagation import MODELS
-
-try:
-    from websockets.asyncio.server import ServerConnection, serve
-    from websockets.exceptions import ConnectionClosed
-    from websockets.http11 import Request, Response
-except ImportError as cause:
-    raise MissingExtra(
-        "the bridge needs the extra `bridge`. Install it with: python -m pip install 'scene2hap[bridge]'"
-    ) from cause
 
 HELLO_WITHIN_S = 5.0
 MAX_HELLO_BYTES = 4096

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -13,6 +12,7 @@ from scene2hap.checks import did_you_mean
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
 from scene2hap.materials import Material
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.surface import plate_sizes
 
 
@@ -33,7 +33,7 @@ def warn_of_unknown_fields(path: Path, answers: Mapping[str, Any]) -> None:
             known = [field.name for field in fields(kind)]
             for name in [name for name in part or () if name not in known]:
                 wrong = f"{path}: {object_id!r} has a field {name!r}, which does not exist and has no effect."
-                warnings.warn(f"{wrong} {did_you_mean(name, known)}".rstrip(), BundleWarning, stacklevel=6)
+                warn_of(f"{wrong} {did_you_mean(name, known)}".rstrip(), BundleWarning)
 
 
 def require_plausible(bundle: BundleContents, folder: Path) -> None:
@@ -52,4 +52,4 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
                 faults = "; ".join(f"{edge} is {why}" for edge, why in wrong.items())
                 raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {faults}.")
         for doubt in unmet_needs(object_id, haptics.states, categories):
-            warnings.warn(f"{object_id!r}: {doubt}.", BundleWarning, stacklevel=4)
+            warn_of(f"{object_id!r}: {doubt}.", BundleWarning)

@@ -20,7 +20,6 @@ import re
 import shutil
 import time
 import uuid
-import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -31,6 +30,7 @@ from scene2hap.bundle.foreign_files import carry_over, discard
 from scene2hap.bundle.own_files import MANIFEST, our_files
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, reason_of
 from scene2hap.file_stamp import Stamp, file_stamp
+from scene2hap.scene.scene_warning import warn_of
 
 try:
     import fcntl
@@ -128,7 +128,7 @@ def recover(target: Path) -> None:
                     f"one at {old}; move one of them to {target} ({cause.strerror})."
                 ) from cause
             warning = f"{target} was being replaced when that process died; the new bundle was whole and is there now."
-            warnings.warn(warning, BundleWarning, stacklevel=4)
+            warn_of(warning, BundleWarning)
             with suppress(OSError, BundleError):
                 discard(old, place)
         return
@@ -159,7 +159,7 @@ def _put(draft: Path, place: Path, target: Path, held: ExitStack, since: Stamp |
                 discard(old, place)
             except (OSError, BundleError) as cause:
                 warning = f"{target} is written, but {old}, which it replaces, cannot be removed: {reason_of(cause)}"
-                warnings.warn(warning, BundleWarning, stacklevel=6)
+                warn_of(warning, BundleWarning)
         return
 
 

@@ -18,6 +18,7 @@ from scene2hap.bundle.notebook import bundle_table
 from scene2hap.bundle.override import ANY_STATE, BY_STATE, MAKES_LOOPS, Override
 from scene2hap.calls import clear_calls
 from scene2hap.clips.haptic_clip import HapticClip
+from scene2hap.counted import counted
 from scene2hap.errors import BundleError
 from scene2hap.materials import Material
 from scene2hap.scene.plausibility.check import too_heavy
@@ -181,6 +182,11 @@ class HapticBundle(BundleContents):
         if up_to_m is not None:
             up_to_m = checks.number("up_to_m", up_to_m, "m", error=BundleError)
         return plot_bundle(self, sources, up_to_m, figure)
+
+    def __repr__(self) -> str:
+        n_sources = sum(map(bool, self.loops.values()))
+        counts = f"{counted(len(self.snapshot.objects), 'object')}, {counted(n_sources, 'source')}"
+        return f"HapticBundle({self.snapshot.name!r}, {counts})"
 
     def _repr_html_(self) -> str:
         return bundle_table(self)

@@ -11,7 +11,6 @@ recognise such a curve if it starts after 0, and its first point has the curve's
 
 from __future__ import annotations
 
-import warnings
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -32,6 +31,7 @@ from scene2hap.clips.haptic_clip import (
     Values,
 )
 from scene2hap.errors import ClipError
+from scene2hap.scene.scene_warning import warn_of
 
 SUFFIX = ".ahap"
 MAX_EVENT_S = 30.0
@@ -116,7 +116,7 @@ def read_ahap(path: Path, *, range_hz: tuple[float, float] = RANGE_HZ) -> Haptic
     ignored = sorted(set[str]().union(*(part.ignored for part in parts)))
     if ignored:
         warning = f"{path}: {', '.join(ignored)} in it is not played; haptic events alone are."
-        warnings.warn(warning, ClipWarning, stacklevel=2)
+        warn_of(warning, ClipWarning)
     transients = tuple(sorted((one for part in parts for one in _felt(part)), key=lambda one: one.time_s))
     main = next((part for part in parts if part.continuous), parts[0])
     if not main.continuous and not transients:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-import warnings
 from pathlib import Path
 
 import numpy as np
 
+from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import read_clip
 from scene2hap.clips import ahap, haptic_format
@@ -16,6 +16,7 @@ from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.haptic_format import breaks_span_rule, read_haptic
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.errors import ClipError
+from scene2hap.scene.scene_warning import warn_of
 
 SUFFIXES = (haptic_format.SUFFIX, ahap.SUFFIX)
 """Suffixes of haptic clips; files with other suffixes are read as sounds."""
@@ -33,7 +34,7 @@ def read_haptic_clip(path: str | os.PathLike[str]) -> HapticClip:
     Warns: ClipWarning: the frequency curve of a .haptic file continues after its amplitude curve, as in files of
     earlier programs; or there are events that are not haptic.
     """
-    path = Path(path)
+    path = checks.path("path", path, error=ClipError)
     suffix = path.suffix.lower()
     if suffix == ahap.SUFFIX:
         return read_ahap(path)
@@ -45,7 +46,7 @@ def read_haptic_clip(path: str | os.PathLike[str]) -> HapticClip:
         if not breaks_span_rule(error):
             raise
         clip = read_haptic(path, legacy=True)
-        warnings.warn(f"{error} It is read without what lies outside.", ClipWarning, stacklevel=2)
+        warn_of(f"{error} It is read without what lies outside.", ClipWarning)
         return clip
 
 

@@ -208,6 +208,11 @@ class ContactGraph:
         if added or removed or contacts is not None:
             if isinstance(added, SceneObject) or isinstance(removed, str):
                 raise SceneError("added and removed must be lists, as added=[SceneObject(...)] and removed=['mug'].")
+            added = checks.instances("added", added, SceneObject, "a list of SceneObject", error=SceneError)
+            removed = checks.items("removed", removed, at_most=len(self._poses), error=SceneError)
+            if contacts is not None:
+                wanted = "a list, as [Contact('mug', 'table', point_m)]"
+                contacts = checks.instances("contacts", contacts, Contact, wanted, error=SceneError)
             return self._rebuild(moved, added, removed, contacts)
         stale = {}
         poses = self._poses

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import inspect
-import warnings
 from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
@@ -21,6 +20,7 @@ from scene2hap.llm.json_text import first_object
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
+from scene2hap.scene.scene_warning import warn_of
 
 
 class Slots:
@@ -98,11 +98,10 @@ class Questions:
         if self._slots.is_stopping:
             return
         self._slots.is_stopping = True
-        warnings.warn(
+        warn_of(
             f"stopping: {counted(self._slots.n_running, 'question')} to the model will be answered first, since the "
             "answers are paid for. Interrupt again to stop at once.",
             chat.BackendWarning,
-            stacklevel=2,
         )
 
     async def ask(

@@ -5,25 +5,6 @@ import numpy as np
 from libc.math cimport fmax, fmin, isfinite
 
 
-def of_tuples(points_m, Py_ssize_t dimensions):
-    cdef Py_ssize_t i, k
-    if type(points_m) is not list or not points_m:
-        return None
-    for place in points_m:
-        if type(place) is not tuple or len(place) != dimensions:
-            return None
-        for x in place:
-            if type(x) is not float or not isfinite(<double>x):
-                return None
-    found = np.empty((len(points_m), dimensions))
-    cdef double[:, ::1] out = found
-    for i in range(out.shape[0]):
-        place = points_m[i]
-        for k in range(dimensions):
-            out[i, k] = place[k]
-    return found
-
-
 def are_finite(const double[:, :] points):
     cdef Py_ssize_t i, k
     for i in range(points.shape[0]):

@@ -23,12 +23,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.cached_while_used import cached_while_used
 from scene2hap.propagation.domain import as_frequencies, warn_if_slow
 from scene2hap.propagation.plate import MAX_FREQUENCY_HZ, Plate, require_plate
 from scene2hap.propagation.points import as_points
 from scene2hap.propagation.ritz import AxisBasis, axis_bases, products, stiffness
+from scene2hap.scene.geometry import frozen
 
 Number = TypeVar("Number", np.float64, np.complex128)
 
@@ -143,6 +145,10 @@ class PlateModes:
     column: NDArray[np.intp]
     of_modes: tuple[int, int]
 
+    def __repr__(self) -> str:
+        low, high = self.frequencies_hz[[0, -1]] if len(self.block) else (0.0, 0.0)
+        return f"PlateModes({counted(len(self.block), 'mode')}, {low:.4g} to {high:.4g} Hz)"
+
     @cached_property
     def terms(self) -> tuple[int, int]:
         """Numbers of basis functions along length and width."""
@@ -155,10 +161,12 @@ class PlateModes:
 
     @cached_property
     def frequencies_hz(self) -> NDArray[np.float64]:
-        """Natural frequencies (n_modes,) float64 [Hz], rising; 0 for rigid motions, of which a free plate has three."""
+        """Natural frequencies (n_modes,) float64 [Hz], rising; 0 for rigid motions, of which a free plate has three.
+
+        Read-only, since later calls of `plate_modes` share them.
+        """
         k4 = np.array([self.blocks[block].k4[column] for block, column in zip(self.block, self.column, strict=True)])
-        frequencies: NDArray[np.float64] = np.sqrt(k4) / self.plate.wavenumber_per_root_omega**2 / (2 * math.pi)
-        return frequencies
+        return frozen(np.sqrt(k4) / self.plate.wavenumber_per_root_omega**2 / (2 * math.pi))
 
     def shapes(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Deflection of each mode at points, for a modal mass of 1 kg; its sign is arbitrary.
@@ -211,6 +219,7 @@ def n_rigid_motions(plate: Plate) -> int:
 
 def receptance_frequencies(plate: Plate, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
     """As `as_frequencies`, but 0 Hz is an error for a plate that nothing holds: a constant force moves it away."""
+    require_plate(plate)
     loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
     return as_frequencies(frequencies_hz, positive_because=loose)
 

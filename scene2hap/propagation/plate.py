@@ -7,9 +7,10 @@ D [N m] bending stiffness per width, omega [rad/s], k [rad/m].
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -54,6 +55,21 @@ class Plate:
     feet: Material | None = None
     outline: Outline | None = None
     mass_is_estimate: bool = False
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            length_m: float,
+            width_m: float,
+            thickness_m: float,
+            material: Material | str,
+            boundary: str = ...,
+            object_mass_kg: float | None = ...,
+            feet: Material | None = ...,
+            outline: Outline | None = ...,
+            mass_is_estimate: bool = ...,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         if isinstance(self.material, str):
@@ -146,7 +162,11 @@ class Plate:
         rho, h = self.material.density_kg_m3, self.thickness_m
         return math.sqrt(math.sqrt(rho * h / self.bending_stiffness_nm))
 
-    def wavenumber_rad_m(self, frequency_hz: ArrayLike) -> NDArray[np.float64]:
+    @overload
+    def wavenumber_rad_m(self, frequency_hz: float) -> float: ...
+    @overload
+    def wavenumber_rad_m(self, frequency_hz: ArrayLike) -> NDArray[np.float64]: ...
+    def wavenumber_rad_m(self, frequency_hz: ArrayLike) -> float | NDArray[np.float64]:
         """Return the wavenumber of free bending waves, k^4 = rho h omega^2 / D [rad/m].
 
         Parameters: frequency_hz : of any shape, 0..1e9 [Hz]; the wavenumbers have the same shape.
@@ -189,6 +209,12 @@ class RigidBody:
     mass_kg: float
     size_m: tuple[float, float, float] | None = None
     material: Material | None = None
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, mass_kg: float, size_m: Iterable[float] | None = ..., material: Material | None = ...
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         mass = checks.number("mass_kg", self.mass_kg, "kg", above=0.0, error=ModelDomainError)

@@ -20,8 +20,6 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
 
     Raises: ModelDomainError: another shape, or a coordinate that is not finite.
     """
-    if (found := of_tuples(points_m, dimensions)) is not None:
-        return found
     points = checks.floats("points", points_m, "m", error=ModelDomainError)
     if points.ndim < 2:
         points = points.reshape(1, -1)
@@ -30,19 +28,6 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
     if not are_finite(points):
         raise ModelDomainError("points hold a coordinate that is not finite; every one must be a number [m].")
     return points
-
-
-@compiled
-def of_tuples(points_m: object, dimensions: int) -> NDArray[np.float64] | None:
-    """Points from the usual form, a list of tuples of finite Python numbers; None for any other form."""
-    if type(points_m) is not list or not points_m:
-        return None
-    for place in points_m:
-        if type(place) is not tuple or len(place) != dimensions:
-            return None
-        if not all(type(x) is float and math.isfinite(x) for x in place):
-            return None
-    return np.array(points_m)
 
 
 @compiled

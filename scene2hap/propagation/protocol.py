@@ -98,7 +98,7 @@ class PropagationField(Protocol):
         """Ids of the sources, in the order of the second axis of `attenuation`."""
         ...
 
-    def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
+    def attenuation(self, object_id: str, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the response at points of one object over each source's free vibration.
 
         Parameters: points_m : (n_points, 3) float64 [m], world, on or near the object as it was when prepared.

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
@@ -80,7 +80,7 @@ class ScaledField:
         """Ids of the sources; see `PropagationField`."""
         return self.field.source_ids
 
-    def attenuation(self, object_id: str, points_m: ArrayLike) -> Floats:
+    def attenuation(self, object_id: str, points_m: NDArray[np.float64]) -> Floats:
         """See `PropagationField`."""
         factors = [1.0 if key == object_id else self.factors[key] for key in self.source_ids]
         found: Floats = self.field.attenuation(object_id, points_m) * np.array(factors)[:, None]

@@ -6,17 +6,25 @@ Bounds are boxes as arrays (2, n_axes) of the lowest and the highest corner.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Vector = tuple[float, float, float]
 Bounds = NDArray[np.float64]
+Number = TypeVar("Number", bound=np.generic)
 
 
 def vector(values: Sequence[float] | NDArray[np.floating]) -> Vector:
     """Return three numbers as a tuple of floats."""
     return (float(values[0]), float(values[1]), float(values[2]))
+
+
+def frozen(array: NDArray[Number]) -> NDArray[Number]:
+    """Make an array read-only, and return it. Data that never change keep their cached arrays so."""
+    array.flags.writeable = False
+    return array
 
 
 def dot(one: Sequence[float], other: Sequence[float]) -> float:

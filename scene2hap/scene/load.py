@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -23,6 +22,7 @@ from scene2hap.scene.looks.textures import TextureWarning
 from scene2hap.scene.objects import SceneObject, UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import UnitWarning, warn_if_implausible
 from scene2hap.scene.rigid_meshes import MeshPool
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredScene
 
@@ -102,7 +102,7 @@ def load_scene(
             n = len(authored.left_out)
             first = " ".join(authored.left_out[:_LISTED]) + (f" And {n - _LISTED} more." if n > _LISTED else "")
             message = f"{path.name!r} is read without {counted(n, 'texture')}, in plain colours: {first}"
-            warnings.warn(message, TextureWarning, stacklevel=3)
+            warn_of(message, TextureWarning)
         unit = unit_m or authored.unit_m or 1.0
         snapshot = _snapshot(writable(scene_stem(path)), authored, up_axis or authored.up_axis, unit, group)
     snapshot = named_after_file(snapshot, writable(scene_stem(path)))

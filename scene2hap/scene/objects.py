@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,11 +14,11 @@ from pydantic import InstanceOf
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import bounds_of
+from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.shapes import DominantSurface, Geometry, geometry_of
+from scene2hap.scene.shapes import DominantSurface, Geometry, MeshLike, geometry_of
 
 UpAxis = Literal["y", "z"]
 """The up axis of a scene: "y" as in glTF, "z" as in MuJoCo."""
@@ -44,6 +44,18 @@ class Contact:
     normal: tuple[float, float, float] | None = None
     area_m2: float | None = None
     weight: float = 1.0
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            a: str,
+            b: str,
+            point_m: Iterable[float],
+            normal: Iterable[float] | None = ...,
+            area_m2: float | None = ...,
+            weight: float = ...,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         for name in (self.a, self.b):
@@ -99,7 +111,7 @@ class SceneObject:
         id: str,  # the field's name
         name: str | None = None,
         pose: Pose = _AT_ORIGIN,
-        geometry: Geometry | tuple[ArrayLike, ArrayLike] | object = None,
+        geometry: Geometry | Sequence[ArrayLike] | MeshLike | None = None,
         surface: DominantSurface | None = None,
         relative_height_m: float = 0.0,
         instance_key: str = "",
@@ -162,8 +174,8 @@ class SceneObject:
 
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
-        """Lowest and highest corner (2, 3) [m] in the world."""
-        return bounds_of(self.pose.to_world(self.geometry.mesh.vertices_m))
+        """Lowest and highest corner (2, 3) [m] in the world. Read-only."""
+        return frozen(bounds_of(self.pose.to_world(self.geometry.mesh.vertices_m)))
 
     def plate_coordinates(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Return world points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.

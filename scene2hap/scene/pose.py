@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import vector
+from scene2hap.scene.geometry import frozen, vector
 from scene2hap.scene.scene_warning import warn_of
 
 # A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical.
@@ -41,6 +41,10 @@ class Pose:
     position_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rotation_xyzw: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
 
+    if TYPE_CHECKING:
+
+        def __init__(self, position_m: Iterable[float] = ..., rotation_xyzw: Iterable[float] = ...) -> None: ...
+
     def __post_init__(self) -> None:
         position = checks.vector("position_m", self.position_m, "m", size=3, error=SceneError)
         rotation = checks.vector("rotation_xyzw", self.rotation_xyzw, "-", size=4, error=SceneError)
@@ -64,15 +68,14 @@ class Pose:
 
     @cached_property
     def rotation(self) -> NDArray[np.float64]:
-        """Rotation matrix (3, 3) [-], own axes in its columns."""
+        """Rotation matrix (3, 3) [-], own axes in its columns. Read-only."""
         x, y, z, w = self.rotation_xyzw
-        return np.array(
-            [
-                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-            ]
-        )
+        rows = [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+        return frozen(np.array(rows))
 
     @cached_property
     def _position(self) -> NDArray[np.float64]:
@@ -106,20 +109,20 @@ class Pose:
         return Pose((float(position[0]), float(position[1]), float(position[2])), quaternion)
 
     @classmethod
-    def from_wxyz(cls, position_m: Sequence[float], rotation_wxyz: Sequence[float]) -> Pose:
+    def from_wxyz(cls, position_m: Iterable[float], rotation_wxyz: Iterable[float]) -> Pose:
         """Return the pose of a quaternion that begins with w, as in MuJoCo, Blender and PyTorch3D."""
         w, x, y, z = checks.vector("rotation_wxyz", rotation_wxyz, "-", size=4, error=SceneError)
         return cls(_given(position_m), (x, y, z, w))
 
     @classmethod
-    def from_yaw(cls, position_m: Sequence[float], yaw_rad: float, *, up_axis: Literal["y", "z"] = "y") -> Pose:
+    def from_yaw(cls, position_m: Iterable[float], yaw_rad: float, *, up_axis: Literal["y", "z"] = "y") -> Pose:
         """Return the pose of an object rotated about the vertical, counter-clockwise seen from above."""
         half = checks.number("yaw_rad", yaw_rad, "rad", error=SceneError) / 2
         _warn_of_degrees("yaw_rad", yaw_rad)
         return cls(_given(position_m), _about(_axis(up_axis, "up_axis", "yz"), half))
 
     @classmethod
-    def from_euler(cls, position_m: Sequence[float], angles_rad: Sequence[float], *, order: str = "xyz") -> Pose:
+    def from_euler(cls, position_m: Iterable[float], angles_rad: Iterable[float], *, order: str = "xyz") -> Pose:
         """Return the pose of successive rotations about the axes of the world, in the order of the letters.
 
         Parameters: order : one to three of the letters x, y, z, without two equal neighbours; capitals rotate about the
@@ -147,7 +150,7 @@ class Pose:
 
     @classmethod
     def look_at(
-        cls, position_m: Sequence[float], target_m: Sequence[float], *, up_axis: Literal["y", "z"] = "y"
+        cls, position_m: Iterable[float], target_m: Iterable[float], *, up_axis: Literal["y", "z"] = "y"
     ) -> Pose:
         """Return the pose of an object whose front points at a target, with its upper side as far up as possible.
 
@@ -191,7 +194,7 @@ class Pose:
         return cls(vector(m[:3, 3]), _quaternion(r))
 
 
-def _warn_of_length(rotation: Sequence[float], length: float) -> None:
+def _warn_of_length(rotation: Iterable[float], length: float) -> None:
     parts = ", ".join(f"{component:g}" for component in rotation)
     warn_of(
         f"rotation_xyzw is ({parts}), of length {length:.3g}; a rotation is a unit quaternion (x, y, z, w), so that "
@@ -208,7 +211,7 @@ def _warn_of_degrees(name: str, angle_rad: float) -> None:
         )
 
 
-def _given(position_m: Sequence[float]) -> tuple[float, float, float]:
+def _given(position_m: Iterable[float]) -> tuple[float, float, float]:
     return vector(checks.vector("position_m", position_m, "m", size=3, error=SceneError))
 
 

@@ -9,10 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
+from scene2hap.counted import counted
 from scene2hap.errors import SceneError
 from scene2hap.scene.pose import Pose
 
 _UNIT_TOLERANCE = 1e-9  # As in `Pose`: a rotation this close to unit length is kept unchanged.
+_MOST = 10_000_000  # only an endless generator exceeds this
 
 
 @clear_construction
@@ -27,7 +29,7 @@ class PoseTable(Mapping[str, Pose]):
     __slots__ = ("_row", "ids", "positions_m", "rotations_xyzw")
 
     def __init__(self, ids: Sequence[str], positions_m: ArrayLike, rotations_xyzw: ArrayLike) -> None:
-        self.ids = tuple(ids)
+        self.ids = checks.items("ids", ids, at_most=_MOST, error=SceneError)
         n = len(self.ids)
         self.positions_m = self._rows("positions_m", positions_m, (n, 3))
         rotations = self._rows("rotations_xyzw", rotations_xyzw, (n, 4))
@@ -41,6 +43,9 @@ class PoseTable(Mapping[str, Pose]):
             rotations /= np.where(off, lengths, 1.0)[:, None]
         self.rotations_xyzw = rotations
         self._row: dict[str, int] | None = None
+
+    def __repr__(self) -> str:
+        return f"PoseTable({counted(len(self.ids), 'pose')})"
 
     @property
     def row(self) -> Mapping[str, int]:

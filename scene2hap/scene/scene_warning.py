@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 import warnings
 
-_PASSED = (__name__.partition(".")[0], "asyncio", "contextlib")
-"""Packages whose lines are not the caller's: our own, the event loop in which `bake` runs, and decorators."""
+_PASSED = (__name__.partition(".")[0], "asyncio", "contextlib", "dataclasses")
+"""Packages whose lines are not the caller's: our own, the event loop of `bake`, decorators, and copies of data."""
 
 
 class SceneWarning(UserWarning):

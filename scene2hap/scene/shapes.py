@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from pydantic import PlainSerializer, PlainValidator
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
-from scene2hap.scene.geometry import bounds_of
+from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.surface import plate_sizes
 from scene2hap.scene.surface.outline import Outline
@@ -46,6 +47,10 @@ class Box:
     size_m: tuple[float, float, float]
     kind: Literal["box"] = "box"
 
+    if TYPE_CHECKING:
+
+        def __init__(self, size_m: Iterable[float], kind: Literal["box"] = ...) -> None: ...
+
     def __post_init__(self) -> None:
         size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=SceneError)
         object.__setattr__(self, "size_m", size)
@@ -72,6 +77,10 @@ class TriMesh:
     vertices_m: Vertices
     faces: Faces
     kind: Literal["mesh"] = "mesh"
+
+    if TYPE_CHECKING:
+
+        def __init__(self, vertices_m: ArrayLike, faces: ArrayLike, kind: Literal["mesh"] = ...) -> None: ...
 
     def __post_init__(self) -> None:
         vertices = _frozen_array("vertices_m", self.vertices_m, np.float64)
@@ -119,11 +128,25 @@ class TriMesh:
 
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
-        """Lowest and highest corner (2, 3) [m] in the own frame, of the vertices that faces use."""
-        return bounds_of(self.corners_m)
+        """Lowest and highest corner (2, 3) [m] in the own frame, of the vertices that faces use. Read-only."""
+        return frozen(bounds_of(self.corners_m))
 
 
 Geometry = Box | TriMesh
+
+
+class MeshLike(Protocol):
+    """A mesh of another package, such as trimesh."""
+
+    @property
+    def vertices(self) -> ArrayLike:
+        """Points (n, 3) [m]."""
+        ...
+
+    @property
+    def faces(self) -> ArrayLike:
+        """Indices into the vertices (m, 3)."""
+        ...
 
 
 def geometry_of(value: object, owner: str) -> Geometry:
@@ -170,7 +193,7 @@ class DominantSurface:
             object.__setattr__(
                 self, name, checks.number(name, getattr(self, name), "m", at_least=0.0, error=SceneError)
             )
-        object.__setattr__(self, "flags", tuple(self.flags))
+        object.__setattr__(self, "flags", checks.items("flags", self.flags, error=SceneError))
         if self.outline is not None and not isinstance(self.outline, Outline):
             raise SceneError(f"outline of the surface is {checks.described(self.outline)}; it must be an Outline.")
         least_m = plate_sizes.NOTHING * min(self.length_m, self.width_m)
@@ -191,6 +214,4 @@ def _frozen_array(name: str, value: object, dtype: type[np.generic]) -> NDArray[
         raise SceneError(f"{name} holds values that are not vertex numbers; they must be integers from 0.")
     if dtype is np.int32 and (array != np.rint(array)).any():
         raise SceneError(f"{name} holds {array[array != np.rint(array)][0]:g}; vertex numbers must be integers from 0.")
-    frozen = array.astype(dtype)
-    frozen.flags.writeable = False
-    return frozen
+    return frozen(array.astype(dtype))

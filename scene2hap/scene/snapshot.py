@@ -15,6 +15,7 @@ from pydantic import InstanceOf
 
 from scene2hap import checks
 from scene2hap.calls import clear_calls
+from scene2hap.counted import counted
 from scene2hap.errors import CallError, SceneError, UnknownObject
 from scene2hap.html_tables import html_table, number
 from scene2hap.scene.images import ImageSet
@@ -130,7 +131,9 @@ class SceneSnapshot(SceneData):
             if not item.instance_key and item.appearance is None:
                 item = replace(item, instance_key=item.geometry.mesh.digest)
             turned.append(item)
-        scene = cls(name, up_axis, tuple(turned), None if contacts is None else tuple(contacts))
+        if contacts is not None:
+            contacts = checks.items("contacts", contacts, at_most=_MOST_CONTACTS, error=SceneError)
+        scene = cls(name, up_axis, tuple(turned), contacts)
         scene = replace(scene, objects=with_relative_heights(turned, up_axis))
         warn_if_implausible(scene, is_built=True)
         return scene
@@ -156,6 +159,9 @@ class SceneSnapshot(SceneData):
         from scene2hap.scene.plausibility.check import findings
 
         return tuple(findings(self))
+
+    def __repr__(self) -> str:
+        return f"SceneSnapshot({self.name!r}, {counted(len(self.objects), 'object')}, {self.up_axis} up)"
 
     def _repr_html_(self) -> str:
         def row(item: SceneObject) -> tuple[str, ...]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,10 +25,17 @@ class Touch:
     object_id: str
     point_m: tuple[float, float, float]
 
+    if TYPE_CHECKING:
+
+        def __init__(self, hand: str, object_id: str, point_m: Iterable[float]) -> None: ...
+
     def __post_init__(self) -> None:
         point = checks.vector("point_m", self.point_m, "m", size=3, error=SessionError, hint=_TOUCH)
         object.__setattr__(self, "point_m", point)
 
+
+GivenTouches = Touch | Iterable[Touch | tuple[str, str, Iterable[float]]]
+"""All forms in which a session accepts touches; a tuple is (hand, object id, point)."""
 
 Gains = NDArray[np.float32]
 

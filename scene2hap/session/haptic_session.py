@@ -9,7 +9,7 @@ and `render` never waits for `update`.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from types import TracebackType
@@ -26,6 +26,7 @@ from scene2hap.bundle.contents import require_same_scene
 from scene2hap.bundle.differences import changed_objects
 from scene2hap.calls import clear_calls, read_only
 from scene2hap.contact.graph import ContactChange
+from scene2hap.counted import counted
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
 from scene2hap.errors import SceneError, SessionError, UnknownObject
@@ -53,7 +54,7 @@ from scene2hap.session.arguments import (
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explanation
-from scene2hap.session.frame import HapticFrame, SessionStats, Touch, unknown_hand
+from scene2hap.session.frame import GivenTouches, HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts, Strike
@@ -188,8 +189,8 @@ class HapticSession:
 
     def update(
         self,
-        moved: Mapping[str, Pose] | None = None,
-        touches: Sequence[Touch] | None = (),
+        moved: Mapping[str, Pose] | Touch | Sequence[Touch] | None = None,
+        touches: GivenTouches | None = (),
         *,
         contacts: Sequence[Contact] | None = None,
         at_sample: int | None = None,
@@ -239,7 +240,7 @@ class HapticSession:
     def strike(
         self,
         object_id: str,
-        point_m: tuple[float, float, float],
+        point_m: Iterable[float],
         *,
         speed_m_s: float | None = None,
         impulse_n_s: float | None = None,
@@ -428,7 +429,7 @@ class HapticSession:
         """The impacts of the last second that any hand felt, the latest first."""
         return self._impacts.recent()
 
-    def would_feel(self, touches: Sequence[Touch] | None) -> NDArray[np.float64]:
+    def would_feel(self, touches: GivenTouches | None) -> NDArray[np.float64]:
         """Return the gains that `update` would report for each of these touches alone, without playing them.
 
         For maps, and for a game that plans ahead. The gains are from the field in use, with the volume of source, user
@@ -552,6 +553,10 @@ class HapticSession:
 
     close = stop
 
+    def __repr__(self) -> str:
+        counts = f"{counted(len(self.object_ids), 'object')}, {counted(len(self.source_ids), 'source')}"
+        return f"HapticSession({counts}, hands {', '.join(self.hands)})"
+
     def __reduce__(self) -> NoReturn:
         raise SessionError(
             "a session cannot be copied or pickled: it has threads and a sink. Save its bundle (`bundle.save(folder)`) "
@@ -656,7 +661,7 @@ class HapticSession:
             self._use_profile(self._user)
         self._hand_frames.levels_changed()
 
-    def _by_hand(self, touches: Sequence[Touch] | None) -> Felt:
+    def _by_hand(self, touches: Any) -> Felt:
         if type(touches) is not list and type(touches) is not tuple:
             touches = given_touches(touches)
         try:

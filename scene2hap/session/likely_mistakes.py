@@ -10,7 +10,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import islice
@@ -189,11 +188,10 @@ def warn_if_other_actuator(bundle: HapticBundle, actuator: ActuatorProfile) -> N
     made_for = getattr(getattr(bundle, "made_with", None), "actuator", None)
     if not bundle.loops or not isinstance(made_for, ActuatorProfile) or _response(made_for) == _response(actuator):
         return
-    warnings.warn(
+    warn_of(
         f"the bundle's loops were made for the actuator {made_for.name!r}, and this session plays on "
         f'{actuator.name!r}: give SessionConfig(actuator=...) the one in use, or rebake(bundle, {{"actuator": ...}}).',
         OtherActuatorWarning,
-        stacklevel=4,
     )
 
 

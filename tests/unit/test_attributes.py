@@ -108,3 +108,32 @@ def test_bundle_mapping_error_names_the_nearest_key() -> None:
         assert again == {"phone": 1, "mug": 2}
         with pytest.raises(UnknownObject, match="object"):
             again[3]
+
+
+def test_arrays_of_data_that_never_change_are_read_only() -> None:
+    item = SceneObject("cup", geometry=Box((0.1, 0.2, 0.3)))
+    mesh = item.geometry.mesh
+    modes = scene2hap.plate_modes(scene2hap.Plate(1.0, 0.5, 0.02, "oak"), 4)
+    arrays = [item.pose.rotation, item.bounds_m, mesh.bounds_m, mesh.vertices_m, mesh.faces, modes.frequencies_hz]
+    for array in arrays:
+        with pytest.raises(ValueError, match="read-only"):
+            array *= 2
+    again = scene2hap.plate_modes(scene2hap.Plate(1.0, 0.5, 0.02, "oak"), 4)
+    assert again.frequencies_hz[-1] > 0
+
+
+@pytest.mark.parametrize("n_objects", [1, 40])
+def test_large_data_are_shown_in_a_line(n_objects: int) -> None:
+    items = [SceneObject(f"cup {i}", pose=Pose((i, 0, 0)), geometry=Box((0.1, 0.2, 0.3))) for i in range(n_objects)]
+    scene = SceneSnapshot.build(items, name="shelf")
+    bundle = scene2hap.HapticBundle(scene, "kitchen", {}, {})
+    clip = scene2hap.AudioClip([0.0] * 24_000, 48_000)
+    table = scene2hap.PoseTable([item.id for item in items], [(0, 0, 0)] * n_objects, [(0, 0, 0, 1)] * n_objects)
+    modes = scene2hap.plate_modes(scene2hap.Plate(1.0, 0.5, 0.02, "oak"), n_objects)
+    count = "1 object" if n_objects == 1 else "40 objects"
+    assert repr(scene) == f"SceneSnapshot('shelf', {count}, y up)"
+    assert repr(bundle) == f"HapticBundle('shelf', {count}, 0 sources)"
+    assert repr(clip) == "AudioClip('untitled', 0.5 s, 48000 Hz)"
+    assert repr(table) == f"PoseTable({count.replace('object', 'pose')})"
+    assert repr(modes).startswith(f"PlateModes({count.replace('object', 'mode')}, 0 to ")
+    assert repr(HapticSession(scene, bundle)) == f"HapticSession({count}, 0 sources, hands left, right)"

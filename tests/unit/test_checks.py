@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from scene2hap import checks
-from scene2hap.errors import MaterialError
+from scene2hap.errors import MaterialError, SceneError
 
 
 @pytest.mark.parametrize("value", [1, 1.0, np.float32(1), np.int64(1), Fraction(1)])
@@ -54,3 +54,16 @@ def test_vector_of_the_wrong_size(value: object) -> None:
 def test_vector_names_the_component() -> None:
     with pytest.raises(MaterialError, match=r"point\[1\] is nan m"):
         checks.vector("point", (0, math.nan, 0), "m", size=3, error=MaterialError)
+
+
+@pytest.mark.parametrize("given", [None, 3, "cup", {"cup": 1}, "cups", ["cup"], [1, "cup"], b"cup", object()])
+def test_items_of_one_type(given: object) -> None:
+    with pytest.raises(SceneError, match=r"^sizes (is|is or has) .*; it must be a( sequence| list of float)\.$"):
+        checks.instances("sizes", given, float, "a list of float", error=SceneError)
+
+
+def test_one_item_without_its_list_is_an_error() -> None:
+    with pytest.raises(SceneError, match=r"sizes is or has 1\.5; it must be a list of float"):
+        checks.instances("sizes", 1.5, float, "a list of float", error=SceneError)
+    assert checks.instances("sizes", iter([1.5, 2.5]), float, "a list of float", error=SceneError) == (1.5, 2.5)
+    assert checks.instances("sizes", (), float, "a list of float", error=SceneError) == ()

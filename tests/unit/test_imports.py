@@ -57,6 +57,30 @@ def test_packages_are_reachable_as_attributes() -> None:
     assert "scene2hap.materials" in loaded
 
 
+def test_completion_offers_public_names_and_packages_alone() -> None:
+    shown = """import scene2hap, scene2hap.checks, scene2hap.touch_track
+private = {name for name in dir(scene2hap) if name[:1] == "_" and name[:2] != "__"}
+assert not private, private
+others = {name for name in dir(scene2hap) if name[:1] != "_"} - {*scene2hap.__all__}
+assert {"checks", "sys", "Any", "annotations", "touch_track"}.isdisjoint(others), others
+assert {"materials", "errors", "report", "demo", "baking"} <= others
+assert all(getattr(scene2hap, name).__name__ == f"scene2hap.{name}" for name in others)"""
+    modules_after(shown)
+
+
+@pytest.mark.parametrize("module", ["bridge", "bridge.server", "bridge.messages"])
+def test_bridge_without_its_extra_names_the_extra(module: str) -> None:
+    modules_after(f"""
+sys.modules["websockets"] = None
+from scene2hap.errors import MissingExtra
+try:
+    import scene2hap.{module}
+except MissingExtra as error:
+    assert "pip install 'scene2hap[bridge]'" in str(error), error
+else:
+    raise SystemExit("imported")""")
+
+
 def test_unknown_name_is_an_attribute_error() -> None:
     import scene2hap
 

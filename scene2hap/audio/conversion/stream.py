@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 import time
-import warnings
 from collections.abc import Collection, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -42,6 +41,7 @@ from scene2hap.audio.protocol import (
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError, ConfigError
+from scene2hap.scene.scene_warning import warn_of
 
 Block = NDArray[np.float32]
 """Samples (n, channels)."""
@@ -176,7 +176,7 @@ def convert(
         None if raw else sensation_level_db(context.intensity),
     )
     if made.level_doubt:
-        warnings.warn(made.level_doubt, LevelWarning, stacklevel=2)
+        warn_of(made.level_doubt, LevelWarning)
     return made
 
 

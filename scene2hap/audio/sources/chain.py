@@ -8,7 +8,6 @@ candidate "remains" if the selection will not drop it for being too short.
 from __future__ import annotations
 
 import logging
-import warnings
 from collections.abc import Sequence
 
 from scene2hap import checks
@@ -17,6 +16,7 @@ from scene2hap.audio.protocol import AudioSource
 from scene2hap.audio.sources.disk_cache import is_long_enough
 from scene2hap.errors import AudioError, Scene2HapError
 from scene2hap.haptics import VibrationDescription
+from scene2hap.scene.scene_warning import warn_of
 
 ENOUGH = 1
 """Candidates after which no further source is queried; the paper's rule."""
@@ -54,7 +54,7 @@ def gather(
             reason = str(cause) if isinstance(cause, Scene2HapError) else f"{type(cause).__name__}: {cause}"
             fates.append(f"{name} failed: {reason}")
             _LOG.info("%s: no sound from %s: %s", subject, name, reason)
-            warnings.warn(f"{subject}: no sound from {name}: {reason}", SourceWarning, stacklevel=2)
+            warn_of(f"{subject}: no sound from {name}: {reason}", SourceWarning)
             continue
         fates.append(f"{name} has none")
         found += clips

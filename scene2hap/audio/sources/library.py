@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import os
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,6 +14,7 @@ from scene2hap.audio.sources.candidates import MAX_CANDIDATES
 from scene2hap.audio.sources.word_stems import noun_phrase, stems
 from scene2hap.errors import AudioError, ConfigError, reason_of
 from scene2hap.haptics import VibrationDescription
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.text_files import read_small_text
 
 INDEX_NAME = "sounds.csv"
@@ -57,7 +57,7 @@ class FolderLibrary:
             try:
                 found.append(read_clip(path, replace(credit, query=description.keywords, origin="library")))
             except AudioError as cause:
-                warnings.warn(f"skipped: {cause}", UnreadableSound, stacklevel=2)
+                warn_of(f"skipped: {cause}", UnreadableSound)
         return found
 
     def _require_folder(self) -> None:

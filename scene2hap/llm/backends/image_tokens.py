@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import warnings
-
 from scene2hap.llm.backends import chat
 from scene2hap.llm.protocol import LLMRequest
+from scene2hap.scene.scene_warning import warn_of
 
 _CHARACTERS_PER_TOKEN = 4.0
 """Assumed: usual for English."""
@@ -35,12 +34,11 @@ class LostImages:
         if self._warned or not request.images or read is None or read >= _FAR_BELOW * expected:
             return
         self._warned = True
-        warnings.warn(
+        warn_of(
             f"{chat.about(request)}: {said.model} read {read} tokens where about {expected:.0f} were sent with "
             f"{len(request.images)} pictures. It may not have seen them: raise the server's context (num_ctx), and "
             "check that the model sees.",
             chat.BackendWarning,
-            stacklevel=2,
         )
 
 
@@ -59,9 +57,8 @@ class ImagesAsText:
         if self._warned or not request.images or read <= most:
             return
         self._warned = True
-        warnings.warn(
+        warn_of(
             f"{chat.about(request)}: {said.model} billed {read} tokens where its {len(request.images)} pictures make "
             f"{most:.0f} at most. It seems to read them as text: choose another model or send no pictures.",
             chat.BackendWarning,
-            stacklevel=2,
         )

@@ -6,7 +6,6 @@ rejects a form, a less strict one is requested. The answer is extracted from the
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, Literal
@@ -21,6 +20,7 @@ from scene2hap.llm.backends.image_tokens import LostImages
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import fields_in_words
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
@@ -178,9 +178,8 @@ class LocalBackend:
 
     def _warn_of_ollama(self, is_ollama: bool) -> None:
         if is_ollama and not self._eyes_checked:
-            warnings.warn(
+            warn_of(
                 f"{self._endpoint.base_url} is an Ollama, whose /v1 drops pictures that do not fit, without an error. "
                 "Use dialect='ollama' and the address without /v1.",
                 chat.BackendWarning,
-                stacklevel=2,
             )

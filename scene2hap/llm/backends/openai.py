@@ -6,7 +6,6 @@ Source: the OpenAPI description in openai/openai-openapi; OpenAI's guides "Struc
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -20,6 +19,7 @@ from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import strict_schema
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
@@ -209,4 +209,4 @@ class OpenAIBackend:
             what = "it is no longer sent, so answers cost the standard price"
         else:
             what = f"it is sent as {instead!r}" if instead else "it is no longer sent, so answers may vary more"
-        warnings.warn(f"{self.model} does not take {parameter!r}; {what}. {reason}", chat.BackendWarning, stacklevel=2)
+        warn_of(f"{self.model} does not take {parameter!r}; {what}. {reason}", chat.BackendWarning)

@@ -75,6 +75,11 @@ def price_list(overrides: Mapping[str, Price | Given] | None = None) -> PriceLis
     Raises: ConfigError: an invalid price.
     """
     built_in = _built_in()
+    if overrides is not None and not isinstance(overrides, Mapping):
+        raise ConfigError(
+            f"prices is {checks.described(overrides)}; it must be a mapping of models to US dollars per million "
+            "tokens, as {'my-model': (0.5, 1.5)}."
+        )
     own = {model: _price(model, price) for model, price in (overrides or {}).items()}
     return replace(built_in, prices={**built_in.prices, **own})
 

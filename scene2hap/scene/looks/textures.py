@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
+from scene2hap.scene.scene_warning import warn_of
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -93,7 +94,7 @@ class EncodedTexture:
         # Broken bytes may raise any error in Pillow.
         except Exception as cause:
             message = f"{self.name} is left out, its colour stays: its pixels cannot be decoded: {cause}."
-            warnings.warn(message, TextureWarning, stacklevel=2)
+            warn_of(message, TextureWarning)
             return None
         texels.flags.writeable = False
         return texels

@@ -7,7 +7,6 @@ decide. Otherwise the check warns if scene and objects are both far too large, o
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, usual
+from scene2hap.scene.scene_warning import warn_of
 
 
 class UnitWarning(UserWarning):
@@ -82,7 +82,7 @@ def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: b
             f"Perhaps unit_m={found.unit_m} (metres per unit of the file{meant}){model}; giving any unit_m ends this "
             "warning."
         )
-    warnings.warn(f"{found.sentence} {remedy}", UnitWarning, stacklevel=4)
+    warn_of(f"{found.sentence} {remedy}", UnitWarning)
 
 
 def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
@@ -36,8 +38,12 @@ class Outline:
 
     rings_m: tuple[Ring, ...]
 
+    if TYPE_CHECKING:
+
+        def __init__(self, rings_m: Iterable[ArrayLike]) -> None: ...
+
     def __post_init__(self) -> None:
-        rings = tuple(_ring(k, ring) for k, ring in enumerate(self.rings_m))
+        rings = tuple(_ring(k, ring) for k, ring in enumerate(checks.items("rings_m", self.rings_m, error=SceneError)))
         object.__setattr__(self, "rings_m", rings)
         n_corners = sum(map(len, rings))
         if not 3 <= n_corners <= MOST_CORNERS:

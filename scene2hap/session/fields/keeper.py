@@ -6,7 +6,6 @@ Call all methods on the game's thread. The worker ends with the keeper.
 from __future__ import annotations
 
 import time
-import warnings
 import weakref
 from collections.abc import Callable, Mapping, Sequence
 from threading import Thread
@@ -24,12 +23,17 @@ from scene2hap.propagation.protocol import (
     PropagationModel,
 )
 from scene2hap.propagation.reference import FeltNear
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.fields.prepared import FieldInUse, LastField
 from scene2hap.session.fields.worker import Desk, Prepared, Sign, Situation, put_to_work
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
+
+
+class FieldWarning(RuntimeWarning):
+    """The model could not prepare a field of the present scene."""
 
 
 class FieldKeeper:
@@ -60,7 +64,7 @@ class FieldKeeper:
         self._is_stranger_touched = self._is_expectant = False
         self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
         self._n_answered = self._n_ordered = self._n_put = self.n_prepared = self.n_failed = 0
-        self.last_failure, self.latency_s = "", 0.0
+        self.last_failure, self.latency_s, self._is_refused = "", 0.0, False
         before = self._situation(0, excitations)
         self.in_use = self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
         self._requested = before
@@ -172,6 +176,7 @@ class FieldKeeper:
         if self._heard is not None:
             self._heard[0].use(found, self._whole)
         self.n_prepared += 1
+        self._is_refused = False
         if situation is not before:
             self.latency_s = time.monotonic() - situation.requested_at_s
 
@@ -186,7 +191,10 @@ class FieldKeeper:
         self.last_failure = str(problem) if isinstance(problem, Scene2HapError) else repr(problem)
         instead = "the last one plays on" if self.n_prepared else "each source is felt on itself alone"
         warning = f"a field could not be prepared, so that {instead}: {self.last_failure}"
-        warnings.warn(warning, RuntimeWarning, stacklevel=6)
+        # Once until a field is prepared again, since a game may change its scene in every frame.
+        if not self._is_refused:
+            warn_of(warning, FieldWarning)
+        self._is_refused = True
 
     def _put(self, order: Situation | Sign) -> None:
         if self._worker is None or not self._worker.is_alive():

@@ -73,11 +73,9 @@ class LastField:
             answers.append(checked(self._field.attenuation(object_id, points), (len(own), n_sources, n_bands)))
         return answers, list(rows.values())
 
-    def _points_then(self, object_id: str, points_m: list[Point]) -> list[Point]:
-        now, then = self._now(object_id), self._then.get(object_id)
-        if then is now or then is None or then == now:
-            return points_m
-        return [(x, y, z) for x, y, z in then.to_world(now.to_own(points_m)).tolist()]
+    def _points_then(self, object_id: str, points_m: list[Point]) -> NDArray[np.float64]:
+        now, then, points = self._now(object_id), self._then.get(object_id), np.array(points_m, dtype=np.float64)
+        return points if then is now or then is None or then == now else then.to_world(now.to_own(points))
 
     def _largest(self, gains: Gains, hands: Sequence[Sequence[TouchedPoint]]) -> Gains:
         largest, begin = np.zeros((len(hands), *self._shape)), 0

@@ -16,6 +16,8 @@ from functools import partial
 from queue import Empty, SimpleQueue
 from threading import Event, Thread
 
+import numpy as np
+
 from scene2hap.haptics import Bands
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import (
@@ -79,7 +81,7 @@ class Prepared:
                 with contextlib.suppress(Exception):
                     if isinstance(self.field, ExpectantField):
                         self.field.expect(object_id)
-                    self.field.attenuation(object_id, [point_m])
+                    self.field.attenuation(object_id, np.array([point_m]))
 
 
 @dataclass(eq=False)

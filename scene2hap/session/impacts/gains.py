@@ -56,11 +56,11 @@ def struck_later(
         ]
         with_them = ContactNetwork(network.bodies, (*network.contacts, *contacts), network.poses)
         field = model.prepare(with_them, excitations, AROUND)
-        itself = field.attenuation(object_id, [point_m])[0, :, 0]
+        itself = field.attenuation(object_id, np.array([point_m]))[0, :, 0]
         gains = np.zeros((len(hands), len(frequencies_hz)))
         for row, hand in zip(gains, hands, strict=True):
             for touched_id, touched_m in hand:
-                np.fmax(row, field.attenuation(touched_id, [touched_m])[0, :, 0], out=row)
+                np.fmax(row, field.attenuation(touched_id, np.array([touched_m]))[0, :, 0], out=row)
         passes = itself > 0
         gains[:, passes] /= itself[passes]
         gains[:, ~passes] = 0.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -148,33 +147,6 @@ def test_kernels_find_the_same_magnitudes(seed: int, n: int, m: int) -> None:
         kind(lambda _: pairs)(np.empty((n, 2))) for kind in both("propagation.coupled.object_response.Magnitudes")
     )
     np.testing.assert_allclose(compiled, told, rtol=1e-14)
-
-
-@pytest.mark.parametrize(
-    "points",
-    [
-        [(0.0, 1.0, 2.0)],
-        [(0.0, 1.0, 2.0), (3.0, 4.0, 5.0)],
-        [],
-        [(0.0, 1.0)],
-        [(0.0, 1.0, 2.0), (3.0, 4.0)],
-        [[0.0, 1.0, 2.0]],
-        [(0, 1, 2)],
-        [(0.0, math.nan, 1.0)],
-        [(0.0, 1.0, math.inf)],
-        ((0.0, 1.0, 2.0),),
-        (0.0, 1.0, 2.0),
-        np.zeros((2, 3)),
-        [(0.0, 1.0, "2")],
-    ],
-    ids=str,
-)
-def test_kernels_read_points_in_usual_forms_alike(points: Any) -> None:
-    told, compiled = (take(points, 3) for take in both("propagation.points.of_tuples"))
-    if told is None:
-        assert compiled is None
-    else:
-        np.testing.assert_array_equal(compiled, told)
 
 
 @pytest.mark.parametrize("odd", [0.0, 1e200, -1e308, math.inf, -math.inf, math.nan])

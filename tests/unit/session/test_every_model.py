@@ -117,3 +117,35 @@ def test_gains_that_are_no_factors_are_played_as_zero_with_one_warning(wrong: fl
         frames = [s.update(touches=[Touch("left", "table", point)]) for point in points]
     assert len(caught) == 1
     assert not any(frame.gains.any() for frame in frames)
+
+
+class AsPromised:
+    """A model that uses its points as the float64 array (n_points, 3) that `PropagationField` promises."""
+
+    def prepare(self, network: Any, excitations: Any, bands: Bands) -> "AsPromised":
+        made = AsPromised()
+        made.source_ids, made.n_bands = tuple(one.source_id for one in excitations), bands.n_bands
+        return made
+
+    def attenuation(self, object_id: str, points_m: np.ndarray) -> np.ndarray:
+        assert points_m.dtype == np.float64
+        assert points_m.shape[1:] == (3,)
+        far = np.exp(-np.linalg.norm(points_m[:, :2], axis=1))
+        is_source = np.array([one == object_id for one in self.source_ids])
+        return np.where(is_source[None, :], 1.0, far[:, None])[:, :, None].repeat(self.n_bands, axis=2)
+
+
+@pytest.mark.parametrize("prepare", ["blocking", "background"])
+def test_own_model_gets_its_points_as_an_array(prepare: str) -> None:
+    config = {"sample_rate_hz": RATE, "propagation": AsPromised(), "prepare": prepare, "gain_limit_db": None}
+    s = HapticSession(*table_with_two_phones(), config)
+    on_both = [ON_TABLE, Touch("left", "table", (0.3, 0.72, 0.4))]
+    s.update(touches=on_both)
+    assert s.wait_prepared(60.0)
+    expected = math.exp(-math.hypot(0.3, 0.72))
+    assert s.update(touches=on_both).gain("left", "phone") == pytest.approx(expected, rel=1e-6)
+    s.update({"table": Pose((0.01, 0.0, 0.0))}, on_both)
+    assert s.would_feel(on_both).shape[0] == 2
+    s.strike("table", (0.3, 0.72, 0.4))
+    assert s.wait_prepared(60.0)
+    assert s.impacts

@@ -4,6 +4,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import pytest
 
 from scene2hap import Bands, HapticSession, Pose, Touch
 from scene2hap.errors import ModelDomainError
+from scene2hap.session.fields.keeper import FieldWarning
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
 ON_TABLE = Touch("left", "table", (0.8, 0.72, 0.4))
@@ -281,6 +283,24 @@ def test_sources_can_change_while_a_field_is_stale() -> None:
     model.gate.set()
     assert s.wait_prepared(SECONDS)
     assert s.update(touches=[ON_TABLE]).gain("left", "fan") > 0.0
+
+
+def test_a_model_that_keeps_failing_is_warned_of_once_at_the_line_of_the_game() -> None:
+    s, model = gated()
+    model.gate.set()
+    assert s.wait_prepared(SECONDS)
+    for _ in range(2):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            for number in range(4):
+                model.problem = ModelDomainError(f"the phone is too thick, {number}")
+                s.update(shifted(0.1 * number + 0.1))
+                assert s.wait_prepared(SECONDS)
+        assert [(one.category, one.filename) for one in caught] == [(FieldWarning, __file__)]
+        assert s.stats.fields_failed >= 2
+        model.problem = None
+        s.update(shifted(0.6))
+        assert s.wait_prepared(SECONDS)
 
 
 def test_failing_model_keeps_the_last_field() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import time
-import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
@@ -19,6 +18,7 @@ from scene2hap.audio.sources.freesound.service import Service
 from scene2hap.audio.sources.freesound.sounds import Sound, read_sounds
 from scene2hap.errors import AudioError, BackendUnavailable, ConfigError
 from scene2hap.haptics import VibrationDescription
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.secret import Secret
 from scene2hap.settings import cache_folder
 from scene2hap.web import checked_base
@@ -116,7 +116,7 @@ class Freesound:
             try:
                 clip = self._clip(sound, query)
             except (AudioError, BackendUnavailable) as cause:
-                warnings.warn(f"skipped sound {sound.id}: {cause}", UnusableSound, stacklevel=3)
+                warn_of(f"skipped sound {sound.id}: {cause}", UnusableSound)
                 if isinstance(cause, BackendUnavailable) and cause.retryable:
                     away, n_away = cause, n_away + 1
                 continue

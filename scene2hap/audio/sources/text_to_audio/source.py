@@ -7,7 +7,6 @@ import os
 import shutil
 import tempfile
 import threading
-import warnings
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -22,6 +21,7 @@ from scene2hap.audio.sources.text_to_audio.contract import Reply, Request, read_
 from scene2hap.audio.sources.text_to_audio.process import Allowance, CannotStart, environment, run, scrubbed
 from scene2hap.errors import AudioError, BackendError, BadAnswer, ConfigError
 from scene2hap.haptics import VibrationDescription
+from scene2hap.scene.scene_warning import warn_of
 from scene2hap.settings import cache_folder
 from scene2hap.web import is_safe
 
@@ -138,7 +138,7 @@ class TextToAudio:
                 content = read_file(folder, name, _MAX_FILE_BYTES)
                 clips.append(self._store.keep_clip(f"{key}/{index}{suffix}", content, _credit(request, reply, index)))
             except (AudioError, BadAnswer) as cause:
-                warnings.warn(f"skipped take {index + 1}: {cause}", UnusableTake, stacklevel=2)
+                warn_of(f"skipped take {index + 1}: {cause}", UnusableTake)
                 continue
             names.append(f"{index}{suffix}")
         if not clips:

@@ -1,0 +1,179 @@
+"""The forms of arguments in which a strictly typed program gives its data: mypy accepts each, and each works.
+
+`.ci/run` checks this file with mypy too, so that a type that is too narrow is an error there.
+"""
+
+from __future__ import annotations
+
+import ast
+import enum
+import inspect
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import scene2hap
+from scene2hap import (
+    ActuatorProfile,
+    AudioClip,
+    Bands,
+    Box,
+    Contact,
+    HapticSession,
+    ObjectHaptics,
+    Outline,
+    Plate,
+    Pose,
+    PropagationField,
+    PropagationModel,
+    RigidBody,
+    SceneObject,
+    SceneSnapshot,
+    SourceState,
+    Touch,
+    TriMesh,
+    bake,
+)
+from scene2hap.propagation.protocol import ContactNetwork, Excitation
+
+SINGLE: NDArray[np.float32] = np.array([0.5, 0.25, 0.125], dtype=np.float32)
+EXACT = (0.5, 0.25, 0.125)
+
+
+class Hand(enum.StrEnum):
+    """An engine's own names."""
+
+    LEFT = "left"
+
+
+def test_vectors_are_arrays_lists_or_any_three_numbers() -> None:
+    as_list: list[float] = SINGLE.tolist()
+    for given in (Pose(SINGLE), Pose(as_list), Pose(iter(as_list)), Pose(np.float64(x) for x in as_list)):
+        assert given == Pose(EXACT)
+    assert Pose(SINGLE, [0.0, 0.0, 0.0, 1.0]) == Pose(EXACT, np.array([0, 0, 0, 1], dtype=np.int64))
+    assert Pose.from_yaw(SINGLE, 0.0) == Pose.from_wxyz(as_list, np.array([1.0, 0.0, 0.0, 0.0])) == Pose(EXACT)
+    assert Pose.from_euler(SINGLE, np.zeros(3)) == Pose(EXACT)
+    assert Pose.look_at(np.zeros(3), [0.0, 0.0, 1.0]) == Pose()
+    assert Box(SINGLE) == Box(as_list) == Box(EXACT)
+    assert Touch("left", "table", SINGLE) == Touch(Hand.LEFT, "table", as_list) == Touch("left", "table", EXACT)
+    up = [0, 1, 0]
+    assert (
+        Contact("a", "b", SINGLE, normal=up) == Contact("a", "b", as_list, np.array(up)) == Contact("a", "b", EXACT, up)
+    )
+    assert RigidBody(1.0, SINGLE) == RigidBody(1, as_list)
+    assert ObjectHaptics("cup", "steel", None, SINGLE, "", False).estimated_size_m == EXACT
+
+
+def test_tables_are_arrays_of_any_type_or_lists() -> None:
+    corners, faces = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[0, 1, 2]]
+    mesh = TriMesh(np.array(corners, dtype=np.float32), np.array(faces, dtype=np.uint32))
+    assert mesh == TriMesh(corners, faces)
+    assert SceneObject("sheet", geometry=(corners, faces)).geometry == mesh
+    for samples in ([0.5, 0.25, 0.125], SINGLE, SINGLE.astype(np.float64)):
+        assert AudioClip(samples, 48_000).samples.tolist() == list(EXACT)
+    square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+    assert Outline([square]) == Outline((np.array(square),))
+    assert Bands(np.array([10.0, 20.0])) == Bands([10, 20]) == Bands((10.0, 20.0))
+    response = [[10.0, -3.0], [100.0, 0.0]]
+    assert ActuatorProfile(response_db=response) == ActuatorProfile(response_db=np.array(response))
+    assert Plate(1.0, 0.5, 0.02, "oak") == Plate(1, 0.5, np.float64(0.02), scene2hap.materials.lookup("oak"))
+    rings = SourceState("on", 0.5, "A phone buzzes.", "phone buzzing")
+    assert ObjectHaptics("phone", "steel", None, EXACT, "", True, [rings]).states == (rings,)
+
+
+class EngineMesh:
+    """A mesh as engines and mesh packages have it."""
+
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float32)
+    faces = np.array([[0, 1, 2]], dtype=np.uint16)
+
+
+def test_mesh_of_another_package_is_a_geometry() -> None:
+    mesh = EngineMesh()
+    assert SceneObject("sheet", geometry=mesh).geometry == TriMesh(mesh.vertices, mesh.faces)
+
+
+def test_a_number_gives_a_number_and_an_array_an_array() -> None:
+    plate = Plate(1.0, 0.5, 0.02, "oak")
+    one: float = plate.wavenumber_rad_m(100.0)
+    several: NDArray[np.float64] = plate.wavenumber_rad_m([100.0, 400.0])
+    assert isinstance(one, float)
+    assert several == pytest.approx([one, 2 * one])
+
+
+class OwnField:
+    """A field of a user, who reads its points as the array that the protocol promises."""
+
+    def __init__(self, source_ids: tuple[str, ...]) -> None:
+        self.source_ids = source_ids
+
+    def attenuation(self, object_id: str, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        gains = np.zeros((points_m.shape[0], len(self.source_ids), 1))
+        gains[:, [one == object_id for one in self.source_ids]] = 1.0
+        return gains
+
+
+class OwnModel:
+    """A model of a user."""
+
+    usual_bands = Bands.dominant()
+
+    def prepare(self, network: ContactNetwork, excitations: Any, bands: Bands) -> OwnField:
+        return OwnField(tuple(one.source_id for one in excitations))
+
+
+def test_own_field_and_model_fit_their_protocols() -> None:
+    model: PropagationModel = OwnModel()
+    field: PropagationField = model.prepare(ContactNetwork({}), [Excitation("fan", 50.0, 50.0)], Bands.dominant())
+    assert field.attenuation("fan", np.zeros((1, 3))).tolist() == [[[1.0]]]
+
+
+def test_session_accepts_the_documented_forms_of_touches() -> None:
+    table = SceneObject("wooden table", pose=Pose((0.0, 0.36, 0.0)), geometry=Box((1.2, 0.72, 0.7)))
+    phone = SceneObject("smartphone", pose=Pose((0.3, 0.724, 0.1)), geometry=Box((0.07, 0.008, 0.15)))
+    session = HapticSession(bake(SceneSnapshot.build(one for one in (table, phone))))
+    at = np.array([0.25, 0.72, 0.1])
+    touch = Touch(Hand.LEFT, "wooden table", at)
+    expected = session.update(touches=[touch]).gain("left", "smartphone")
+    assert expected > 0
+    for frame in (
+        session.update(touches=touch),
+        session.update([touch]),
+        session.update(touch),
+        session.update({}, (touch,)),
+        session.update(touches=[("left", "wooden table", at)]),
+        session.update(touches=[(Hand.LEFT, "wooden table", at.tolist())]),
+        session.update(touches=(one for one in [touch])),
+    ):
+        assert frame.gain(Hand.LEFT, "smartphone") == expected
+    assert session.would_feel([("left", "wooden table", at)]).shape == (1, 1, 1)
+    session.strike("wooden table", at)
+
+
+def _declared() -> list[tuple[str, str, ast.FunctionDef]]:
+    """Module, class and declaration of each constructor that only type checkers see."""
+    root = Path(scene2hap.__file__).parent
+    found = []
+    for path in root.rglob("*.py"):
+        module = ".".join(("scene2hap", *path.relative_to(root).with_suffix("").parts)).removesuffix(".__init__")
+        for cls in (node for node in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(node, ast.ClassDef)):
+            for block in (node for node in cls.body if isinstance(node, ast.If)):
+                if isinstance(block.test, ast.Name) and block.test.id == "TYPE_CHECKING":
+                    made = [one for one in block.body if isinstance(one, ast.FunctionDef) and one.name == "__init__"]
+                    found += [(module, cls.name, one) for one in made]
+    return found
+
+
+@pytest.mark.parametrize(("module", "name", "declared"), _declared(), ids=lambda value: str(value)[:40])
+def test_declared_constructors_have_the_parameters_of_the_class(
+    module: str, name: str, declared: ast.FunctionDef
+) -> None:
+    arguments = declared.args.args[1:]
+    n_required = len(arguments) - len(declared.args.defaults)
+    given = [(one.arg, place >= n_required) for place, one in enumerate(arguments)]
+    parameters = inspect.signature(getattr(import_module(module), name)).parameters.values()
+    assert given == [(one.name, one.default is not inspect.Parameter.empty) for one in parameters]
