@@ -21,6 +21,7 @@ from scene2hap.baking.recorded_times import with_recorded_times
 from scene2hap.baking.sound import Earlier, Progress, Remade, make_loops
 from scene2hap.bundle import BundleWarning, HapticBundle, MadeWith, Override
 from scene2hap.bundle.arguments import given_bundle
+from scene2hap.bundle.checking import vain_corrections
 from scene2hap.calls import clear_call
 from scene2hap.counted import counted, first_of
 from scene2hap.errors import ConfigError, SceneError
@@ -122,6 +123,8 @@ async def with_sounds(
     sounds = await make_loops(objects, wishes, config, progress or _say_nothing, before)
     objects = _as_recorded(objects, sounds.loops, {}, wishes)
     _warn_of(scene, objects)
+    for doubt in vain_corrections(objects, wishes):
+        warn_of(doubt, BundleWarning)
     return HapticBundle(scene, scene_category, objects, sounds.loops, wishes, sounds.choices, _made_with(config))
 
 
@@ -399,8 +402,14 @@ def _of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> d
             "`bundle.overrides` is."
         )
     known = {item.id for item in scene.objects}
-    for object_id in overrides.keys() - known:
-        warn_of(f"the override of {object_id!r} is dropped: the scene has no such object any more.", BundleWarning)
+    for object_id, wish in overrides.items():
+        if object_id not in known and wish.corrected_fields():
+            near = checks.did_you_mean(object_id, sorted(known - overrides.keys()))
+            warn_of(
+                f"the override of {object_id!r} is dropped: the scene has no such object any more. Dropped are its "
+                f"{', '.join(wish.corrected_fields())}. {near}".rstrip(),
+                BundleWarning,
+            )
     return {key: wish for key, wish in overrides.items() if key in known}
 
 

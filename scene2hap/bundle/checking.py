@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.bundle.contents import BundleContents
-from scene2hap.checks import did_you_mean
+from scene2hap.bundle.override import ANY_STATE, BY_STATE, Override
+from scene2hap.checks import did_you_mean, shown
 from scene2hap.errors import BundleError
 from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
 from scene2hap.materials import Material
@@ -37,10 +38,11 @@ def warn_of_unknown_fields(path: Path, answers: Mapping[str, Any]) -> None:
 
 
 def require_plausible(bundle: BundleContents, folder: Path) -> None:
-    """Check sizes against the measured ones, and that the scene can provide each needed contact.
+    """Check sizes against the measured ones, corrected states, and that the scene can provide each needed contact.
 
     Raises: BundleError: a size that this object's plate cannot have.
-    Warns: BundleWarning: a state needs a contact that no object in the scene can provide.
+    Warns: BundleWarning: a state needs a contact that no object in the scene can provide; a correction of a state that
+    its object does not have.
     """
     objects, scene = bundle.objects, bundle.snapshot
     categories = {item.id: "" for item in scene.objects} | {key: said.object_category for key, said in objects.items()}
@@ -53,3 +55,19 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
                 raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {faults}.")
         for doubt in unmet_needs(object_id, haptics.states, categories):
             warn_of(f"{object_id!r}: {doubt}.", BundleWarning)
+    for doubt in vain_corrections(objects, bundle.overrides):
+        warn_of(f"{folder / 'overrides.json'}: {doubt}", BundleWarning)
+
+
+def vain_corrections(objects: Mapping[str, ObjectHaptics], overrides: Mapping[str, Override]) -> list[str]:
+    """Return a sentence for each corrected state that a vibrating object does not have."""
+    doubts = []
+    for object_id, wish in overrides.items():
+        states = [state.name for state in objects[object_id].states] if object_id in objects else []
+        corrected = {name: [key for key in getattr(wish, name) if key != ANY_STATE] for name in BY_STATE}
+        corrected["state"] = [] if wish.state is None else [wish.state]
+        for name, keys in corrected.items():
+            for key in [key for key in keys if states and key not in states]:
+                near = did_you_mean(key, states, f"It has {', '.join(map(repr, states))}.")
+                doubts.append(f"{object_id!r} has no state {shown(key)}, so that {name} has no effect. {near}")
+    return doubts

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +12,9 @@ import numpy as np
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.override import ANY_STATE
+from scene2hap.errors import UnknownMaterial
 from scene2hap.haptics import ObjectHaptics
+from scene2hap.materials import lookup
 
 
 class Difference(NamedTuple):
@@ -62,15 +65,31 @@ def _said(bundle: BundleContents, object_id: str) -> Iterator[tuple[str, str]]:
 
 def _inferred(haptics: ObjectHaptics) -> Iterator[tuple[str, str]]:
     yield "category", haptics.object_category
-    yield "material", haptics.material_category
+    yield "material", _material(haptics)
+    yield "size", " x ".join(f"{length_m:.3g}" for length_m in haptics.estimated_size_m) + " m"
     if haptics.mass_kg is not None:
-        yield "mass", f"{haptics.mass_kg:.3g} kg"
+        yield "mass", f"{float(f'{haptics.mass_kg:.3g}'):g} kg"
     if haptics.feet is not None:
         yield "feet", haptics.feet.name
     for state in haptics.states:
         yield f"intensity {state.name}", f"{state.intensity:.2f}"
         yield f"start {state.name}", f"{state.start_up_s:g} s"
         yield f"stop {state.name}", f"{state.wind_down_s:g} s"
+
+
+def _material(haptics: ObjectHaptics) -> str:
+    """Return the name of a material, and its constants if they are not those of the table."""
+    name, material = haptics.material_category, haptics.material
+    try:
+        is_usual = material is None or replace(lookup(name), name=material.name) == material
+    except UnknownMaterial:
+        is_usual = False
+    if material is None or is_usual:
+        return name
+    return (
+        f"{name} ({material.density_kg_m3:g} kg/m3, {material.youngs_modulus_pa:.3g} Pa, Poisson's ratio "
+        f"{material.poisson_ratio:g}, loss factor {material.loss_factor:g})"
+    )
 
 
 def _digest(loop: HapticLoop) -> str:

@@ -17,9 +17,9 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, replace
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from scene2hap import checks
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.bundle.checking import warn_of_unknown_fields
 from scene2hap.bundle.contents import BundleContents
+from scene2hap.bundle.corrections import FORMAT as CORRECTIONS_FORMAT
 from scene2hap.bundle.folder_replacement import recover, replaced
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import BY_STATE, Override
@@ -47,7 +48,7 @@ from scene2hap.bundle.sounds import SoundReader, file_stem, read_credit, write_l
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, reason_of
 from scene2hap.file_stamp import Stamp
 from scene2hap.haptics import ObjectHaptics
-from scene2hap.materials import Material
+from scene2hap.materials import Material, lookup
 from scene2hap.scene import json as scene_json
 from scene2hap.scene.ply import decode_ply, encode_ply
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -154,9 +155,10 @@ def _read(folder: Path) -> BundleContents:
     with _reading(folder / "scene.json"):
         scene = _read_scene(folder)
     with _reading(folder / "objects.json"):
-        answers = read_json(folder, "objects.json")
+        answers = _with_named_materials(folder / "objects.json", read_json(folder, "objects.json"))
         objects = _objects.validate_python(answers)
         warn_of_unknown_fields(folder / "objects.json", answers)
+        _require_objects(objects, scene)
     with _reading(folder / "loops.json"):
         rows, sounds = read_json(folder, "loops.json"), SoundReader(folder)
         loops = {key: {state: sounds.loop(row) for state, row in states.items()} for key, states in rows.items()}
@@ -164,10 +166,13 @@ def _read(folder: Path) -> BundleContents:
             key: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
             for key, states in rows.items()
         }
+        _require_objects(loops, scene)
     for key in loops:
         if key not in objects:
             raise BundleError(f"{folder / 'objects.json'} lacks {key[:200]!r}, which has loops. Bake again.")
     overrides = read_overrides(folder)
+    with _reading(folder / "overrides.json"):
+        _require_objects(overrides, scene)
     with _reading(folder / MANIFEST):
         made_with = MadeWith.from_document(manifest.get("made_with"), str(folder / MANIFEST))
         category = str(manifest.get("scene_category", "undefined"))
@@ -175,26 +180,27 @@ def _read(folder: Path) -> BundleContents:
 
 
 @contextmanager
-def _reading(path: Path) -> Iterator[None]:
-    """Convert errors of the block into a BundleError, or a child of it, that names the file."""
+def _reading(path: Path, place: str = "") -> Iterator[None]:
+    """Convert errors of the block into a BundleError, or a child of it, that names the file and the place in it."""
     try:
         yield
     except BundleError as cause:
-        if str(path.parent) in str(cause):
+        if str(cause).startswith((f"{path.parent} ", f"{path.parent}{os.sep}")):  # it names the file already
             raise
-        raise type(cause)(f"{path}: {cause}") from cause
+        raise type(cause)(f"{path}: {place}{cause}") from cause
     except ValidationError as cause:
         problem = checks.first_problem(cause)
-        raise BundleError(f"{path}: {problem.place[:200]}: {problem.reason}.") from cause
+        value = checks.represented(problem.value)
+        raise BundleError(f"{path}: {place}{problem.place[:200]} is {value}: {problem.reason}.") from cause
     except (AudioError, SceneError) as cause:
-        raise BundleIncomplete(f"{path}: {cause}") from cause
+        raise BundleIncomplete(f"{path}: {place}{cause}") from cause
     except Scene2HapError as cause:
-        raise BundleError(f"{path}: {cause}") from cause
+        raise BundleError(f"{path}: {place}{cause}") from cause
     except KeyError as cause:
-        raise BundleError(f"{path} lacks {cause}. Bake again, or mend the file.") from cause
+        raise BundleError(f"{path}: {place}it lacks {cause}. Bake again, or mend the file.") from cause
     except _DAMAGE as cause:  # a file may be damaged in any way
         reason = str(cause)[:200] or type(cause).__name__
-        raise BundleError(f"{path} has invalid content: {reason}. Bake again, or correct the file.") from cause
+        raise BundleError(f"{path}: {place}invalid content: {reason}. Bake again, or correct the file.") from cause
 
 
 def _identity(folder: Path) -> tuple[int, int] | None:
@@ -243,18 +249,59 @@ def read_overrides(folder: Path) -> dict[str, Override]:
     if not os.path.lexists(folder / MANIFEST) or not os.path.lexists(folder / "overrides.json"):
         return {}
     read_manifest(folder)
-    with _reading(folder / "overrides.json"):
-        return {object_id: _override(folder, row) for object_id, row in read_json(folder, "overrides.json").items()}
+    path = folder / "overrides.json"
+    with _reading(path):
+        rows = read_json(folder, path.name)
+        if rows.get("format") == CORRECTIONS_FORMAT:
+            raise BundleError(
+                f"{path} is a file of corrections from a report page, and no longer the bundle's own file. Move it out "
+                f"of the folder, write {{}} into {path.name}, and apply it: scene2hap edit {folder} apply FILE."
+            )
+    overrides = {}
+    for object_id, row in rows.items():
+        with _reading(path, f"{object_id!r}: "):
+            overrides[object_id] = _override(folder, row)
+    return overrides
 
 
-def _override(folder: Path, row: Mapping[str, Any]) -> Override:
-    fields = dict(row)
+def _override(folder: Path, row: object) -> Override:
+    if not isinstance(row, dict):
+        raise BundleError(
+            f'corrections are {checks.represented(row)}; they must be an object, such as {{"gain_db": -6}}.'
+        )
+    known = [one.name for one in fields(Override)]
+    for name in row:
+        if name not in known:
+            near = checks.did_you_mean(name, known, f"They are {', '.join(known)}.")
+            raise BundleError(f"there is no field {checks.shown(name)}. {near}")
+    given = dict(row)
     for name in ("material", "feet"):
-        if isinstance(fields.get(name), dict):
-            fields[name] = Material(**fields[name])
-    if isinstance(fields.get("clip"), dict):
-        clip = fields["clip"]
+        if isinstance(given.get(name), dict):
+            given[name] = Material(**given[name])
+    clip = given.get("clip")
+    if clip is not None:
+        if not isinstance(clip, dict):
+            raise BundleError(
+                f"clip is {checks.represented(clip)}; it must be an object with file and credit. To choose a sound: "
+                "scene2hap edit BUNDLE sound ID FILE."
+            )
         read = read_clip(own_file(folder, clip["file"]), read_credit(clip["credit"]))
         is_vibration = checks.flag("is_vibration", clip.get("is_vibration", False), error=BundleError)
-        fields["clip"] = replace(read, is_vibration=is_vibration)
-    return Override(**fields)
+        given["clip"] = replace(read, is_vibration=is_vibration)
+    return Override(**given)
+
+
+def _with_named_materials(path: Path, answers: dict[str, Any]) -> dict[str, Any]:
+    """Return the answers with the constants of materials that a person has named. Raises: BundleError."""
+    named = {}
+    for object_id, answer in answers.items():
+        with _reading(path, f"{object_id!r}: "):
+            given = {name: answer[name] for name in ("material", "feet") if isinstance(answer.get(name), str)}
+            named[object_id] = {**answer, **{name: asdict(lookup(value)) for name, value in given.items()}}
+    return named
+
+
+def _require_objects(ids: Iterable[str], scene: SceneSnapshot) -> None:
+    """Raise an UnknownObject if the scene lacks one of the objects."""
+    for object_id in ids:
+        scene.object(object_id)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
+from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.bundle.checking import require_plausible
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import read_corrections
@@ -103,6 +104,8 @@ class HapticBundle(BundleContents):
                 f"{object_id!r} does not vibrate; {', '.join(vain)} will change nothing until it does. Write "
                 f"override({object_id!r}, vibrates=True), or `scene2hap edit BUNDLE vibrate {object_id}`."
             )
+        if wish.gain_db is not None and gain_db is not None:
+            warn_if_percent(wish.gain_db)
         if mass_kg is not None and (heavy := too_heavy(self.snapshot.object(object_id), mass_kg)):
             warn_of(heavy)
         return replace(self, overrides={**self.overrides, object_id: wish}).with_overrides()
@@ -205,7 +208,8 @@ class HapticBundle(BundleContents):
 
         Raises: BundleIncomplete: a file is missing or cut short; BundleVersionError: written by a newer scene2hap;
         BundleError: a file has an impossible value.
-        Warns: BundleWarning: a state needs a contact that no object in the scene can provide.
+        Warns: BundleWarning: a state needs a contact that no object in the scene can provide; a correction of a state
+        that its object does not have.
         """
         path = checks.path("folder", folder, error=BundleError)
         found = read_bundle(path)

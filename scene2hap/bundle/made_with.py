@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from scene2hap import checks
 from scene2hap.audio.spreading import SpreadLimits
 from scene2hap.errors import BundleError, ConfigError
 from scene2hap.haptics import ActuatorProfile
@@ -41,6 +42,12 @@ class MadeWith:
         """
         if document is None:
             return None
+        named = document.get("actuator") if isinstance(document, dict) else None
+        if isinstance(named, str):
+            raise BundleError(
+                f"{place}: made_with.actuator is {checks.shown(named)}; it must be an object with the bounds of the "
+                "actuator. To choose another one: scene2hap edit BUNDLE rebake --actuator NAME."
+            )
         try:
             fields = dict(document)  # type: ignore[call-overload]  # the except clause handles other types
             tactile, seed = fields["tactile"], fields["seed"]
@@ -49,4 +56,5 @@ class MadeWith:
             actuator = ActuatorProfile(**fields["actuator"])
             return cls(actuator, tactile, SpreadLimits.parse(fields["spread"]), seed)
         except (ConfigError, KeyError, TypeError, ValueError) as cause:
-            raise BundleError(f"{place}: made_with lacks or misuses {cause}. Remove it, or bake again.") from cause
+            why = f"lacks {cause}" if isinstance(cause, KeyError) else f"is wrong: {str(cause).removesuffix('.')}"
+            raise BundleError(f"{place}: made_with {why}. Remove made_with, or bake again.") from cause

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.files import as_stored
-from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.calls import clear_construction
 from scene2hap.clips.haptic_clip import HapticClip
 from scene2hap.clips.reading import as_vibration, read_any_clip
@@ -86,7 +85,6 @@ class Override:
             checks.text("state", self.state, error=BundleError)
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
-            warn_if_percent(gain)
             object.__setattr__(self, "gain_db", gain)
         if self.mass_kg is not None:
             object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, BundleError))
@@ -114,6 +112,10 @@ class Override:
         now = replace(self, **{name: value for name, value in changes.items() if value is not None})
         by_state: dict[str, Any] = {name: _on_top(getattr(self, name), getattr(now, name)) for name in BY_STATE}
         return replace(now, **by_state)
+
+    def corrected_fields(self) -> list[str]:
+        """Return the names of the fields that correct something."""
+        return [one.name for one in fields(self) if getattr(self, one.name) != getattr(Override(), one.name)]
 
     def pitch_of(self, state: str) -> float | None:
         """Return the corrected frequency of a state's vibration [Hz], None if it is not overridden."""

@@ -2,25 +2,28 @@
 
 Without settings it works offline: a lexicon of everyday objects reads the authored names, and a synthesizer makes the
 sounds. `--llm openai:gpt-4o` or `--llm local:qwen2.5vl` uses a model that sees pictures. A settings file (TOML or JSON)
-with a table [bake] chooses all other parts. Overrides in a bundle are kept when it is baked again.
-BUNDLE.account.json has calls, tokens, cost and skipped questions, for `scene2hap report`.
+with a table [bake] chooses all other parts. Overrides in a bundle are kept when it is baked again. The bundle that a
+bake replaces is kept in BUNDLE.before; `scene2hap edit BUNDLE undo` restores it. BUNDLE.account.json has calls, tokens,
+cost and skipped questions, for `scene2hap report`.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
+import warnings
 from pathlib import Path
 from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.baking.scene import with_locked
-from scene2hap.bundle import read_overrides, require_replaceable
+from scene2hap.bundle import HapticBundle, differences, read_overrides, require_replaceable
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
+from scene2hap.cli.edit import kept_before, wishes
 from scene2hap.cli.specs import given_spec
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
-from scene2hap.errors import ConfigError
+from scene2hap.errors import BundleError, ConfigError
 from scene2hap.llm.dry_run import dry_run
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.report import InferenceReport
@@ -112,6 +115,9 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     target = Path(arguments.output)
     overrides = read_overrides(target)
     require_replaceable(target)  # check before the model costs money
+    before = _readable(target)
+    if before is not None:
+        require_replaceable(kept_before(str(target)))
     accounts: list[InferenceReport] = []
     with console.progress() as tell:
         tell("reading", arguments.scene, 0, 1)
@@ -131,11 +137,32 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             earlier=with_locked(target, overrides),
         )
     folder = bundle.save(arguments.output)
+    kept = _keep(before, bundle, target)
     write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
     show_bundle(console, bundle)
     show_report(console, accounts[0], config.prices)
     console.say(f"wrote {folder}")
+    if kept is not None:
+        console.say(f"the bundle before is in {kept}; `scene2hap edit {folder} undo` restores it")
     return {"bundle": str(folder), **bundle_outcome(bundle), "inference": accounts[0].as_json()}
+
+
+def _readable(folder: Path) -> HapticBundle | None:
+    """Return the bundle in a folder, None if there is none or it is damaged: a bake mends it."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about values that the bake replaces
+            return HapticBundle.load(folder)
+    except BundleError:
+        return None
+
+
+def _keep(before: HapticBundle | None, after: HapticBundle, target: Path) -> Path | None:
+    """Save the replaced bundle where `edit undo` finds it, unless nothing has changed. Returns its folder."""
+    if before is None:
+        return None
+    is_same = before.objects == after.objects and not differences(before, after) and wishes(before) == wishes(after)
+    return None if is_same else before.save(kept_before(str(target)))
 
 
 def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -95,7 +95,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     ):
         verb(name, text, _overridden).set_defaults(**changes)
     verb("vibrate", "mark an object as vibrating, and make its loops", _remade).set_defaults(vibrates=True)
-    verb("undo", "undo the last edit; a second undo restores it", _undone, of_object=False)
+    verb("undo", "undo the last edit or bake; a second undo restores it", _undone, of_object=False)
     diff = verb("diff", "show the differences to another bundle; changes nothing", None, of_object=False)
     diff.add_argument("other", metavar="OTHER", help="folder of a bundle")
     apply = verb("apply", "apply the corrections that were saved on a report page", _corrected, of_object=False)
@@ -119,7 +119,7 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 
 def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
-    require_replaceable(_kept(arguments.bundle))
+    require_replaceable(kept_before(arguments.bundle))
     while True:
         try:
             return _edit_once(arguments, console)
@@ -137,12 +137,12 @@ def _edit_once(arguments: argparse.Namespace, console: Console) -> dict[str, Any
 
     after = arguments.change(before, arguments, note)
     all_changes = differences(before, after)
-    if not all_changes and not remade and _wishes(after) == _wishes(before):
+    if not all_changes and not remade and wishes(after) == wishes(before):
         # Saving would replace the kept bundle, so that `undo` could no longer take back the edit before.
         console.say(f"nothing changed; {arguments.bundle} stays as it was")
         return {"bundle": str(arguments.bundle), "remade": remade}
     folder = write_bundle(after, Path(arguments.bundle), since=read)
-    before.save(_kept(arguments.bundle))
+    before.save(kept_before(arguments.bundle))
     # A table of its own shows loops, and "loops made again" the actuator.
     changes = [row for row in all_changes if row.what != "actuator" and not row.what.startswith("loop ")]
     for object_id, what, old, new in changes:
@@ -160,7 +160,7 @@ def _edit_once(arguments: argparse.Namespace, console: Console) -> dict[str, Any
     return {"bundle": str(folder), "remade": remade}
 
 
-def _wishes(bundle: HapticBundle) -> dict[str, Override]:
+def wishes(bundle: HapticBundle) -> dict[str, Override]:
     """Return the corrections that correct something, unlike `unmute` of an object that is not muted."""
     return {object_id: wish for object_id, wish in bundle.overrides.items() if wish != Override()}
 
@@ -233,7 +233,7 @@ def _rebaked(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade
 
 
 def _undone(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
-    kept = _kept(arguments.bundle)
+    kept = kept_before(arguments.bundle)
     if not kept.exists():
         raise BundleError(
             f"there is nothing to undo: the folder {str(kept)!r} of the bundle before an edit does not exist."
@@ -241,7 +241,7 @@ def _undone(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade)
     return HapticBundle.load(kept)
 
 
-def _kept(bundle: str) -> Path:
+def kept_before(bundle: str) -> Path:
     """Return the folder that keeps the bundle before the last edit."""
     folder = Path(bundle).resolve()
     return folder.with_name(f"{folder.name}.before")

@@ -12,6 +12,7 @@ import soundfile
 
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.audio.files import write_wav
+from scene2hap.bundle import differences
 from scene2hap.cli import main
 from scene2hap.cli.play import silence
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
@@ -326,3 +327,48 @@ def test_a_sound_that_cannot_reach_its_level_warns_as_convert_does(
         said = " ".join(capsys.readouterr().err.split())
         assert ("dB weaker than planned for its intensity" in said) == is_weak, said
         assert ("warning: radio, " in said) == is_weak, said
+
+
+def test_a_bake_says_which_corrections_it_drops_and_can_be_undone(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The table was renamed in the scene: its corrections are named, with the likely new id, and nothing is lost."""
+    folder = kitchen()
+    assert main(["edit", str(folder), "material", "oak table", "steel", "-q"]) == 0
+    corrected = HapticBundle.load(folder)
+    document = json.loads(Path(room(tmp_path)).read_text(encoding="utf-8"))
+    for item in document["objects"]:
+        if item["id"] == "oak table":
+            item["id"] = item["name"] = "oak table.001"
+    renamed = tmp_path / "renamed.json"
+    renamed.write_text(json.dumps(document), encoding="utf-8")
+
+    capsys.readouterr()
+    assert main(["bake", str(renamed), "-o", str(folder)]) == 0
+    shown = capsys.readouterr()
+    assert "'oak table' is dropped" in shown.err
+    assert "material. Did you mean 'oak table.001'?" in shown.err
+    assert "undo" in shown.out
+    assert main(["edit", str(folder), "undo", "-q"]) == 0
+    assert HapticBundle.load(folder).overrides == corrected.overrides
+
+    corrections = folder / "overrides.json"
+    corrections.write_text(corrections.read_text().replace('"oak table"', '"oak table.001"'))
+    assert main(["bake", str(renamed), "-o", str(folder), "-q"]) == 0
+    assert HapticBundle.load(folder).overrides == {"oak table.001": corrected.overrides["oak table"]}
+
+
+def test_a_comparison_shows_sizes_and_constants(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = kitchen()
+    before = shutil.copytree(folder, tmp_path / "before.bundle")
+    path = folder / "objects.json"
+    objects = json.loads(path.read_text())
+    objects["oak table"]["estimated_size_m"][2] = 0.03
+    objects["oak table"]["material"]["youngs_modulus_pa"] = 8e9
+    path.write_text(json.dumps(objects))
+    rows = differences(HapticBundle.load(before), HapticBundle.load(folder))
+    assert [row.what for row in rows] == ["material", "size"]
+    assert "8e+09 Pa" in rows[0].other
+    assert rows[1].other.endswith("0.03 m")

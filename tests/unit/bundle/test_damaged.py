@@ -1,5 +1,6 @@
 """A damaged bundle is read, or refused with a `BundleError`: no other error, and no wait for a pipe."""
 
+import contextlib
 import json
 import os
 from pathlib import Path
@@ -7,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from scene2hap import HapticBundle
+from scene2hap import HapticBundle, materials
+from scene2hap.bundle import BundleWarning
 from scene2hap.cli import main
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import show_bundle
@@ -160,4 +162,65 @@ def test_a_file_that_is_too_large_is_not_read(folder: Path) -> None:
     with (folder / "scene.json").open("wb") as file:
         file.truncate(1 << 40)
     with pytest.raises((BundleError, BundleIncomplete), match="bytes; it must be at most"):
+        HapticBundle.load(folder)
+
+
+@pytest.mark.parametrize(
+    ("corrections", "sentence"),
+    [
+        ({"phone": {"gain": -6}}, r"'phone': there is no field 'gain'. Did you mean 'gain_db'\?"),
+        ({"phone": {"gain_db": "-6"}}, "'phone': gain_db is '-6'; it must be a number"),
+        ({"phone": {"pitch_hz": 0.12}}, "'phone': pitch_hz is 0.12 Hz; it must be at least 10"),
+        ({"table": {"material": "oka"}}, "'table': no material 'oka'.* 'oak'"),
+        ({"phone": {"clip": "my_fan.wav"}}, "'phone': clip is 'my_fan.wav'; .* edit BUNDLE sound ID FILE"),
+        ({"phon": {"gain_db": -6.0}}, r"no object 'phon'. Did you mean 'phone'\?"),
+        ({"phone": -6}, "'phone': corrections are -6; they must be an object"),
+        ({"format": "scene2hap/overrides", "version": 1, "overrides": {}}, "report page.* edit .* apply FILE"),
+    ],
+)
+def test_a_wrong_correction_names_file_object_and_field(tmp_path: Path, corrections: object, sentence: str) -> None:
+    """The folder has the name of one letter, which also occurs in the names of fields."""
+    folder = table_with_two_phones()[1].save(tmp_path / "h")
+    with contextlib.chdir(tmp_path):
+        (folder / "overrides.json").write_text(json.dumps(corrections))
+        with pytest.raises(BundleError, match=rf"^h.overrides\.json.*{sentence}"):
+            HapticBundle.load("h")
+
+
+def test_a_correction_of_a_missing_state_warns(folder: Path) -> None:
+    (folder / "overrides.json").write_text(json.dumps({"phone": {"pitch_hz": {"Ringing!": 120.0}, "state": "high"}}))
+    with pytest.warns(BundleWarning) as found:
+        HapticBundle.load(folder)
+    sentences = [str(one.message) for one in found]
+    assert any("no state 'Ringing!', so that pitch_hz has no effect" in one for one in sentences)
+    assert any("no state 'high', so that state has no effect" in one for one in sentences)
+
+
+def test_a_material_in_objects_json_may_be_a_name(folder: Path) -> None:
+    path = folder / "objects.json"
+    answers = json.loads(path.read_text())
+    answers["table"]["material"] = "oak"
+    path.write_text(json.dumps(answers))
+    assert HapticBundle.load(folder).objects["table"].material == materials.lookup("oak")
+    answers["table"]["material"] = "oka"
+    path.write_text(json.dumps(answers))
+    with pytest.raises(BundleError, match=r"objects\.json: 'table': no material 'oka'"):
+        HapticBundle.load(folder)
+
+
+def test_a_value_of_another_type_is_named(folder: Path) -> None:
+    path = folder / "objects.json"
+    answers = json.loads(path.read_text())
+    answers["table"]["mass_kg"] = "75 kg"
+    path.write_text(json.dumps(answers))
+    with pytest.raises(BundleError, match=r"objects\.json: table\.mass_kg is '75 kg': "):
+        HapticBundle.load(folder)
+
+
+def test_the_name_of_an_actuator_in_the_manifest_points_to_the_command(folder: Path) -> None:
+    path = folder / "bundle.json"
+    manifest = json.loads(path.read_text())
+    actuator = {"actuator": "lra", "tactile": {}, "spread": {}, "seed": 0}
+    path.write_text(json.dumps({**manifest, "made_with": actuator}))
+    with pytest.raises(BundleError, match="made_with.actuator is 'lra'; .* rebake --actuator NAME"):
         HapticBundle.load(folder)

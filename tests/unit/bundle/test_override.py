@@ -118,3 +118,12 @@ def test_a_sound_beyond_full_scale_is_scaled_down(bundle: HapticBundle, tmp_path
     clip = HapticBundle.load(tmp_path / "b").overrides["phone"].clip
     assert clip is not None
     np.testing.assert_allclose(clip.samples, shape / np.abs(shape).max(), atol=1e-6)
+
+
+def test_a_level_like_a_percentage_is_doubted_once(bundle: HapticBundle, recwarn: pytest.WarningsRecorder) -> None:
+    source = next(iter(bundle.loops))
+    loud = bundle.override(source, gain_db=50.0)
+    assert "percent" in str(recwarn.pop().message)
+    loud.override(source, gain_db=-3.0)
+    loud.override(source, muted=True)
+    assert not list(recwarn)
