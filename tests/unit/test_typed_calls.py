@@ -158,7 +158,7 @@ def _declared() -> list[tuple[str, str, ast.FunctionDef]]:
     """Module, class and declaration of each constructor that only type checkers see."""
     root = Path(scene2hap.__file__).parent
     found = []
-    for path in root.rglob("*.py"):
+    for path in sorted(root.rglob("*.py")):
         module = ".".join(("scene2hap", *path.relative_to(root).with_suffix("").parts)).removesuffix(".__init__")
         for cls in (node for node in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(node, ast.ClassDef)):
             for block in (node for node in cls.body if isinstance(node, ast.If)):
@@ -168,7 +168,9 @@ def _declared() -> list[tuple[str, str, ast.FunctionDef]]:
     return found
 
 
-@pytest.mark.parametrize(("module", "name", "declared"), _declared(), ids=lambda value: str(value)[:40])
+@pytest.mark.parametrize(
+    ("module", "name", "declared"), [pytest.param(*row, id=f"{row[0]}.{row[1]}") for row in _declared()]
+)
 def test_declared_constructors_have_the_parameters_of_the_class(
     module: str, name: str, declared: ast.FunctionDef
 ) -> None:
