@@ -169,7 +169,7 @@ class HandFrames:
         if not touches or not self._sources.ids:
             return np.zeros((len(touches), len(self._sources.ids), self._config.bands.n_bands))
         levels = {hand: np.stack([*self._levels_at(hand).values()]) for hand in {touch.hand for touch in touches}}
-        field = self.keeper.unnoted(self._sources.ids, self._reach)
+        field = self.keeper.unnoted(self._sources.ids, self._reach, len(touches))
         cutoff = self._cutoff_of(field)
         limits = None if cutoff is None else cutoff.arrives(np.max([*levels.values()], axis=(0, 2)))
         given = self._touch_gains(field, Counts()).of([[touch] for touch in touches], limits)

@@ -5,9 +5,10 @@ straight through the object that has both, at that object's price per metre. Ins
 free, since the source vibrates as a whole.
 
 The paper collects all paths by depth-first search, with one object between source and hand. Here the cheapest path is
-enough, since it is the loudest one. Rounds lower the cost of arriving over each contact (Bellman-Ford, vectorised over
-sources and contacts): after n rounds all paths over at most n contacts are known, and when a round improves nothing,
-all paths are.
+enough, since it is the loudest one. Without a limit on the number of contacts, each source is searched from once
+(Dijkstra's algorithm, vectorised over the contacts of an object). With a limit, rounds lower the cost of arriving over
+each contact (Bellman-Ford, vectorised over sources and contacts): after n rounds all paths over at most n contacts are
+known.
 """
 
 from __future__ import annotations
@@ -21,6 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.objects import Contact
+
+WITHIN = 1e-12
+"""Relative error within which two sums of the same costs are equal."""
 
 
 class Sides(NamedTuple):
@@ -48,8 +52,8 @@ class Sides(NamedTuple):
 class Arrivals:
     """Costs at which the sources reach one object.
 
-    `points_m` (n_contacts, 3) [m] : its contacts; `costs` (n_sources, n_contacts) : cost of the cheapest path up to
-    that contact, infinite without one.
+    `points_m` (n_contacts, 3) [m] : its contacts over which a source enters it; `costs` (n_sources, n_contacts) : cost
+    of the cheapest path up to that contact, infinite without one.
     """
 
     points_m: NDArray[np.float64]
@@ -70,16 +74,88 @@ def cheapest_arrivals(
     any number.
     """
     sides = Sides.of(contacts, crossing_cost)
-    (costs,) = deque(costs_by_hops(price_per_m, sides, source_ids, max_hops), maxlen=1)
-    return {
-        object_id: Arrivals(sides.points_m[own // 2], costs[:, own])
-        for object_id, own in sides.by_object.items()
-        if object_id in price_per_m
-    }
+    if max_hops is None:
+        costs, _ = least_costs(price_per_m, sides, source_ids)
+    else:
+        (costs,) = deque(costs_by_hops(price_per_m, sides, source_ids, max_hops), maxlen=1)
+    # Contacts that every source reaches from within the object are never on a cheapest path into it. On a floor with a
+    # thousand objects these are most contacts.
+    with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
+        within = costs[:, np.arange(costs.shape[1]) ^ 1] - sides.crossing.repeat(2)
+        is_entered: NDArray[np.bool_] = np.any(~(within < costs * (1.0 - WITHIN)), axis=0)
+    arrivals = {}
+    for object_id, own in sides.by_object.items():
+        if object_id in price_per_m:
+            entered = own[is_entered[own]]
+            arrivals[object_id] = Arrivals(sides.points_m[entered // 2], costs[:, entered])
+    return arrivals
+
+
+def least_costs(
+    price_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str]
+) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """Return the least cost (n_sources, n_sides) of arriving over each side, and the number of contacts of that path.
+
+    Of paths of equal cost, that with the fewest contacts counts. The number is 0 without a path.
+    """
+    shape = (len(source_ids), len(sides.owner))
+    costs, hops, leads_on = np.full(shape, np.inf), np.zeros(shape, dtype=np.intp), _leads_on(price_per_m, sides)
+    with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
+        for row, source_id in enumerate(source_ids):
+            if source_id in sides.by_object:
+                _search(price_per_m, sides, leads_on, source_id, costs[row], hops[row])
+    return costs, hops
+
+
+def _leads_on(price_per_m: Mapping[str, float], sides: Sides) -> NDArray[np.bool_]:
+    """Mask of the sides whose object may lead on to another contact at a cost that improves a path.
+
+    An object that touches only the object that a path comes from, and is not cheaper, leads nowhere new.
+    """
+    owner = sides.owner
+    beside = {object_id: {owner[side] for side in own ^ 1} for object_id, own in sides.by_object.items()}
+
+    def leads(here: str, behind: str) -> bool:
+        price = price_per_m.get(here)
+        return price is not None and (len(beside[here]) > 1 or price < price_per_m.get(behind, np.inf))
+
+    return np.array([leads(here, owner[side ^ 1]) for side, here in enumerate(owner)], dtype=np.bool_)
+
+
+def _search(
+    price_per_m: Mapping[str, float],
+    sides: Sides,
+    leads_on: NDArray[np.bool_],
+    source_id: str,
+    costs: NDArray[np.float64],
+    hops: NDArray[np.intp],
+) -> None:
+    """Enter the costs and the numbers of contacts of all paths from one source into `costs` and `hops` (n_sides,)."""
+    owner, by_object, points_m, crossing = sides
+    out = by_object[source_id]
+    costs[out ^ 1], hops[out ^ 1] = crossing[out // 2], 1
+    waiting = np.where(leads_on, costs, np.inf)
+    while (least := float(waiting.min())) < np.inf:
+        near = np.flatnonzero(waiting <= least * (1.0 + WITHIN))
+        side = int(near[hops[near].argmin()])
+        waiting[side] = np.inf
+        own = by_object[owner[side]]
+        across, crossed = own ^ 1, crossing[own // 2]
+        within = costs[side] + price_per_m[owner[side]] * distances_m(points_m[[side // 2]], points_m[own // 2])[0]
+        onward, n_hops = within + crossed, hops[side] + 1
+        is_equal = onward <= costs[across] * (1.0 + WITHIN)
+        is_better = (onward < costs[across] * (1.0 - WITHIN)) | (is_equal & (n_hops < hops[across]))
+        # A point that is cheaper to reach from within leads nowhere new: a straight line is never longer than a line
+        # through another point. Otherwise a floor with a thousand objects on it would be searched from each of them.
+        waiting[own[is_better & (within < costs[own] * (1.0 - WITHIN))]] = np.inf
+        better = across[is_better]
+        costs[better], hops[better] = onward[is_better], n_hops
+        is_useful = leads_on[better] & ~(costs[better ^ 1] - crossed[is_better] <= costs[better])
+        waiting[better[is_useful]] = costs[better[is_useful]]
 
 
 def costs_by_hops(
-    price_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str], max_hops: int | None
+    price_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str], max_hops: int
 ) -> Iterator[NDArray[np.float64]]:
     """Yield the cost (n_sources, n_sides) of arriving over each side with at most 1, 2, ... contacts, up to the last
     round that may lower a cost."""
@@ -91,7 +167,7 @@ def costs_by_hops(
             costs[row, out ^ 1] = crossing[out // 2]
     yield costs
     hops, entered = 1, np.flatnonzero(np.isfinite(costs).any(axis=0))
-    while len(entered) and (max_hops is None or hops < max_hops):
+    while len(entered) and hops < max_hops:
         improved = costs.copy()
         for object_id, rows in _by_object(owner, entered[_useful(costs, crossing, entered)]).items():
             if object_id in price_per_m:

@@ -8,14 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.paths.prepared_paths import Sides, costs_by_hops, distances_m
+from scene2hap.propagation.paths.prepared_paths import WITHIN, Sides, costs_by_hops, distances_m, least_costs
 from scene2hap.scene.objects import Contact
 
 Point = tuple[float, float, float]
 _TOUCH = "\0touch"
 """Id of a point that is searched from; no object has it."""
-_WITHIN = 1e-12
-"""Relative error within which two sums of the same costs are equal."""
 
 
 class Way(NamedTuple):
@@ -44,10 +42,16 @@ class TracedPaths:
     ) -> None:
         self._price_per_m, self._rows = price_per_m, {source_id: row for row, source_id in enumerate(source_ids)}
         self._sides = Sides.of(contacts, crossing_cost)
-        self._by_hops = list(costs_by_hops(price_per_m, self._sides, source_ids, max_hops))
-        final = self._by_hops[-1] * (1.0 + _WITHIN)
-        # The round in which the cheapest path to each side is known: the number of contacts before that side.
-        self._before: NDArray[np.intp] = np.argmax([costs <= final for costs in self._by_hops], axis=0)
+        self._by_hops: list[NDArray[np.float64]] | None = None
+        # The number of contacts before each side on the cheapest path to it.
+        self._before: NDArray[np.intp]
+        if max_hops is None:
+            self._costs, hops = least_costs(price_per_m, self._sides, source_ids)
+            self._before = hops - 1
+        else:
+            self._by_hops = list(costs_by_hops(price_per_m, self._sides, source_ids, max_hops))
+            self._costs = self._by_hops[-1]
+            self._before = np.argmax([costs <= self._costs * (1.0 + WITHIN) for costs in self._by_hops], axis=0)
         self._ways: dict[tuple[int, int, int], Way] = {}
 
     def entered(self, object_id: str, points_m: NDArray[np.floating]) -> NDArray[np.intp]:
@@ -67,9 +71,9 @@ class TracedPaths:
 
     def _cheapest(self, row: int, own: NDArray[np.intp], within: NDArray[np.float64]) -> NDArray[np.intp]:
         """Return which of an object's sides is the cheapest, given costs (n, n_sides) beyond each; -1 for none."""
-        total = within + self._by_hops[-1][row, own]
+        total = within + self._costs[row, own]
         least = total.min(axis=1, keepdims=True)
-        best = np.where(total <= least * (1.0 + _WITHIN), self._before[row, own], np.inf).argmin(axis=1)
+        best = np.where(total <= least * (1.0 + WITHIN), self._before[row, own], np.inf).argmin(axis=1)
         return np.where(np.isfinite(least[:, 0]), own[best], -1)
 
     def way_to(self, source_id: str, object_id: str) -> Way | None:
@@ -96,13 +100,22 @@ class TracedPaths:
                 break
             entries = by_object[behind]
             through_m = distances_m(points_m[[side // 2]], points_m[entries // 2])[0]
-            costs = self._by_hops[n_before - 1][row, entries] + self._price_per_m[behind] * through_m
+            costs = self._costs_before(row, entries, n_before) + self._price_per_m[behind] * through_m
             side, n_before = int(entries[costs.argmin()]), n_before - 1
         way = self._ways.get((row, side, n_before), Way((source_id,)))
         for side, n_before in reversed(pending):
             x, y, z = points_m[side // 2].tolist()
             way = self._ways[row, side, n_before] = Way((*way.objects, owner[side]), (*way.entries_m, (x, y, z)))
         return way
+
+    def _costs_before(self, row: int, sides: NDArray[np.intp], n_hops: int) -> NDArray[np.float64]:
+        """Return the cost of arriving over sides with at most `n_hops` contacts, infinite without such a path."""
+        costs: NDArray[np.float64]
+        if self._by_hops is not None:
+            costs = self._by_hops[n_hops - 1][row, sides]
+        else:
+            costs = np.where(self._before[row, sides] < n_hops, self._costs[row, sides], np.inf)
+        return costs
 
 
 class PathsToPoint:

@@ -31,6 +31,10 @@ from scene2hap.session.fields.worker import Desk, Prepared, Sign, Situation, put
 from scene2hap.session.reach import Reach
 from scene2hap.session.scene_state import SceneState
 
+_MANY = 16
+"""Number of points per source from which a prepared field is used for a map. A search for one source covers the whole
+scene, and takes 8 to 60 times as long as one for a point, which ends where nothing is felt."""
+
 
 class FieldWarning(RuntimeWarning):
     """The model could not prepare a field of the present scene."""
@@ -115,7 +119,7 @@ class FieldKeeper:
         self._heard = (gained, source_ids, reach)
         return gained
 
-    def unnoted(self, source_ids: tuple[str, ...], reach: Reach) -> FieldInUse:
+    def unnoted(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> FieldInUse:
         """See `method`; for points that no hand touches, so that the worker does not prepare their objects."""
         return self._in_use(source_ids, reach, lambda touched: None)
 
@@ -219,6 +223,7 @@ class LiveKeeper:
         self._model, self._bands, self._state = model, bands, state
         self.n_prepared = 0
         self._made_for: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
+        self._mapped: tuple[int, PropagationField] | None = None
         self.request(excitations)
 
     @property
@@ -233,6 +238,7 @@ class LiveKeeper:
         if self._made_for is None or self._made_for[0] is not bodies or self._made_for[1] is not excitations:
             self._made_for = (bodies, excitations)
             self.in_use: LiveField = self._model.live(self._state.graph, bodies, excitations, self._bands)
+            self._mapped = None
 
     def order(self) -> None:
         """Do nothing: a live field needs no preparation."""
@@ -241,7 +247,21 @@ class LiveKeeper:
         """The field of these sources."""
         return self.in_use
 
-    unnoted = method
+    def unnoted(self, source_ids: tuple[str, ...], reach: Reach, n_points: int) -> LiveField:
+        """See `method`; for points that no hand touches.
+
+        A live field searches once for each point, a prepared field once for each source. For many points the model
+        prepares a field, which is in use until the next change of contacts, sources or objects.
+        """
+        if n_points < _MANY * len(source_ids) or not isinstance(self._model, PropagationModel):
+            return self.in_use
+        version = self._state.graph.version
+        if self._mapped is None or self._mapped[0] != version:
+            assert self._made_for is not None
+            network, (_, excitations) = self._state.network(None)(()).network, self._made_for
+            self._mapped = (version, self._model.prepare(network, excitations, self._bands))
+        poses, now = self._state.poses, self._state.graph.pose
+        return LastField(self._mapped[1], poses, now, source_ids, self._bands.n_bands, reach, lambda: True)
 
     def take(self) -> bool:
         """Return False: there is never a newer field."""

@@ -1,10 +1,13 @@
-"""Validation of points given by callers."""
+"""Validation of points given by callers, and the cost of reaching them."""
+
+import tracemalloc
 
 import numpy as np
 import pytest
 
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.points import as_points
+from scene2hap.propagation.paths.prepared_paths import Arrivals
+from scene2hap.propagation.points import arrivals_at, as_points
 
 INF, NAN = float("inf"), float("nan")
 
@@ -23,3 +26,21 @@ def test_coordinates_whose_squares_overflow_are_accepted() -> None:
 def test_points_of_wrong_shape_are_refused(bad: object) -> None:
     with pytest.raises(ModelDomainError, match="must be"):
         as_points(bad, 3)
+
+
+def test_a_map_of_many_points_needs_little_memory_and_gives_the_costs_of_single_points() -> None:
+    """An array over all points, sources and contacts would have 40 MB here."""
+    rng = np.random.default_rng(1)
+    sources = tuple(f"s{i}" for i in range(50))
+    arrived = Arrivals(rng.uniform(0, 9, (200, 3)), rng.uniform(0, 9, (50, 200)))
+    points_m = rng.uniform(0, 9, (500, 3))
+    tracemalloc.start()
+    try:
+        costs = arrivals_at({"floor": arrived}, {"floor": 0.5}, sources, "floor", points_m)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 20e6
+    for k in (0, 104, 499):
+        apart_m = np.linalg.norm(arrived.points_m - points_m[k], axis=1)
+        np.testing.assert_allclose(costs[k], (arrived.costs + 0.5 * apart_m).min(axis=1), rtol=1e-12)

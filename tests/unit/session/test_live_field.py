@@ -163,3 +163,46 @@ def test_plugin_results_of_wrong_shape_raise_session_errors() -> None:
             s.update(touches=[ON_TABLE])
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Priced(0, 0)})
     assert s.update(touches=[ON_TABLE]).gain("left", "phone") == 0.5
+
+
+class CountsFields(ExponentialPlate):
+    """The paper's law; it counts its prepared fields."""
+
+    n_prepared = 0
+
+    def prepare(self, network: Any, excitations: Any, bands: Bands) -> Any:
+        type(self).n_prepared += 1
+        return super().prepare(network, excitations, bands)
+
+
+@pytest.mark.parametrize("bands", [Bands.dominant(), Bands.third_octaves(10, 1000)], ids=["dominant", "octaves"])
+def test_many_points_are_felt_as_each_alone_with_one_field_for_a_scene(bands: Bands) -> None:
+    rng, CountsFields.n_prepared = np.random.default_rng(2), 0
+    session = HapticSession(
+        *table_with_two_phones(), {"sample_rate_hz": RATE, "bands": bands, "propagation": CountsFields()}
+    )
+    points = [
+        Touch("left", name, (float(rng.uniform(0, 1.6)), 0.72, float(rng.uniform(0, 0.8))))
+        for name in ("table", "phone", "cup", "block", "alarm")
+        for _ in range(20)
+    ]
+
+    def moved() -> None:
+        session.update({"phone": Pose((0.3, 0.725, 0.2))})
+
+    def lifted() -> None:
+        session.update({"phone": Pose((0.3, 1.5, 0.2))})
+
+    def added() -> None:
+        fan = box("fan", (0.1, 0.2, 0.1), (0.8, 0.82, 0.6))
+        session.add(fan, haptics("steel", (0.1, 0.1, 0.004), "on"), {"on": tone_loop(60)})
+
+    changes = (session.update, moved, lifted, added, lambda: session.remove("alarm"))
+    for n_changes, change in enumerate(changes, start=1):
+        change()
+        here = [point for point in points if point.object_id in session.object_ids]
+        alone = np.concatenate([session.would_feel([point]) for point in here])
+        assert CountsFields.n_prepared == n_changes - 1
+        for _ in range(2):
+            np.testing.assert_allclose(session.would_feel(here), alone, rtol=1e-9, atol=1e-12)
+        assert CountsFields.n_prepared == n_changes
