@@ -5,8 +5,8 @@ straight through the object that has both, at that object's price per metre. Ins
 free, since the source vibrates as a whole.
 
 The paper collects all paths by depth-first search, with one object between source and hand. Here the cheapest path is
-enough, since it is the loudest one. Without a limit on the number of contacts, each source is searched from once
-(Dijkstra's algorithm, vectorised over the contacts of an object). With a limit, rounds lower the cost of arriving over
+enough, since it is the loudest one. Without a limit on the number of contacts, one search from each source finds it
+(Dijkstra's algorithm). With a limit, rounds lower the cost of arriving over
 each contact (Bellman-Ford, vectorised over sources and contacts): after n rounds all paths over at most n contacts are
 known.
 """
@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.scene.objects import Contact
 
 WITHIN = 1e-12
@@ -99,59 +100,73 @@ def least_costs(
     Of paths of equal cost, that with the fewest contacts counts. The number is 0 without a path.
     """
     shape = (len(source_ids), len(sides.owner))
-    costs, hops, leads_on = np.full(shape, np.inf), np.zeros(shape, dtype=np.intp), _leads_on(price_per_m, sides)
-    with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
-        for row, source_id in enumerate(source_ids):
-            if source_id in sides.by_object:
-                _search(price_per_m, sides, leads_on, source_id, costs[row], hops[row])
+    costs, hops, network = np.full(shape, np.inf), np.zeros(shape, dtype=np.intp), Network.of(price_per_m, sides)
+    for row, source_id in enumerate(source_ids):
+        if source_id in sides.by_object:
+            search(network, sides.by_object[source_id], costs[row], hops[row])
     return costs, hops
 
 
-def _leads_on(price_per_m: Mapping[str, float], sides: Sides) -> NDArray[np.bool_]:
-    """Mask of the sides whose object may lead on to another contact at a cost that improves a path.
+class Network(NamedTuple):
+    """The sides of contacts as arrays.
 
-    An object that touches only the object that a path comes from, and is not cheaper, leads nowhere new.
+    owner (n_sides,) : number of the object of each side; own (n_sides,) : the sides of all objects, one object after
+    the other; first (n_objects + 1,) : where each object's begin in `own`; prices (n_objects,) : per metre, infinite
+    where no path leads through; leads_on (n_sides,) : whether a path may be cheaper that enters over this side and goes
+    on; points_m, crossing : see `Sides`.
     """
-    owner = sides.owner
-    beside = {object_id: {owner[side] for side in own ^ 1} for object_id, own in sides.by_object.items()}
 
-    def leads(here: str, behind: str) -> bool:
-        price = price_per_m.get(here)
-        return price is not None and (len(beside[here]) > 1 or price < price_per_m.get(behind, np.inf))
+    owner: NDArray[np.intp]
+    own: NDArray[np.intp]
+    first: NDArray[np.intp]
+    prices: NDArray[np.float64]
+    leads_on: NDArray[np.bool_]
+    points_m: NDArray[np.float64]
+    crossing: NDArray[np.float64]
 
-    return np.array([leads(here, owner[side ^ 1]) for side, here in enumerate(owner)], dtype=np.bool_)
+    @classmethod
+    def of(cls, price_per_m: Mapping[str, float], sides: Sides) -> Network:
+        """Number the objects of sides."""
+        number = {object_id: k for k, object_id in enumerate(sides.by_object)}
+        owner = np.array([number[object_id] for object_id in sides.owner], dtype=np.intp)
+        prices = np.array([price_per_m.get(object_id, np.inf) for object_id in sides.by_object], dtype=np.float64)
+        own = np.concatenate([*sides.by_object.values(), np.empty(0, dtype=np.intp)])
+        first = np.cumsum([0, *map(len, sides.by_object.values())], dtype=np.intp)
+        # An object that touches only the object that a path comes from, and is not cheaper, leads nowhere new.
+        n_beside = np.array([len(set(owner[its ^ 1].tolist())) for its in sides.by_object.values()], dtype=np.intp)
+        behind = owner[np.arange(len(owner)) ^ 1]
+        leads_on = np.isfinite(prices[owner]) & ((n_beside[owner] > 1) | (prices[owner] < prices[behind]))
+        return cls(owner, own, first, prices, leads_on, sides.points_m, sides.crossing)
 
 
-def _search(
-    price_per_m: Mapping[str, float],
-    sides: Sides,
-    leads_on: NDArray[np.bool_],
-    source_id: str,
-    costs: NDArray[np.float64],
-    hops: NDArray[np.intp],
-) -> None:
-    """Enter the costs and the numbers of contacts of all paths from one source into `costs` and `hops` (n_sides,)."""
-    owner, by_object, points_m, crossing = sides
-    out = by_object[source_id]
+@compiled
+def search(network: Network, out: NDArray[np.intp], costs: NDArray[np.float64], hops: NDArray[np.intp]) -> None:
+    """Enter the least costs and the numbers of contacts of all paths from one source into `costs` and `hops`.
+
+    Parameters: out : the sides of the source; costs, hops (n_sides,) : infinite and 0 before.
+    """
+    owner, own_sides, first, prices, leads_on, points_m, crossing = network
     costs[out ^ 1], hops[out ^ 1] = crossing[out // 2], 1
     waiting = np.where(leads_on, costs, np.inf)
-    while (least := float(waiting.min())) < np.inf:
-        near = np.flatnonzero(waiting <= least * (1.0 + WITHIN))
-        side = int(near[hops[near].argmin()])
-        waiting[side] = np.inf
-        own = by_object[owner[side]]
-        across, crossed = own ^ 1, crossing[own // 2]
-        within = costs[side] + price_per_m[owner[side]] * distances_m(points_m[[side // 2]], points_m[own // 2])[0]
-        onward, n_hops = within + crossed, hops[side] + 1
-        is_equal = onward <= costs[across] * (1.0 + WITHIN)
-        is_better = (onward < costs[across] * (1.0 - WITHIN)) | (is_equal & (n_hops < hops[across]))
-        # A point that is cheaper to reach from within leads nowhere new: a straight line is never longer than a line
-        # through another point. Otherwise a floor with a thousand objects on it would be searched from each of them.
-        waiting[own[is_better & (within < costs[own] * (1.0 - WITHIN))]] = np.inf
-        better = across[is_better]
-        costs[better], hops[better] = onward[is_better], n_hops
-        is_useful = leads_on[better] & ~(costs[better ^ 1] - crossed[is_better] <= costs[better])
-        waiting[better[is_useful]] = costs[better[is_useful]]
+    with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
+        while len(waiting) and (least := float(waiting.min())) < np.inf:
+            near = np.flatnonzero(waiting <= least * (1.0 + WITHIN))
+            side = int(near[hops[near].argmin()])
+            waiting[side] = np.inf
+            here = owner[side]
+            own = own_sides[first[here] : first[here + 1]]
+            across, crossed = own ^ 1, crossing[own // 2]
+            within = costs[side] + prices[here] * distances_m(points_m[[side // 2]], points_m[own // 2])[0]
+            onward, n_hops = within + crossed, hops[side] + 1
+            is_equal = onward <= costs[across] * (1.0 + WITHIN)
+            is_better = (onward < costs[across] * (1.0 - WITHIN)) | (is_equal & (n_hops < hops[across]))
+            # A point that is cheaper to reach from within leads nowhere new: a straight line is never longer than a
+            # line through another point. Otherwise a floor with a thousand objects would be searched from each.
+            waiting[own[is_better & (within < costs[own] * (1.0 - WITHIN))]] = np.inf
+            better = across[is_better]
+            costs[better], hops[better] = onward[is_better], n_hops
+            is_useful = leads_on[better] & ~(costs[better ^ 1] - crossed[is_better] <= costs[better])
+            waiting[better[is_useful]] = costs[better[is_useful]]
 
 
 def costs_by_hops(

@@ -13,11 +13,34 @@ from scene2hap.contact.junction import Junction
 from scene2hap.propagation.coupled.elimination import Element, dense
 from scene2hap.propagation.coupled.elimination_order import pattern_of
 from scene2hap.propagation.near_field import table
+from scene2hap.propagation.paths.prepared_paths import Network, Sides
+from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 
 
 def places(rng: np.random.Generator, n: int) -> list[tuple[float, float, float]]:
     return [(x, y, z) for x, y, z in rng.normal(size=(n, 3)).tolist()]
+
+
+@steady
+@given(seed=seeds, on_grid=st.booleans())
+def test_kernels_find_the_same_costs_from_a_source(seed: int, on_grid: bool) -> None:
+    rng = np.random.default_rng(seed)
+    ids = [f"x{i}" for i in range(8)]
+    prices = {x: float(rng.choice([0.0, rng.uniform(0.1, 2)])) for x in ids[:-1]}
+    points = rng.integers(0, 3, (30, 3)) if on_grid else rng.normal(size=(30, 3))  # on a grid many paths are equal
+    pairs = [rng.choice(ids, 2, replace=False).tolist() for _ in points]
+    contacts = [Contact(a, b, tuple(point)) for (a, b), point in zip(pairs, points.tolist(), strict=True)]
+    sides = Sides.of(contacts, rng.choice([0.0, 0.3, math.inf], len(contacts)))
+    network, n_sides = Network.of(prices, sides), 2 * len(contacts)
+    found = []
+    for kernel in both("propagation.paths.prepared_paths.search"):
+        costs, hops = np.full(n_sides, np.inf), np.zeros(n_sides, dtype=np.intp)
+        kernel(network, sides.by_object.get("x0", np.empty(0, dtype=np.intp)), costs, hops)
+        found.append((costs, hops))
+    (plain, n_plain), (twin, n_twin) = found
+    assert twin.tolist() == plain.tolist()
+    assert n_twin.tolist() == n_plain.tolist()
 
 
 @steady
