@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import ContextDecorator
 from functools import cache
-from threading import Lock
 from typing import Protocol
+
+from scene2hap.forks import lock_of_process, renew_in_child
 
 
 class _Library(Protocol):
@@ -32,9 +33,14 @@ class OneBlasThread(ContextDecorator):
     """
 
     def __init__(self) -> None:
-        self._lock = Lock()
+        self._lock = lock_of_process()
         self._n_inside = 0
         self._before: list[tuple[_Library, int]] = []
+        renew_in_child(self._leave)
+
+    def _leave(self) -> None:
+        """Forget the threads of the parent. The last exit in the child still restores the numbers of threads."""
+        self._n_inside = 0
 
     def __enter__(self) -> None:
         with self._lock:

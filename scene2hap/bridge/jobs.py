@@ -16,6 +16,7 @@ from typing import Any
 
 from scene2hap.bridge.hosted_session import error_message
 from scene2hap.errors import BridgeError
+from scene2hap.interpreter import can_start_python
 
 MAX_RUNNING = 4
 """Most bakes at the same time, over all clients; assumed: more would only slow each other down."""
@@ -53,8 +54,13 @@ class Jobs:
         """Begin a bake. Returns its number; `tell` receives its messages.
 
         Parameters: wanted : as `bake_process` reads it, without the target; target : folder of the bundle, None to keep
-        it only as long as the server runs. Raises: BridgeError: too many bakes run.
+        it only as long as the server runs. Raises: BridgeError: too many bakes run; this program cannot start Python.
         """
+        if not can_start_python():
+            raise BridgeError(
+                f"a bake needs a Python of its own, and this program, {sys.executable!r}, is frozen or embeds Python, "
+                "so that it would start itself again. Bake before you ship the program, and play the bundle."
+            )
         if len(self._tasks) >= MAX_RUNNING:
             raise BridgeError(f"{MAX_RUNNING} bakes are running already; wait for one to end, or cancel one.")
         job = next(self._job_numbers)

@@ -7,15 +7,15 @@ has a key. It ends with `give_back`, or when its holder no longer exists.
 from __future__ import annotations
 
 import os
-import threading
 from collections.abc import Hashable
 from weakref import WeakValueDictionary
 
 from scene2hap import checks
 from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.errors import ConfigError, DeviceError
+from scene2hap.forks import lock_of_process
 
-_LOCK = threading.Lock()
+_LOCK = lock_of_process()
 _HELD: WeakValueDictionary[Hashable, object] = WeakValueDictionary()
 
 

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from functools import update_wrapper
-from threading import Lock
 from typing import Generic, ParamSpec, TypeVar
 from weakref import WeakValueDictionary
 
+from scene2hap.forks import lock_of_process
 from scene2hap.propagation.coupled.byte_bounded_lru import Sized
 
 KEPT_BYTES = 128 * 2**20
@@ -31,7 +31,7 @@ class cached_while_used(Generic[_Given, _Result]):
     """
 
     def __init__(self, function: Callable[_Given, _Result]) -> None:
-        self._function, self._lock = function, Lock()
+        self._function, self._lock = function, lock_of_process()
         self._used: WeakValueDictionary[Hashable, _Result] = WeakValueDictionary()
         self._newest: OrderedDict[Hashable, _Result] = OrderedDict()
         self._kept_bytes = 0

@@ -10,8 +10,8 @@ PACKAGE = Path(__file__).parents[2] / "scene2hap"
 
 # From bottom to top; packages of one row never import each other.
 LAYERS = [
-    {"blas_threads", "errors", "printable", "quiet_logs"},
-    {"checks", "compiled", "key_search"},
+    {"errors", "forks", "interpreter", "printable", "quiet_logs"},
+    {"blas_threads", "checks", "compiled", "key_search"},
     {"calls"},
     {"counted", "file_stamp", "html_tables", "plots", "plugins", "secret", "text_files", "web"},
     {"settings"},
@@ -30,7 +30,7 @@ LAYERS = [
     {"testing"},
     {"demo"},
     {"cli"},
-    {"__main__"},
+    {"__main__", "__pyinstaller"},
 ]
 HEIGHT = {package: height for height, packages in enumerate(LAYERS) for package in packages}
 PLAY_SIDE = ("session", "touch_track", "track_player", "render", "devices", "propagation", "contact")

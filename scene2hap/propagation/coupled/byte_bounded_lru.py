@@ -13,6 +13,8 @@ from weakref import ReferenceType, WeakMethod, ref
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.forks import lock_of_process
+
 MOST_BYTES = 128 * 2**20
 
 
@@ -41,7 +43,7 @@ class ByteBoundedLru(Generic[Answer]):
     # Owner and size of every value of all instances, the most recently used last.
     _shelf: ClassVar[OrderedDict[_Key, tuple[ReferenceType[ByteBoundedLru[Any]], int]]] = OrderedDict()
     _held_bytes: ClassVar[int] = 0
-    _lock: ClassVar[Lock] = Lock()
+    _lock: ClassVar[Lock] = lock_of_process()
     # Keys of deleted instances, to be removed later: the garbage collector may run while this thread has the lock.
     _gone: ClassVar[deque[_Key]] = deque()
     _numbers: ClassVar[Iterator[int]] = count()

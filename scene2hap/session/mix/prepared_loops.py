@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-import threading
 from collections import OrderedDict
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -22,6 +21,7 @@ from numpy.typing import NDArray
 from scene2hap.audio.bands import split_bands
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.levels import threshold_db
+from scene2hap.forks import lock_of_process, renew_in_child
 from scene2hap.haptics import Bands
 from scene2hap.render.loop_bank import LoopBank
 
@@ -40,8 +40,8 @@ class PreparedLoop:
 
 
 _Kind = tuple[Bands, int]
-_LOCK = threading.Lock()
-_BUILDING = threading.Lock()
+_LOCK = lock_of_process()
+_BUILDING = lock_of_process()
 _OF_CLIP: WeakKeyDictionary[AudioClip, dict[_Kind, PreparedLoop]] = WeakKeyDictionary()
 _BY_CONTENT: WeakValueDictionary[tuple[bytes, _Kind], PreparedLoop] = WeakValueDictionary()
 _NEWEST: OrderedDict[tuple[bytes, _Kind], PreparedLoop] = OrderedDict()
@@ -78,6 +78,9 @@ def order(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> Future[Prepare
 @lru_cache(maxsize=1)
 def _worker() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(1, thread_name_prefix="scene2hap loops")
+
+
+renew_in_child(_worker.cache_clear)
 
 
 def _made(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop:

@@ -4,6 +4,7 @@ import base64
 import io
 import json
 import re
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -94,6 +95,14 @@ def test_a_bake_is_cancelled(bridge: Bridge, root: Path, desk: HapticBundle) -> 
             client.ask("bake", scene=scene)
         with pytest.raises(Refused, match="running already"):
             client.ask("bake", scene=scene)
+
+
+def test_a_frozen_program_refuses_bakes(bridge: Bridge, desk: HapticBundle, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A child would be the program itself once more, not Python."""
+    server = bridge()
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+    with Client(server.url) as client, pytest.raises(Refused, match="start itself again"):
+        client.ask("bake", scene=json.loads(desk.snapshot.to_json()))
 
 
 def test_bake_continues_without_its_client(bridge: Bridge, root: Path, desk: HapticBundle) -> None:

@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 from scene2hap import errors
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
+from scene2hap.interpreter import can_start_python
 from scene2hap.scene import limits
 from scene2hap.scene.tree import AuthoredScene
 
@@ -82,12 +83,6 @@ def read_in_child(path: Path, assets_root: Path) -> AuthoredScene:
     if answer.scene is None:
         raise getattr(errors, answer.error)(answer.message)
     return answer.scene
-
-
-def can_start_python() -> bool:
-    """Return True if `sys.executable` is a Python interpreter, not a program with an embedded Python."""
-    is_frozen = getattr(sys, "frozen", False)
-    return not is_frozen and bool(sys.executable) and Path(sys.executable).stem.lower().startswith(("python", "pypy"))
 
 
 def _failure(done: subprocess.CompletedProcess[bytes]) -> str:

@@ -1,0 +1,5 @@
+"""List the modules of isal, which its compiled code imports where PyInstaller cannot see it."""
+
+from PyInstaller.utils.hooks import collect_submodules
+
+hiddenimports = collect_submodules("isal")
