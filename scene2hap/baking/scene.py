@@ -120,7 +120,7 @@ async def with_sounds(
     }
     objects = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in kept.items()}
     before = Earlier(locked, earlier.choices if earlier is not None else {})
-    sounds = await make_loops(objects, wishes, config, progress or _say_nothing, before)
+    sounds = await make_loops(objects, wishes, config, progress or _say_nothing, before, kept)
     objects = _as_recorded(objects, sounds.loops, {}, wishes)
     _warn_of(scene, objects)
     for doubt in vain_corrections(objects, wishes):
@@ -217,6 +217,12 @@ async def arebake(
     objects = checks.items("objects", objects, error=ConfigError)
     wishes = bundle.overrides
     silent = [key for key, wish in wishes.items() if wish.vibrates and not bundle.objects[key].vibrates]
+    renamed = [
+        key
+        for key, wish in wishes.items()
+        if wish.name is not None and bundle.objects[key].reasons.get("name") != _why_named(wish.name)
+    ]
+    objects = [*objects, *renamed]
     again = list(dict.fromkeys([*objects, *silent]))
     inference = await _infer(
         bundle.snapshot, config, wishes, user_prompt, progress, on_report, again, bundle.scene_category
@@ -225,7 +231,8 @@ async def arebake(
         key: haptics if key in objects else _with_vibration(bundle.objects[key], haptics)
         for key, haptics in inference.objects.items()
     }
-    said = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in {**bundle.objects, **answers}.items()}
+    inferred = {**bundle.objects, **answers}
+    said = {key: _as_wished(haptics, wishes.get(key)) for key, haptics in inferred.items()}
     earlier = Earlier(
         bundle.loops,
         bundle.choices,
@@ -233,7 +240,7 @@ async def arebake(
         any_source=not given & {"audio", "enough_candidates"},
         any_making=not given & {"actuator", "tactile", "spread"},
     )
-    sounds = await make_loops(said, wishes, config, progress or _say_nothing, earlier)
+    sounds = await make_loops(said, wishes, config, progress or _say_nothing, earlier, inferred)
     if on_remade is not None:
         on_remade(sounds.remade)
     _warn_of_weak(sounds.loops, sounds.remade, wishes)
@@ -328,7 +335,7 @@ async def _infer(
 ) -> Inference:
     tell = progress or _say_nothing
     inference = await infer_scene(
-        scene,
+        _renamed(scene, wishes),
         config.llm,
         user_prompt=user_prompt,
         config=config,
@@ -339,7 +346,28 @@ async def _infer(
     )
     if on_report is not None:
         on_report(inference.report)
-    return inference
+    return replace(
+        inference, objects={key: _as_named(said, wishes.get(key)) for key, said in inference.objects.items()}
+    )
+
+
+def _as_named(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
+    """Note the name that a person gave an object, by which it was inferred."""
+    if wish is None or wish.name is None:
+        return haptics
+    return replace(haptics, reasons={**haptics.reasons, "name": _why_named(wish.name)})
+
+
+def _renamed(scene: SceneSnapshot, wishes: Mapping[str, Override]) -> SceneSnapshot:
+    """Return the scene with the names that a person gave."""
+    names = {key: wish.name for key, wish in wishes.items() if wish.name is not None}
+    if not names:
+        return scene
+    return replace(scene, objects=tuple(replace(item, name=names.get(item.id, item.name)) for item in scene.objects))
+
+
+def _why_named(name: str) -> str:
+    return f"a person calls it {name!r}."
 
 
 def with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:

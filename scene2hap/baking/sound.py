@@ -92,14 +92,17 @@ async def make_loops(
     config: BakeConfig,
     tell: Progress,
     earlier: Earlier | None = None,
+    inferred: Mapping[str, ObjectHaptics] | None = None,
 ) -> Sounds:
     """Make the loops of all objects.
 
     All sounds are chosen before any is converted, since each source is moved away from the frequencies of the others.
+    `inferred` are the objects before a person corrected them: a corrected intensity changes the level of a sound, not
+    the sound itself.
     """
     wanted = [(key, haptics, state) for key, haptics in objects.items() if haptics.vibrates for state in haptics.states]
     before = earlier or Earlier()
-    sounds, chooser = Sounds(), _Chooser(config, wishes, before)
+    sounds, chooser = Sounds(), _Chooser(config, wishes, before, inferred or objects)
     parts = []
     for done, (object_id, haptics, state) in enumerate(wanted, start=1):
         part, why = await asyncio.to_thread(chooser.part, object_id, haptics, state)
@@ -162,8 +165,14 @@ def _is_same(states: Mapping[str, HapticLoop], others: Mapping[str, HapticLoop])
 class _Chooser:
     """Find the sound of each state: a person's own, the earlier bundle's, or the best one from the sources."""
 
-    def __init__(self, config: BakeConfig, wishes: Mapping[str, Override], earlier: Earlier) -> None:
-        self._config, self._wishes, self._earlier = config, wishes, earlier
+    def __init__(
+        self,
+        config: BakeConfig,
+        wishes: Mapping[str, Override],
+        earlier: Earlier,
+        inferred: Mapping[str, ObjectHaptics],
+    ) -> None:
+        self._config, self._wishes, self._earlier, self._inferred = config, wishes, earlier, inferred
         self._chosen: dict[VibrationDescription, tuple[AudioClip, str, Runs]] = {}
         self._own: dict[str, tuple[AudioClip, Runs]] = {}
 
@@ -181,7 +190,9 @@ class _Chooser:
             request = {"words": OWN_CLIP, "sources": OWN_CLIP}
             shown = shown_runs(runs, state, before)
             return _Part(object_id, state, group, clip, request, before, wish.keep, runs=shown), ""
-        description = self._description(haptics, state)
+        before_corrected = self._inferred.get(object_id, haptics)
+        as_inferred = next((one for one in before_corrected.states if one.name == state.name), state)
+        description = self._description(before_corrected, as_inferred)
         request = request_digests(description, self._config)
         if before is not None and object_id not in self._earlier.chosen_again:
             why = self._earlier.choices.get(object_id, {}).get(state.name, "")

@@ -221,7 +221,7 @@ def _read_scene(folder: Path) -> SceneSnapshot:
 def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, Any]:
     rows: dict[str, Any] = {}
     for object_id, wish in bundle.overrides.items():
-        row: dict[str, Any] = {"vibrates": wish.vibrates, "gain_db": wish.gain_db}
+        row: dict[str, Any] = {"name": wish.name, "vibrates": wish.vibrates, "gain_db": wish.gain_db}
         row["mass_kg"], row["feet"] = wish.mass_kg, asdict(wish.feet) if wish.feet is not None else None
         row["material"] = asdict(wish.material) if wish.material is not None else None
         row["clip"] = None

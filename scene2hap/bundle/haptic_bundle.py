@@ -46,6 +46,7 @@ class HapticBundle(BundleContents):
         self,
         object_id: str,
         *,
+        name: str | None = None,
         vibrates: bool | None = None,
         gain_db: float | None = None,
         material: Material | str | None = None,
@@ -63,7 +64,8 @@ class HapticBundle(BundleContents):
     ) -> Self:
         """Correct one object, in addition to earlier corrections. Returns a new bundle. None leaves a field unchanged.
 
-        A clip, or the path of one, keeps its own frequency; `keep=False` allows moving it away from the scene's other
+        A name says what the object is, such as "washing machine": `rebake` infers the object by it. A clip, or the
+        path of one, keeps its own frequency; `keep=False` allows moving it away from the scene's other
         sources. Intensity, pitch and the times of start and stop are numbers for all states, or mappings by state.
         `state` is the state at the start. Corrections are kept in the folder and by `rebake`. Level, material, mass,
         feet, times, first state, mute and silence take effect at once. The others, and vibration of an object that was
@@ -75,6 +77,7 @@ class HapticBundle(BundleContents):
         """
         self.snapshot.object(object_id)
         changes = {
+            "name": name,
             "vibrates": vibrates,
             "gain_db": gain_db,
             "material": material,

@@ -24,7 +24,7 @@ USER = "user"
 ANY_STATE = "*"
 """Key for all states of an object that have no entry of their own."""
 
-MAKES_LOOPS = frozenset({"vibrates", "clip", "keep", "intensity", "pitch_hz"})
+MAKES_LOOPS = frozenset({"name", "vibrates", "clip", "keep", "intensity", "pitch_hz"})
 """Fields that decide how loops are made. They cannot change while an object is locked."""
 
 PASSAGES = ("start_up_s", "wind_down_s")
@@ -45,6 +45,7 @@ class Override:
     gain_db : its level at the hand, relative to the inferred one [dB].
     mass_kg : mass of the whole object [kg].
     feet : the material of its feet, or a name in the table.
+    name : what it is, such as "washing machine". Inference reads this instead of the authored name.
     material : its material, or a name in the table.
     clip : the sound from which its vibration is made, in every state, or the path of its file. A haptic clip (.haptic,
         .ahap) is played unchanged. keep : True if that sound keeps its own frequency and level; the scene's other
@@ -71,6 +72,7 @@ class Override:
     feet: Material | None = None
     start_up_s: Mapping[str, float] = field(default_factory=dict)
     wind_down_s: Mapping[str, float] = field(default_factory=dict)
+    name: str | None = None
 
     def __post_init__(self) -> None:
         if self.vibrates is not None and not isinstance(self.vibrates, bool):
@@ -81,8 +83,11 @@ class Override:
         object.__setattr__(self, "pitch_hz", _by_state(self.pitch_hz, _pitch_hz, "pitch_hz"))
         for name in PASSAGES:
             object.__setattr__(self, name, _by_state(getattr(self, name), _passage_s, name))
-        if self.state is not None:
-            checks.text("state", self.state, error=BundleError)
+        for name in ("state", "name"):
+            if getattr(self, name) is not None:
+                checks.text(name, getattr(self, name), error=BundleError)
+        if self.name is not None and not self.name.strip():
+            raise BundleError("name is empty; say what the object is, such as 'washing machine'.")
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             object.__setattr__(self, "gain_db", gain)

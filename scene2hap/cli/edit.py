@@ -13,6 +13,7 @@ scene2hap edit kitchen.bundle sound fan my_fan.wav --watch
 scene2hap edit kitchen.bundle sound fan my_fan.haptic
 scene2hap edit kitchen.bundle state fan high
 scene2hap edit kitchen.bundle mute fan
+scene2hap edit kitchen.bundle name Cube.012 "washing machine"
 scene2hap edit kitchen.bundle silence hood
 scene2hap edit kitchen.bundle vibrate kettle
 scene2hap edit kitchen.bundle lock fan
@@ -59,6 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             added.add_argument("id", metavar="ID", help="id of an object")
         return added
 
+    called = verb("name", "say what an object is; it is inferred again, and its loops are made", _remade)
+    called.add_argument("name", metavar="WORDS", help="such as 'washing machine'")
     gain = verb("gain", "set the level of an object at the hand", _overridden)
     gain.add_argument("gain_db", metavar="DB", type=float, help="relative to the inferred level")
     intensity = verb("intensity", "set the strength of an object's vibration, and make its loops again", _remade)
@@ -203,7 +206,7 @@ def interrupted() -> Iterator[threading.Event]:
 
 
 _FIELDS = (
-    *("gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s", "material", "mass_kg", "feet", "state"),
+    *("name", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s", "material", "mass_kg", "feet", "state"),
     *("muted", "vibrates", "locked"),
 )
 

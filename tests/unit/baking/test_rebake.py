@@ -22,7 +22,7 @@ from scene2hap import (
     materials,
     rebake,
 )
-from scene2hap.errors import SceneError, UnknownObject
+from scene2hap.errors import BundleError, SceneError, UnknownObject
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scripted_backend import SCENE, Scripted
 
@@ -70,6 +70,46 @@ def test_vibration_can_be_added_by_override(bundle: HapticBundle) -> None:
     assert list(again.loops["cup"]) == ["on"]
     assert again.objects["cup"].vibrates
     assert again.objects["cup"].provenance["vibrates"] == "user"
+
+
+def test_an_object_is_inferred_by_the_name_that_a_person_gives(tmp_path: Path) -> None:
+    scene = SceneSnapshot.build([SceneObject("Cube.012", geometry=Box((0.6, 0.6, 0.85)))])
+    unknown = bake(scene)
+    assert not unknown.objects["Cube.012"].vibrates
+    named = rebake(unknown.override("Cube.012", name="washing machine"))
+    expected = bake(SceneSnapshot.build([SceneObject("washing machine", geometry=Box((0.6, 0.6, 0.85)))]))
+    found, meant = named.objects["Cube.012"], expected.objects["washing machine"]
+    assert (found.object_category, found.material, found.mass_kg, found.states) == (
+        meant.object_category,
+        meant.material,
+        meant.mass_kg,
+        meant.states,
+    )
+    assert named.loops["Cube.012"].keys() == expected.loops["washing machine"].keys()
+    # The name is kept by a folder and by the next bake, and nothing is inferred twice.
+    kept = HapticBundle.load(named.save(tmp_path / "b"))
+    assert bake(scene, overrides=kept.overrides).objects == named.objects
+    assert rebake(kept, {"llm": FunctionBackend(lambda request: pytest.fail("asked again"))}).objects == named.objects
+    renamed = rebake(kept.override("Cube.012", name="wooden stool"))
+    assert not renamed.loops
+    assert renamed.objects["Cube.012"].object_category == "stool"
+
+
+@pytest.mark.parametrize("name", ["", "  ", 3])
+def test_a_name_is_a_text(bundle: HapticBundle, name: Any) -> None:
+    with pytest.raises(BundleError, match="name is"):
+        bundle.override("cup", name=name)
+
+
+def test_a_corrected_strength_changes_the_level_of_a_sound_but_not_the_sound() -> None:
+    scene = SceneSnapshot.build([SceneObject("radio", geometry=Box((0.3, 0.2, 0.1)))])
+    first = bake(scene)
+    (state,) = first.loops["radio"]
+    edited = first.override("radio", intensity=0.9)
+    again = bake(scene, overrides=edited.overrides)
+    assert again.loops["radio"][state].source.samples.tolist() == first.loops["radio"][state].source.samples.tolist()
+    same = rebake(edited).loops["radio"][state]
+    assert again.loops["radio"][state].tactile.samples.tolist() == same.tactile.samples.tolist()
 
 
 def test_user_sound_replaces_the_selected_one(bundle: HapticBundle) -> None:
