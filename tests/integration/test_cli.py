@@ -187,7 +187,7 @@ def test_bake_counts_further_warnings_of_one_kind(tmp_path: Path, capsys: pytest
     [
         ((), "required: COMMAND, one of demo, bake, bake-many"),
         (("bak",), "Did you mean 'bake' or 'bake-many'?"),
-        (("edit", "some.bundle"), "required: VERB, one of gain, intensity, pitch"),
+        (("edit", "some.bundle"), "required: VERB, one of name, gain, intensity, pitch"),
         (("edit", "some.bundle", "gian", "fan", "3"), "Did you mean 'gain'?"),
         (("list", "material"), "Did you mean 'materials'?"),
         (("settings", "sesion"), "Did you mean 'session'?"),
