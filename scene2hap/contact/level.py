@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.polygons import Point, clipped, inside_edges
-from scene2hap.contact.geometry.spread import spread_few
+from scene2hap.contact.geometry.spread import spread
 from scene2hap.contact.geometry.vectors import Triple
 
 # Least overlap of two outlines, as a share of the upper one's radius, and its upper bound. Without it, equal boxes side
@@ -84,7 +84,7 @@ def rest_points(x: Body, y: Body, rest: Rest) -> tuple[Triple, ...]:
         ring = clipped(x.stance.base_outline, u - py[0], v - py[v_axis], top_face.edges)
         # Chosen in coordinates that rotate with y, so that a rotation of the whole scene does not change the result.
         c, s = y.stance.heading
-        chosen = spread_few([(c * pu + s * pv, c * pv - s * pu) for pu, pv in ring])
+        chosen = spread([(c * pu + s * pv, c * pv - s * pu) for pu, pv in ring])
         level = [(ring[k][0] + py[0], ring[k][1] + py[v_axis]) for k in chosen]
     if a == 1:
         return tuple([(pu, height, pv) for pu, pv in level])

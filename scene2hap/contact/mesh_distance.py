@@ -191,7 +191,8 @@ def contact_points(
         found.append(np.concatenate([every.on_p[:, near] - np.array(way)[:, None], every.on_q[:, near]]))
     ends = np.concatenate(found, axis=1)
     ends = ends[:, np.lexsort(ends[::-1])]
-    chosen = spread((ends[:3] + ends[3:]) / 2, (u + x, v + y, w + z))
+    middles = ((ends[:3] + ends[3:]) / 2).T.tolist()
+    chosen = spread(middles, (u + x, v + y, w + z)) if middles else []
     return [(_triple(ends[:3, k]), _triple(ends[3:, k])) for k in chosen]
 
 
