@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.contact.geometry.spread import spread, spread_few
+from scene2hap.contact.geometry.spread import spread
 from scene2hap.contact.geometry.vectors import Floats, Triple, along, cross, highest, upright_frame
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
@@ -25,7 +25,6 @@ _FEET_M, _FEET_SIZES, _MOST_FEET_M = 0.0012, 1.2e-3, 0.0048
 # A level face smaller than this share of the outline of those corners is no base face: the lowest face of a vase may be
 # a tiny triangle. Nor is one of several feet if another foot bears as well, as that of a table with one short leg.
 _CRUMB = 0.5
-_FEW = 24  # Up to this many points, plain Python is faster than numpy.
 _COVER = 1e-3  # An outline is filled if the area of its triangles differs from its own by less than this share.
 
 
@@ -65,10 +64,10 @@ def base_face_of(corners: Floats, triangles: Floats, uneven: float, lowest: floa
     heights = corners @ upwards
     # Meshes repeat a corner where normals or colours differ.
     least = heights.min()
-    feet = list(dict.fromkeys(triples(corners[heights <= least + lowest])))
-    if len(feet) == 1:
-        return BaseFace((feet[0],), (feet[0],), feet[0], 0.0, False, False)
-    corners = np.array(feet)
+    bearing = tuple(dict.fromkeys(triples(corners[heights <= least + lowest])))
+    if len(bearing) == 1:
+        return BaseFace(bearing, bearing, bearing[0], 0.0, False, False)
+    corners = np.array(bearing)
     around = corners[outline(corners @ plane)]
     has_face = np.count_nonzero(corners @ upwards <= least + uneven) > 2
     face = _lowest_face(triangles, uneven, upwards, plane) if has_face else None
@@ -77,10 +76,10 @@ def base_face_of(corners: Floats, triangles: Floats, uneven: float, lowest: floa
         if polygon_area(face.outline_m @ plane) < share * polygon_area(around @ plane):
             face = None
     if face is not None:
-        corners, around = face.corners_m, face.outline_m
+        bearing, around = triples(face.corners_m), face.outline_m
     middle = (around.min(axis=0) + around.max(axis=0)) / 2
     radius = float(np.linalg.norm(around - middle, axis=1).max())
-    points = triples(corners[spread_few(feet) if face is None and len(feet) <= _FEW else spread(corners.T)])
+    points = tuple([bearing[row] for row in spread(bearing)])
     is_filled = face is not None and face.is_filled
     return BaseFace(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
 

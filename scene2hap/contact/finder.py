@@ -100,7 +100,7 @@ class ContactFinder:
                 if x in bodies and x not in certificates.of and self._update_holders(x, dirty):
                     pending += certificates.separate_from_neighbours(bodies[x])
             recheck = set()
-        found.update(self._holders.junctions(dirty))
+        found.update((pair, self._holders.junction(pair)) for pair in dirty)
         for x, junctions in proven.items():
             if x in certificates.of:
                 found.update(junctions)
@@ -173,7 +173,9 @@ class ContactFinder:
             if y in seen:
                 continue
             body_pair = BodyPair.of(body, other)
-            if body_pair.rests == _NEITHER and (apart_by(body, other, TOUCH_M) or body_pair.space.has_nothing_near):
+            if body_pair.rests == _NEITHER and (
+                apart_by(body, other, TOUCH_M) or body_pair.space.empty_region is not None
+            ):
                 if old is not None:
                     del body_pairs[y], self._body_pairs[y][x]
                     dirty.add(pair_of(x, y))

@@ -35,11 +35,11 @@ _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 class FreeSpace:
     """The free space of a host around a guest, at their present poses. Each result is computed on first use."""
 
-    __slots__ = ("_column_known", "_empty", "_ledge", "_own", "guest", "host")
+    __slots__ = ("_column", "_empty", "_ledge", "_own", "guest", "host")
 
     def __init__(self, guest: Body, host: Body) -> None:
         self.guest, self.host, self._own = guest, host, _upright(host)
-        self._column_known: AABB | None = None
+        self._column: AABB | None = None
         self._ledge: FreeRegion | Literal[False] | None = False
         self._empty: FreeRegion | Literal[False] | None = False
 
@@ -50,15 +50,41 @@ class FreeSpace:
         The region is empty, or has a ledge under the guest's whole base face. None where neither is certain.
         """
         if self._ledge is False:
-            self._ledge = None if self._own is None else self._found_ledge(self._own)
+            self._ledge = None if self._own is None else self._region_below(self._own)
         return self._ledge
 
     @property
-    def has_nothing_near(self) -> bool:
-        """True if the host has surely nothing within the distance at which the two could touch or hang."""
+    def empty_region(self) -> FreeRegion | None:
+        """A region in which the host has nothing within the distance at which the two could touch or hang, if any."""
         if self._empty is False:
-            self._empty = None if self._own is None else self._found_empty(self._own)
-        return self._empty is not None
+            self._empty = None if self._own is None else self._empty_region(self._own)
+        return self._empty
+
+    def _region_below(self, own: Upright) -> FreeRegion | None:
+        guest, host, taken = self.guest, self.host, self._taken(own)
+        low, high, foot = taken[0][2], taken[1][2], _foot(guest, host, own)
+
+        def serves(known: FreeRegion) -> bool:
+            if known.own != own or not known.holds(taken):
+                return False
+            return known.top_m is None or (low <= known.top_m <= high and known.bears(foot))
+
+        return host.free_regions.find(guest.id, serves, lambda: _computed_region(host, own, taken, foot))
+
+    def _empty_region(self, own: Upright) -> FreeRegion | None:
+        guest, host, reach_m = self.guest, self.host, _reach_m(self.guest)
+        (u0, v0, h0), (u1, v1, h1) = self._taken(own)
+        taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
+
+        def serves(known: FreeRegion) -> bool:
+            return known.own == own and known.top_m is None and known.holds(taken)
+
+        return host.free_regions.find(guest.id, serves, lambda: _empty_region(host, own, taken))
+
+    def _taken(self, own: Upright) -> AABB:
+        if self._column is None:
+            self._column = _column(self.guest, self.host, own)
+        return self._column
 
     def planes(self, *, stands: bool) -> tuple[Plane, ...] | None:
         """Return the planes of the guest's free region in world coordinates; None where no region is certain.
@@ -68,7 +94,7 @@ class FreeSpace:
         guest, host, own, lean, up = self.guest, self.host, self._own, self.host.stance.lean, self.host.up_axis
         if own is None or lean is None or is_over(host, guest):
             return None
-        known = self.region_below if stands else self._empty if self.has_nothing_near else None
+        known = self.region_below if stands else self.empty_region
         if not known or stands != (known.top_m is not None):
             return None
         a, b, c, d = _turn(host, own)
@@ -87,43 +113,6 @@ class FreeSpace:
             floor_at(low_m),
             roof_at(h + h1 - TOUCH_M - reach_m),
         )
-
-    def _found_ledge(self, own: Upright) -> FreeRegion | None:
-        guest, host = self.guest, self.host
-        taken, foot = self._column(own), _foot(guest, host, own)
-        low, high = taken[0][2], taken[1][2]
-
-        def serves(known: FreeRegion) -> bool:
-            if known.own != own or not known.holds(taken):
-                return False
-            return known.top_m is None or (low <= known.top_m <= high and known.bears(foot))
-
-        found = host.free_regions.find(guest.id, serves)
-        if found is None:
-            found = _computed_region(host, own, taken, foot)
-            if found is not None:
-                host.free_regions.keep(guest.id, found)
-        return found
-
-    def _found_empty(self, own: Upright) -> FreeRegion | None:
-        guest, host = self.guest, self.host
-        (u0, v0, h0), (u1, v1, h1) = self._column(own)
-        reach_m = _reach_m(guest)
-        taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
-
-        def serves(known: FreeRegion) -> bool:
-            return known.own == own and known.top_m is None and known.holds(taken)
-
-        found = host.free_regions.find(guest.id, serves)
-        if found is None and not len(_triangles_in(host, own, taken, most=1)):
-            found = FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE)
-            host.free_regions.keep(guest.id, found)
-        return found
-
-    def _column(self, own: Upright) -> AABB:
-        if self._column_known is None:
-            self._column_known = _column(self.guest, self.host, own)
-        return self._column_known
 
 
 def top_face(host: Body, known: FreeRegion) -> TopFace:
@@ -182,11 +171,18 @@ def _foot(guest: Body, host: Body, own: Upright) -> Flat:
     return (u0 + hu, v0 + hv, u1 - hu, v1 - hv)
 
 
+def _empty_region(host: Body, own: Upright, taken: AABB) -> FreeRegion | None:
+    """Return a region around `taken` in which the host has nothing, None if `taken` is not empty."""
+    if len(_triangles_in(host, own, taken, most=1)):
+        return None
+    return FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE)
+
+
 def _computed_region(host: Body, own: Upright, taken: AABB, foot: Flat) -> FreeRegion | None:
     """Search the host's triangles. Returns None unless `taken` is empty or has one ledge under `foot`."""
     columns = _triangles_in(host, own, taken)
     if not len(columns):
-        return FreeRegion(own, _Surroundings(host, own, taken).cut(taken), None, _NO_LEDGE)
+        return _empty_region(host, own, taken)
     ledges = host.shape.ledges(own)
     numbers, tops = ledges.number[columns], ledges.tops[columns]
     # The host's vertical sides reach as high as the ledge that they bound, so only level triangles name the ledge.

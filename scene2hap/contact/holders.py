@@ -13,7 +13,7 @@ from scene2hap.contact.body import Body
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.junction import Junction, Pair
-from scene2hap.contact.level import Rest, rest_points
+from scene2hap.contact.level import rest_points
 from scene2hap.contact.mesh_distance import Gap
 from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by, box_distance_m
 from scene2hap.contact.rule import (
@@ -24,10 +24,9 @@ from scene2hap.contact.rule import (
     hang_later_m,
     hang_reach_m,
     hangs,
-    level_supports,
     slack_m,
     supports,
-    supports_nearby,
+    supports_of_faces,
     weight,
 )
 
@@ -44,26 +43,6 @@ class Bond(NamedTuple):
     normal: Triple | None
     lies: bool
     faller: str
-
-
-class Plan(NamedTuple):
-    """The strongest bond of a pair, and the data for its contact points: `rest`, or else the triangles."""
-
-    body_pair: BodyPair
-    bond: Bond
-    within_m: float
-    rest: Rest | None
-
-    def junction(self) -> Junction | None:
-        """Return the contact points of the pair, None if there are none."""
-        body_pair, bond = self.body_pair, self.bond
-        if self.rest is not None:
-            x, y = (body_pair.a, body_pair.b) if bond.faller == body_pair.a.id else (body_pair.b, body_pair.a)
-            points = rest_points(x, y, self.rest, self.within_m)
-        else:
-            points = body_pair.points(bond.way_m, self.within_m)
-        n = len(points)
-        return Junction(points, (bond.weight,) * n, (bond.normal,) * n) if points else None
 
 
 NO_WAY: Triple = (0.0, 0.0, 0.0)
@@ -132,12 +111,13 @@ class Holders:
         rests = {y: rest for y, rest in rests.items() if rest is not NEEDS_TRIANGLES}
         falls_m = self._first_falls(body, unclear, min((rest.fall_m for rest in rests.values()), default=math.inf))
         if not falls_m:
-            below = level_supports(rests, reach_m) if rests else {}
+            whole = [y for y, rest in rests.items() if rest.wholly]
+            below = supports_of_faces({y: rest.fall_m for y, rest in rests.items()}, reach_m, whole)
             if below is not None:
                 return below, rests
         falls_m |= self._first_falls(body, rests, min(falls_m.values(), default=math.inf))
         falls_m = dict(sorted(falls_m.items()))
-        below = supports_nearby(falls_m, reach_m)
+        below = supports_of_faces(falls_m, reach_m)
         self.on_several.discard(body.id)
         if below is None:
             self.on_several.add(body.id)
@@ -155,9 +135,7 @@ class Holders:
         for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
             if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
                 break
-            if needs_each:
-                body_pairs[y].falls(body.id)
-            fall_m = found[y] = body_pairs[y].first_fall_m(body.id)
+            fall_m = found[y] = body_pairs[y].first_fall_m(body.id, by_each=needs_each)
             least_m = min(least_m, fall_m)
         return {y: fall_m for y, fall_m in found.items() if fall_m < math.inf and fall_m <= least_m + TOUCH_M}
 
@@ -172,7 +150,7 @@ class Holders:
             if (other := bodies[y]).size_m > size_m
             and y not in self._certified
             and not apart_by(body, other, reach_m)
-            and not self._space(body, other).has_nothing_near
+            and self._space(body, other).empty_region is None
         ]
         if not larger:
             return {}
@@ -200,35 +178,34 @@ class Holders:
             self.body_pairs[x][y] = self.body_pairs.setdefault(y, {})[x] = body_pair
         return body_pair
 
-    def junctions(self, pairs: Iterable[Pair]) -> dict[Pair, Junction | None]:
-        """Return the junction of each pair, None where it does not touch."""
-        plans = {pair: self._plan(pair) for pair in pairs}
-        return {pair: None if plan is None else plan.junction() for pair, plan in plans.items()}
+    def junction(self, pair: Pair) -> Junction | None:
+        """Return the junction of a pair, None where it does not touch.
 
-    def _plan(self, pair: Pair) -> Plan | None:
-        """Return the strongest bond of a pair: a held by b, b held by a, touch, or one enclosed by the other."""
+        The strongest bond decides: a held by b, b held by a, touch, or one enclosed by the other.
+        """
         a, b = pair
         body_pair = self.body_pairs.get(a, {}).get(b)
         if body_pair is None:
             return None
+        held = (self.held.get(a, {}).get(b, NO_BOND), self.held.get(b, {}).get(a, NO_BOND))
+        bond = max(held, key=priority)
         within_m = slack = slack_m(min(body_pair.a.size_m, body_pair.b.size_m))
-        bond = NO_BOND
-        for x, y in ((a, b), (b, a)):
-            held = self.held.get(x)
-            one = held.get(y) if held else None
-            if one is not None and priority(one) > priority(bond):
-                bond = one
         if bond.weight < 1 and not apart_by(body_pair.a, body_pair.b, TOUCH_M):
             gap = body_pair.gap(TOUCH_M)
             if gap is not None:
                 share = weight(gap.distance_m, TOUCH_M)
                 if share > bond.weight:
-                    bond = Bond(share, NO_WAY, direction(gap), False, a)
-                    within_m = slack + gap.distance_m
+                    bond, within_m = Bond(share, NO_WAY, direction(gap), False, a), slack + gap.distance_m
         if bond.weight < 1:
             share, play_m = body_pair.enclosed()
             if share > bond.weight:
                 bond, within_m = Bond(share, NO_WAY, None, False, a), slack + play_m
         if bond.weight <= 0:
             return None
-        return Plan(body_pair, bond, within_m, body_pair.rest(bond.faller) if bond.lies else None)
+        rest = body_pair.rest(bond.faller) if bond.lies else None
+        if rest is None:
+            points = body_pair.points(bond.way_m, within_m)
+        else:
+            points = rest_points(*body_pair.falling(bond.faller), rest, within_m)
+        n = len(points)
+        return Junction(points, (bond.weight,) * n, (bond.normal,) * n) if points else None

@@ -129,27 +129,24 @@ class FreeRegions:
         self._latest: deque[FreeRegion] = deque(maxlen=_MOST_REGIONS)
         self._of_guests: dict[str, FreeRegion] = {}
 
-    def find(self, guest_id: str, serves: Callable[[FreeRegion], bool]) -> FreeRegion | None:
-        """Return a region for which `serves` is True, the guest's last one first, and store it as the guest's."""
+    def find(
+        self, guest_id: str, serves: Callable[[FreeRegion], bool], compute: Callable[[], FreeRegion | None]
+    ) -> FreeRegion | None:
+        """Return a region for which `serves` is True, the guest's last one first; else compute one, if possible."""
         known = self._of_guests.get(guest_id)
         if known is not None and serves(known):
             return known
-        for known in self._latest:
-            if serves(known):
-                self._note(guest_id, known)
-                return known
-        return None
-
-    def keep(self, guest_id: str, region: FreeRegion) -> None:
-        """Add a region that was computed for a guest."""
-        self._latest.appendleft(region)
-        self._note(guest_id, region)
-
-    def _note(self, guest_id: str, region: FreeRegion) -> None:
+        found = next(filter(serves, self._latest), None)
+        if found is None:
+            found = compute()
+            if found is None:
+                return None
+            self._latest.appendleft(found)
         if len(self._of_guests) >= _MOST_GUESTS:
             # Removed guests are not reported, so all are cleared. This costs each of the others one search.
             self._of_guests.clear()
-        self._of_guests[guest_id] = region
+        self._of_guests[guest_id] = found
+        return found
 
 
 def _outlined(triangles: Floats) -> tuple[Floats, Floats]:

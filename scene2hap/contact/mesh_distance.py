@@ -19,11 +19,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap.compiled import compiled
+from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.broad import Boxes, box_pairs
 from scene2hap.contact.geometry.spread import spread
 from scene2hap.contact.geometry.triangles import clearances, heights, meetings
@@ -44,26 +45,6 @@ ROUNDING_M = 1e-9
 """Distances below this are rounding errors."""
 
 _BATCH = 4096  # Pairs of triangles that a plain kernel compares at once: some 10 MB.
-
-
-class Placed(Protocol):
-    """A shape at a pose."""
-
-    @property
-    def shape(self) -> Shape:
-        """The triangles."""
-
-    @property
-    def rows(self) -> Rows:
-        """The rotation matrix, as rows."""
-
-    @property
-    def position_m(self) -> Triple:
-        """The origin of the shape's frame in the world [m]."""
-
-    @property
-    def size_m(self) -> float:
-        """The diagonal of the shape's bounding box [m]."""
 
 
 class Gap(NamedTuple):
@@ -89,7 +70,7 @@ class Ends(NamedTuple):
 class MeshPair:
     """Two posed meshes. The larger is the host; a, if they have the same size."""
 
-    def __init__(self, a: Placed, b: Placed) -> None:
+    def __init__(self, a: Body, b: Body) -> None:
         self.guest_is_a = a.size_m < b.size_m
         self.guest, self.host = (a, b) if self.guest_is_a else (b, a)
         self._rows = self.host.rows
@@ -123,25 +104,26 @@ class MeshPair:
         ends = [(self._placed(on_guest), self._placed(on_host)) for on_guest, on_host in found]
         return [Ends(*pair) if self.guest_is_a else Ends(*reversed(pair)) for pair in ends]
 
-    def drops(self, faller: Placed, up_axis: int, lowest_m: float, reach_m: float, touch_m: float) -> Floats | None:
+    def drops(self, faller: Body, reach_m: float, touch_m: float) -> Floats | None:
         """Return the fall distance of each triangle (m,) of `faller`, one of the two, onto the other [m].
 
-        None if no triangle meets the other within `reach_m`. Only triangles within `reach_m` above `lowest_m`, the
-        height of the faller's lowest point, are dropped, and only onto triangles level enough to hold them. A triangle
-        that is sunk in by up to `touch_m` has a negative distance, one that is sunk in deeper 0. A distance of more
-        than `touch_m` above the least becomes inf, since the faller rests before.
+        None if no triangle meets the other within `reach_m`. Only triangles within `reach_m` above the faller's lowest
+        point are dropped, and only onto triangles level enough to hold them. A triangle that is sunk in by up to
+        `touch_m` has a negative distance, one that is sunk in deeper 0. A distance of more than `touch_m` above the
+        least becomes inf, since the faller rests before.
         """
-        return drops(*self._falling(faller, up_axis, lowest_m, reach_m, touch_m))
+        return drops(*self._falling(faller, reach_m, touch_m))
 
-    def first_drop_m(self, faller: Placed, up_axis: int, lowest_m: float, reach_m: float, touch_m: float) -> float:
+    def first_drop_m(self, faller: Body, reach_m: float, touch_m: float) -> float:
         """Return the least of the distances of `drops` [m], inf if there is none."""
-        return first_drop(*self._falling(faller, up_axis, lowest_m, reach_m, touch_m))
+        return first_drop(*self._falling(faller, reach_m, touch_m))
 
     def _falling(
-        self, faller: Placed, up_axis: int, lowest_m: float, reach_m: float, touch_m: float
+        self, faller: Body, reach_m: float, touch_m: float
     ) -> tuple[Shape, Shape, Rows, Triple, Rows, Triple, bool]:
-        limits = (lowest_m - self.host.position_m[up_axis], reach_m, touch_m)
-        frame = upright_frame(self._rows[up_axis])
+        up = faller.up_axis
+        limits = (faller.lowest_m - self.host.position_m[up], reach_m, touch_m)
+        frame = upright_frame(self._rows[up])
         return self.host.shape, self.guest.shape, self._turn, self._shift, frame, limits, faller is self.guest
 
     def _placed(self, point: Triple) -> Triple:
@@ -188,7 +170,8 @@ def contact_points(
     if not ends.size:
         ends = _ends_within(host, guest, posed, way, within, -1.0)
     ends = ends[:, np.lexsort(ends[::-1])]
-    chosen = spread((ends[:3] + ends[3:]) / 2, (u + x, v + y, w + z))
+    middles = ((ends[:3] + ends[3:]) / 2).T.tolist()
+    chosen = spread(middles, (u + x, v + y, w + z)) if middles else []
     return [(_triple(ends[:3, k]), _triple(ends[3:, k])) for k in chosen]
 
 

@@ -7,8 +7,6 @@ computed on first use and kept until one of the two moves.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.enclosure import enclosed
@@ -25,14 +23,17 @@ NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 class BodyPair:
     """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id."""
 
-    __slots__ = ("_gap", "_gap_within_m", "_mesh_pair_made", "_rests", "_results", "a", "b", "space")
-
     def __init__(self, a: Body, b: Body) -> None:
         self.a, self.b = a, b
         self.space = FreeSpace(*roles(a, b))
-        self._rests: tuple[Rest | None, Rest | None] | None = None
+        rest = self._rest(a, b)
+        # At least one of the two cannot rest on the other.
+        self.rests = (rest, self._rest(b, a) if rest is None else None)
         self._mesh_pair_made: MeshPair | None = None
-        self._results: dict[object, Any] | None = None
+        self._enclosed: tuple[float, float] | None = None
+        self._falls: dict[str, Floats | None] = {}
+        self._first_falls_m: dict[str, float] = {}
+        self._points: dict[tuple[Triple, float], tuple[Triple, ...]] = {}
         # The distance up to which the gap was searched; -1 before the first search.
         self._gap_within_m = -1.0
         self._gap: Gap | None = None
@@ -73,39 +74,30 @@ class BodyPair:
             return NEEDS_TRIANGLES
         return Rest(fall_m, True, top_m) if fall_m <= reach_m else None
 
-    @property
-    def rests(self) -> tuple[Rest | None, Rest | None]:
-        """How a may rest on b, and b on a, of which at least one cannot."""
-        found = self._rests
-        if found is None:
-            rest = self._rest(self.a, self.b)
-            found = self._rests = (rest, self._rest(self.b, self.a) if rest is None else None)
-        return found
-
     def rest(self, x: str) -> Rest | None:
         """Return how x, one of the two ids, may rest on the other; see `_rest`."""
         return self.rests[x != self.a.id]
 
-    def first_fall_m(self, x: str) -> float:
-        """Return the least fall distance of x by its triangles [m], inf if it meets nothing."""
-        if self._results is not None and x in self._results:
-            falls_m = self.falls(x)
-            return math.inf if falls_m is None else float(falls_m.min())
-        found: float = self._cached(("first", x), lambda: self._first_fall_m(*self.falling(x)))
-        return found
+    def first_fall_m(self, x: str, *, by_each: bool = False) -> float:
+        """Return the least of the distances of `falls` [m], inf if there is none.
 
-    def _first_fall_m(self, faller: Body, other: Body) -> float:
-        return self._mesh_pair.first_drop_m(*_falls_by(faller)) if is_over(faller, other) else math.inf
+        Parameters: by_each : True if `falls` will be needed as well, which then is the only search.
+        """
+        if x not in self._first_falls_m:
+            if by_each:
+                falls_m = self.falls(x)
+                self._first_falls_m[x] = math.inf if falls_m is None else float(falls_m.min())
+            else:
+                faller, _ = self.falling(x)
+                self._first_falls_m[x] = self._mesh_pair.first_drop_m(faller, fall_reach_m(faller.size_m), TOUCH_M)
+        return self._first_falls_m[x]
 
     def falls(self, x: str) -> Floats | None:
-        """Return the fall distance of each triangle of x [m]; see `MeshPair.drops`."""
-        found: Floats | None = self._cached(x, lambda: self._falls(*self.falling(x)))
-        return found
-
-    def _falls(self, faller: Body, other: Body) -> Floats | None:
-        if not is_over(faller, other):
-            return None
-        return self._mesh_pair.drops(*_falls_by(faller))
+        """Return the fall distance of each triangle of x onto the other body [m]; see `MeshPair.drops`."""
+        if x not in self._falls:
+            faller, _ = self.falling(x)
+            self._falls[x] = self._mesh_pair.drops(faller, fall_reach_m(faller.size_m), TOUCH_M)
+        return self._falls[x]
 
     def falling(self, x: str) -> tuple[Body, Body]:
         """Return the body x and the other body."""
@@ -120,38 +112,22 @@ class BodyPair:
 
     def enclosed(self) -> tuple[float, float]:
         """Return the weight and play of a contact by enclosure; see `enclosure.enclosed`."""
-        found: tuple[float, float] = self._cached("enclosed", lambda: enclosed(self.a, self.b))
-        return found
+        if self._enclosed is None:
+            self._enclosed = enclosed(self.a, self.b)
+        return self._enclosed
 
     def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
         """Return points half way between the surfaces where they are within `within_m` once a has moved by `way_m`."""
-        key = (*way_m, within_m)
-        found: tuple[Triple, ...] = self._cached(key, lambda: self._points_of_triangles(way_m, within_m))
-        return found
-
-    def _points_of_triangles(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
-        return tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
-
-    def _cached(self, key: object, find: Callable[[], object]) -> Any:
-        """Return the result for a key, computed on first use."""
-        facts = self._results
-        if facts is None:
-            facts = self._results = {}
-        if key not in facts:
-            facts[key] = find()
-        return facts[key]
+        key = (way_m, within_m)
+        if key not in self._points:
+            self._points[key] = tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
+        return self._points[key]
 
     @property
     def _mesh_pair(self) -> MeshPair:
-        made = self._mesh_pair_made
-        if made is None:
-            made = self._mesh_pair_made = MeshPair(self.a, self.b)
-        return made
-
-
-def _falls_by(faller: Body) -> tuple[Body, int, float, float, float]:
-    """Return the arguments of `MeshPair.drops` for a falling body."""
-    return faller, faller.up_axis, faller.lowest_m, fall_reach_m(faller.size_m), TOUCH_M
+        if self._mesh_pair_made is None:
+            self._mesh_pair_made = MeshPair(self.a, self.b)
+        return self._mesh_pair_made
 
 
 def box_distance_m(x: Body, y: Body) -> float:

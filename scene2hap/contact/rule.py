@@ -17,7 +17,7 @@ All weights are smooth in the gaps and depend on the present poses alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -26,7 +26,6 @@ import numpy as np
 from scene2hap.compiled import compiled
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.vectors import Floats
-from scene2hap.contact.level import Rest
 
 TOUCH_M = 0.004
 """Gap at which any two surfaces cease to touch (tuned: cups on saucers stand 6 mm above the table)."""
@@ -142,19 +141,25 @@ def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support
     return {name: Support(*support) for name, support in zip(falls_m, found, strict=True) if support[0] > 0}
 
 
-def supports_nearby(falls_m: Mapping[str, float], reach_m: float) -> dict[str, Support] | None:
-    """Return the result of `supports` from the least fall distance to each object [m].
+def supports_of_faces(
+    falls_m: Mapping[str, float], reach_m: float, whole: Collection[str] = ()
+) -> dict[str, Support] | None:
+    """Return the support weight of each object below, as `supports`, from the least fall distance to each [m].
 
-    None if one object is so much deeper than another that the other may hide parts of it.
+    None where one object may hide only parts of another, since only triangles can show this.
+
+    Parameters: whole : the objects with a level face under the whole base face, which hide all below.
     """
     least_m = min(falls_m.values(), default=math.inf)
+    hides_all = any(falls_m[name] == least_m for name in whole)
     found = {}
     for name, fall_m in falls_m.items():
         share = weight(fall_m, reach_m) * weight(fall_m - least_m, TOUCH_M)
-        if share > 0 and weight(fall_m - least_m, _HIDDEN_M) < 1:
+        seen = weight(fall_m - least_m, _HIDDEN_M)
+        if share > 0 and seen < 1 and not hides_all:
             return None
-        if share > 0:
-            found[name] = Support(share, fall_m)
+        if share * seen > 0:
+            found[name] = Support(share * seen, fall_m)
     return found
 
 
@@ -175,24 +180,6 @@ def support_weights(
         (float(share.max(initial=0.0)), float(falls[share > 0].min(initial=math.inf)))
         for falls, share in zip(table, seen, strict=True)
     ]
-
-
-def level_supports(rests: Mapping[str, Rest], reach_m: float) -> dict[str, Support] | None:
-    """Return the support weight of each level face below a level base face, as `supports` does for triangles.
-
-    None where one face may hide parts of another: only triangles can show this.
-    """
-    first = min(rest.fall_m for rest in rests.values())
-    found = {}
-    for name, (fall_m, *_) in rests.items():
-        share = weight(fall_m, reach_m) * weight(fall_m - first, TOUCH_M)
-        if share > 0 and weight(fall_m - first, _HIDDEN_M) < 1:
-            if not any(rest.wholly and rest.fall_m == first for rest in rests.values()):
-                return None
-            share *= weight(fall_m - first, _HIDDEN_M)
-        if share > 0:
-            found[name] = Support(share, fall_m)
-    return found
 
 
 def hang_later_m(reach_m: float) -> float:

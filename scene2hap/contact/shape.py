@@ -15,7 +15,7 @@ from scene2hap.contact.geometry.broad import Boxes
 from scene2hap.contact.geometry.features import Features, features_of
 from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
-from scene2hap.contact.geometry.vectors import Floats, Triple, cross, dot, highest, lowest
+from scene2hap.contact.geometry.vectors import Floats, Triple, highest, lowest
 from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.scene.shapes import TriMesh
 
@@ -64,24 +64,6 @@ class Shape:
     def features(self) -> Features:
         """The corners and edges that the narrow phase tests."""
         return features_of(self.triangles)
-
-    @cached_property
-    def is_cuboid(self) -> bool:
-        """True if the triangles are the six sides of the bounding box, in any triangulation."""
-        edges = self.high - self.low
-        if not (edges > 0).all():
-            return False
-        near = 1e-9 * float(edges.max())
-        areas = self._areas
-        on_side = np.zeros(len(areas), dtype=bool)
-        for axis in range(3):
-            for end in (self.low[axis], self.high[axis]):
-                side = (np.abs(self.triangles[axis] - end) <= near).all(axis=0)
-                true = edges.prod() / edges[axis]
-                if abs(areas[side].sum() - true) > 1e-6 * true:
-                    return False
-                on_side |= side
-        return bool(on_side.all())
 
     @cached_property
     def sides(self) -> Floats:
@@ -135,14 +117,6 @@ class Shape:
                 known.clear()
             known[up] = derive()
         return known[up]
-
-    @cached_property
-    def _areas(self) -> Floats:
-        """The area (m,) of each triangle [m2]."""
-        a, b, c = self.triangles.transpose(1, 0, 2)
-        normals = cross(b - a, c - a)
-        areas: Floats = np.sqrt(dot(normals, normals)) / 2
-        return areas
 
 
 # Copies of an object and sessions over one scene share a shape, which lives as long as a body uses it.

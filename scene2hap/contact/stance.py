@@ -40,14 +40,12 @@ class PosedBaseFace(NamedTuple):
 class TopFace(NamedTuple):
     """A rotated top face, relative to the body's position [m].
 
-    edges : (n_u, n_v, offset) of each edge, inside where n_u u + n_v v >= offset; middle, radius : a circle around it.
+    edges : (n_u, n_v, offset) of each edge, inside where n_u u + n_v v >= offset.
     """
 
     outline: tuple[Point, ...]
     height: float
     edges: tuple[Triple, ...]
-    middle: Point = (0.0, 0.0)
-    radius: float = math.inf
 
 
 class Lean(NamedTuple):
@@ -69,7 +67,6 @@ class Stance:
         "_posed_base_face",
         "_top_face",
         "high",
-        "is_block",
         "low",
         "rotation_xyzw",
         "rows",
@@ -95,7 +92,6 @@ class Stance:
         else:
             key = (round(up[0], _DIGITS) + 0.0, round(up[1], _DIGITS) + 0.0, round(up[2], _DIGITS) + 0.0)
         self.way_up: Triple = key
-        self.is_block = shape.is_cuboid and key.count(0.0) == 2
         self.low, self.high = self._bounds(up)
         self._posed_base_face: PosedBaseFace | None = None
         self._top_face: TopFace | None = None
@@ -113,7 +109,7 @@ class Stance:
         y = abs(d) * hx + abs(e) * hy + abs(f) * hz
         z = abs(g) * hx + abs(h) * hy + abs(i) * hz
         low, high = (u - x, v - y, w - z), (u + x, v + y, w + z)
-        if self.is_block or abs(up[0]) > _UPRIGHT or abs(up[1]) > _UPRIGHT or abs(up[2]) > _UPRIGHT:
+        if abs(up[0]) > _UPRIGHT or abs(up[1]) > _UPRIGHT or abs(up[2]) > _UPRIGHT:
             return low, high
         heights = self.shape.corners @ np.array(up)
         least, most = float(heights.min()), float(heights.max())
@@ -129,12 +125,7 @@ class Stance:
             return Stance(self.shape, rotation_xyzw, self.up_axis)
         # A rotation about the vertical changes no height, and half of its products are 0.
         turned = Stance.__new__(Stance)
-        turned.rotation_xyzw, turned.shape, turned.way_up, turned.is_block = (
-            rotation_xyzw,
-            self.shape,
-            self.way_up,
-            self.is_block,
-        )
+        turned.rotation_xyzw, turned.shape, turned.way_up = rotation_xyzw, self.shape, self.way_up
         turned.up_axis, turned.v_axis, turned._top_face, turned._outline, turned._heading = 1, 2, None, (), None
         turned._lean, turned._base_edges, turned._footprint = self._lean, None, None
         a, c = 1 - 2 * (y * y), 2 * (y * w)
@@ -185,9 +176,7 @@ class Stance:
             corners = [self._turned(corner) for corner in top_m]
             outline = tuple([(u, v) for u, v, _ in corners])
             height = sum(h for _, _, h in corners) / len(corners)
-            middle = (sum(u for u, _ in outline) / len(outline), sum(v for _, v in outline) / len(outline))
-            radius = max([math.dist(middle, corner) for corner in outline])
-            self._top_face = TopFace(outline, height, edges_of(outline), middle, radius)
+            self._top_face = TopFace(outline, height, edges_of(outline))
         return self._top_face
 
     @property

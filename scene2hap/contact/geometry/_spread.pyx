@@ -1,64 +1,49 @@
 """The compiled twin of the kernel in `spread`."""
 
 from libc.math cimport INFINITY, sqrt
-
-cdef enum:
-    MANY = 256  # twice the number of facing points of two outlines with eight corners
+from libc.stdlib cimport free, malloc
 
 cdef double SPREAD_M = 0.005  # as in `spread`
 cdef double TIE_M = 1e-6
 
 
-def spread_few(points):
-    cdef Py_ssize_t n = len(points), row
-    cdef int n_axes = len(points[0]), axis, k
-    cdef double[3 * MANY] at
-    cdef double[MANY] apart
-    cdef Py_ssize_t[MAX_POINTS] chosen
-    if n > MANY:
-        raise ValueError(f"{n} points are more than a few")
-    for row in range(n):
-        point = points[row]
-        for axis in range(n_axes):
-            at[n_axes * row + axis] = point[axis]
-    return [chosen[k] for k in range(farthest_points(chosen, at, apart, n, n_axes))]
-
-
-cdef int farthest_points(
-    Py_ssize_t* chosen, const double* points, double* apart, Py_ssize_t n, int n_axes
-) noexcept:
-    """Choose at most MAX_POINTS of the points (n, n_axes) that are far from each other. Returns the number of chosen.
-
-    Parameters: chosen : receives the rows of the chosen points; apart : memory for n lengths.
-    """
-    cdef double[3] middle
+def spread(points, middle=None):
+    cdef Py_ssize_t n = len(points), row, latest
+    cdef int axis, n_axes = len(points[0])
+    cdef double[3] place
     cdef double high
-    cdef Py_ssize_t row
-    cdef int axis, count = 1
-    if n == 0:
-        return 0
-    for axis in range(n_axes):
-        middle[axis] = 0
+    cdef double* at = <double*>malloc((n_axes + 1) * n * sizeof(double))
+    cdef double* apart = at + n_axes * n
+    if at == NULL:
+        raise MemoryError
+    try:
         for row in range(n):
-            middle[axis] += points[n_axes * row + axis]
-        middle[axis] /= n
-    for row in range(n):
-        apart[row] = distance_between(points + n_axes * row, middle, n_axes)
-    chosen[0] = farthest(points, apart, n, n_axes)
-    for row in range(n):
-        apart[row] = INFINITY
-    while count < MAX_POINTS:
-        high = 0
+            point = points[row]
+            for axis in range(n_axes):
+                at[n_axes * row + axis] = point[axis]
+        for axis in range(n_axes):
+            place[axis] = 0
+            for row in range(n):
+                place[axis] += at[n_axes * row + axis]
+            place[axis] = middle[axis] if middle is not None else place[axis] / n
         for row in range(n):
-            apart[row] = min(
-                apart[row], distance_between(points + n_axes * row, points + n_axes * chosen[count - 1], n_axes)
-            )
-            high = max(high, apart[row])
-        if high <= SPREAD_M:
-            break
-        chosen[count] = farthest(points, apart, n, n_axes)
-        count += 1
-    return count
+            apart[row] = distance_between(at + n_axes * row, place, n_axes)
+        latest = farthest(at, apart, n, n_axes)
+        found = [latest]
+        for row in range(n):
+            apart[row] = INFINITY
+        while len(found) < MAX_POINTS:
+            high = 0
+            for row in range(n):
+                apart[row] = min(apart[row], distance_between(at + n_axes * row, at + n_axes * latest, n_axes))
+                high = max(high, apart[row])
+            if high <= SPREAD_M:
+                break
+            latest = farthest(at, apart, n, n_axes)
+            found.append(latest)
+        return found
+    finally:
+        free(at)
 
 
 cdef double distance_between(const double* x, const double* y, int n_axes) noexcept:

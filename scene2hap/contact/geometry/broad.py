@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.geometry.vectors import Floats, Indices, Marks
+from scene2hap.contact.geometry.vectors import Floats, Indices
 
 # Pairs that overlap along the sweep axis and are compared at once: some 10 MB.
 _CHUNK = 1 << 17
@@ -30,11 +30,6 @@ class Boxes(NamedTuple):
         """Return the boxes with `margin_m` added on every side."""
         return Boxes(self.low - margin_m, self.high + margin_m)
 
-    def swept(self, travel_m: Floats) -> Boxes:
-        """Return the boxes swept along the displacement `travel_m` (3,)."""
-        back, on = np.minimum(travel_m, 0.0), np.maximum(travel_m, 0.0)
-        return Boxes(self.low + back[:, None], self.high + on[:, None])
-
     def some(self, columns: Indices) -> Boxes:
         """Return the boxes of these columns."""
         return Boxes(self.low.take(columns, axis=1), self.high.take(columns, axis=1))
@@ -45,25 +40,15 @@ class Boxes(NamedTuple):
         high: Floats = np.maximum.reduce(self.high, axis=1, keepdims=True)
         return Boxes(low, high)
 
-    def common(self, other: Boxes) -> Boxes:
-        """Return the intersections with the boxes of `other`, column by column or with its only one; they must meet."""
-        return Boxes(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
-
-    def meeting(self, one: Boxes, among: Marks | None = None) -> Indices:
-        """Return the columns of boxes that overlap the box `one`, touching included; `among` (n,) limits the search."""
+    def meeting(self, one: Boxes) -> Indices:
+        """Return the columns of boxes that overlap the box `one`, touching included."""
         x, y, z = (self.low <= one.high) & (self.high >= one.low)
-        near: Marks = x & y & z
-        return np.flatnonzero(near if among is None else near & among)
-
-
-def are_few(a: Boxes, b: Boxes) -> bool:
-    """Return True if comparing all with all is faster than sorting."""
-    return len(a.low[0]) * len(b.low[0]) <= _FEW
+        return np.flatnonzero(x & y & z)
 
 
 def box_pairs(a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
     """Yield all (i, j) whose boxes a[i] and b[j] overlap, touching included, in chunks; each pair once."""
-    if are_few(a, b):
+    if len(a.low[0]) * len(b.low[0]) <= _FEW:
         meets = (a.low[..., None] <= b.high[:, None]) & (a.high[..., None] >= b.low[:, None])
         i, j = np.nonzero(meets[0] & meets[1] & meets[2])
         yield i, j

@@ -13,13 +13,6 @@ from scene2hap.contact.geometry.vectors import Triple
 
 Point = tuple[float, float]
 
-_ROUNDING_M = 1e-9
-
-
-PolygonGap = tuple[float, Point, list[Point]]
-"""The distance of two outlines [m], the vector from the first to the second between the nearest points [m], and points
-half way between them at all places that are about as near."""
-
 
 @compiled
 def turned_outline(corners_m: Sequence[Triple], row_u: Triple, row_v: Triple) -> tuple[Point, ...]:

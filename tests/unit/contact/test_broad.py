@@ -45,17 +45,9 @@ def test_chunks_are_bounded() -> None:
     assert max(sizes) <= 1000
 
 
-def test_a_swept_box_holds_its_whole_way() -> None:
-    swept = Boxes(np.zeros((3, 1)), np.ones((3, 1))).swept(np.array([2.0, -3.0, 0.0]))
-    assert swept.low.T.tolist() == [[0.0, -3.0, 0.0]]
-    assert swept.high.T.tolist() == [[3.0, 1.0, 1.0]]
-
-
-def test_meeting_is_limited_to_marked_boxes() -> None:
+def test_meeting_finds_the_boxes_that_overlap_one() -> None:
     rng = np.random.default_rng(5)
     boxes, one = random_boxes(rng, 200), random_boxes(rng, 1)
     expected = [i for i, _ in sorted(all_with_all(boxes, one))]
     assert len(expected) > 3
     assert boxes.meeting(one).tolist() == expected
-    marked = rng.random(200) < 0.5
-    assert boxes.meeting(one, marked).tolist() == [i for i in expected if marked[i]]

@@ -61,7 +61,7 @@ def test_free_space_agrees_with_triangles(
             if -0.004 <= fall_m <= reach_m - 1e-9:
                 assert told is not None
                 assert told.min() == pytest.approx(fall_m, abs=1e-9)
-        if FreeSpace(guest, host).has_nothing_near:
+        if FreeSpace(guest, host).empty_region is not None:
             assert told is None
             assert meeting.gap(hang_reach_m(guest.size_m)) is None
 
@@ -129,7 +129,7 @@ def test_a_step_in_the_floor_gives_no_free_region() -> None:
     assert known is not None
     assert known.top_m == 0.0
     assert FreeSpace(across, host).region_below is None
-    assert not FreeSpace(on_podium, host).has_nothing_near
+    assert FreeSpace(on_podium, host).empty_region is None
 
 
 def test_a_free_region_of_a_floor_serves_other_guests(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -144,20 +144,21 @@ def test_a_free_region_of_a_floor_serves_other_guests(monkeypatch: pytest.Monkey
 def test_many_guests_keep_few_regions() -> None:
     regions = FreeRegions()
     for n in range(5000):
-        regions.keep(f"copy_{n}", FreeRegion(Upright(1, 1, 0, 2), ((n, 0, 0), (n + 1, 1, 1)), None, (0, 0, 0, 0)))
+        new = FreeRegion(Upright(1, 1, 0, 2), ((n, 0, 0), (n + 1, 1, 1)), None, (0, 0, 0, 0))
+        assert regions.find(f"copy_{n}", lambda known: False, lambda new=new: new) is new
     taken = (4990.2, 0.2, 0.2), (4990.4, 0.4, 0.4)
-    found = regions.find("other", lambda known: known.holds(taken))
+    found = regions.find("other", lambda known: known.holds(taken), lambda: None)
     assert found is not None
     assert found.box[0][0] == 4990
-    assert regions.find("other", lambda known: known is found) is found
-    assert regions.find("old", lambda known: known.box[0][0] == 0) is None
+    assert regions.find("other", lambda known: known is found, lambda: None) is found
+    assert regions.find("old", lambda known: known.box[0][0] == 0, lambda: None) is None
 
 
 def test_a_leaning_host_has_no_free_region() -> None:
     leaning = Body.of(house((0.05, 0.0, 0.0, 1.0)), 1)
     guest = Body.of(box("a", (0.2, 0.1, 0.2), (0.0, 1.0, 0.0)), 1)
     assert FreeSpace(guest, leaning).region_below is None
-    assert not FreeSpace(guest, leaning).has_nothing_near
+    assert FreeSpace(guest, leaning).empty_region is None
 
 
 NAMES = ["crate", "chair", "pot", "stick", "mat"]

@@ -32,15 +32,12 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
     lower = block("lower", (0.8, 0.2, 0.5), (0.0, 0.1, 0.0), turn_y)
     upper = block("upper", (0.3, 0.1, 0.2), (at[0], 0.25 + gap, at[1]), turn_x)
     rest = rest_on(upper, lower)
-    assert rest is not None
     least = BodyPair(upper, lower).first_fall_m("upper")
     # An overlap of the rims by up to 0.1 mm may or may not count.
-    if math.isinf(rest.fall_m) != math.isinf(least):
+    if (rest is None) != math.isinf(least):
         moved = block("upper", (0.2998, 0.1, 0.1998), upper.position_m, turn_x)
-        again = rest_on(moved, lower)
-        assert again is not None
-        assume(math.isinf(again.fall_m) == math.isinf(least))
-    elif math.isfinite(least):
+        assume((rest_on(moved, lower) is None) == math.isinf(least))
+    elif rest is not None:
         assert rest.fall_m == pytest.approx(gap, abs=1e-12)
         assert least == pytest.approx(gap, abs=1e-9)
         points = np.array(rest_points(upper, lower, rest, 0.0))
@@ -72,7 +69,6 @@ def test_a_leaning_body_stands_on_its_lowest_edge() -> None:
     leaning = Body.of(
         box("leaning", (0.1, 0.2, 0.3), (0, 0, 0), (math.sin(angle / 2), 0.0, 0.0, math.cos(angle / 2))), 1
     )
-    assert not leaning.stance.is_block
     posed_base_face = leaning.stance.posed_base_face
     # The lowest edge along x after the rotation from y to z by the angle.
     height, z = -0.1 * math.cos(angle) - 0.15 * math.sin(angle), -0.1 * math.sin(angle) + 0.15 * math.cos(angle)

@@ -273,9 +273,9 @@ def test_first_falls_give_the_supports_of_all_triangles_unless_one_may_hide_anot
         falls_m = np.where(rng.random((n, m)) < 0.5, rng.uniform(-0.004, spread_m, (n, m)), np.inf)
         falls_m = falls_m[np.isfinite(falls_m).any(axis=1)] + 0.01 * rng.integers(0, 2)
         each = {f"x{k}": row for k, row in enumerate(falls_m)}
-        nearby = rule.supports_nearby({name: float(row.min()) for name, row in each.items()}, 0.06)
+        nearby = rule.supports_of_faces({name: float(row.min()) for name, row in each.items()}, 0.06)
         if nearby is not None:
             n_known += 1
             assert nearby == rule.supports(each, 0.06)
     assert n_known > 5
-    assert rule.supports_nearby({}, 0.06) == {}
+    assert rule.supports_of_faces({}, 0.06) == {}
