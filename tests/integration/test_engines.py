@@ -280,6 +280,20 @@ def test_an_adapter_may_have_new_objects_in_any_frame(as_table: bool) -> None:
         assert session.snapshot.object("cup").pose == now["cup"]
 
 
+def test_a_panda3d_link_follows_in_the_unit_of_the_snapshot() -> None:
+    render, _ = panda3d_engine()
+    from scene2hap.scene.engines.panda3d import snapshot
+
+    for path in render.get_children():
+        path.set_scale(100)
+        path.set_pos(path.get_pos() * 100)
+    scene = snapshot(render, unit_m=0.01)
+    link = Panda3DLink(render, (session := HapticSession(scene, baked(scene))), unit_m=0.01)
+    render.find("**/smartphone").set_x(20)
+    link.update()
+    assert session.poses["smartphone"].position_m == pytest.approx((0.2, 0, 0.701), abs=1e-6)
+
+
 def test_a_node_out_of_the_graph_stays_where_it_was() -> None:
     render, _ = panda3d_engine()
     from scene2hap.scene.engines.panda3d import snapshot

@@ -38,6 +38,7 @@ from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colo
 from scene2hap.scene.engines.objects import ObjectMaker
 from scene2hap.scene.grouping import Group, group_objects, unique_ids
 from scene2hap.scene.objects import Contact, with_relative_heights
+from scene2hap.scene.plausibility.units import warn_if_implausible
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredNode, Piece
@@ -56,7 +57,7 @@ def snapshot(
     geom_groups: Collection[int] | None = None,
     contacts: Literal["engine"] | None = None,
     masses: Literal["engine"] | None = None,
-    unit_m: float = 1.0,
+    unit_m: float | None = None,
 ) -> SceneSnapshot:
     """Return the scene of a MuJoCo model, with the poses in `data`.
 
@@ -70,9 +71,25 @@ def snapshot(
         that cannot move against each other, such as a kettle welded to its stove.
     masses : None leaves them to inference; "engine" takes `model.body_mass`. Use "engine" only if the model's author
         gave masses: MuJoCo computes missing masses as if all bodies were solid water.
-    unit_m : metres per unit of the model.
+    unit_m : metres per unit of the model; None means metres.
     Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number is invalid.
+    Warns: UnitWarning: without unit_m, if sizes are implausible as metres.
     """
+    scene = _snapshot(model, data, name, geom_groups, contacts, masses, 1.0 if unit_m is None else unit_m)
+    if unit_m is None:
+        warn_if_implausible(scene, source="engine")
+    return scene
+
+
+def _snapshot(
+    model: Any,
+    data: Any,
+    name: str | None,
+    geom_groups: Collection[int] | None,
+    contacts: Literal["engine"] | None,
+    masses: Literal["engine"] | None,
+    unit_m: float,
+) -> SceneSnapshot:
     mujoco = _engine(model, data)
     unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     if contacts not in (None, "engine"):
@@ -168,7 +185,7 @@ def load_mjcf(
 ) -> SceneSnapshot:
     """Return the scene in an MJCF file in its initial pose, named after the file; see `open_mjcf`."""
     model, data = open_mjcf(path, assets_root=assets_root)
-    return snapshot(model, data, name=Path(path).stem, unit_m=unit_m)
+    return _snapshot(model, data, Path(path).stem, None, None, None, unit_m)  # `load_scene` checks the unit
 
 
 def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[str] | None = None) -> tuple[Any, Any]:

@@ -13,6 +13,7 @@ from mujoco_scenes import RESTING, load, mujoco, scene_of
 from scene2hap import ContactGraph
 from scene2hap.errors import MissingExtra, SceneError
 from scene2hap.scene.engines.mujoco import poses, snapshot
+from scene2hap.scene.plausibility.units import UnitWarning
 
 ALL_SHAPES = """
 <mujoco model="shapes">
@@ -140,6 +141,17 @@ def test_a_unit_scales_meshes_and_places() -> None:
     for one, other in zip(metres.objects, half.objects, strict=True):
         np.testing.assert_allclose(other.bounds_m, one.bounds_m / 2, atol=1e-8)
     assert poses(model, data, unit_m=0.5) == {item.id: item.pose for item in half.objects}
+
+
+def test_a_model_in_centimetres_is_told() -> None:
+    box = '<body name="{}" pos="{}"><geom type="box" size="{}"/></body>'
+    things = box.format("refrigerator", "0 0 90", "30 30 90") + box.format("table", "200 0 36", "60 35 36")
+    model, data = load(f"<mujoco><worldbody>{things}</worldbody></mujoco>")
+    with pytest.warns(UnitWarning, match=r"unit_m=0\.01 \(metres per unit of the engine, centimetres\)"):
+        snapshot(model, data)
+    np.testing.assert_allclose(
+        np.ptp(snapshot(model, data, unit_m=0.01).object("table").bounds_m, axis=0), (1.2, 0.7, 0.72)
+    )
 
 
 def test_a_height_field_is_a_terrain() -> None:
