@@ -216,6 +216,18 @@ def test_attached_parts_touch_for_their_hand() -> None:
     assert {touch.object_id for touch in link._adapter.touches() if touch.hand == "left"} == {"wooden_table"}
 
 
+def test_a_body_without_a_name_is_a_hand_by_its_id() -> None:
+    """The id that the scene shows is the only one that such a body has."""
+    mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
+    from scene2hap.scene.engines.mujoco import geoms_below
+
+    model = mujoco.MjModel.from_xml_string(HAND.replace('name="nail"', ""))
+    data = mujoco.MjData(model)
+    expected = [*(mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, k) is None for k in model.geom_bodyid), False]
+    assert geoms_below(model, data, "thumb/body1").tolist() == expected
+    assert sum(expected) > 0
+
+
 @pytest.mark.parametrize("contacts", [None, "engine"])
 def test_objects_missing_in_the_session_are_skipped(mujoco_engine: Any, contacts: Any) -> None:
     """An object removed from the session is skipped, and followed again once it is added back."""

@@ -131,12 +131,11 @@ def contacts(
 def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
     """Return a mask of the geoms (n_geoms + 1,) of a body and of the bodies below it, such as a hand's fingers.
 
-    The last entry, for "no geom", is False.
-    Raises: UnknownObject: the model has no body of that name. SceneError: none of the geoms can collide.
+    A body without a name is given by its id (rule 4). The last entry, for "no geom", is False.
+    Raises: UnknownObject: the model has no such body. SceneError: none of the geoms can collide.
     """
     mujoco = _engine(model, data)
-    named = {mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, k) or "": k for k in range(1, model.nbody)}
-    named.pop("", None)
+    named = {name: k + 1 for k, name in enumerate(_ids(mujoco, model)[: model.nbody - 1])}
     if not isinstance(body, str) or body not in named:
         hint = checks.did_you_mean(body, named) if isinstance(body, str) else "Give the name of one body."
         raise UnknownObject(f"the model has no body {checks.represented(body)}. {hint}".rstrip())
@@ -216,7 +215,8 @@ def _engine(model: Any, data: Any) -> Any:
     if not isinstance(model, mujoco.MjModel) or not isinstance(data, mujoco.MjData):
         raise SceneError(
             f"model is a {type(model).__name__} and data a {type(data).__name__}; they must be mujoco.MjModel and "
-            "mujoco.MjData. Wrappers keep them inside (dm_control: physics.model.ptr, physics.data.ptr)."
+            "mujoco.MjData. Wrappers keep them inside (dm_control: physics.model.ptr, physics.data.ptr; gymnasium: "
+            "env.unwrapped.model, env.unwrapped.data)."
         )
     has, needs = (len(data.xpos), len(data.geom_xpos), len(data.qpos)), (model.nbody, model.ngeom, model.nq)
     if has != needs:
@@ -280,6 +280,16 @@ def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, rea
 
 def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[_Item]:
     """Return the bodies in order, then the world's geoms. Ids do not depend on which geoms are drawn."""
+    ids = _ids(mujoco, model)
+    drawn: list[list[int]] = [[] for _ in range(model.nbody)]
+    for geom in np.flatnonzero(_drawn(model, geom_groups)).tolist():
+        drawn[int(model.geom_bodyid[geom])].append(geom)
+    bodies = [_Item(ids[body - 1], body, tuple(drawn[body])) for body in range(1, model.nbody) if drawn[body]]
+    return [*bodies, *(_Item(ids[model.nbody - 1 + geom], _WORLD, (geom,)) for geom in drawn[_WORLD])]
+
+
+def _ids(mujoco: Any, model: Any) -> list[str]:
+    """Return the ids of all bodies but the world, then of the world's geoms, by rule 4."""
     kind = mujoco.mjtObj
     ids, n_children = ["world"], [0] * model.nbody
     for body in range(1, model.nbody):
@@ -290,12 +300,7 @@ def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[
     # In MuJoCo the geoms of the world have the first numbers.
     on_world = range(int(model.body_geomnum[_WORLD]))
     ids += [mujoco.mj_id2name(model, kind.mjOBJ_GEOM, geom) or f"world/geom{geom + 1}" for geom in on_world]
-    ids = unique_ids(ids[1:])
-    drawn: list[list[int]] = [[] for _ in range(model.nbody)]
-    for geom in np.flatnonzero(_drawn(model, geom_groups)).tolist():
-        drawn[int(model.geom_bodyid[geom])].append(geom)
-    bodies = [_Item(ids[body - 1], body, tuple(drawn[body])) for body in range(1, model.nbody) if drawn[body]]
-    return [*bodies, *(_Item(ids[model.nbody - 1 + geom], _WORLD, (geom,)) for geom in drawn[_WORLD])]
+    return unique_ids(ids[1:])
 
 
 def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
