@@ -26,14 +26,22 @@ class Panda3DLink(EngineLink):
     def __init__(
         self, render: Any, session: HapticSession, *, group: Grouping = "authored", unit_m: float = 1.0
     ) -> None:
-        super().__init__(_Panda3D(render, group, unit_m), session)
+        self._reader = engine.PoseReader(render, group=group, unit_m=unit_m)
+        super().__init__(_Panda3D(self._reader), session)
+
+    def object_id(self, node: Any) -> str | None:
+        """Return the id of the object that a NodePath or node belongs to, such as one that a ray hits; None if to none.
+
+        Raises: SceneError: it is neither a NodePath nor a node.
+        """
+        return self._reader.object_id(node)
 
 
 class _Panda3D:
     """The `EngineAdapter` of Panda3D."""
 
-    def __init__(self, render: Any, group: Grouping, unit_m: float) -> None:
-        self._reader = engine.PoseReader(render, group=group, unit_m=unit_m)
+    def __init__(self, reader: engine.PoseReader) -> None:
+        self._reader = reader
 
     def poses(self) -> dict[str, Pose]:
         return self._reader.read()

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -57,7 +57,7 @@ def snapshot(
     graph = _Graph.read(render)
     maker = ObjectMaker(up_axis, metres)
     objects = []
-    for object_id, (found, path) in graph.objects(group).items():
+    for object_id, (found, path, _) in graph.objects(group).items():
         objects.append(maker.make(object_id, found.name, found, _pose(path.get_net_transform(), metres)))
     title = name or render.get_name() or "panda3d"
     if not objects:
@@ -78,7 +78,7 @@ def _up_axis(core: Any) -> UpAxis:
 
 def nodes(render: Any, *, group: Grouping = "authored") -> dict[str, Any]:
     """Return the NodePath of every object of `snapshot` with the same arguments, by id; for `poses`."""
-    return {object_id: path for object_id, (_, path) in _Graph.read(render).objects(group).items()}
+    return {object_id: found.path for object_id, found in _Graph.read(render).objects(group).items()}
 
 
 def poses(render_or_nodes: Any, snapshot: SceneSnapshot, *, unit_m: float = 1.0) -> dict[str, Pose]:
@@ -106,8 +106,27 @@ class PoseReader:
     """
 
     def __init__(self, render: Any, *, group: Grouping = "authored", unit_m: float = 1.0) -> None:
-        self._render, self._nodes, self._unit_m = render, nodes(render, group=group), _unit(unit_m)
+        self._render, self._unit_m = render, _unit(unit_m)
+        objects = _Graph.read(render).objects(group)
+        self._nodes = {object_id: found.path for object_id, found in objects.items()}
+        self._owners = {path: object_id for object_id, found in objects.items() for path in found.owned}
         self._last: dict[str, tuple[Any, Pose]] = {}
+
+    def object_id(self, node: Any) -> str | None:
+        """Return the id of the object that a NodePath or node belongs to, such as one that a ray hits; None if to none.
+
+        It may draw the object, name it, or be below such a node, as colliders are.
+        Raises: SceneError: it is neither a NodePath nor a node.
+        """
+        core = engine("panda3d.core")
+        path = core.NodePath.any_path(node) if isinstance(node, core.PandaNode) else node
+        if not isinstance(path, core.NodePath):
+            raise SceneError(f"node is {checks.described(node)}; it must be a NodePath or a PandaNode.")
+        while not path.is_empty():
+            if path in self._owners:
+                return self._owners[path]
+            path = path.get_parent()
+        return None
 
     def read(self) -> dict[str, Pose]:
         """Return the current pose of every object, by id; without objects whose node has left the graph."""
@@ -121,6 +140,14 @@ class PoseReader:
                 known = last[object_id] = (transform, _pose(transform, self._unit_m))
             placed[object_id] = known[1]
         return placed
+
+
+class _Found(NamedTuple):
+    """An object in the frame of the NodePath that moves it, and the NodePaths that move, name and draw it."""
+
+    group: Group
+    path: Any
+    owned: tuple[Any, ...]
 
 
 @dataclass(eq=False)
@@ -146,17 +173,20 @@ class _Graph:
         graph.root = graph._node(render, matrix, (), GeomReader(core))
         return graph
 
-    def objects(self, group: Grouping) -> dict[str, tuple[Group, Any]]:
-        """Return the objects by id, each in the frame of the NodePath that moves it."""
+    def objects(self, group: Grouping) -> dict[str, _Found]:
+        """Return the objects by id."""
         groups = group_objects([self.root], group)
         ids = unique_ids([found.name for found in groups])
         return {object_id: self._bound(found) for object_id, found in zip(ids, groups, strict=True)}
 
-    def _bound(self, found: Group) -> tuple[Group, Any]:
+    def _bound(self, found: Group) -> _Found:
         trails = [self.trails[id(piece)] for _, piece in found.parts]
         shared = [level[0] for level in zip(*trails, strict=False) if all(node is level[0] for node in level)]
         frame, path = shared[-1]
-        return replace(found, frame=frame), path
+        naming = [
+            node for at, node in shared if np.array_equal(at, found.frame) and self._name(node, True) == found.name
+        ]
+        return _Found(replace(found, frame=frame), path, (path, *naming[:1], *(trail[-1][1] for trail in trails)))
 
     def _node(
         self, path: Any, matrix: Matrix, above: tuple[tuple[Matrix, Any], ...], reader: GeomReader

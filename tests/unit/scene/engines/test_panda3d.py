@@ -282,6 +282,37 @@ def test_inner_node_of_a_wrapper_is_followed() -> None:
     assert poses(moving, scene)["holder"].position_m[2] == pytest.approx(1.0)
 
 
+def test_nodes_of_ray_hits_belong_to_their_objects() -> None:
+    """A table in an entity, with a cup below it; two crates of one name, one of them at the origin; and no objects."""
+    render = core.NodePath("render")
+    entities = {}
+    for key, name, above in (("t", "table", None), ("c", "cup", "t"), ("k", "crate", None), ("l", "crate", None)):
+        entity = entities[key] = entities.get(above, render).attach_new_node(name)
+        attach(entity.attach_new_node("cube"), "mesh_geom")
+    entities["l"].set_x(3)
+    entities["c"].set_pos(0.2, 0.2, 1)
+    expected = {"t": "table", "c": "cup", "k": "crate", "l": "crate#2"}
+    reader = PoseReader(render)
+    assert reader.read().keys() == set(expected.values())
+    for key, object_id in expected.items():
+        collider = entities[key].attach_new_node(core.CollisionNode("collider"))  # also after the graph was read
+        drawn = entities[key].find("cube/mesh_geom")
+        for node in (entities[key], collider, collider.node(), drawn, drawn.get_parent(), drawn.node()):
+            assert reader.object_id(node) == object_id
+    assert reader.object_id(render.attach_new_node(core.CollisionNode("trigger zone"))) is None
+    assert reader.object_id(core.NodePath()) is None
+    for wrong in ("table", None):
+        with pytest.raises(SceneError, match="must be a NodePath or a PandaNode"):
+            reader.object_id(wrong)
+
+
+def test_instances_are_told_apart_by_their_paths() -> None:
+    render = graph()
+    reader, placed = PoseReader(render), nodes(render)
+    assert {reader.object_id(placed[key]) for key in ("cup", "holder")} == {"cup", "holder"}
+    assert reader.object_id(render.find("table/table_leg")) == "table"
+
+
 def test_removed_node_has_no_pose() -> None:
     render = graph()
     scene, moving = snapshot(render), nodes(render)
