@@ -21,7 +21,7 @@ from panda3d import core
 
 from scene2hap import HapticSession, SceneSnapshot, Touch, WavSink, bake
 from scene2hap.engines import Panda3DLink
-from scene2hap.scene.engines.panda3d import nodes, snapshot
+from scene2hap.scene.engines.panda3d import snapshot
 
 EYE_HEIGHT_M, REACH_M, SPEED_M_S, DEGREES_PER_PIXEL = 1.6, 1.3, 1.4, 0.1
 HEADLESS_FPS = 50
@@ -86,7 +86,6 @@ class Walker:
 
     def __init__(self, render: core.NodePath, scene: SceneSnapshot) -> None:
         self.render, self.floor_m = render, scene.object("concrete floor").bounds_m
-        self.object_ids = {node: object_id for object_id, node in nodes(render).items()}
         self.eyes = render.attach_new_node("eyes")
         self.eyes.set_pos(0.0, -1.6, EYE_HEIGHT_M)
         gaze = core.CollisionNode("gaze")
@@ -105,7 +104,7 @@ class Walker:
         (low_x, low_y, _), (high_x, high_y, _) = self.floor_m
         self.eyes.set_pos(min(max(x, low_x), high_x), min(max(y, low_y), high_y), z)
 
-    def touches(self, hands: list[str]) -> list[Touch]:
+    def touches(self, hands: list[str], link: Panda3DLink) -> list[Touch]:
         """Touches of the hands at the point in the centre of the view; none if it is too far away."""
         self.traverser.traverse(self.render)
         if not hands or not self.hits.get_num_entries():
@@ -113,11 +112,9 @@ class Walker:
         self.hits.sort_entries()
         hit = self.hits.get_entry(0)
         point = hit.get_surface_point(self.render)
-        node = hit.get_into_node_path()
-        while node not in self.object_ids:  # a leg belongs to its table
-            node = node.get_parent()
+        object_id = link.object_id(hit.get_into_node_path())  # a leg belongs to its table
         is_near = (point - self.eyes.get_pos()).length() <= REACH_M
-        return [Touch(hand, self.object_ids[node], tuple(point)) for hand in hands] if is_near else []
+        return [Touch(hand, object_id, tuple(point)) for hand in hands] if is_near else []
 
 
 def person(game: ShowBase, walker: Walker) -> Iterator[list[str]]:
@@ -180,7 +177,7 @@ def play(arguments: argparse.Namespace, has_window: bool) -> None:
 
         def feel(task: Any) -> int:  # once per frame, before it is drawn
             nonlocal told
-            touches = walker.touches(next(player))
+            touches = walker.touches(next(player), link)
             frame = link.update(touches)
             if output:
                 sink.pull_s(clock.dt)

@@ -19,19 +19,29 @@ class Panda3DLink(EngineLink):
     Nodes are looked up once, in the constructor. If the game removes a node from the graph, its object keeps its pose
     until `session.remove(id)`. Panda3D reports no contacts and no hands, so contacts are found from geometry, and the
     game passes the touches.
-    Parameters: render, group : as for `scene.engines.panda3d.snapshot`.
+    Parameters: render, group, unit_m : as for `scene.engines.panda3d.snapshot`. Touches are in metres.
     Raises: MissingExtra; SceneError: the session is of another graph.
     """
 
-    def __init__(self, render: Any, session: HapticSession, *, group: Grouping = "authored") -> None:
-        super().__init__(_Panda3D(render, group), session)
+    def __init__(
+        self, render: Any, session: HapticSession, *, group: Grouping = "authored", unit_m: float = 1.0
+    ) -> None:
+        self._reader = engine.PoseReader(render, group=group, unit_m=unit_m)
+        super().__init__(_Panda3D(self._reader), session)
+
+    def object_id(self, node: Any) -> str | None:
+        """Return the id of the object that a NodePath or node belongs to, such as one that a ray hits; None if to none.
+
+        Raises: SceneError: it is neither a NodePath nor a node.
+        """
+        return self._reader.object_id(node)
 
 
 class _Panda3D:
     """The `EngineAdapter` of Panda3D."""
 
-    def __init__(self, render: Any, group: Grouping) -> None:
-        self._reader = engine.PoseReader(render, group=group)
+    def __init__(self, reader: engine.PoseReader) -> None:
+        self._reader = reader
 
     def poses(self) -> dict[str, Pose]:
         return self._reader.read()

@@ -10,7 +10,8 @@ b. A node without a mesh, and its leaf children without names or with names that
    if they are joined. Rules (a) to (d) apply to all other children, such as the knobs `Controller` below `Cooktop`.
 c. A node without a mesh that contains only one object, directly or through other such nodes, gives that object its name
    and place (`washing_machine` over `washer(Clone)`). The name of the outermost such node is used. Names that exporters
-   give to their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never used.
+   give to their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never used,
+   and names that say nothing (`pivot`, `entity`) only in the place of another such name.
 d. Every other node without a mesh is a container; its children are grouped one by one.
 e. An object by (a) or (b) is split if it is a collection of separate items (`scene.group_split`): a pot, two cups and
    their saucers, but not a table with its legs.
@@ -144,7 +145,7 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
         items = [Group(item[0].name, item[0].frame, _parts(item)) for item in several]
         return _Subtree([*items, *others], has_head=bool(node.pieces))
     if len(below) == 1 and below[0].has_head:
-        if _names_a_thing(node):
+        if _names_a_thing(node) and (says_nothing(others[0].name) or not says_nothing(node.name)):
             others[0] = replace(others[0], name=node.name, frame=frame)
         if node.mass_kg is not None and len(others) == 1:
             others[0] = replace(others[0], mass_kg=node.mass_kg)

@@ -135,7 +135,7 @@ class SceneSnapshot(SceneData):
             contacts = checks.items("contacts", contacts, at_most=_MOST_CONTACTS, error=SceneError)
         scene = cls(name, up_axis, tuple(turned), contacts)
         scene = replace(scene, objects=with_relative_heights(turned, up_axis))
-        warn_if_implausible(scene, is_built=True)
+        warn_if_implausible(scene, source="python")
         return scene
 
     def object(self, object_id: str) -> SceneObject:

@@ -216,6 +216,18 @@ def test_attached_parts_touch_for_their_hand() -> None:
     assert {touch.object_id for touch in link._adapter.touches() if touch.hand == "left"} == {"wooden_table"}
 
 
+def test_a_body_without_a_name_is_a_hand_by_its_id() -> None:
+    """The id that the scene shows is the only one that such a body has."""
+    mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
+    from scene2hap.scene.engines.mujoco import geoms_below
+
+    model = mujoco.MjModel.from_xml_string(HAND.replace('name="nail"', ""))
+    data = mujoco.MjData(model)
+    expected = [*(mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, k) is None for k in model.geom_bodyid), False]
+    assert geoms_below(model, data, "thumb/body1").tolist() == expected
+    assert sum(expected) > 0
+
+
 @pytest.mark.parametrize("contacts", [None, "engine"])
 def test_objects_missing_in_the_session_are_skipped(mujoco_engine: Any, contacts: Any) -> None:
     """An object removed from the session is skipped, and followed again once it is added back."""
@@ -278,6 +290,20 @@ def test_an_adapter_may_have_new_objects_in_any_frame(as_table: bool) -> None:
             session.add(cup)
             link.update()
         assert session.snapshot.object("cup").pose == now["cup"]
+
+
+def test_a_panda3d_link_follows_in_the_unit_of_the_snapshot() -> None:
+    render, _ = panda3d_engine()
+    from scene2hap.scene.engines.panda3d import snapshot
+
+    for path in render.get_children():
+        path.set_scale(100)
+        path.set_pos(path.get_pos() * 100)
+    scene = snapshot(render, unit_m=0.01)
+    link = Panda3DLink(render, (session := HapticSession(scene, baked(scene))), unit_m=0.01)
+    render.find("**/smartphone").set_x(20)
+    link.update()
+    assert session.poses["smartphone"].position_m == pytest.approx((0.2, 0, 0.701), abs=1e-6)
 
 
 def test_a_node_out_of_the_graph_stays_where_it_was() -> None:

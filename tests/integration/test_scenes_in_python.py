@@ -26,7 +26,7 @@ def run(arguments: list[str], folder: Path) -> str:
 def test_the_code_of_the_page_runs(tmp_path: Path) -> None:
     assert PAGE.count("```") == 2 * len(BLOCKS)
     printed = [run(["-c", code], tmp_path) for code in BLOCKS]
-    assert printed[2].startswith("floating ('lamp',) 'lamp' floats")
+    assert printed[-1].startswith("floating ('lamp',) 'lamp' floats")
 
 
 def test_a_game_of_thirty_objects_is_right_to_the_sample(tmp_path: Path) -> None:

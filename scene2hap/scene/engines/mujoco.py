@@ -38,6 +38,7 @@ from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colo
 from scene2hap.scene.engines.objects import ObjectMaker
 from scene2hap.scene.grouping import Group, group_objects, unique_ids
 from scene2hap.scene.objects import Contact, with_relative_heights
+from scene2hap.scene.plausibility.units import warn_if_implausible
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredNode, Piece
@@ -56,7 +57,7 @@ def snapshot(
     geom_groups: Collection[int] | None = None,
     contacts: Literal["engine"] | None = None,
     masses: Literal["engine"] | None = None,
-    unit_m: float = 1.0,
+    unit_m: float | None = None,
 ) -> SceneSnapshot:
     """Return the scene of a MuJoCo model, with the poses in `data`.
 
@@ -70,9 +71,25 @@ def snapshot(
         that cannot move against each other, such as a kettle welded to its stove.
     masses : None leaves them to inference; "engine" takes `model.body_mass`. Use "engine" only if the model's author
         gave masses: MuJoCo computes missing masses as if all bodies were solid water.
-    unit_m : metres per unit of the model.
+    unit_m : metres per unit of the model; None means metres.
     Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number is invalid.
+    Warns: UnitWarning: without unit_m, if sizes are implausible as metres.
     """
+    scene = _snapshot(model, data, name, geom_groups, contacts, masses, 1.0 if unit_m is None else unit_m)
+    if unit_m is None:
+        warn_if_implausible(scene, source="engine")
+    return scene
+
+
+def _snapshot(
+    model: Any,
+    data: Any,
+    name: str | None,
+    geom_groups: Collection[int] | None,
+    contacts: Literal["engine"] | None,
+    masses: Literal["engine"] | None,
+    unit_m: float,
+) -> SceneSnapshot:
     mujoco = _engine(model, data)
     unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
     if contacts not in (None, "engine"):
@@ -114,12 +131,11 @@ def contacts(
 def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
     """Return a mask of the geoms (n_geoms + 1,) of a body and of the bodies below it, such as a hand's fingers.
 
-    The last entry, for "no geom", is False.
-    Raises: UnknownObject: the model has no body of that name. SceneError: none of the geoms can collide.
+    A body without a name is given by its id (rule 4). The last entry, for "no geom", is False.
+    Raises: UnknownObject: the model has no such body. SceneError: none of the geoms can collide.
     """
     mujoco = _engine(model, data)
-    named = {mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, k) or "": k for k in range(1, model.nbody)}
-    named.pop("", None)
+    named = {name: k + 1 for k, name in enumerate(_ids(mujoco, model)[: model.nbody - 1])}
     if not isinstance(body, str) or body not in named:
         hint = checks.did_you_mean(body, named) if isinstance(body, str) else "Give the name of one body."
         raise UnknownObject(f"the model has no body {checks.represented(body)}. {hint}".rstrip())
@@ -168,7 +184,7 @@ def load_mjcf(
 ) -> SceneSnapshot:
     """Return the scene in an MJCF file in its initial pose, named after the file; see `open_mjcf`."""
     model, data = open_mjcf(path, assets_root=assets_root)
-    return snapshot(model, data, name=Path(path).stem, unit_m=unit_m)
+    return _snapshot(model, data, Path(path).stem, None, None, None, unit_m)  # `load_scene` checks the unit
 
 
 def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[str] | None = None) -> tuple[Any, Any]:
@@ -199,7 +215,8 @@ def _engine(model: Any, data: Any) -> Any:
     if not isinstance(model, mujoco.MjModel) or not isinstance(data, mujoco.MjData):
         raise SceneError(
             f"model is a {type(model).__name__} and data a {type(data).__name__}; they must be mujoco.MjModel and "
-            "mujoco.MjData. Wrappers keep them inside (dm_control: physics.model.ptr, physics.data.ptr)."
+            "mujoco.MjData. Wrappers keep them inside (dm_control: physics.model.ptr, physics.data.ptr; gymnasium: "
+            "env.unwrapped.model, env.unwrapped.data)."
         )
     has, needs = (len(data.xpos), len(data.geom_xpos), len(data.qpos)), (model.nbody, model.ngeom, model.nq)
     if has != needs:
@@ -263,6 +280,16 @@ def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, rea
 
 def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[_Item]:
     """Return the bodies in order, then the world's geoms. Ids do not depend on which geoms are drawn."""
+    ids = _ids(mujoco, model)
+    drawn: list[list[int]] = [[] for _ in range(model.nbody)]
+    for geom in np.flatnonzero(_drawn(model, geom_groups)).tolist():
+        drawn[int(model.geom_bodyid[geom])].append(geom)
+    bodies = [_Item(ids[body - 1], body, tuple(drawn[body])) for body in range(1, model.nbody) if drawn[body]]
+    return [*bodies, *(_Item(ids[model.nbody - 1 + geom], _WORLD, (geom,)) for geom in drawn[_WORLD])]
+
+
+def _ids(mujoco: Any, model: Any) -> list[str]:
+    """Return the ids of all bodies but the world, then of the world's geoms, by rule 4."""
     kind = mujoco.mjtObj
     ids, n_children = ["world"], [0] * model.nbody
     for body in range(1, model.nbody):
@@ -273,12 +300,7 @@ def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[
     # In MuJoCo the geoms of the world have the first numbers.
     on_world = range(int(model.body_geomnum[_WORLD]))
     ids += [mujoco.mj_id2name(model, kind.mjOBJ_GEOM, geom) or f"world/geom{geom + 1}" for geom in on_world]
-    ids = unique_ids(ids[1:])
-    drawn: list[list[int]] = [[] for _ in range(model.nbody)]
-    for geom in np.flatnonzero(_drawn(model, geom_groups)).tolist():
-        drawn[int(model.geom_bodyid[geom])].append(geom)
-    bodies = [_Item(ids[body - 1], body, tuple(drawn[body])) for body in range(1, model.nbody) if drawn[body]]
-    return [*bodies, *(_Item(ids[model.nbody - 1 + geom], _WORLD, (geom,)) for geom in drawn[_WORLD])]
+    return unique_ids(ids[1:])
 
 
 def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:

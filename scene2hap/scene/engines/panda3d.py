@@ -12,10 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
@@ -23,6 +24,7 @@ from scene2hap.scene.engines.objects import ObjectMaker
 from scene2hap.scene.engines.panda3d_geoms import GeomReader
 from scene2hap.scene.grouping import Group, Grouping, group_objects, unique_ids
 from scene2hap.scene.objects import UpAxis, with_relative_heights
+from scene2hap.scene.plausibility.units import warn_if_implausible
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.rigid_meshes import rigid_part
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -33,26 +35,41 @@ _VIEWPOINT = "camera"
 
 
 def snapshot(
-    render: Any, *, name: str | None = None, up_axis: UpAxis | None = None, group: Grouping = "authored"
+    render: Any,
+    *,
+    name: str | None = None,
+    up_axis: UpAxis | None = None,
+    group: Grouping = "authored",
+    unit_m: float | None = None,
 ) -> SceneSnapshot:
     """Return the scene below a NodePath, in the coordinates of the graph's root.
 
     Parameters: render : a `panda3d.core.NodePath`; name : of the scene, None means the NodePath's; up_axis : None means
-        Panda3D's own, which `coordinate-system` sets; group : the rule by which nodes become objects.
+        Panda3D's own, which `coordinate-system` sets; group : the rule by which nodes become objects; unit_m : metres
+        per unit of the graph; None means metres.
     Raises: MissingExtra: Panda3D is not installed. SceneError: there are no triangles, or a number is invalid.
+    Warns: UnitWarning: without unit_m, if sizes are implausible as metres.
     """
     if up_axis not in ("y", "z", None):
         raise SceneError(f"up_axis is {up_axis!r}; it must be 'y', 'z' or None.")
     up_axis = up_axis or _up_axis(engine("panda3d.core"))
+    metres = _unit(1.0 if unit_m is None else unit_m)
     graph = _Graph.read(render)
-    maker = ObjectMaker(up_axis)
+    maker = ObjectMaker(up_axis, metres)
     objects = []
-    for object_id, (found, path) in graph.objects(group).items():
-        objects.append(maker.make(object_id, found.name, found, _pose(path.get_net_transform())))
+    for object_id, (found, path, _) in graph.objects(group).items():
+        objects.append(maker.make(object_id, found.name, found, _pose(path.get_net_transform(), metres)))
     title = name or render.get_name() or "panda3d"
     if not objects:
         raise SceneError(f"scene {title!r} draws no triangles; nothing in it can be touched.")
-    return SceneSnapshot(title, up_axis, with_relative_heights(objects, up_axis))
+    scene = SceneSnapshot(title, up_axis, with_relative_heights(objects, up_axis))
+    if unit_m is None:
+        warn_if_implausible(scene, source="engine")
+    return scene
+
+
+def _unit(unit_m: float) -> float:
+    return checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
 
 
 def _up_axis(core: Any) -> UpAxis:
@@ -61,20 +78,21 @@ def _up_axis(core: Any) -> UpAxis:
 
 def nodes(render: Any, *, group: Grouping = "authored") -> dict[str, Any]:
     """Return the NodePath of every object of `snapshot` with the same arguments, by id; for `poses`."""
-    return {object_id: path for object_id, (_, path) in _Graph.read(render).objects(group).items()}
+    return {object_id: found.path for object_id, found in _Graph.read(render).objects(group).items()}
 
 
-def poses(render_or_nodes: Any, snapshot: SceneSnapshot) -> dict[str, Pose]:
+def poses(render_or_nodes: Any, snapshot: SceneSnapshot, *, unit_m: float = 1.0) -> dict[str, Pose]:
     """Return the current poses of the objects of a snapshot, for `HapticSession.update`.
 
     Parameters: render_or_nodes : the result of `nodes`, or a NodePath. With a NodePath the whole graph is read again by
-        the rule "authored"; do not do that every frame.
+        the rule "authored"; do not do that every frame; unit_m : as for `snapshot`.
     Returns: a pose for every object whose node still exists. Scale is as it was in the snapshot.
     """
+    unit_m = _unit(unit_m)
     known = render_or_nodes if isinstance(render_or_nodes, Mapping) else nodes(render_or_nodes)
     placed = ((item.id, known.get(item.id)) for item in snapshot.objects)
     return {
-        object_id: _pose(path.get_net_transform())
+        object_id: _pose(path.get_net_transform(), unit_m)
         for object_id, path in placed
         if path is not None and not path.is_empty()
     }
@@ -87,9 +105,28 @@ class PoseReader:
     alive, so an equal address means an equal transform.
     """
 
-    def __init__(self, render: Any, *, group: Grouping = "authored") -> None:
-        self._render, self._nodes = render, nodes(render, group=group)
+    def __init__(self, render: Any, *, group: Grouping = "authored", unit_m: float = 1.0) -> None:
+        self._render, self._unit_m = render, _unit(unit_m)
+        objects = _Graph.read(render).objects(group)
+        self._nodes = {object_id: found.path for object_id, found in objects.items()}
+        self._owners = {path: object_id for object_id, found in objects.items() for path in found.owned}
         self._last: dict[str, tuple[Any, Pose]] = {}
+
+    def object_id(self, node: Any) -> str | None:
+        """Return the id of the object that a NodePath or node belongs to, such as one that a ray hits; None if to none.
+
+        It may draw the object, name it, or be below such a node, as colliders are.
+        Raises: SceneError: it is neither a NodePath nor a node.
+        """
+        core = engine("panda3d.core")
+        path = core.NodePath.any_path(node) if isinstance(node, core.PandaNode) else node
+        if not isinstance(path, core.NodePath):
+            raise SceneError(f"node is {checks.described(node)}; it must be a NodePath or a PandaNode.")
+        while not path.is_empty():
+            if path in self._owners:
+                return self._owners[path]
+            path = path.get_parent()
+        return None
 
     def read(self) -> dict[str, Pose]:
         """Return the current pose of every object, by id; without objects whose node has left the graph."""
@@ -100,9 +137,17 @@ class PoseReader:
             transform = path.get_net_transform()
             known = last.get(object_id)
             if known is None or known[0].this != transform.this:
-                known = last[object_id] = (transform, _pose(transform))
+                known = last[object_id] = (transform, _pose(transform, self._unit_m))
             placed[object_id] = known[1]
         return placed
+
+
+class _Found(NamedTuple):
+    """An object in the frame of the NodePath that moves it, and the NodePaths that move, name and draw it."""
+
+    group: Group
+    path: Any
+    owned: tuple[Any, ...]
 
 
 @dataclass(eq=False)
@@ -128,17 +173,20 @@ class _Graph:
         graph.root = graph._node(render, matrix, (), GeomReader(core))
         return graph
 
-    def objects(self, group: Grouping) -> dict[str, tuple[Group, Any]]:
-        """Return the objects by id, each in the frame of the NodePath that moves it."""
+    def objects(self, group: Grouping) -> dict[str, _Found]:
+        """Return the objects by id."""
         groups = group_objects([self.root], group)
         ids = unique_ids([found.name for found in groups])
         return {object_id: self._bound(found) for object_id, found in zip(ids, groups, strict=True)}
 
-    def _bound(self, found: Group) -> tuple[Group, Any]:
+    def _bound(self, found: Group) -> _Found:
         trails = [self.trails[id(piece)] for _, piece in found.parts]
         shared = [level[0] for level in zip(*trails, strict=False) if all(node is level[0] for node in level)]
         frame, path = shared[-1]
-        return replace(found, frame=frame), path
+        naming = [
+            node for at, node in shared if np.array_equal(at, found.frame) and self._name(node, True) == found.name
+        ]
+        return _Found(replace(found, frame=frame), path, (path, *naming[:1], *(trail[-1][1] for trail in trails)))
 
     def _node(
         self, path: Any, matrix: Matrix, above: tuple[tuple[Matrix, Any], ...], reader: GeomReader
@@ -181,10 +229,13 @@ def _matrix(transform: Any) -> Matrix:
     return np.array([tuple(row) for row in transform.get_mat().get_rows()], dtype=np.float64).T
 
 
-def _pose(transform: Any) -> Pose:
-    """Return a node's pose in the graph's root, without scale. Transforms with shear or mirroring use `rigid_part`."""
+def _pose(transform: Any, unit_m: float) -> Pose:
+    """Return the rigid pose of a node in the graph's root [m]. Transforms with shear or mirroring use `rigid_part`."""
     is_similar = transform.has_components() and transform.has_uniform_scale() and not transform.has_nonzero_shear()
     if is_similar and transform.get_uniform_scale() > 0:
         w, x, y, z = transform.get_quat()
-        return Pose(tuple(transform.get_pos()), (x, y, z, w))
-    return Pose.from_matrix(rigid_part(_matrix(transform)))
+        a, b, c = transform.get_pos()
+        return Pose((a * unit_m, b * unit_m, c * unit_m), (x, y, z, w))
+    matrix = rigid_part(_matrix(transform))
+    matrix[:3, 3] *= unit_m
+    return Pose.from_matrix(matrix)

@@ -8,7 +8,7 @@ decide. Otherwise the check warns if scene and objects are both far too large, o
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,22 +65,24 @@ class Doubt(NamedTuple):
     of_model_m: str = ""
 
 
-def warn_if_implausible(snapshot: SceneData, unit_m: float = 1.0, *, is_built: bool = False) -> None:
+def warn_if_implausible(
+    snapshot: SceneData, unit_m: float = 1.0, *, source: Literal["file", "engine", "python"] = "file"
+) -> None:
     """Issue a UnitWarning if sizes of the scene, read at `unit_m` metres per unit, are implausible.
 
-    A scene that was built in Python has no file and no argument `unit_m`, so the warning gives another remedy.
+    The remedy depends on the source: a scene that was built in Python has no argument `unit_m`.
     """
     found = implausible(snapshot, unit_m)
     if found is None:
         return
-    if is_built:
+    if source == "python":
         remedy = f"Multiply positions and sizes by {found.unit_m}{f' if they are in {found.name}' * bool(found.name)}."
     else:
         meant = f", {found.name}" if found.name else ""
         model = f", or {found.of_model_m} if it holds one model and no room" if found.of_model_m else ""
         remedy = (
-            f"Perhaps unit_m={found.unit_m} (metres per unit of the file{meant}){model}; giving any unit_m ends this "
-            "warning."
+            f"Perhaps unit_m={found.unit_m} (metres per unit of the {source}{meant}){model}; giving any unit_m ends "
+            "this warning."
         )
     warn_of(f"{found.sentence} {remedy}", UnitWarning)
 
@@ -91,7 +93,7 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     bounds = np.array([item.bounds_m for item in snapshot.objects])
     low, high = joined(bounds)
     extents = np.ptp(bounds, axis=1)
-    evidence = _evidence_of(snapshot.objects, bounds[:, 1, up] - low[up], extents)
+    evidence = _evidence_of(snapshot.objects, bounds[:, 1, up] - _ground_m(bounds, up), extents)
     by_name = _by_names(evidence) if evidence else None
     # A single name may mislead (a worktop called `Table`), so the size of the whole scene is checked first.
     found = by_name if len(evidence) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
@@ -107,6 +109,16 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     if found is not by_name and factor != _OF_MODELS and float(extents.max()) * _OF_MODELS <= _LARGEST_MODEL_M:
         of_model = f"{_OF_MODELS * unit_m:g}"
     return Doubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name, of_model)
+
+
+def _ground_m(bounds_m: NDArray[np.float64], up: int) -> float:
+    """Return the height of the lowest object [m].
+
+    An object that encloses the whole scene does not count: the bottom of a sky dome is kilometres below the floor.
+    """
+    is_shell = (bounds_m == joined(bounds_m)).all(axis=(1, 2))
+    standing = bounds_m if is_shell.all() else bounds_m[~is_shell]
+    return float(standing[:, 0, up].min())
 
 
 def _evidence_of(

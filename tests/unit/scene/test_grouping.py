@@ -105,6 +105,15 @@ def test_wrapper_node_names_only_its_main_object() -> None:
     assert list(objects(tree)) == ["washing_machine", "washerDoor"]
 
 
+@pytest.mark.parametrize("wrapper", ["pivot", "entity", "Empty.001", "GameObject"])
+def test_a_wrapper_whose_name_says_nothing_takes_no_name_away(wrapper: str) -> None:
+    """Games turn things about a pivot, and engines name nodes that nobody has named."""
+    assert list(objects(group(wrapper, group("desk fan", mesh("cube"))))) == ["desk fan"]
+    assert list(objects(group("desk fan", group(wrapper, mesh("cube"))))) == ["desk fan"]
+    assert list(objects(group(wrapper, mesh("cube")))) == [wrapper]
+    assert list(objects(group("candle holder", mesh("candle")))) == ["candle holder"]
+
+
 def test_wrapper_node_gives_the_object_frame() -> None:
     (item,) = group_objects([group("radio", mesh("radio(Clone)", at=1.0), at=5.0)])
     assert item.frame[0, 3] == 5.0

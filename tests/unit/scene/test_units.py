@@ -65,6 +65,14 @@ def test_single_named_object_must_be_far_off_for_a_suggestion() -> None:
     assert suggestion(room(1.0, [("table", 1.4, 7.4)])) == 0.1
 
 
+def test_a_sky_around_the_scene_is_not_its_ground() -> None:
+    """The bottom of a sky dome is kilometres below the feet of the furniture, whose sizes are right."""
+    furnished = room(1.0, FURNITURE)
+    sky = box("sky", (18_000.0, 18_000.0, 18_000.0), (0.0, 0.0, 0.0))
+    assert suggestion(scene(sky, *furnished.objects)) is None
+    assert suggestion(scene(sky, *room(100.0, FURNITURE).objects)) == 0.01
+
+
 @pytest.mark.parametrize("name", ["doormat", "Cupboard_Door_R", "Tablet", "chair_leg_cover", "table lamp", "Куб", "7"])
 def test_unrelated_names_give_no_suggestion(name: str) -> None:
     assert suggestion(room(1.0, [(name, 0.3, 0.02)])) is None

@@ -13,6 +13,7 @@ from mujoco_scenes import RESTING, load, mujoco, scene_of
 from scene2hap import ContactGraph
 from scene2hap.errors import MissingExtra, SceneError
 from scene2hap.scene.engines.mujoco import poses, snapshot
+from scene2hap.scene.plausibility.units import UnitWarning
 
 ALL_SHAPES = """
 <mujoco model="shapes">
@@ -142,6 +143,17 @@ def test_a_unit_scales_meshes_and_places() -> None:
     assert poses(model, data, unit_m=0.5) == {item.id: item.pose for item in half.objects}
 
 
+def test_a_model_in_centimetres_is_told() -> None:
+    box = '<body name="{}" pos="{}"><geom type="box" size="{}"/></body>'
+    things = box.format("refrigerator", "0 0 90", "30 30 90") + box.format("table", "200 0 36", "60 35 36")
+    model, data = load(f"<mujoco><worldbody>{things}</worldbody></mujoco>")
+    with pytest.warns(UnitWarning, match=r"unit_m=0\.01 \(metres per unit of the engine, centimetres\)"):
+        snapshot(model, data)
+    np.testing.assert_allclose(
+        np.ptp(snapshot(model, data, unit_m=0.01).object("table").bounds_m, axis=0), (1.2, 0.7, 0.72)
+    )
+
+
 def test_a_height_field_is_a_terrain() -> None:
     asset = '<asset><hfield name="hill" nrow="2" ncol="3" size="3 2 5 1" elevation="0 0 0  0 0 1"/></asset>'
     scene = scene_of(f'{asset}<worldbody><geom name="hill" type="hfield" hfield="hill" pos="1 1 1"/></worldbody>')
@@ -211,7 +223,9 @@ def test_missing_mujoco_error_names_its_extra(monkeypatch: pytest.MonkeyPatch) -
 
 def test_wrong_arguments_are_refused() -> None:
     model, data = load(RESTING)
-    with pytest.raises(SceneError, match=r"model is a MjData and data a MjModel; they must be mujoco\.MjModel"):
+    with pytest.raises(
+        SceneError, match=r"model is a MjData and data a MjModel; they must be mujoco\.MjModel.*env\.unwrapped"
+    ):
         snapshot(data, model)
     with pytest.raises(SceneError, match="call mujoco.mj_forward"):
         snapshot(model, mujoco.MjData(model))

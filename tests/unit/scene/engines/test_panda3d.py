@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from scene2hap import ContactGraph, SceneObject
 from scene2hap.errors import MissingExtra, SceneError
-from scene2hap.scene.engines.panda3d import nodes, poses, snapshot
+from scene2hap.scene.engines.panda3d import PoseReader, nodes, poses, snapshot
+from scene2hap.scene.plausibility.units import UnitWarning
 
 core = pytest.importorskip("panda3d.core", reason="needs the extra panda3d")
 
@@ -63,7 +64,7 @@ def graph() -> Any:
     for child, name in zip(mirror.get_children(), ("table mirrored top", "table mirrored leg"), strict=True):
         child.set_name(name)
     cup = attach(render, "cup")
-    cup.set_pos_hpr_scale((5, 0, 0), (10, 20, 30), (0.1, 0.2, 0.3))
+    cup.set_pos_hpr_scale((5, 0, 0), (10, 20, 30), (0.05, 0.08, 0.12))
     holder = render.attach_new_node("holder")
     holder.set_pos(0, 4, 0)
     cup.instance_to(holder)
@@ -99,7 +100,7 @@ def test_meshes_contain_scale_and_mirroring_and_face_outwards() -> None:
     table = 1.2 * 0.8 * 0.04 + 0.06 * 0.06 * 0.7
     volumes = {item.id: volume(item) for item in scene.objects}
     assert volumes == pytest.approx(
-        {"table": table, "table mirrored": table, "cup": 0.1 * 0.2 * 0.3, "holder": 0.1 * 0.2 * 0.3}, rel=1e-5
+        {"table": table, "table mirrored": table, "cup": 0.05 * 0.08 * 0.12, "holder": 0.05 * 0.08 * 0.12}, rel=1e-5
     )
 
 
@@ -198,6 +199,36 @@ def test_what_hangs_below_the_camera_keeps_its_own_name() -> None:
     assert [item.id for item in snapshot(render).objects] == ["drill", "camera"]
 
 
+def centimetres() -> Any:
+    """A table 120 cm wide and 72 cm high, and a refrigerator 180 cm high that is scaled and mirrored."""
+    render = core.NodePath("render")
+    places = {"table": ((0, 0, 0), (120, 70, 72)), "refrigerator": ((200, 50, 0), (-60, 60, 180))}
+    for name, (place, size) in places.items():
+        path = attach(render, name)
+        path.set_pos(*place)
+        path.set_scale(*size)
+    return render
+
+
+def test_a_graph_in_centimetres_is_told_and_read_in_metres() -> None:
+    render = centimetres()
+    with pytest.warns(UnitWarning, match=r"unit_m=0\.01 \(metres per unit of the engine, centimetres\)"):
+        snapshot(render)
+    scene = snapshot(render, unit_m=0.01)
+    np.testing.assert_allclose(scene.object("table").bounds_m, [(0, 0, 0), (1.2, 0.7, 0.72)], atol=1e-6)
+    np.testing.assert_allclose(scene.object("refrigerator").bounds_m, [(1.4, 0.5, 0), (2, 1.1, 1.8)], atol=1e-6)
+    render.find("table").set_x(50)
+    for now in (poses(render, scene, unit_m=0.01), PoseReader(render, unit_m=0.01).read()):
+        assert now["table"].position_m == pytest.approx((0.5, 0, 0))
+        assert now["refrigerator"].position_m == pytest.approx((2, 0.5, 0))
+
+
+@pytest.mark.parametrize("unit_m", [0, -1.0, "cm"])
+def test_a_unit_that_is_no_length_is_refused(unit_m: Any) -> None:
+    with pytest.raises(SceneError, match="unit_m"):
+        snapshot(graph(), unit_m=unit_m)
+
+
 @pytest.mark.parametrize(("system", "axis"), [("y-up-left", "y"), ("y-up", "y"), ("z-up-left", "z"), ("z-up", "z")])
 def test_up_axis_is_that_of_the_engine(system: str, axis: str) -> None:
     page = core.load_prc_file_data("", f"coordinate-system {system}")
@@ -249,6 +280,37 @@ def test_inner_node_of_a_wrapper_is_followed() -> None:
     scene, moving = snapshot(render), nodes(render)
     render.find("holder").get_child(0).set_z(1.0)
     assert poses(moving, scene)["holder"].position_m[2] == pytest.approx(1.0)
+
+
+def test_nodes_of_ray_hits_belong_to_their_objects() -> None:
+    """A table in an entity, with a cup below it; two crates of one name, one of them at the origin; and no objects."""
+    render = core.NodePath("render")
+    entities = {}
+    for key, name, above in (("t", "table", None), ("c", "cup", "t"), ("k", "crate", None), ("l", "crate", None)):
+        entity = entities[key] = entities.get(above, render).attach_new_node(name)
+        attach(entity.attach_new_node("cube"), "mesh_geom")
+    entities["l"].set_x(3)
+    entities["c"].set_pos(0.2, 0.2, 1)
+    expected = {"t": "table", "c": "cup", "k": "crate", "l": "crate#2"}
+    reader = PoseReader(render)
+    assert reader.read().keys() == set(expected.values())
+    for key, object_id in expected.items():
+        collider = entities[key].attach_new_node(core.CollisionNode("collider"))  # also after the graph was read
+        drawn = entities[key].find("cube/mesh_geom")
+        for node in (entities[key], collider, collider.node(), drawn, drawn.get_parent(), drawn.node()):
+            assert reader.object_id(node) == object_id
+    assert reader.object_id(render.attach_new_node(core.CollisionNode("trigger zone"))) is None
+    assert reader.object_id(core.NodePath()) is None
+    for wrong in ("table", None):
+        with pytest.raises(SceneError, match="must be a NodePath or a PandaNode"):
+            reader.object_id(wrong)
+
+
+def test_instances_are_told_apart_by_their_paths() -> None:
+    render = graph()
+    reader, placed = PoseReader(render), nodes(render)
+    assert {reader.object_id(placed[key]) for key in ("cup", "holder")} == {"cup", "holder"}
+    assert reader.object_id(render.find("table/table_leg")) == "table"
 
 
 def test_removed_node_has_no_pose() -> None:
