@@ -79,6 +79,11 @@ def cheapest_arrivals(
         costs, _ = least_costs(price_per_m, sides, source_ids)
     else:
         (costs,) = deque(costs_by_hops(price_per_m, sides, source_ids, max_hops), maxlen=1)
+    return arrivals_of(price_per_m, sides, costs)
+
+
+def arrivals_of(price_per_m: Mapping[str, float], sides: Sides, costs: NDArray[np.float64]) -> dict[str, Arrivals]:
+    """Return the arrivals at every object that has a price, from the costs (n_sources, n_sides) over all sides."""
     # Contacts that every source reaches from within the object are never on a cheapest path into it. On a floor with a
     # thousand objects these are most contacts.
     with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan

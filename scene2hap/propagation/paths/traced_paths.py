@@ -8,7 +8,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.paths.prepared_paths import WITHIN, Sides, costs_by_hops, distances_m, least_costs
+from scene2hap.propagation.paths.prepared_paths import (
+    WITHIN,
+    Arrivals,
+    Sides,
+    arrivals_of,
+    costs_by_hops,
+    distances_m,
+    least_costs,
+)
 from scene2hap.scene.objects import Contact
 
 Point = tuple[float, float, float]
@@ -53,6 +61,11 @@ class TracedPaths:
             self._costs = self._by_hops[-1]
             self._before = np.argmax([costs <= self._costs * (1.0 + WITHIN) for costs in self._by_hops], axis=0)
         self._ways: dict[tuple[int, int, int], Way] = {}
+
+    def arrivals(self, source_ids: Sequence[str]) -> dict[str, Arrivals]:
+        """Return the arrivals of some sources at every object that has a price."""
+        rows = [self._rows[source_id] for source_id in source_ids]
+        return arrivals_of(self._price_per_m, self._sides, self._costs[rows])
 
     def entered(self, object_id: str, points_m: NDArray[np.floating]) -> NDArray[np.intp]:
         """Return the side over which each source arrives at points (n_points, 3) [m] of an object, -1 without a path.
