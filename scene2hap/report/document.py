@@ -26,7 +26,7 @@ from scene2hap.report.account import account_table
 from scene2hap.report.felt_map import MODELS, FeltMap, felt_map, prepared_session
 from scene2hap.report.felt_paths import ScenePaths
 from scene2hap.report.omitted_objects import left_out
-from scene2hap.report.sounds import pair
+from scene2hap.report.sounds import Pairs
 from scene2hap.report.surface_points import MOST_POINTS
 from scene2hap.report.walls import Direction, shells, walls
 from scene2hap.scene.objects import SceneObject
@@ -67,7 +67,8 @@ def document(
     scene_paths = ScenePaths(bundle)
     felt = felt_map(bundle, models, scene_paths=scene_paths, shells=whole, most_points=most_points)
     looks = {} if pictures is None else {item.id: item for item in pictures.objects}
-    objects = [_object(bundle, item, looks.get(item.id), meshes, hides) for item in scene.objects]
+    loops = Pairs()
+    objects = [_object(bundle, item, looks.get(item.id), meshes, loops, hides) for item in scene.objects]
     made = bundle.made_with
     return {
         "format": FORMAT,
@@ -85,6 +86,7 @@ def document(
         "warnings": [str(found) for found in scene.check()],
         "account": None if account is None else account_table(account),
         "meshes": _meshes(scene, meshes),
+        "loops": loops.shown,
         "objects": objects,
         "contacts": _contacts(bundle, scene_paths),
         "felt": _felt(felt),
@@ -97,6 +99,7 @@ def _object(
     item: SceneObject,
     looks: SceneObject | None,
     meshes: dict[str, int],
+    loops: Pairs,
     hides: Mapping[str, Direction | None],
 ) -> dict[str, Any]:
     haptics = bundle.objects.get(item.id)
@@ -113,7 +116,7 @@ def _object(
         "is_source": bool(bundle.loops.get(item.id)),
         "override": None if wish is None else _said(wish),
         "pictures": [] if looks is None or looks.images is None else _pictures(looks),
-        **(_NOTHING_INFERRED if haptics is None else _inferred(bundle, item, haptics)),
+        **(_NOTHING_INFERRED if haptics is None else _inferred(bundle, item, haptics, loops)),
     }
 
 
@@ -130,8 +133,7 @@ _NOTHING_INFERRED: Mapping[str, Any] = {
 }
 
 
-def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics) -> dict[str, Any]:
-    loops = bundle.loops.get(item.id, {})
+def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics, loops: Pairs) -> dict[str, Any]:
     return {
         "vibrates": haptics.vibrates,
         "category": haptics.object_category,
@@ -208,10 +210,10 @@ def _editable(bundle: HapticBundle, object_id: str, haptics: ObjectHaptics) -> d
     }
 
 
-def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Mapping[str, HapticLoop]) -> dict[str, Any]:
-    loop = loops.get(state.name)
+def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Pairs) -> dict[str, Any]:
+    loop = bundle.loops.get(object_id, {}).get(state.name)
     felt = None if loop is None or loop.felt is None else loop.felt
-    shown: dict[str, Any] = {
+    return {
         "name": state.name,
         "intensity": state.intensity,
         "sentence": state.sentence,
@@ -222,11 +224,8 @@ def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Mapp
         else {name: getattr(felt, name) for name in ("level_db", "asked_level_db", "own_hz", "target_hz")},
         "credit": "" if loop is None else _credit(loop),
         "choices": bundle.choices.get(object_id, {}).get(state.name, ""),
-        "sound": None,
-        "touch": None,
-        "spectrum": None,
+        "loop": None if loop is None else loops.number(loop),
     }
-    return shown if loop is None else {**shown, **pair(loop)}
 
 
 def _contacts(bundle: HapticBundle, scene_paths: ScenePaths) -> list[dict[str, Any]]:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.threshold import threshold_db
 from scene2hap.bundle import HapticBundle
 from scene2hap.propagation import MODELS as KNOWN
@@ -63,7 +64,7 @@ def felt_map(
         for patch in patches
         for x, y, z in patch.points_m
     ]
-    sources = tuple(bundle.loops)
+    sources, shares = tuple(bundle.loops), _shares(bundle)
     scene_paths = ScenePaths(bundle) if scene_paths is None else scene_paths
     levels: dict[str, dict[str, dict[str, NDArray[np.float32]]]] = {}
     paths: dict[str, dict[str, SourcePaths]] = {}
@@ -80,7 +81,7 @@ def felt_map(
                 ALL_BANDS: _level_db(whole[:, column].max(axis=1, initial=0.0), _felt_db(bundle, source)),
                 **{
                     band: _level_db(parts[:, column, k] * share, _felt_db(bundle, source))
-                    for k, (band, share) in enumerate(zip(_band_names(), _shares(bundle, source), strict=True))
+                    for k, (band, share) in enumerate(zip(_band_names(), shares[source], strict=True))
                 },
             }
             for column, source in enumerate(sources)
@@ -109,9 +110,16 @@ def _felt_db(bundle: HapticBundle, source: str) -> float:
     return 0.0 if loop.felt is None else loop.felt.level_db
 
 
-def _shares(bundle: HapticBundle, source: str) -> NDArray[np.float64]:
-    """Return the share of a source's felt amplitude in each band (n_bands,) [-], by loop and threshold of touch."""
-    clip = next(iter(bundle.loops[source].values())).tactile
+def _shares(bundle: HapticBundle) -> dict[str, NDArray[np.float64]]:
+    """Return the share of each source's felt amplitude in each band (n_bands,) [-], by loop and threshold of touch."""
+    clips = {source: next(iter(loops.values())).tactile for source, loops in bundle.loops.items()}
+    # Copies of an object share a loop.
+    of_samples = {id(clip.samples): clip for clip in clips.values()}
+    shares = {key: _shares_of(clip) for key, clip in of_samples.items()}
+    return {source: shares[id(clip.samples)] for source, clip in clips.items()}
+
+
+def _shares_of(clip: AudioClip) -> NDArray[np.float64]:
     power = np.abs(np.fft.rfft(clip.samples)) ** 2
     hz = np.fft.rfftfreq(len(clip.samples), 1.0 / clip.sample_rate_hz)
     felt = np.where(hz > 0.0, power * 10.0 ** (-threshold_db(np.maximum(hz, 1.0)) / 10.0), 0.0)
