@@ -60,22 +60,36 @@ class ScenePaths:
         if not isinstance(model, ExponentialPlate | NoPropagation | FullPropagation):
             return None
         traced = self.traced(model if isinstance(model, ExponentialPlate) else ExponentialPlate())
-        numbers: dict[str, dict[Path, int]] = {source: {} for source in self._sources}
-        codes: dict[str, list[NDArray[np.uint32]]] = {source: [] for source in self._sources}
-        for patch in patches:
-            for source, entered in zip(self._sources, traced.entered(patch.object_id, patch.points_m), strict=True):
-                sides, place = np.unique(entered, return_inverse=True)
-                ways: list[Path] = [(source,)] * len(sides)
-                if source != patch.object_id:
-                    ways = [_merged(traced.way(source, side).objects) if side >= 0 else () for side in sides.tolist()]
-                known = numbers[source]
-                of_sides = [known.setdefault(way, len(known)) + 1 if way else 0 for way in ways]
-                codes[source].append(np.array(of_sides, np.uint32)[place.reshape(-1)])
-        none = np.empty(0, np.uint32)
+        none = np.empty((len(self._sources), 0), np.intp)
+        entered = np.concatenate(
+            [none, *(traced.entered(patch.object_id, patch.points_m) for patch in patches)], axis=1
+        )
+        number = {patch.object_id: k for k, patch in enumerate(patches)}
+        of_points = np.repeat(np.arange(len(patches)), [len(patch.points_m) for patch in patches])
         return {
-            source: SourcePaths(tuple(numbers[source]), np.concatenate([none, *codes[source]]))
-            for source in self._sources
+            source: _numbered(traced, source, sides, of_points, number.get(source, -1))
+            for source, sides in zip(self._sources, entered, strict=True)
         }
+
+
+def _numbered(
+    traced: TracedPaths, source: str, sides: NDArray[np.intp], patches: NDArray[np.intp], own: int
+) -> SourcePaths:
+    """Number the paths of a source, patch by patch.
+
+    Parameters: sides, patches (n_points,) : the side over which the source enters each point's object, -1 without a
+    path, and the number of its patch; own : that of the source's patch, -1 without one.
+    """
+    n_each = int(sides.max(initial=0)) + 2
+    used, place = np.unique(patches * n_each + sides + 1, return_inverse=True)
+    on_source = (used // n_each == own).tolist()
+    ways = traced.objects(source, (used % n_each - 1).tolist())
+    numbers: dict[Path, int] = {}
+    codes = [
+        numbers.setdefault((source,) if is_own else way, len(numbers)) + 1 if way or is_own else 0
+        for way, is_own in zip(ways, on_source, strict=True)
+    ]
+    return SourcePaths(tuple(numbers), np.array(codes, np.uint32)[place.reshape(-1)])
 
 
 @dataclass(frozen=True)
@@ -95,12 +109,3 @@ class SearchedPlate:
     ) -> LiveLaw:
         """See `ExponentialPlate`."""
         return self.law.live(graph, bodies, excitations, bands)
-
-
-def _merged(objects: Path) -> Path:
-    """Leave out the objects between an object and a return to it."""
-    merged: list[str] = []
-    for passed in objects:
-        merged = merged[: merged.index(passed)] if passed in merged else merged
-        merged.append(passed)
-    return tuple(merged)
