@@ -101,10 +101,22 @@ class ExponentialPlate:
         Raises: ModelDomainError, warns: ThinPlateWarning, for an object outside the domain, if so configured.
         """
         require_input(network, excitations, bands)
-        price = self._prices(network.bodies, excitations, bands)
-        crossing = [self.crossing_cost(contact.weight) for contact in network.contacts]
+        costs = PathCosts.of(self, network.bodies, network.contacts)
         source_ids = tuple(excitation.source_id for excitation in excitations)
-        arrivals = cheapest_arrivals(price, network.contacts, crossing, source_ids, self.max_hops)
+        arrivals = cheapest_arrivals(
+            costs.price_per_m, network.contacts, costs.crossing_cost, source_ids, self.max_hops
+        )
+        return self.over(arrivals, network, excitations, bands)
+
+    def over(
+        self, arrivals: Mapping[str, Arrivals], network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands
+    ) -> ExponentialField:
+        """Return the field of a scene whose paths from the sources, in the order of `excitations`, are known.
+
+        Raises, warns: see `prepare`.
+        """
+        price = self._prices(network.bodies, excitations, bands)
+        source_ids = tuple(excitation.source_id for excitation in excitations)
         dominant = np.array([self.frequency_hz(item) for item in excitations])
         return ExponentialField(source_ids, arrivals, price, bands, dominant, self._floor)
 

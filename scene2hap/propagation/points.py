@@ -11,11 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.compiled import compiled
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.paths.prepared_paths import Arrivals, distances_m
+from scene2hap.propagation.paths.prepared_paths import Arrivals, nearest_entries
 from scene2hap.scene.pose import Pose
-
-_AT_ONCE = 2**20
-"""Most numbers of one array over points, sources and contacts: 8 MB. A map of a floor would need gigabytes."""
 
 
 def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
@@ -65,12 +62,11 @@ def arrivals_at(
     points = as_points(points_m, 3)
     costs = np.full((len(points), len(source_ids)), np.inf)
     if object_id in arrivals:
-        arrived = arrivals[object_id]
-        n_points = max(1, _AT_ONCE // max(1, arrived.costs.size))
-        for start in range(0, len(points), n_points):
-            part = slice(start, start + n_points)
-            within = price_per_m[object_id] * distances_m(points[part], arrived.points_m)
-            np.min(arrived.costs + within[:, None, :], axis=2, initial=np.inf, out=costs[part])
+        arrived, least = arrivals[object_id], np.empty((len(source_ids), len(points)))
+        entry = np.empty(least.shape, dtype=np.intp)
+        hops = np.zeros(arrived.costs.shape, dtype=np.intp)
+        nearest_entries(points, arrived.points_m, price_per_m[object_id], arrived.costs, hops, entry, least)
+        costs = np.ascontiguousarray(least.T)
     for column, source_id in enumerate(source_ids):
         if source_id == object_id:
             costs[:, column] = 0.0

@@ -17,20 +17,21 @@ from numpy.typing import NDArray
 from scene2hap import __version__
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle, Override
-from scene2hap.contact.graph import ContactGraph
 from scene2hap.counted import first_of
 from scene2hap.errors import UnknownMaterial
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.materials import Material, lookup
+from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.report.account import account_table
-from scene2hap.report.felt_map import MODELS, FeltMap, felt_map
+from scene2hap.report.felt_map import MODELS, FeltMap, felt_map, prepared_session
+from scene2hap.report.felt_paths import ScenePaths
 from scene2hap.report.omitted_objects import left_out
-from scene2hap.report.sounds import pair
+from scene2hap.report.sounds import Pairs
 from scene2hap.report.surface_points import MOST_POINTS
 from scene2hap.report.walls import Direction, shells, walls
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.session import HapticSession, Touch
+from scene2hap.session import Touch
 
 FORMAT, VERSION = "scene2hap/report", 1
 
@@ -63,9 +64,11 @@ def document(
     meshes: dict[str, int] = {}
     whole = shells(scene)
     hides: dict[str, Direction | None] = {**walls(scene, bundle.loops), **dict.fromkeys(whole)}
-    felt = felt_map(bundle, models, shells=whole, most_points=most_points)
+    scene_paths = ScenePaths(bundle)
+    felt = felt_map(bundle, models, scene_paths=scene_paths, shells=whole, most_points=most_points)
     looks = {} if pictures is None else {item.id: item for item in pictures.objects}
-    objects = [_object(bundle, item, looks.get(item.id), meshes, hides) for item in scene.objects]
+    loops = Pairs()
+    objects = [_object(bundle, item, looks.get(item.id), meshes, loops, hides) for item in scene.objects]
     made = bundle.made_with
     return {
         "format": FORMAT,
@@ -83,8 +86,9 @@ def document(
         "warnings": [str(found) for found in scene.check()],
         "account": None if account is None else account_table(account),
         "meshes": _meshes(scene, meshes),
+        "loops": loops.shown,
         "objects": objects,
-        "contacts": _contacts(bundle),
+        "contacts": _contacts(bundle, scene_paths),
         "felt": _felt(felt),
         "credits": _credits(bundle),
     }
@@ -95,6 +99,7 @@ def _object(
     item: SceneObject,
     looks: SceneObject | None,
     meshes: dict[str, int],
+    loops: Pairs,
     hides: Mapping[str, Direction | None],
 ) -> dict[str, Any]:
     haptics = bundle.objects.get(item.id)
@@ -111,7 +116,7 @@ def _object(
         "is_source": bool(bundle.loops.get(item.id)),
         "override": None if wish is None else _said(wish),
         "pictures": [] if looks is None or looks.images is None else _pictures(looks),
-        **(_NOTHING_INFERRED if haptics is None else _inferred(bundle, item, haptics)),
+        **(_NOTHING_INFERRED if haptics is None else _inferred(bundle, item, haptics, loops)),
     }
 
 
@@ -128,8 +133,7 @@ _NOTHING_INFERRED: Mapping[str, Any] = {
 }
 
 
-def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics) -> dict[str, Any]:
-    loops = bundle.loops.get(item.id, {})
+def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics, loops: Pairs) -> dict[str, Any]:
     return {
         "vibrates": haptics.vibrates,
         "category": haptics.object_category,
@@ -206,10 +210,10 @@ def _editable(bundle: HapticBundle, object_id: str, haptics: ObjectHaptics) -> d
     }
 
 
-def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Mapping[str, HapticLoop]) -> dict[str, Any]:
-    loop = loops.get(state.name)
+def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Pairs) -> dict[str, Any]:
+    loop = bundle.loops.get(object_id, {}).get(state.name)
     felt = None if loop is None or loop.felt is None else loop.felt
-    shown: dict[str, Any] = {
+    return {
         "name": state.name,
         "intensity": state.intensity,
         "sentence": state.sentence,
@@ -220,22 +224,18 @@ def _state(bundle: HapticBundle, object_id: str, state: SourceState, loops: Mapp
         else {name: getattr(felt, name) for name in ("level_db", "asked_level_db", "own_hz", "target_hz")},
         "credit": "" if loop is None else _credit(loop),
         "choices": bundle.choices.get(object_id, {}).get(state.name, ""),
-        "sound": None,
-        "touch": None,
-        "spectrum": None,
+        "loop": None if loop is None else loops.number(loop),
     }
-    return shown if loop is None else {**shown, **pair(loop)}
 
 
-def _contacts(bundle: HapticBundle) -> list[dict[str, Any]]:
+def _contacts(bundle: HapticBundle, scene_paths: ScenePaths) -> list[dict[str, Any]]:
     """Return the contacts, and the gain of the strongest source at each [dB], by the session's default model."""
-    contacts = ContactGraph(bundle.snapshot).contacts
+    contacts = scene_paths.contacts
     if not contacts:
         return []
     gains = np.zeros(len(contacts))
     if bundle.loops:
-        session = HapticSession(bundle, config={"actuator": bundle.actuator or "flat"}, hands=("hand",))
-        session.update()
+        session = prepared_session(bundle, ExponentialPlate(), scene_paths)
         touches = [Touch("hand", contact.b, contact.point_m) for contact in contacts]
         gains = session.would_feel(touches).max(axis=(1, 2), initial=0.0)
     return [

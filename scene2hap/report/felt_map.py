@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.threshold import threshold_db
 from scene2hap.bundle import HapticBundle
-from scene2hap.contact.graph import ContactGraph
-from scene2hap.report.felt_paths import SourcePaths, paths_of
+from scene2hap.propagation import MODELS as KNOWN
+from scene2hap.propagation.exponential_plate import ExponentialPlate
+from scene2hap.report.felt_paths import ScenePaths, SearchedPlate, SourcePaths
 from scene2hap.report.surface_points import MOST_POINTS, Patch, patches_of
 from scene2hap.session import HapticSession, Touch
 
@@ -46,13 +48,14 @@ def felt_map(
     bundle: HapticBundle,
     models: Sequence[Any] = MODELS,
     *,
+    scene_paths: ScenePaths | None = None,
     shells: frozenset[str] = frozenset(),
     most_points: int = MOST_POINTS,
 ) -> FeltMap:
     """Compute the levels that a hand would feel on each surface of a bundle's scene.
 
-    Parameters: models : kinds or settings of propagation models; shells : objects without points on the map;
-    most_points : most surface points in total.
+    Parameters: models : kinds or settings of propagation models; scene_paths : of the bundle, to search them once for
+    several uses; shells : objects without points on the map; most_points : most surface points in total.
     Raises: ConfigError: no such model. ModelDomainError: a model does not hold in this scene.
     """
     patches = patches_of([item for item in bundle.snapshot.objects if item.id not in shells], most_points)
@@ -61,16 +64,16 @@ def felt_map(
         for patch in patches
         for x, y, z in patch.points_m
     ]
-    sources = tuple(bundle.loops)
-    contacts = ContactGraph(bundle.snapshot).contacts
+    sources, shares = tuple(bundle.loops), _shares(bundle)
+    scene_paths = ScenePaths(bundle) if scene_paths is None else scene_paths
     levels: dict[str, dict[str, dict[str, NDArray[np.float32]]]] = {}
     paths: dict[str, dict[str, SourcePaths]] = {}
     for model in models:
         name = model if isinstance(model, str) else str(model.get("kind", "model"))
-        session = _session(bundle, model, None)
-        whole = session.would_feel(touches)
-        parts = _session(bundle, model, list(BAND_EDGES_HZ)).would_feel(touches)
-        ways = paths_of(bundle, session.config.propagation, contacts, patches)
+        built = KNOWN.build(model)
+        whole = prepared_session(bundle, built, scene_paths).would_feel(touches)
+        parts = prepared_session(bundle, built, scene_paths, bands=list(BAND_EDGES_HZ)).would_feel(touches)
+        ways = scene_paths.of(built, patches)
         if ways is not None:
             paths[name] = ways
         levels[name] = {
@@ -78,7 +81,7 @@ def felt_map(
                 ALL_BANDS: _level_db(whole[:, column].max(axis=1, initial=0.0), _felt_db(bundle, source)),
                 **{
                     band: _level_db(parts[:, column, k] * share, _felt_db(bundle, source))
-                    for k, (band, share) in enumerate(zip(_band_names(), _shares(bundle, source), strict=True))
+                    for k, (band, share) in enumerate(zip(_band_names(), shares[source], strict=True))
                 },
             }
             for column, source in enumerate(sources)
@@ -90,11 +93,11 @@ def felt_map(
     return FeltMap(patches, tuple(levels), (ALL_SOURCES, *sources), (ALL_BANDS, *_band_names()), levels, paths)
 
 
-def _session(bundle: HapticBundle, model: Any, edges_hz: list[float] | None) -> HapticSession:
+def prepared_session(bundle: HapticBundle, model: object, scene_paths: ScenePaths, **config: Any) -> HapticSession:
     """Return a session that plays the bundle with a model, after its field is prepared."""
-    config: dict[str, Any] = {"propagation": model, "prepare": "blocking", "actuator": bundle.actuator or "flat"}
-    if edges_hz is not None:
-        config["bands"] = edges_hz
+    # Of a subclass nothing is known: its fields may be others.
+    propagation = SearchedPlate(model, scene_paths) if type(model) is ExponentialPlate else model
+    config |= {"propagation": propagation, "prepare": "blocking", "actuator": bundle.actuator or "flat"}
     session = HapticSession(bundle, config=config, hands=("hand",))
     session.update()
     session.wait_prepared()
@@ -107,9 +110,16 @@ def _felt_db(bundle: HapticBundle, source: str) -> float:
     return 0.0 if loop.felt is None else loop.felt.level_db
 
 
-def _shares(bundle: HapticBundle, source: str) -> NDArray[np.float64]:
-    """Return the share of a source's felt amplitude in each band (n_bands,) [-], by loop and threshold of touch."""
-    clip = next(iter(bundle.loops[source].values())).tactile
+def _shares(bundle: HapticBundle) -> dict[str, NDArray[np.float64]]:
+    """Return the share of each source's felt amplitude in each band (n_bands,) [-], by loop and threshold of touch."""
+    clips = {source: next(iter(loops.values())).tactile for source, loops in bundle.loops.items()}
+    # Copies of an object share a loop.
+    of_samples = {id(clip.samples): clip for clip in clips.values()}
+    shares = {key: _shares_of(clip) for key, clip in of_samples.items()}
+    return {source: shares[id(clip.samples)] for source, clip in clips.items()}
+
+
+def _shares_of(clip: AudioClip) -> NDArray[np.float64]:
     power = np.abs(np.fft.rfft(clip.samples)) ** 2
     hz = np.fft.rfftfreq(len(clip.samples), 1.0 / clip.sample_rate_hz)
     felt = np.where(hz > 0.0, power * 10.0 ** (-threshold_db(np.maximum(hz, 1.0)) / 10.0), 0.0)

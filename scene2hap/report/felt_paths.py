@@ -6,18 +6,21 @@ since a source arrives over all paths at once.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.bundle import HapticBundle
+from scene2hap.contact.graph import ContactGraph
+from scene2hap.haptics import Bands
 from scene2hap.propagation.controls import FullPropagation, NoPropagation
-from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
+from scene2hap.propagation.exponential_plate import ExponentialField, ExponentialPlate, PathCosts
+from scene2hap.propagation.paths.live_law import LiveLaw
 from scene2hap.propagation.paths.traced_paths import TracedPaths
+from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation
 from scene2hap.report.surface_points import Patch
-from scene2hap.scene.objects import Contact
 from scene2hap.session.network import body_of
 
 Path = tuple[str, ...]
@@ -34,35 +37,75 @@ class SourcePaths:
     of_points: NDArray[np.uint32]
 
 
-def paths_of(
-    bundle: HapticBundle, model: object, contacts: Sequence[Contact], patches: Sequence[Patch]
-) -> dict[str, SourcePaths] | None:
-    """Return the paths by source; None for models in which a source arrives over all paths at once."""
-    if not isinstance(model, ExponentialPlate | NoPropagation | FullPropagation):
-        return None
-    sources = tuple(bundle.loops)
-    bodies = {key: body for key, haptics in bundle.objects.items() if (body := body_of(haptics)) is not None}
-    costs = PathCosts.of(model, bodies, contacts)
-    traced = TracedPaths(costs.price_per_m, contacts, costs.crossing_cost, sources, costs.max_hops)
-    numbers: dict[str, dict[Path, int]] = {source: {} for source in sources}
-    codes: dict[str, list[NDArray[np.uint32]]] = {source: [] for source in sources}
-    for patch in patches:
-        for source, entered in zip(sources, traced.entered(patch.object_id, patch.points_m), strict=True):
-            sides, place = np.unique(entered, return_inverse=True)
-            ways: list[Path] = [(source,)] * len(sides)
-            if source != patch.object_id:
-                ways = [_merged(traced.way(source, side).objects) if side >= 0 else () for side in sides.tolist()]
-            known = numbers[source]
-            of_sides = [known.setdefault(way, len(known)) + 1 if way else 0 for way in ways]
-            codes[source].append(np.array(of_sides, np.uint32)[place.reshape(-1)])
-    none = np.empty(0, np.uint32)
-    return {source: SourcePaths(tuple(numbers[source]), np.concatenate([none, *codes[source]])) for source in sources}
+class ScenePaths:
+    """The cheapest paths of a bundle's scene, searched once for each law: for levels in all bands, and as objects."""
+
+    def __init__(self, bundle: HapticBundle) -> None:
+        self.contacts = ContactGraph(bundle.snapshot).contacts
+        self._bodies = {key: body for key, haptics in bundle.objects.items() if (body := body_of(haptics)) is not None}
+        self._sources = tuple(bundle.loops)
+        self._traced: dict[ExponentialPlate, TracedPaths] = {}
+
+    def traced(self, law: ExponentialPlate) -> TracedPaths:
+        """Return the cheapest paths from all sources by a law."""
+        if law not in self._traced:
+            costs = PathCosts.of(law, self._bodies, self.contacts)
+            self._traced[law] = TracedPaths(
+                costs.price_per_m, self.contacts, costs.crossing_cost, self._sources, costs.max_hops
+            )
+        return self._traced[law]
+
+    def of(self, model: object, patches: Sequence[Patch]) -> dict[str, SourcePaths] | None:
+        """Return the paths by source; None for models in which a source arrives over all paths at once."""
+        if not isinstance(model, ExponentialPlate | NoPropagation | FullPropagation):
+            return None
+        traced = self.traced(model if isinstance(model, ExponentialPlate) else ExponentialPlate())
+        none = np.empty((len(self._sources), 0), np.intp)
+        entered = np.concatenate(
+            [none, *(traced.entered(patch.object_id, patch.points_m) for patch in patches)], axis=1
+        )
+        number = {patch.object_id: k for k, patch in enumerate(patches)}
+        of_points = np.repeat(np.arange(len(patches)), [len(patch.points_m) for patch in patches])
+        return {
+            source: _numbered(traced, source, sides, of_points, number.get(source, -1))
+            for source, sides in zip(self._sources, entered, strict=True)
+        }
 
 
-def _merged(objects: Path) -> Path:
-    """Leave out the objects between an object and a return to it."""
-    merged: list[str] = []
-    for passed in objects:
-        merged = merged[: merged.index(passed)] if passed in merged else merged
-        merged.append(passed)
-    return tuple(merged)
+def _numbered(
+    traced: TracedPaths, source: str, sides: NDArray[np.intp], patches: NDArray[np.intp], own: int
+) -> SourcePaths:
+    """Number the paths of a source, patch by patch.
+
+    Parameters: sides, patches (n_points,) : the side over which the source enters each point's object, -1 without a
+    path, and the number of its patch; own : that of the source's patch, -1 without one.
+    """
+    n_each = int(sides.max(initial=0)) + 2
+    used, place = np.unique(patches * n_each + sides + 1, return_inverse=True)
+    on_source = (used // n_each == own).tolist()
+    ways = traced.objects(source, (used % n_each - 1).tolist())
+    numbers: dict[Path, int] = {}
+    codes = [
+        numbers.setdefault((source,) if is_own else way, len(numbers)) + 1 if way or is_own else 0
+        for way, is_own in zip(ways, on_source, strict=True)
+    ]
+    return SourcePaths(tuple(numbers), np.array(codes, np.uint32)[place.reshape(-1)])
+
+
+@dataclass(frozen=True)
+class SearchedPlate:
+    """An `ExponentialPlate` whose prepared fields share one search of the scene's paths."""
+
+    law: ExponentialPlate
+    paths: ScenePaths
+
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ExponentialField:
+        """See `ExponentialPlate`; the network must be that of the paths."""
+        arrivals = self.paths.traced(self.law).arrivals([item.source_id for item in excitations])
+        return self.law.over(arrivals, network, excitations, bands)
+
+    def live(
+        self, graph: ContactGraph, bodies: Mapping[str, Body], excitations: Sequence[Excitation], bands: Bands
+    ) -> LiveLaw:
+        """See `ExponentialPlate`."""
+        return self.law.live(graph, bodies, excitations, bands)

@@ -34,7 +34,23 @@ _VIRIDIS = np.array(
 )
 
 
-def pair(loop: HapticLoop) -> dict[str, Any]:
+class Pairs:
+    """Sounds and tactile loops of states, each once, since copies of an object share theirs."""
+
+    def __init__(self) -> None:
+        self.shown: list[dict[str, Any]] = []
+        self._numbers: dict[tuple[int, int], int] = {}
+
+    def number(self, loop: HapticLoop) -> int:
+        """Return the number in `shown` of the loops of a state. Call it while a bundle holds them."""
+        key = id(loop.audible.samples), id(loop.tactile.samples)
+        if key not in self._numbers:
+            self._numbers[key] = len(self.shown)
+            self.shown.append(_pair(loop))
+        return self._numbers[key]
+
+
+def _pair(loop: HapticLoop) -> dict[str, Any]:
     """Return the sound and the tactile loop of a state, and the tactile spectrum with the threshold of touch."""
     return {
         "sound": _clip(loop.audible, SOUND_RATE_HZ, SOUND_TOP_HZ),

@@ -28,6 +28,10 @@ WITHIN = 1e-12
 """Relative error within which two sums of the same costs are equal."""
 
 
+_AT_ONCE = 256
+"""Points of one array over points and contacts: a map of a floor with a thousand objects would need gigabytes."""
+
+
 class Sides(NamedTuple):
     """The two sides of each contact, numbered 2 i on its object a and 2 i + 1 on b: side ^ 1 is the one across.
 
@@ -76,9 +80,14 @@ def cheapest_arrivals(
     """
     sides = Sides.of(contacts, crossing_cost)
     if max_hops is None:
-        costs, _ = least_costs(price_per_m, sides, source_ids)
+        costs = least_costs(price_per_m, sides, source_ids).costs
     else:
         (costs,) = deque(costs_by_hops(price_per_m, sides, source_ids, max_hops), maxlen=1)
+    return arrivals_of(price_per_m, sides, costs)
+
+
+def arrivals_of(price_per_m: Mapping[str, float], sides: Sides, costs: NDArray[np.float64]) -> dict[str, Arrivals]:
+    """Return the arrivals at every object that has a price, from the costs (n_sources, n_sides) over all sides."""
     # Contacts that every source reaches from within the object are never on a cheapest path into it. On a floor with a
     # thousand objects these are most contacts.
     with np.errstate(invalid="ignore"):  # a contact of weight 0 costs inf, and inf - inf is nan
@@ -92,19 +101,26 @@ def cheapest_arrivals(
     return arrivals
 
 
-def least_costs(
-    price_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str]
-) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Return the least cost (n_sources, n_sides) of arriving over each side, and the number of contacts of that path.
+class Found(NamedTuple):
+    """The cheapest paths from each source over each side; of paths of equal cost, those with the fewest contacts.
 
-    Of paths of equal cost, that with the fewest contacts counts. The number is 0 without a path.
+    costs (n_sources, n_sides) : infinite without a path; hops (n_sources, n_sides) : contacts on the path, 0 without
+    one; before (n_sources, n_sides) : the side entered before, meaningless for the first on a path.
     """
-    shape = (len(source_ids), len(sides.owner))
-    costs, hops, network = np.full(shape, np.inf), np.zeros(shape, dtype=np.intp), Network.of(price_per_m, sides)
+
+    costs: NDArray[np.float64]
+    hops: NDArray[np.intp]
+    before: NDArray[np.intp]
+
+
+def least_costs(price_per_m: Mapping[str, float], sides: Sides, source_ids: Sequence[str]) -> Found:
+    """Return the cheapest path from each source over each side."""
+    shape, network = (len(source_ids), len(sides.owner)), Network.of(price_per_m, sides)
+    found = Found(np.full(shape, np.inf), np.zeros(shape, dtype=np.intp), np.zeros(shape, dtype=np.intp))
     for row, source_id in enumerate(source_ids):
         if source_id in sides.by_object:
-            search(network, sides.by_object[source_id], costs[row], hops[row])
-    return costs, hops
+            search(network, sides.by_object[source_id], *(values[row] for values in found))
+    return found
 
 
 class Network(NamedTuple):
@@ -140,10 +156,16 @@ class Network(NamedTuple):
 
 
 @compiled
-def search(network: Network, out: NDArray[np.intp], costs: NDArray[np.float64], hops: NDArray[np.intp]) -> None:
-    """Enter the least costs and the numbers of contacts of all paths from one source into `costs` and `hops`.
+def search(
+    network: Network,
+    out: NDArray[np.intp],
+    costs: NDArray[np.float64],
+    hops: NDArray[np.intp],
+    before: NDArray[np.intp],
+) -> None:
+    """Enter the cheapest paths from one source into a row of `Found`, which is infinite and 0 before.
 
-    Parameters: out : the sides of the source; costs, hops (n_sides,) : infinite and 0 before.
+    Parameters: out : the sides of the source.
     """
     owner, own_sides, first, prices, leads_on, points_m, crossing = network
     costs[out ^ 1], hops[out ^ 1] = crossing[out // 2], 1
@@ -164,9 +186,36 @@ def search(network: Network, out: NDArray[np.intp], costs: NDArray[np.float64], 
             # line through another point. Otherwise a floor with a thousand objects would be searched from each.
             waiting[own[is_better & (within < costs[own] * (1.0 - WITHIN))]] = np.inf
             better = across[is_better]
-            costs[better], hops[better] = onward[is_better], n_hops
+            costs[better], hops[better], before[better] = onward[is_better], n_hops, side
             is_useful = leads_on[better] & ~(costs[better ^ 1] - crossed[is_better] <= costs[better])
             waiting[better[is_useful]] = costs[better[is_useful]]
+
+
+@compiled
+def nearest_entries(
+    points_m: NDArray[np.float64],
+    entries_m: NDArray[np.float64],
+    price_per_m: float,
+    costs: NDArray[np.float64],
+    hops: NDArray[np.intp],
+    found: NDArray[np.intp],
+    least: NDArray[np.float64],
+) -> None:
+    """Find the entry into an object on the cheapest path from each source to each point of it.
+
+    Parameters: points_m (n_points, 3), entries_m (n_entries, 3) [m]; costs, hops (n_sources, n_entries) : of the
+    cheapest path to each entry; found, least (n_sources, n_points) : set to the entry, -1 without a path, and to the
+    cost of the path, infinite without one. Of paths of equal cost, that with the fewest contacts counts.
+    """
+    found[:], least[:] = -1, np.inf
+    for start in range(0, len(points_m) if len(entries_m) else 0, _AT_ONCE):
+        part = slice(start, start + _AT_ONCE)
+        within = price_per_m * distances_m(points_m[part], entries_m)
+        for row in range(len(found)):
+            total = within + costs[row]
+            least[row, part] = lowest = total.min(axis=1)
+            best = np.where(total <= lowest[:, None] * (1.0 + WITHIN), hops[row], np.inf).argmin(axis=1)
+            found[row, part] = np.where(np.isfinite(lowest), best, -1)
 
 
 def costs_by_hops(

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.propagation.paths.prepared_paths import WITHIN, Sides, costs_by_hops, distances_m, least_costs
+from scene2hap.propagation.paths.prepared_paths import (
+    WITHIN,
+    Arrivals,
+    Sides,
+    arrivals_of,
+    costs_by_hops,
+    distances_m,
+    least_costs,
+    nearest_entries,
+)
 from scene2hap.scene.objects import Contact
 
 Point = tuple[float, float, float]
@@ -42,80 +51,96 @@ class TracedPaths:
     ) -> None:
         self._price_per_m, self._rows = price_per_m, {source_id: row for row, source_id in enumerate(source_ids)}
         self._sides = Sides.of(contacts, crossing_cost)
-        self._by_hops: list[NDArray[np.float64]] | None = None
-        # The number of contacts before each side on the cheapest path to it.
-        self._before: NDArray[np.intp]
         if max_hops is None:
-            self._costs, hops = least_costs(price_per_m, self._sides, source_ids)
-            self._before = hops - 1
+            self._costs, hops, self._side_before = least_costs(price_per_m, self._sides, source_ids)
+            # The number of contacts before each side on the cheapest path to it.
+            self._n_before: NDArray[np.intp] = hops - 1
         else:
             self._by_hops = list(costs_by_hops(price_per_m, self._sides, source_ids, max_hops))
             self._costs = self._by_hops[-1]
-            self._before = np.argmax([costs <= self._costs * (1.0 + WITHIN) for costs in self._by_hops], axis=0)
-        self._ways: dict[tuple[int, int, int], Way] = {}
+            self._n_before = np.argmax([costs <= self._costs * (1.0 + WITHIN) for costs in self._by_hops], axis=0)
+        self._is_limited = max_hops is not None
+
+    def arrivals(self, source_ids: Sequence[str]) -> dict[str, Arrivals]:
+        """Return the arrivals of some sources at every object that has a price."""
+        rows = [self._rows[source_id] for source_id in source_ids]
+        return arrivals_of(self._price_per_m, self._sides, self._costs[rows])
 
     def entered(self, object_id: str, points_m: NDArray[np.floating]) -> NDArray[np.intp]:
         """Return the side over which each source arrives at points (n_points, 3) [m] of an object, -1 without a path.
 
         Returns: (n_sources, n_points). A source is on itself without a path.
         """
-        own = self._sides.by_object.get(object_id)
-        found = np.full((len(self._rows), len(points_m)), -1, dtype=np.intp)
-        if own is None or object_id not in self._price_per_m:
-            return found
-        apart_m = distances_m(points_m.astype(np.float64), self._sides.points_m[own // 2])
-        within = self._price_per_m[object_id] * apart_m
-        for row in range(len(found)):
-            found[row] = self._cheapest(row, own, within)
-        return found
+        if object_id in self._sides.by_object and object_id in self._price_per_m:
+            return self._cheapest(object_id, points_m.astype(np.float64), self._price_per_m[object_id])
+        return np.full((len(self._rows), len(points_m)), -1, dtype=np.intp)
 
-    def _cheapest(self, row: int, own: NDArray[np.intp], within: NDArray[np.float64]) -> NDArray[np.intp]:
-        """Return which of an object's sides is the cheapest, given costs (n, n_sides) beyond each; -1 for none."""
-        total = within + self._costs[row, own]
-        least = total.min(axis=1, keepdims=True)
-        best = np.where(total <= least * (1.0 + WITHIN), self._before[row, own], np.inf).argmin(axis=1)
-        return np.where(np.isfinite(least[:, 0]), own[best], -1)
+    def _cheapest(self, object_id: str, points_m: NDArray[np.float64], price_per_m: float) -> NDArray[np.intp]:
+        """Return the side (n_sources, n_points) over which each source arrives at points of an object, -1 for none."""
+        own = self._sides.by_object[object_id]
+        found = np.empty((len(self._rows), len(points_m)), dtype=np.intp)
+        costs, n_before = self._costs.take(own, axis=1), self._n_before.take(own, axis=1)
+        nearest_entries(
+            points_m, self._sides.points_m[own // 2], price_per_m, costs, n_before, found, np.empty(found.shape)
+        )
+        return np.where(found >= 0, own[found], -1)
 
     def way_to(self, source_id: str, object_id: str) -> Way | None:
         """Return the cheapest way from a source to any point of an object, None without one."""
-        own = self._sides.by_object.get(object_id)
-        if own is None:
+        if object_id not in self._sides.by_object:
             return None
-        (side,) = self._cheapest(self._rows[source_id], own, np.zeros((1, len(own)))).tolist()
+        side = int(self._cheapest(object_id, np.zeros((1, 3)), 0.0)[self._rows[source_id], 0])
         return self.way(source_id, side) if side >= 0 else None
 
     def way(self, source_id: str, side: int) -> Way:
         """Return the cheapest way from a source to the object that it enters over a side."""
+        sides = [one for one, _ in self._back(source_id, side)][::-1]
+        owner, _, points_m, _ = self._sides
+        entries_m = tuple((x, y, z) for x, y, z in points_m[np.array(sides) // 2].tolist())
+        return Way((source_id, *(owner[one] for one in sides)), entries_m)
+
+    def objects(self, source_id: str, sides: Iterable[int]) -> list[tuple[str, ...]]:
+        """Return the objects from a source to each of some sides, without those between an object and a return to it.
+
+        Empty for -1.
+        """
+        owner = self._sides.owner
+        known: dict[tuple[int, int], tuple[str, ...]] = {}
+        found: list[tuple[str, ...]] = []
+        for side in sides:
+            passed: tuple[str, ...] = ()
+            if side >= 0:
+                pending, passed = [], (source_id,)
+                for node in self._back(source_id, side):
+                    if node in known:
+                        passed = known[node]
+                        break
+                    pending.append(node)
+                for node in reversed(pending):
+                    here = owner[node[0]]
+                    passed = passed[: passed.index(here) + 1] if here in passed else (*passed, here)
+                    known[node] = passed
+            found.append(passed)
+        return found
+
+    def _back(self, source_id: str, side: int) -> Iterator[tuple[int, int]]:
+        """Yield the sides on the cheapest path from a side back to a source, each with the contacts before it."""
         row = self._rows[source_id]
-        return self._way(row, source_id, side, int(self._before[row, side]))
+        n_before = int(self._n_before[row, side])
+        yield side, n_before
+        while (behind := self._sides.owner[side ^ 1]) != source_id:
+            if self._is_limited:
+                side, n_before = self._entry(row, side, behind, n_before), n_before - 1
+            else:
+                side = int(self._side_before[row, side])
+                n_before = int(self._n_before[row, side])
+            yield side, n_before
 
-    def _way(self, row: int, source_id: str, side: int, n_before: int) -> Way:
-        """Return the way to the owner of a side with at most `n_before` contacts before the last one."""
-        owner, by_object, points_m, _ = self._sides
-        pending: list[tuple[int, int]] = []
-        while (row, side, n_before) not in self._ways:
-            pending.append((side, n_before))
-            behind = owner[side ^ 1]
-            if behind == source_id:
-                break
-            entries = by_object[behind]
-            through_m = distances_m(points_m[[side // 2]], points_m[entries // 2])[0]
-            costs = self._costs_before(row, entries, n_before) + self._price_per_m[behind] * through_m
-            side, n_before = int(entries[costs.argmin()]), n_before - 1
-        way = self._ways.get((row, side, n_before), Way((source_id,)))
-        for side, n_before in reversed(pending):
-            x, y, z = points_m[side // 2].tolist()
-            way = self._ways[row, side, n_before] = Way((*way.objects, owner[side]), (*way.entries_m, (x, y, z)))
-        return way
-
-    def _costs_before(self, row: int, sides: NDArray[np.intp], n_hops: int) -> NDArray[np.float64]:
-        """Return the cost of arriving over sides with at most `n_hops` contacts, infinite without such a path."""
-        costs: NDArray[np.float64]
-        if self._by_hops is not None:
-            costs = self._by_hops[n_hops - 1][row, sides]
-        else:
-            costs = np.where(self._before[row, sides] < n_hops, self._costs[row, sides], np.inf)
-        return costs
+    def _entry(self, row: int, side: int, behind: str, n_hops: int) -> int:
+        """Return the side over which the cheapest path over at most `n_hops` contacts enters the object behind one."""
+        entries, points_m = self._sides.by_object[behind], self._sides.points_m
+        through_m = distances_m(points_m[[side // 2]], points_m[entries // 2])[0]
+        return int(entries[(self._by_hops[n_hops - 1][row, entries] + self._price_per_m[behind] * through_m).argmin()])
 
 
 class PathsToPoint:

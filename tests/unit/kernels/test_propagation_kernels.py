@@ -35,12 +35,46 @@ def test_kernels_find_the_same_costs_from_a_source(seed: int, on_grid: bool) -> 
     network, n_sides = Network.of(prices, sides), 2 * len(contacts)
     found = []
     for kernel in both("propagation.paths.prepared_paths.search"):
-        costs, hops = np.full(n_sides, np.inf), np.zeros(n_sides, dtype=np.intp)
-        kernel(network, sides.by_object.get("x0", np.empty(0, dtype=np.intp)), costs, hops)
-        found.append((costs, hops))
-    (plain, n_plain), (twin, n_twin) = found
-    assert twin.tolist() == plain.tolist()
-    assert n_twin.tolist() == n_plain.tolist()
+        costs, hops, before = np.full(n_sides, np.inf), np.zeros(n_sides, dtype=np.intp), np.zeros(n_sides, np.intp)
+        kernel(network, sides.by_object.get("x0", np.empty(0, dtype=np.intp)), costs, hops, before)
+        found.append((costs.tolist(), hops.tolist(), before.tolist()))
+    plain, twin = found
+    assert twin == plain
+    # Over the side before, each side costs what it is said to cost, and no more contacts.
+    costs, hops, before = twin
+    for side in range(n_sides):
+        if hops[side] > 1 and costs[side] < math.inf:
+            through = sides.owner[side ^ 1]
+            assert sides.owner[before[side]] == through
+            m = math.dist(points[before[side] // 2], points[side // 2])
+            cost = costs[before[side]] + prices[through] * m + sides.crossing[side // 2]
+            assert cost == pytest.approx(costs[side], rel=1e-11)
+            assert 0 < hops[before[side]] < hops[side]
+
+
+@steady
+@given(seed=seeds, on_grid=st.booleans(), n_entries=st.integers(0, 40))
+def test_kernels_find_the_same_entries_into_an_object(seed: int, on_grid: bool, n_entries: int) -> None:
+    rng = np.random.default_rng(seed)
+    points, entries = (
+        rng.integers(0, 4, (n, 3)).astype(float) if on_grid else rng.normal(size=(n, 3)) for n in (19, n_entries)
+    )
+    costs = rng.choice([0.0, 1.0, 2.0, math.inf], (3, n_entries)) if on_grid else rng.random((3, n_entries))
+    hops, price = rng.integers(0, 3, (3, n_entries)), float(rng.choice([0.0, 1.0]))
+    found = []
+    for kernel in both("propagation.paths.prepared_paths.nearest_entries"):
+        best, least = np.empty((3, 19), dtype=np.intp), np.empty((3, 19))
+        kernel(points, entries, price, costs, hops, best, least)
+        found.append((best.tolist(), least.tolist()))
+    (plain, lowest), twin = found
+    assert twin == (plain, lowest)
+    for row, chosen in enumerate(plain):
+        for point, entry, cost in zip(points, chosen, lowest[row], strict=True):
+            every = [c + price * math.dist(point, at) for c, at in zip(costs[row], entries, strict=True)]
+            least = min(every, default=math.inf)
+            equal = [k for k, cost in enumerate(every) if cost <= least * (1.0 + 1e-12) < math.inf]
+            assert cost == pytest.approx(least, rel=1e-12)
+            assert entry == (min(equal, key=lambda k: (hops[row, k], k)) if equal else -1)
 
 
 @steady

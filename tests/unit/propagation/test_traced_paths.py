@@ -118,6 +118,23 @@ def test_of_equal_paths_the_one_with_fewer_contacts_is_taken() -> None:
     assert traced.way("phone", side) == Way(("phone", "table"), ((0.0, 0.0, 0.0),))
 
 
+@pytest.mark.parametrize("max_hops", [None, 3])
+def test_objects_of_a_path_are_those_of_its_way_without_detours(max_hops: int | None) -> None:
+    """A steel bar on a rug: from the phone over rug, bar and rug to the cup."""
+    contacts = [
+        Contact("phone", "rug", (0.0, 0.0, 0.0)),
+        Contact("bar", "rug", (0.1, 0.0, 0.0)),
+        Contact("bar", "rug", (4.9, 0.0, 0.0)),
+        Contact("cup", "rug", (5.0, 0.0, 0.0)),
+    ]
+    traced = TracedPaths({"rug": 5.0, "bar": 0.1, "cup": 1.0}, contacts, [0.0] * 4, ("phone",), max_hops)
+    (on_rug,), (on_cup,) = (traced.entered(x, np.array([[5.0, 0.0, 0.0]]))[0].tolist() for x in ("rug", "cup"))
+    assert traced.way("phone", on_rug).objects == ("phone", "rug", "bar", "rug")
+    n_crossed = 4 if max_hops is None else 2  # with three contacts the cup is reached over the rug alone
+    assert len(traced.way("phone", on_cup).entries_m) == n_crossed
+    assert traced.objects("phone", [on_cup, -1, on_rug]) == [("phone", "rug", "cup"), (), ("phone", "rug")]
+
+
 def test_no_contact_and_no_source_give_no_path() -> None:
     traced = TracedPaths({"table": 1.0}, [], [], ("phone",), None)
     assert traced.entered("table", np.zeros((2, 3))).tolist() == [[-1, -1]]

@@ -66,7 +66,7 @@ def test_the_document_is_plain_data_with_sounds_that_play(kitchen: HapticBundle)
         "Poisson's ratio",
         "loss factor",
     ]
-    (state,) = fridge["states"]
+    state = found["loops"][fridge["states"][0]["loop"]]
     for name, seconds in (("sound", state["sound"]["seconds"]), ("touch", state["touch"]["seconds"])):
         data = base64.b64decode(state[name]["audio"].partition(",")[2])
         samples, rate = soundfile.read(io.BytesIO(data))
@@ -108,3 +108,21 @@ def test_the_command_writes_a_page(kitchen: HapticBundle, tmp_path: Path) -> Non
     assert page.startswith("<!")
     assert '"format":"scene2hap/report"' in page
     assert len(page) < 5_000_000
+
+
+def test_copies_of_an_object_share_their_sound_in_the_document() -> None:
+    """Three equal phones and a fan on a table: one phone's sound and the fan's."""
+    said = {"table": "oak table", "p1": "smartphone", "p2": "smartphone", "p3": "smartphone", "fan": "desk fan"}
+    scene = SceneSnapshot.build(
+        [
+            SceneObject(key, name, Pose((0.3 * i, 0.0 if key == "table" else 0.06, 0.0)), Box((0.15, 0.02, 0.08)))
+            for i, (key, name) in enumerate(said.items())
+        ],
+        name="room",
+    )
+    found = document(bake(scene), most_points=200)
+    shown = {item["id"]: found["loops"][item["states"][0]["loop"]] for item in found["objects"] if item["is_source"]}
+    assert set(shown) == {"p1", "p2", "p3", "fan"}
+    assert shown["p1"] is shown["p2"] is shown["p3"]
+    assert shown["p1"]["sound"] != shown["fan"]["sound"]
+    assert len(found["loops"]) == 2

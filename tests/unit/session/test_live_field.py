@@ -184,7 +184,7 @@ def test_many_points_are_felt_as_each_alone_with_one_field_for_a_scene(bands: Ba
     points = [
         Touch("left", name, (float(rng.uniform(0, 1.6)), 0.72, float(rng.uniform(0, 0.8))))
         for name in ("table", "phone", "cup", "block", "alarm")
-        for _ in range(20)
+        for _ in range(30)
     ]
 
     def moved() -> None:

@@ -36,6 +36,7 @@ export function readDocument(text) {
   if (data.version !== 1) {
     throw new Error(`The data of this page has version ${data.version}; this page reads version 1.`);
   }
+  for (const { states } of data.objects) for (const state of states) Object.assign(state, data.loops[state.loop]);
   const byId = new Map(data.objects.map((object) => [object.id, object]));
   const contactsOf = new Map(data.objects.map((object) => [object.id, []]));
   for (const contact of data.contacts) {
