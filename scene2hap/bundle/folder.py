@@ -165,6 +165,7 @@ def _read(folder: Path) -> BundleContents:
         choices = {
             key: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
             for key, states in rows.items()
+            if any("choice" in row for row in states.values())
         }
         _require_objects(loops, scene)
     for key in loops:
