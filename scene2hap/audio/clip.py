@@ -33,6 +33,10 @@ class Credit:
     query: str = ""
     origin: str = ""
 
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            checks.text(f"{name} of a credit", value, error=AudioError)
+
 
 MAX_SAMPLE_RATE_HZ = 1_000_000
 """Highest sample rate [Hz] (assumed: no recorder samples faster). It bounds the lengths of filters and seams."""
