@@ -164,6 +164,7 @@ def test_what_belongs_to_one_process_says_so(tmp_path: Path) -> None:
         (RecordingBackend(LexiconBackend(), tmp_path / "answers.jsonl"), "two processes would write to its file"),
         (Freesound(token=KEY), "counts the requests"),
         (TextToAudio(command=["make-sounds"]), "once at a time"),
+        (BakeConfig(llm="openai", max_cost_usd=2.0), "max_cost = 2 cannot .* spend as much again"),
     ):
         with pytest.raises(Scene2HapError, match=reason):
             pickle.dumps(made)
