@@ -246,6 +246,10 @@ async def arebake(
     _warn_of_weak(sounds.loops, sounds.remade, wishes)
     made_with = _made_with(config) if _all_are_known(sounds.loops) else None
     said = _as_recorded(said, sounds.loops, bundle.loops, wishes)
+    known = vain_corrections(bundle.objects, wishes)
+    for doubt in vain_corrections(said, wishes):
+        if doubt not in known:
+            warn_of(doubt, BundleWarning)
     return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
 
 

@@ -110,6 +110,16 @@ def test_a_name_of_which_nothing_is_known_brings_a_warning(tmp_path: Path) -> No
         bake(scene, overrides=named.overrides)
 
 
+def test_corrections_of_states_that_a_new_name_does_not_have_bring_a_warning() -> None:
+    scene = SceneSnapshot.build([SceneObject("fan", geometry=Box((0.3, 0.3, 0.4)))])
+    fan = rebake(bake(scene).override("fan", intensity={"on": 0.5}))
+    with pytest.warns(BundleWarning, match="'fan' has no state 'on', so that intensity has no effect. It has 'ring"):
+        phone = rebake(fan.override("fan", name="smartphone"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rebake(phone.override("fan", gain_db=-1.0))
+
+
 def test_an_object_whose_name_was_removed_from_the_file_is_inferred_as_before(tmp_path: Path) -> None:
     scene = SceneSnapshot.build([SceneObject("fan", geometry=Box((0.3, 0.3, 0.4)))])
     first = bake(scene)
