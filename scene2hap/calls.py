@@ -15,7 +15,7 @@ from types import FunctionType
 from typing import Any, NamedTuple, NoReturn, ParamSpec, TypeVar
 
 from scene2hap import checks
-from scene2hap.errors import CallError, ReadOnlyAttribute, UnknownAttribute, UnknownImport
+from scene2hap.errors import CallError, ReadOnlyAttribute, Scene2HapError, UnknownAttribute, UnknownImport
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
@@ -97,6 +97,22 @@ def read_only(cls: Class) -> Class:
 
     _set(cls, "__setattr__", refuse)
     return cls
+
+
+def not_pickled(error: type[Scene2HapError], reason: str) -> Callable[[Class], Class]:
+    """Decorate a class whose instances belong to one process, so that pickling or copying one raises `error`."""
+
+    def decorate(cls: Class) -> Class:
+        def refuse(self: object) -> NoReturn:
+            raise error(
+                f"a {type(self).__name__} cannot be copied or pickled: {reason}. Make it in the process that uses it; "
+                "its settings can be sent there."
+            )
+
+        _set(cls, "__reduce__", refuse)
+        return cls
+
+    return decorate
 
 
 def _frozen(earlier: Any) -> Any:

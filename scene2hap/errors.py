@@ -211,6 +211,9 @@ class DeviceTimeout(DeviceError, TimeoutError):
 def reason_of(cause: BaseException) -> str:
     """Return the reason of a caught error for a message that names the file.
 
-    The text of an OSError repeats the file and has a number: "[Errno 2] No such file or directory: 'a.csv'".
+    The text of an OSError repeats the file and has a number: "[Errno 2] No such file or directory: 'a.csv'". That of a
+    UnicodeDecodeError names a codec.
     """
+    if isinstance(cause, UnicodeDecodeError):
+        return f"byte {cause.start} is {cause.object[cause.start]:#04x}, which is not UTF-8; save the text as UTF-8"
     return cause.strerror if isinstance(cause, OSError) and cause.strerror else str(cause)

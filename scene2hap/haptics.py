@@ -134,6 +134,8 @@ class ObjectHaptics:
         ) -> None: ...
 
     def __post_init__(self) -> None:
+        for name in ("object_category", "material_category", "usage"):
+            checks.text(name, getattr(self, name), error=ConfigError)
         size = checks.vector("estimated_size_m", self.estimated_size_m, "m", size=3, at_least=0.0, error=ConfigError)
         if self.material is not None and size[2] <= 0.0:
             raise ConfigError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from typing import Any
 
 # Control characters (including C1 escapes, which can clear a terminal or set its title), line and paragraph separators,
@@ -35,6 +36,18 @@ def writable(text: str) -> str:
         return text
     # Two surrogates that form a pair are one character.
     return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "replace")
+
+
+def each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return the object of a JSON text, as `object_pairs_hook`: of two equal keys, Python would drop the first.
+
+    Raises: ValueError: a key is given twice.
+    """
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        twice = next(key for key, n in Counter(key for key, _ in pairs).items() if n > 1)
+        raise ValueError(f"the key {printable(twice)[:200]!r} is given twice in one object; remove one")
+    return found
 
 
 def read_json(text: str) -> Any:

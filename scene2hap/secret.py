@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import NoReturn
 
-from scene2hap.errors import ConfigError
+from scene2hap.errors import CallError, ConfigError
 from scene2hap.key_search import masked
 
 MASK = "******"
@@ -16,7 +15,10 @@ _SHORTEST_SCRUBBED = 16
 
 
 class Secret:
-    """A key that never appears in text. It is given, or read from an environment variable at each use."""
+    """A key that never appears in text. It is given, or read from an environment variable at each use.
+
+    A pickle has the name of the variable. Raises: CallError: a key that was given is to be pickled.
+    """
 
     __slots__ = ("_value", "variable")
 
@@ -34,8 +36,14 @@ class Secret:
     def __deepcopy__(self, memo: object) -> Secret:
         return self
 
-    def __reduce__(self) -> NoReturn:
-        raise TypeError("a service with a key is not pickled: the key would reach a file. Build it again instead.")
+    def __reduce__(self) -> tuple[type[Secret], tuple[None, str]]:
+        if self._value is None:
+            return Secret, (None, self.variable)
+        put = f"into the environment variable {self.variable}" if self.variable else "into an environment variable"
+        raise CallError(
+            "a service with a key cannot be pickled, since the key would reach a file or another process. Put the key "
+            f"{put}, where each process reads it, and give none; or make the service in each process."
+        )
 
     def reveal(self) -> str:
         """Return the key itself, "" if there is none.

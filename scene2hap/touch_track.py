@@ -117,9 +117,7 @@ class TouchTrack(BaseModel):
         try:
             super().__init__(**fields)
         except ValidationError as cause:
-            problem = checks.first_problem(cause)
-            place, reason = _place(problem.location), problem.reason
-            raise SessionError(f"{_TOUCHES}: {place}: {reason}. See docs/touches.md.") from cause
+            raise SessionError(f"{_TOUCHES}: {_sentence(checks.first_problem(cause))} See docs/touches.md.") from cause
 
     @model_validator(mode="after")
     def _in_order(self) -> TouchTrack:
@@ -158,6 +156,25 @@ class TouchTrack(BaseModel):
             raise SessionError(f"{name}{str(cause).removeprefix(_TOUCHES)}") from cause
 
 
+_WANTED = {
+    "float_parsing": "it must be a number with a decimal point",
+    "bool_parsing": "it must be true or false",
+    "extra_forbidden": "there is no such field in this step",
+    "union_tag_not_found": f"a step has one of the fields {', '.join(_ACTIONS)}",
+}
+"""Sentences for pydantic's kinds of problems, where pydantic's own do not say what to write."""
+
+
+def _sentence(problem: checks.Problem) -> str:
+    """Return place, reason and value of a problem, and that times are in seconds if one is out of bounds."""
+    field = str(problem.location[-1]) if problem.location else ""
+    wanted = "lift must be true" if field == "lift" else _WANTED.get(problem.kind, "")
+    is_whole = problem.kind == "value_error" or isinstance(problem.value, dict | list | tuple)
+    got = "" if is_whole else f", got {checks.shown(problem.value)}"
+    hint = " Times are in seconds." if field.endswith("_s") and problem.kind.startswith(("less_", "greater_")) else ""
+    return f"{_place(problem.location)}: {wanted or problem.reason}{got}.{hint}"
+
+
 def _place(location: tuple[int | str, ...]) -> str:
     """Return the place of an error in a file, in the user's terms: "step 3, point_m.1"."""
     if location[:1] == ("steps",) and len(location) > 1:
@@ -167,16 +184,30 @@ def _place(location: tuple[int | str, ...]) -> str:
 
 
 def _from_csv(text: str) -> dict[str, Any]:
-    """Parse a CSV file with a row per step. Empty cells are left out. A row with only time_s ends the track."""
+    """Parse a CSV file with a row per step. Empty cells are left out. A row with only time_s ends the track.
+
+    Programs of countries that write 0,5 separate the columns by semicolons or tabs.
+    """
     steps: list[dict[str, Any]] = []
-    rows = csv.DictReader(text.splitlines())
-    named = [name.strip() for name in rows.fieldnames or ()]
+    lines = text.splitlines()
+    rows = csv.reader(lines, delimiter=max(",;\t", key=lines[0].count) if lines else ",")
+    named = [name.strip() for name in next(rows, [])]
     if "time_s" not in named:
-        near = [f"; rename {name!r}" for name in named if checks.did_you_mean(name, ["time_s"])][:1]
+        near = [f"; name {name!r} time_s, and give seconds" for name in named if checks.did_you_mean(name, ["time_s"])]
         has = f"it names {', '.join(map(repr, named))}" if named else "the file is empty"
-        raise ValueError(f"the first row must name the columns, time_s among them; {has}{''.join(near)}")
+        raise ValueError(f"the first row must name the columns, time_s among them; {has}{''.join(near[:1])}")
+    twice = [name for place, name in enumerate(named) if name and name in named[:place]]
+    if twice:
+        raise ValueError(f"two columns are named {twice[0]!r}; remove one")
     for row in rows:
-        cells = {key.strip(): value.strip() for key, value in row.items() if key and value and value.strip()}
+        if any(cell.strip() for cell in row[len(named) :]):
+            raise ValueError(
+                f"line {rows.line_num} has {len(row)} cells for {len(named)} columns; quote texts with commas"
+            )
+        cells = {name: cell.strip() for name, cell in zip(named, row, strict=False) if name and cell.strip()}
+        if not cells:
+            continue
+        cells = {name: cell if name in _NAMES else cell.replace(",", ".") for name, cell in cells.items()}
         step: dict[str, Any] = {
             key: _TRUTH.get(value.lower(), value) for key, value in cells.items() if key not in _VECTOR_CELLS
         }
@@ -189,6 +220,7 @@ def _from_csv(text: str) -> dict[str, Any]:
     return {"duration_s": steps[-1]["time_s"], "steps": steps[:-1]}
 
 
+_NAMES = ("hand", "touch", "move", "source", "state")
 _TRUTH = {"true": True, "false": False}
 _VECTORS = {
     "point_m": ("x_m", "y_m", "z_m"),

@@ -276,6 +276,20 @@ MORE_TOPICS: dict[str, tuple[Mistake, ...]] = {
         mistake("SceneSnapshot.build(scene.objects, contacts=3)", "contacts", "3", "sequence"),
         mistake("ObjectHaptics('fan', 'steel', None, (1, 1, 1), '', True, None)", "states", "None", "sequence"),
         mistake("ObjectHaptics('fan', 'steel', None, (1, 1, 1), '', True, ['on'])", "states", "'on'", "SourceState("),
+        mistake("ObjectHaptics(['fan'], 'steel', None, (1, 1, 1), '', False)", "object_category", "'fan'", "text"),
+        mistake("ObjectHaptics('fan', np.array([1, 2]), None, (1, 1, 1), '', False)", "material_category", "text"),
+        mistake("Excitation(None, 50, 50)", "source_id", "None", "text"),
+        mistake("Credit(None, 'Ada', 'CC0')", "title", "None", "text"),
+        *(
+            mistake(
+                f"{model}().prepare(ContactNetwork({{}}), [], Bands.dominant()).attenuation(['table'], TOP)",
+                *("object_id", "'table'", "text"),
+            )
+            for model in ("ExponentialPlate", "ModalPlate", "NoPropagation")
+        ),
+        mistake("ContactNetwork({}).on_body(np.zeros(3), TOP)", "object_id", "text"),
+        mistake("session.update().gain('left', np.array(['fan', 'mug']))", "no source", "fan"),
+        mistake("session.update().gain(np.array(['left', 'right']), 'fan')", "no hand", "left"),
         mistake("ContactGraph(scene).update({}, added=3)", "added", "3", "sequence"),
         mistake("ContactGraph(scene).update({}, added=['mug 2'])", "added", "'mug 2'", "SceneObject"),
         mistake("ContactGraph(scene).update({}, removed=3)", "removed", "3", "sequence"),

@@ -33,6 +33,10 @@ class Credit:
     query: str = ""
     origin: str = ""
 
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            checks.text(f"{name} of a credit", value, error=AudioError)
+
 
 MAX_SAMPLE_RATE_HZ = 1_000_000
 """Highest sample rate [Hz] (assumed: no recorder samples faster). It bounds the lengths of filters and seams."""
@@ -44,6 +48,7 @@ class AudioClip:
     """A mono sound: float32 samples (n_samples,), nominally in [-1, 1].
 
     `is_vibration` marks a vibration signal, such as a hand-made haptic clip: it is looped whole and not converted.
+    Clips are equal if all of this is equal, sample by sample.
     Raises: AudioError: no samples, a value that is not finite, or a sample rate outside of 1 to
     `MAX_SAMPLE_RATE_HZ`.
     """
@@ -78,6 +83,18 @@ class AudioClip:
         samples.flags.writeable = False
         object.__setattr__(self, "samples", samples)
         object.__setattr__(self, "sample_rate_hz", int(rate))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, AudioClip):
+            return NotImplemented
+        return self is other or (self._about == other._about and np.array_equal(self.samples, other.samples))
+
+    def __hash__(self) -> int:
+        return hash(self._about)  # Hashing all samples would take milliseconds.
+
+    @property
+    def _about(self) -> tuple[object, ...]:
+        return len(self.samples), self.sample_rate_hz, self.credit, self.is_vibration
 
     def __repr__(self) -> str:
         return f"AudioClip({self.credit.title!r}, {self.duration_s:.3g} s, {self.sample_rate_hz} Hz)"

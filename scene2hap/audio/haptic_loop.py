@@ -72,7 +72,7 @@ def level_doubt(name: str, level_db: float, asked_level_db: float) -> str:
 
 
 @clear_construction
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class HapticLoop:
     """An audible and a tactile loop with the same seam, length and rate, so that they stay synchronous.
 
@@ -89,7 +89,7 @@ class HapticLoop:
     frequency_raw_hz: float
     frequency_tactile_hz: float
     source: AudioClip | None = None
-    fingerprint: Mapping[str, str] = field(default_factory=dict)
+    fingerprint: Mapping[str, str] = field(default_factory=dict, hash=False)
     felt: Sensation | None = None
     start_up: RunCurve | None = None
     wind_down: RunCurve | None = None

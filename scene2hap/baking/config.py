@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
 
@@ -51,6 +53,30 @@ class BakeConfig(InferenceConfig):
     actuator: Annotated[ActuatorProfile, BeforeValidator(actuator_profile)] = Field(default_factory=ActuatorProfile)
     spread: SpreadLimits = Field(default_factory=SpreadLimits)
     seed: int = 0
+
+    if TYPE_CHECKING:
+        # Type checkers do not know which other forms the validators accept.
+        def __init__(
+            self,
+            *,
+            concurrency: int = ...,
+            inference: Literal["eager", "lazy"] = ...,
+            materials: Literal["model", "table"] = ...,
+            share_copies: bool = ...,
+            share_scenes: bool = ...,
+            temperature: float = ...,
+            prompts: str | os.PathLike[str] | None = ...,
+            cache_dir: str | os.PathLike[str] | None = ...,
+            max_cost_usd: float | None = ...,
+            prices: Mapping[str, tuple[float, float] | tuple[float, float, float]] = ...,
+            llm: Any = ...,
+            audio: Any = ...,
+            enough_candidates: int = ...,
+            tactile: Any = ...,
+            actuator: ActuatorProfile | str | Path | Mapping[str, Any] = ...,
+            spread: SpreadLimits | Mapping[str, float] = ...,
+            seed: int = ...,
+        ) -> None: ...
 
     @field_validator("llm", mode="before")
     @classmethod

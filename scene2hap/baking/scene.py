@@ -219,8 +219,8 @@ async def arebake(
     silent = [key for key, wish in wishes.items() if wish.vibrates and not bundle.objects[key].vibrates]
     renamed = [
         key
-        for key, wish in wishes.items()
-        if wish.name is not None and bundle.objects[key].reasons.get("name") != _why_named(wish.name)
+        for key, haptics in bundle.objects.items()
+        if haptics.reasons.get("name") != _why_named(wishes.get(key, Override()).name)
     ]
     objects = [*objects, *renamed]
     again = list(dict.fromkeys([*objects, *silent]))
@@ -246,6 +246,10 @@ async def arebake(
     _warn_of_weak(sounds.loops, sounds.remade, wishes)
     made_with = _made_with(config) if _all_are_known(sounds.loops) else None
     said = _as_recorded(said, sounds.loops, bundle.loops, wishes)
+    known = vain_corrections(bundle.objects, wishes)
+    for doubt in vain_corrections(said, wishes):
+        if doubt not in known:
+            warn_of(doubt, BundleWarning)
     return replace(bundle, objects=said, loops=sounds.loops, choices=sounds.choices, made_with=made_with)
 
 
@@ -347,15 +351,22 @@ async def _infer(
     if on_report is not None:
         on_report(inference.report)
     return replace(
-        inference, objects={key: _as_named(said, wishes.get(key)) for key, said in inference.objects.items()}
+        inference, objects={key: _as_named(key, said, wishes.get(key)) for key, said in inference.objects.items()}
     )
 
 
-def _as_named(haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
-    """Note the name that a person gave an object, by which it was inferred."""
-    if wish is None or wish.name is None:
+def _as_named(object_id: str, haptics: ObjectHaptics, wish: Override | None) -> ObjectHaptics:
+    """Note the name that a person gave an object, by which it was inferred. Warns: BundleWarning: it is unknown."""
+    why = None if wish is None else _why_named(wish.name)
+    if wish is None or why is None:
         return haptics
-    return replace(haptics, reasons={**haptics.reasons, "name": _why_named(wish.name)})
+    if haptics.object_category.lower() in UNKNOWN:
+        warn_of(
+            f"nothing is known of {checks.shown(wish.name)}, the name that a person gave {object_id!r}; no material "
+            "and no vibration are inferred. Use a common noun, as 'washing machine', or infer it by a model (llm).",
+            BundleWarning,
+        )
+    return replace(haptics, reasons={**haptics.reasons, "name": why})
 
 
 def _renamed(scene: SceneSnapshot, wishes: Mapping[str, Override]) -> SceneSnapshot:
@@ -366,8 +377,8 @@ def _renamed(scene: SceneSnapshot, wishes: Mapping[str, Override]) -> SceneSnaps
     return replace(scene, objects=tuple(replace(item, name=names.get(item.id, item.name)) for item in scene.objects))
 
 
-def _why_named(name: str) -> str:
-    return f"a person calls it {name!r}."
+def _why_named(name: str | None) -> str | None:
+    return None if name is None else f"a person calls it {name!r}."
 
 
 def with_locked(folder: Path, overrides: Mapping[str, Override]) -> HapticBundle | None:

@@ -261,7 +261,9 @@ class _Maker:
             unchanged = dict(part.earlier.fingerprint) == fingerprint and runs_of(part.earlier) == part.runs
             return part.earlier if unchanged else _as_of(part, part.earlier, fingerprint), _UNCHANGED
         if key not in self._made:
-            self._made[key] = felt_loop(clip, self._config.tactile, plan)
+            made = felt_loop(clip, self._config.tactile, plan)
+            # Rounded as in the folder, so that a bundle equals the one that is read back, and plays on over it.
+            self._made[key] = replace(made, audible=as_stored(made.audible), tactile=as_stored(made.tactile))
         # A person's own clip is stored with the override. Without that override, another sound must be chosen.
         source = None if part.request["words"] == OWN_CLIP else clip
         return replace(_as_of(part, self._made[key], fingerprint), source=source), reasons

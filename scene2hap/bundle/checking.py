@@ -41,8 +41,8 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
     """Check sizes against the measured ones, corrected states, and that the scene can provide each needed contact.
 
     Raises: BundleError: a size that this object's plate cannot have.
-    Warns: BundleWarning: a state needs a contact that no object in the scene can provide; a correction of a state that
-    its object does not have.
+    Warns: BundleWarning: an object that does not vibrate has loops; a state needs a contact that no object in the scene
+    can provide; a correction of a state that its object does not have.
     """
     objects, scene = bundle.objects, bundle.snapshot
     categories = {item.id: "" for item in scene.objects} | {key: said.object_category for key, said in objects.items()}
@@ -53,6 +53,12 @@ def require_plausible(bundle: BundleContents, folder: Path) -> None:
             if wrong:
                 faults = "; ".join(f"{edge} is {why}" for edge, why in wrong.items())
                 raise BundleError(f"{folder / 'objects.json'}: {object_id}.estimated_size_m: {faults}.")
+        if bundle.loops.get(object_id) and not haptics.vibrates:
+            warn_of(
+                f"{folder / 'objects.json'}: {object_id!r} does not vibrate, but it has loops, which still play. "
+                f"Remove them: `scene2hap edit {folder} rebake`.",
+                BundleWarning,
+            )
         for doubt in unmet_needs(object_id, haptics.states, categories):
             warn_of(f"{object_id!r}: {doubt}.", BundleWarning)
     for doubt in vain_corrections(objects, bundle.overrides):

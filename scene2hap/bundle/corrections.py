@@ -18,7 +18,7 @@ from scene2hap.text_files import read_small_text
 
 FORMAT, VERSION = "scene2hap/overrides", 1
 FIELDS = frozenset(
-    {"vibrates", "gain_db", "material", "mass_kg", "feet", "state", "muted", "locked", "keep", *BY_STATE}
+    {"name", "vibrates", "gain_db", "material", "mass_kg", "feet", "state", "muted", "locked", "keep", *BY_STATE}
 )
 
 

@@ -48,6 +48,8 @@ def _said(bundle: BundleContents, object_id: str) -> Iterator[tuple[str, str]]:
     if haptics is not None:
         yield from _inferred(haptics)
     if wish is not None:
+        if wish.name is not None:
+            yield "name", wish.name
         yield "gain", f"{bundle.gain_db(object_id):+.1f} dB"
         yield "sound", wish.clip.credit.title if wish.clip is not None else "chosen"
         yield "locked", "yes" if wish.locked else "no"

@@ -26,6 +26,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
+from scene2hap.audio.clip import Credit
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.bundle.checking import warn_of_unknown_fields
 from scene2hap.bundle.contents import BundleContents
@@ -44,7 +45,7 @@ from scene2hap.bundle.own_files import (
     read_manifest,
     require_folder,
 )
-from scene2hap.bundle.sounds import SoundReader, file_stem, read_credit, write_loops
+from scene2hap.bundle.sounds import SoundReader, file_stem, write_loops
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, reason_of
 from scene2hap.file_stamp import Stamp
 from scene2hap.haptics import ObjectHaptics
@@ -165,6 +166,7 @@ def _read(folder: Path) -> BundleContents:
         choices = {
             key: {state: "\n".join(row["choice"]) for state, row in states.items() if "choice" in row}
             for key, states in rows.items()
+            if any("choice" in row for row in states.values())
         }
         _require_objects(loops, scene)
     for key in loops:
@@ -285,7 +287,7 @@ def _override(folder: Path, row: object) -> Override:
                 f"clip is {checks.represented(clip)}; it must be an object with file and credit. To choose a sound: "
                 "scene2hap edit BUNDLE sound ID FILE."
             )
-        read = read_clip(own_file(folder, clip["file"]), read_credit(clip["credit"]))
+        read = read_clip(own_file(folder, clip["file"]), Credit(**clip["credit"]))
         is_vibration = checks.flag("is_vibration", clip.get("is_vibration", False), error=BundleError)
         given["clip"] = replace(read, is_vibration=is_vibration)
     return Override(**given)

@@ -40,6 +40,7 @@ class HapticBundle(BundleContents):
 
     `overrides` are a person's corrections. `choices` give the reason for each chosen sound, as a table of its
     candidates in text, by id and state. `made_with` are the common settings of all loops, None if unknown.
+    Bundles are equal if all of their data are. A baked bundle equals the one that is loaded from its folder.
     """
 
     def override(

@@ -32,6 +32,8 @@ BY_STATE = ("intensity", "pitch_hz", *PASSAGES)
 """Fields with a number for each state."""
 
 _MOST_GAIN_DB = 60.0
+_LONGEST_NAME = 200
+"""Most characters of a name (assumed: three times the longest name that a designer gives; a model reads it)."""
 _PITCH_HZ = (10.0, 1000.0)
 """Frequencies that hands feel as a pitch; also the band of an actuator without a profile."""
 
@@ -86,8 +88,11 @@ class Override:
         for name in ("state", "name"):
             if getattr(self, name) is not None:
                 checks.text(name, getattr(self, name), error=BundleError)
-        if self.name is not None and not self.name.strip():
-            raise BundleError("name is empty; say what the object is, such as 'washing machine'.")
+        if self.name is not None and not 0 < len(self.name.strip()) <= _LONGEST_NAME:
+            raise BundleError(
+                f"name has {len(self.name.strip())} characters; it must have 1 to {_LONGEST_NAME}, and say what the "
+                "object is, such as 'washing machine'."
+            )
         if self.gain_db is not None:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             object.__setattr__(self, "gain_db", gain)

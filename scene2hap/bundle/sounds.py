@@ -71,7 +71,7 @@ class SoundReader:
 
     def loop(self, row: Mapping[str, Any]) -> HapticLoop:
         """Read one loop. Raises: AudioError: a sound cannot be used; BundleError: its file; KeyError, TypeError."""
-        credit = read_credit(row["credit"])
+        credit = Credit(**row["credit"])
         audible, tactile = (self._clip(row[kind], credit) for kind in ("audible", "tactile"))
         source = self._clip(row["source"], credit) if "source" in row else None
         fingerprint = row.get("fingerprint", {})
@@ -96,14 +96,6 @@ def file_stem(text: str) -> str:
     """Return a file name for any id. Ids with equal plain letters get different short digests."""
     plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
     return plain if plain == text else f"{plain or 'x'}-{_digest(text)}"
-
-
-def read_credit(fields: Mapping[str, Any]) -> Credit:
-    """Read the credit of a sound from the fields of a file. Raises: TypeError: a field is missing or is no text."""
-    credit = Credit(**fields)
-    if not all(isinstance(value, str) for value in asdict(credit).values()):
-        raise TypeError("'credit', which must be an object of texts")
-    return credit
 
 
 def _digest(text: str) -> str:

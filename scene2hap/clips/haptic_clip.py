@@ -52,6 +52,15 @@ class Curve:
     def __len__(self) -> int:
         return len(self.times_s)
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Curve):
+            return NotImplemented
+        pairs = (self.times_s, other.times_s), (self.values, other.values)
+        return self.power == other.power and all(np.array_equal(one, two) for one, two in pairs)
+
+    def __hash__(self) -> int:
+        return hash((tuple(self.times_s.tolist()), tuple(self.values.tolist()), self.power))
+
     def at(self, times_s: ArrayLike) -> Values:
         """Return the values (n,) at times (n,) [s]; at a jump the later one."""
         t = np.asarray(times_s, dtype=np.float64)
@@ -95,7 +104,7 @@ class About:
 
 
 @clear_construction
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class HapticClip:
     """A haptic clip: vibration as curves of amplitude and frequency over time, and pulses.
 
@@ -114,6 +123,8 @@ class HapticClip:
     about: About = field(default_factory=About)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "transients", tuple(self.transients))
+        object.__setattr__(self, "range_hz", tuple(self.range_hz))
         if not self.duration_s > 0.0:
             raise ClipError("the amplitude curve ends at 0 s; a clip must be longer than 0 s.")
         times = [one.time_s for one in self.transients]

@@ -20,6 +20,7 @@ from typing import Protocol, Self
 
 import numpy as np
 
+from scene2hap.calls import not_pickled
 from scene2hap.checks import represented
 from scene2hap.devices.due_frames import Pace
 from scene2hap.devices.exclusive_use import claim, give_back
@@ -92,6 +93,7 @@ class Line(Protocol):
         ...
 
 
+@not_pickled(DeviceError, "it has a thread and a device")
 class LiveSink:
     """An ActuatorSink on a `Line`.
 

@@ -19,7 +19,7 @@ from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.points import InRectangle, as_points
+from scene2hap.propagation.points import InRectangle, points_on
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 
@@ -42,6 +42,7 @@ class Excitation:
     mass_kg: float = 1.0
 
     def __post_init__(self) -> None:
+        checks.text("source_id", self.source_id, error=ModelDomainError)
         for name, unit in (("frequency_raw_hz", "Hz"), ("frequency_tactile_hz", "Hz"), ("mass_kg", "kg")):
             named = f"{name} of source {checks.represented(self.source_id)}"
             value = checks.number(
@@ -78,7 +79,8 @@ class ContactNetwork:
         Points beside a body are moved to its nearest edge, as if a rigid leg led there. A body without size does not
         move them.
         """
-        return self.placing(object_id)(as_points(points_m, 3))
+        points = points_on(object_id, points_m)
+        return self.placing(object_id)(points)
 
     def placing(self, object_id: str) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
         """Return the conversion of `on_body` for one body, as a function of points (n_points, 3), without checks."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
+import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
 from scene2hap import checks
@@ -28,10 +30,10 @@ def _bands(value: object) -> object:
     named = {"dominant": Bands.dominant, "around": lambda: AROUND, "third-octaves": Bands.third_octaves}
     if isinstance(value, Bands | Mapping):
         return value
-    if isinstance(value, list | tuple):
-        return Bands(tuple(value))
     if isinstance(value, str) and value in named:
         return named[value]()
+    if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes):
+        return Bands(value)
     near = checks.did_you_mean(value, named, "They are 'dominant', 'around' or 'third-octaves'.")
     raise ConfigError(f"bands are {checks.described(value)}; they must be Bands, rising edges [Hz], or a name. {near}")
 
@@ -102,6 +104,25 @@ class SessionConfig(Settings):
     actuator: Annotated[ActuatorProfile, BeforeValidator(actuator_profile)] = Field(default_factory=ActuatorProfile)
     skip: Annotated[SkipConfig, BeforeValidator(_skip)] = Field(default_factory=SkipConfig)
     impacts: bool = True
+
+    if TYPE_CHECKING:
+        # Type checkers do not know which other forms the validators accept.
+        def __init__(
+            self,
+            *,
+            propagation: Any = ...,
+            bands: Bands | Sequence[float] | Mapping[str, Any] | str = ...,
+            reference: Literal["source", "felt_near"] = ...,
+            prepare: Literal["background", "blocking"] = ...,
+            gain_limit_db: float | None = ...,
+            sample_rate_hz: int = ...,
+            tactile_rate_hz: int = ...,
+            control_period_s: float = ...,
+            watchdog_s: float = ...,
+            actuator: ActuatorProfile | str | Path | Mapping[str, Any] = ...,
+            skip: SkipConfig | bool | Mapping[str, bool] = ...,
+            impacts: bool = ...,
+        ) -> None: ...
 
     @model_validator(mode="after")
     def _bands_of_the_model(self) -> Self:

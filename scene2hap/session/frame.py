@@ -76,9 +76,9 @@ class HapticFrame:
 
         Raises: SessionError: no such hand; UnknownObject: no such source.
         """
-        if hand not in self.hands:
+        if not isinstance(hand, str) or hand not in self.hands:  # an array would be compared element by element
             raise SessionError(unknown_hand(hand, self.hands))
-        if source_id not in self.sources:
+        if not isinstance(source_id, str) or source_id not in self.sources:
             raise UnknownObject(unknown_source(source_id, self.sources))
         return float(self.gains[self.hands.index(hand), self.sources.index(source_id)].max())
 

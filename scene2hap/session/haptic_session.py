@@ -283,6 +283,7 @@ class HapticSession:
         if haptics is None and loops is None:
             haptics, loops = self._bundle.objects.get(object.id), self._bundle.loops.get(object.id)
         self._put(object, haptics, loops or {}, self._bundle, object.id)
+        self._mistakes.in_added(object.id, haptics, loops or {})
 
     def spawn(self, prefab: HapticBundle, object_id: str, pose: Pose) -> None:
         """Add a copy of a prefab, which is a bundle of one object, as `bake_object` makes it.
@@ -294,8 +295,9 @@ class HapticSession:
         require_prefab(prefab, pose)
         (original,) = prefab.snapshot.objects
         copy = replace(original, id=object_id, name=object_id, pose=pose)
-        loops = prefab.loops.get(original.id, {})
-        self._put(copy, prefab.objects.get(original.id), loops, prefab, original.id)
+        haptics, loops = prefab.objects.get(original.id), prefab.loops.get(original.id, {})
+        self._put(copy, haptics, loops, prefab, original.id)
+        self._mistakes.in_added(object_id, haptics, loops)
 
     def use_bundle(self, bundle: HapticBundle) -> None:
         """Play a corrected bundle of the same scene: loops that differ are cross-faded, levels change at once.
@@ -632,7 +634,6 @@ class HapticSession:
             self._sources.add(item.id, loops, haptics, gain_db, is_muted=muted)
             self._playback.change_rows(self._sources.rows(), self._now)
         self._hand_frames.apply(change, sources_changed=bool(loops))
-        self._mistakes.in_added(item.id, haptics, loops)
 
     def _exchange(self, object_id: str) -> None:
         """Replace the data of an object by the bundle's present data, at the same pose."""

@@ -7,12 +7,24 @@ import pickle
 import traceback
 from base64 import b32encode, b64encode, encodebytes, urlsafe_b64encode
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
 import pytest
 
-from scene2hap.errors import ConfigError
+from scene2hap import (
+    BakeConfig,
+    LexiconBackend,
+    LocalBackend,
+    OpenAIBackend,
+    RecordingBackend,
+    SerialAmplifierSink,
+    UdpSink,
+)
+from scene2hap.audio.sources.freesound import Freesound
+from scene2hap.audio.sources.text_to_audio import TextToAudio
+from scene2hap.errors import CallError, ConfigError, Scene2HapError
 from scene2hap.secret import MASK, Secret
 
 KEY = "sk-0123456789abcdef"
@@ -119,11 +131,43 @@ def test_short_keys_are_not_masked_in_answers() -> None:
     assert Secret("lm-studio").scrub("made by lm-studio") == "made by lm-studio"
 
 
-def test_a_secret_is_not_pickled_but_may_be_copied() -> None:
-    secret = Secret(KEY)
-    with pytest.raises(TypeError, match="not pickled"):
+@pytest.mark.parametrize("variable", ["", "OPENAI_API_KEY"])
+def test_a_given_key_is_not_pickled_but_may_be_copied(variable: str) -> None:
+    secret = Secret(KEY, variable)
+    with pytest.raises(CallError, match=f"environment variable {variable}".rstrip()) as caught:
         pickle.dumps(secret)
+    assert KEY not in str(caught.value)
     assert copy.deepcopy(secret) is secret
+
+
+def test_backends_are_pickled_without_the_key_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A sweep sends its settings to worker processes, and each reads the key from its own environment."""
+    monkeypatch.setenv("OPENAI_API_KEY", KEY)
+    for made in (
+        OpenAIBackend("gpt-4o", top_p=0.5),
+        LocalBackend("llama3", base_url="http://localhost:11434/v1"),
+        BakeConfig(llm={"kind": "openai", "model": "gpt-4o"}),
+    ):
+        pickled = pickle.dumps(made)
+        assert KEY.encode() not in pickled
+        assert repr(pickle.loads(pickled)) == repr(made)
+    assert pickle.loads(pickle.dumps(Secret(None, "OPENAI_API_KEY"))).reveal() == KEY
+    for with_key in (OpenAIBackend(api_key=KEY), LocalBackend("a", base_url="http://localhost:1/v1", api_key=KEY)):
+        with pytest.raises(CallError, match="a service with a key cannot be pickled"):
+            pickle.dumps(with_key)
+
+
+def test_what_belongs_to_one_process_says_so(tmp_path: Path) -> None:
+    for made, reason in (
+        (UdpSink(), "a UdpSink cannot be copied or pickled: it has a thread and a device"),
+        (SerialAmplifierSink("/dev/ttyACM0"), "a SerialAmplifierSink cannot"),
+        (RecordingBackend(LexiconBackend(), tmp_path / "answers.jsonl"), "two processes would write to its file"),
+        (Freesound(token=KEY), "counts the requests"),
+        (TextToAudio(command=["make-sounds"]), "once at a time"),
+        (BakeConfig(llm="openai", max_cost_usd=2.0), "max_cost = 2 cannot .* spend as much again"),
+    ):
+        with pytest.raises(Scene2HapError, match=reason):
+            pickle.dumps(made)
 
 
 def test_invalid_key_is_not_in_local_variables_of_the_traceback() -> None:

@@ -49,6 +49,18 @@ def test_json_and_csv_give_the_same_track(tmp_path: Path) -> None:
     assert TouchTrack.load(tmp_path / "touches.json") == TouchTrack.load(tmp_path / "touches.csv")
 
 
+def test_csv_of_a_spreadsheet_in_a_country_of_decimal_commas(tmp_path: Path) -> None:
+    """As Excel saves it in German: a byte-order mark, semicolons, decimal commas, upper-case truth, empty last rows."""
+    (tmp_path / "touches.json").write_text(json.dumps(DOCUMENT))
+    german = CSV.replace(",", ";").replace(".", ",").replace("true", "TRUE") + ";" * 13 + "\n"
+    for text in (german, german.replace(";", "\t")):
+        (tmp_path / "touches.csv").write_text(text, "utf-8-sig", newline="\r\n")
+        assert TouchTrack.load(tmp_path / "touches.csv") == TouchTrack.load(tmp_path / "touches.json")
+    (tmp_path / "touches.csv").write_text("time_s,hand,touch\n0.5,left,Küche\n1.0,,\n", "cp1252")
+    with pytest.raises(SessionError, match="byte 28 is 0xfc, which is not UTF-8; save the text as UTF-8"):
+        TouchTrack.load(tmp_path / "touches.csv")
+
+
 @pytest.mark.parametrize(("duration_s", "update_rate_hz"), [(1.5, 1.0), (1.0, 3.0), (1.4, 3.0), (0.504, 100.0)])
 def test_a_track_is_played_to_its_end(duration_s: float, update_rate_hz: float) -> None:
     sink = MemorySink()
@@ -131,10 +143,19 @@ def test_file_that_is_not_a_track_is_refused(tmp_path: Path, name: str, text: st
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("time,hand,touch\n0.5,left,cup\n1.0,,\n", "it names 'time', 'hand', 'touch'; rename 'time'"),
+        ("time,hand,touch\n0.5,left,cup\n1.0,,\n", "it names 'time', 'hand', 'touch'; name 'time' time_s"),
         ("0.5,left,cup\n1.0,,\n", "must name the columns, time_s among them; it names '0.5', 'left', 'cup'"),
         ("", "the file is empty"),
         ("time_s,hand\n1.0,left\n", "the last row must hold time_s alone"),
+        ("time_ms,hand,touch\n500,left,cup\n900,,\n", "name 'time_ms' time_s, and give seconds"),
+        ("time_s,hand,touch\n500,left,cup\n1500,,\n", "duration_s: .*equal to 600, got '1500'. Times are in seconds"),
+        ("time_s;source;on\n0,5;fan;WAHR\n1;;\n", "step 1, on: it must be true or false, got 'WAHR'"),
+        ("time_s,hand,lift\n0.5,left,VRAI\n1,,\n", "step 1: lift must be true, got 'VRAI'"),
+        ("time_s,hand,touch\n0.5 s,left,cup\n1,,\n", "time_s: it must be a number with a decimal point, got '0.5 s'"),
+        ("time_s,hand,touch\n0.5,left,\n1,,\n", "step 1: a step has one of the fields touch, lift, move, source"),
+        ("time_s,hand,touch,x\n0.5,left,cup,3\n1,,,\n", "step 1, x: there is no such field in this step, got '3'"),
+        ("time_s,hand,touch\n0.5,left,cup,0.3\n1,,\n", "line 2 has 4 cells for 3 columns"),
+        ("time_s,hand,touch,touch\n0.5,left,cup,pan\n1,,,\n", "two columns are named 'touch'"),
     ],
 )
 def test_csv_without_its_columns_or_end_says_so(tmp_path: Path, text: str, sentence: str) -> None:

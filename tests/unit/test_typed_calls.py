@@ -20,6 +20,7 @@ import scene2hap
 from scene2hap import (
     ActuatorProfile,
     AudioClip,
+    BakeConfig,
     Bands,
     Box,
     Contact,
@@ -33,12 +34,14 @@ from scene2hap import (
     RigidBody,
     SceneObject,
     SceneSnapshot,
+    SessionConfig,
     SourceState,
     Touch,
     TriMesh,
     bake,
 )
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
+from scene2hap.session.config import SkipConfig
 
 SINGLE: NDArray[np.float32] = np.array([0.5, 0.25, 0.125], dtype=np.float32)
 EXACT = (0.5, 0.25, 0.125)
@@ -83,6 +86,31 @@ def test_tables_are_arrays_of_any_type_or_lists() -> None:
     assert Plate(1.0, 0.5, 0.02, "oak") == Plate(1, 0.5, np.float64(0.02), scene2hap.materials.lookup("oak"))
     rings = SourceState("on", 0.5, "A phone buzzes.", "phone buzzing")
     assert ObjectHaptics("phone", "steel", None, EXACT, "", True, [rings]).states == (rings,)
+
+
+def test_settings_are_names_fields_or_instances(tmp_path: Path) -> None:
+    lra = ActuatorProfile("lra", 130.0, 230.0, 175.0, 12.0)
+    measured = tmp_path / "own.csv"
+    measured.write_text("100,-3\n175,0\n", encoding="utf-8")
+    octaves: list[int] = [10, 20, 40]
+    for bands in (octaves, (10, 20.0, 40), np.array([10.0, 20.0, 40.0]).tolist(), range(10, 41, 10)):
+        assert SessionConfig(bands=bands).bands == Bands(bands)
+    assert SessionConfig(bands="around").bands == Bands.dominant(octaves=0.5)
+    assert SessionConfig(bands=Bands(octaves), actuator=lra, skip=False).skip == SkipConfig(
+        **dict.fromkeys(SkipConfig.model_fields, False)
+    )
+    for actuator in ("lra", {"name": "lra"} | fields_of(lra), lra):
+        assert SessionConfig(actuator=actuator, skip={"idle_hands": False}).actuator == lra
+        assert BakeConfig(actuator=actuator, cache_dir=str(tmp_path), spread={"octaves": 0.0}).actuator == lra
+    by_text, by_path = SessionConfig(actuator=str(measured)), BakeConfig(actuator=measured, prompts=tmp_path)
+    assert by_text.actuator == by_path.actuator
+    kept: Path | None = BakeConfig(cache_dir="kept", prices={"small": (0.1, 0.4)}).cache_dir
+    assert kept == Path("kept")
+
+
+def fields_of(actuator: ActuatorProfile) -> dict[str, Any]:
+    names = ("min_frequency_hz", "max_frequency_hz", "resonance_hz", "q")
+    return {name: getattr(actuator, name) for name in names}
 
 
 class EngineMesh:
@@ -177,5 +205,8 @@ def test_declared_constructors_have_the_parameters_of_the_class(
     arguments = declared.args.args[1:]
     n_required = len(arguments) - len(declared.args.defaults)
     given = [(one.arg, place >= n_required) for place, one in enumerate(arguments)]
-    parameters = inspect.signature(getattr(import_module(module), name)).parameters.values()
+    by_name = zip(declared.args.kwonlyargs, declared.args.kw_defaults, strict=True)
+    given += [(one.arg, default is not None) for one, default in by_name]
+    of_class = inspect.signature(getattr(import_module(module), name)).parameters.values()
+    parameters = [one for one in of_class if one.kind is not one.VAR_POSITIONAL]  # that of settings only refuses
     assert given == [(one.name, one.default is not inspect.Parameter.empty) for one in parameters]

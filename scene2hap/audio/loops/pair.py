@@ -105,9 +105,11 @@ def loop_pair(
     if not is_noise(peak, float(np.abs(tactile).max()), is_chosen=follows_anchor(converter, context)):
         felt = _with_peak(tactile, intensity * 10 ** (-TACTILE_HEADROOM_DB / 20))
         felt = felt if finish is None else finish(felt)
+    # `is_vibration` decides how a clip is looped; a bundle does not store it for loops.
+    cut = replace(clip, is_vibration=False)
     return HapticLoop(
-        replace(clip, samples=_with_peak(audible, 10 ** (AUDIBLE_PEAK_DBFS / 20))),
-        replace(clip, samples=felt),
+        replace(cut, samples=_with_peak(audible, 10 ** (AUDIBLE_PEAK_DBFS / 20))),
+        replace(cut, samples=felt),
         analysis.dominant_frequency_hz(audible, rate, range_hz=AUDIBLE_RANGE_HZ),
         analysis.dominant_frequency_hz(felt, rate),
     )

@@ -20,6 +20,9 @@ class Pace:
     def __init__(self) -> None:
         self._open_at_s = 0.0
 
+    def __reduce__(self) -> tuple[type[Pace], tuple[()]]:
+        return Pace, ()  # the clock of another machine has another zero
+
     async def wait(self) -> None:
         """Wait until the server accepts requests."""
         while (left_s := self._open_at_s - time.monotonic()) > 0.0:

@@ -17,7 +17,7 @@ from typing import Any, BinaryIO
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap import checks
-from scene2hap.calls import clear_construction
+from scene2hap.calls import clear_construction, not_pickled
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
@@ -95,6 +95,7 @@ class ReplayBackend:
         )
 
 
+@not_pickled(ConfigError, "two processes would write to its file at once")
 @clear_construction
 class RecordingBackend(Wrapper):
     """Pass requests on to `inner`, and write each answer to a file before returning it.

@@ -44,6 +44,15 @@ class BudgetBackend(Wrapper):
         self._cost = 0.0
         self._unpriced: set[str] = set()
 
+    def __getstate__(self) -> dict[str, Any]:
+        for name, limit in self._limits.items():
+            if limit is not None:
+                raise ConfigError(
+                    f"a BudgetBackend with max_{name} = {limit:g} cannot be copied or pickled: each copy could spend "
+                    "as much again. Make one in each process, with its share of the limit."
+                )
+        return vars(self)
+
     @property
     def cost(self) -> float | None:
         """Cost of the answers so far; None once an answer had no usage or its model no price."""

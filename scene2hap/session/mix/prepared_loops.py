@@ -13,7 +13,7 @@ from collections import OrderedDict
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
-from weakref import WeakKeyDictionary, WeakValueDictionary
+from weakref import WeakValueDictionary, finalize
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +42,8 @@ class PreparedLoop:
 _Kind = tuple[Bands, int]
 _LOCK = lock_of_process()
 _BUILDING = lock_of_process()
-_OF_CLIP: WeakKeyDictionary[AudioClip, dict[_Kind, PreparedLoop]] = WeakKeyDictionary()
+# By id(clip): comparing samples would take too long for `find`, and an equal clip may die before this one.
+_OF_CLIP: dict[int, dict[_Kind, PreparedLoop]] = {}
 _BY_CONTENT: WeakValueDictionary[tuple[bytes, _Kind], PreparedLoop] = WeakValueDictionary()
 _NEWEST: OrderedDict[tuple[bytes, _Kind], PreparedLoop] = OrderedDict()
 
@@ -50,7 +51,7 @@ _NEWEST: OrderedDict[tuple[bytes, _Kind], PreparedLoop] = OrderedDict()
 def find(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop | None:
     """The prepared loop of this clip, None if it is not ready; does no work."""
     with _LOCK:
-        return _OF_CLIP.get(clip, {}).get((bands, tactile_rate_hz))
+        return _OF_CLIP.get(id(clip), {}).get((bands, tactile_rate_hz))
 
 
 def prepare(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop:
@@ -63,7 +64,9 @@ def prepare(clip: AudioClip, bands: Bands, tactile_rate_hz: int) -> PreparedLoop
     with _BUILDING:
         found = _BY_CONTENT.get((content, kind)) or _made(clip, bands, tactile_rate_hz)
     with _LOCK:
-        _OF_CLIP.setdefault(clip, {})[kind] = _BY_CONTENT[content, kind] = _NEWEST[content, kind] = found
+        if id(clip) not in _OF_CLIP:
+            finalize(clip, _OF_CLIP.pop, id(clip), None).atexit = False
+        _OF_CLIP.setdefault(id(clip), {})[kind] = _BY_CONTENT[content, kind] = _NEWEST[content, kind] = found
         _NEWEST.move_to_end((content, kind))
         while len(_NEWEST) > 1 and sum(one.bank.nbytes for one in _NEWEST.values()) > KEPT_BYTES:
             _NEWEST.popitem(last=False)

@@ -1,6 +1,7 @@
 """`rebake`: user corrections are kept, and objects that are not named stay unchanged."""
 
 import json
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from scene2hap import (
     materials,
     rebake,
 )
+from scene2hap.bundle import BundleWarning
 from scene2hap.errors import BundleError, SceneError, UnknownObject
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scripted_backend import SCENE, Scripted
@@ -95,9 +97,44 @@ def test_an_object_is_inferred_by_the_name_that_a_person_gives(tmp_path: Path) -
     assert renamed.objects["Cube.012"].object_category == "stool"
 
 
-@pytest.mark.parametrize("name", ["", "  ", 3])
-def test_a_name_is_a_text(bundle: HapticBundle, name: Any) -> None:
-    with pytest.raises(BundleError, match="name is"):
+def test_a_name_of_which_nothing_is_known_brings_a_warning(tmp_path: Path) -> None:
+    scene = SceneSnapshot.build([SceneObject("Cube.012", geometry=Box((0.6, 0.6, 0.85)))])
+    named = bake(scene).override("Cube.012", name="flurbelgurk")
+    known = "nothing is known of 'flurbelgurk', the name that a person gave 'Cube.012'.*as 'washing machine'"
+    with pytest.warns(BundleWarning, match=known):
+        again = rebake(named)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert rebake(again).objects == again.objects  # and only when it is inferred
+    with pytest.warns(BundleWarning, match=known):
+        bake(scene, overrides=named.overrides)
+
+
+def test_corrections_of_states_that_a_new_name_does_not_have_bring_a_warning() -> None:
+    scene = SceneSnapshot.build([SceneObject("fan", geometry=Box((0.3, 0.3, 0.4)))])
+    fan = rebake(bake(scene).override("fan", intensity={"on": 0.5}))
+    with pytest.warns(BundleWarning, match="'fan' has no state 'on', so that intensity has no effect. It has 'ring"):
+        phone = rebake(fan.override("fan", name="smartphone"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rebake(phone.override("fan", gain_db=-1.0))
+
+
+def test_an_object_whose_name_was_removed_from_the_file_is_inferred_as_before(tmp_path: Path) -> None:
+    scene = SceneSnapshot.build([SceneObject("fan", geometry=Box((0.3, 0.3, 0.4)))])
+    first = bake(scene)
+    folder = rebake(first.override("fan", name="wooden stool")).save(tmp_path / "b")
+    (folder / "overrides.json").write_text('{"fan": {"gain_db": -3.0}}')
+    back = rebake(folder)
+    assert back.objects == first.objects
+    assert back.loops == first.loops
+
+
+@pytest.mark.parametrize(
+    ("name", "told"), [("", "0 characters"), ("  ", "0 characters"), (3, "name is 3"), ("x" * 201, "201 characters")]
+)
+def test_a_name_is_a_short_text(bundle: HapticBundle, name: Any, told: str) -> None:
+    with pytest.raises(BundleError, match=told):
         bundle.override("cup", name=name)
 
 

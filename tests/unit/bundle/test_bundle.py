@@ -1,6 +1,8 @@
 """The bundle folder: round trips, content, and errors of unreadable bundles."""
 
+import copy
 import json
+import pickle
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -9,9 +11,22 @@ import numpy as np
 import pytest
 
 from files_of import files_of
-from scene2hap import Box, Credit, HapticBundle, HapticLoop
+from scene2hap import (
+    AudioClip,
+    Box,
+    Credit,
+    HapticBundle,
+    HapticClip,
+    HapticLoop,
+    Pose,
+    SceneObject,
+    SceneSnapshot,
+    bake,
+    rebake,
+)
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.bundle import BundleWarning
+from scene2hap.clips.haptic_clip import Curve, Transient
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, UnknownObject
 from scenes import box, haptics, scene, table_with_two_phones, tone_loop
 
@@ -53,6 +68,30 @@ def assert_same(a: HapticBundle, b: HapticBundle) -> None:
 def test_round_trip(tmp_path: Path, make: object) -> None:
     bundle = make()
     assert_same(HapticBundle.load(bundle.save(tmp_path / "b")), bundle)
+
+
+def test_baked_bundle_equals_its_copies_and_no_other_bundle(tmp_path: Path) -> None:
+    phone = SceneObject("smartphone", geometry=Box((0.07, 0.008, 0.15)))
+    kettle = SceneObject("kettle", pose=Pose((1.0, 0.0, 0.0)), geometry=Box((0.2, 0.25, 0.2)))
+    fan = SceneObject("desk fan", pose=Pose((2.0, 0.0, 0.0)), geometry=Box((0.2, 0.4, 0.2)))
+    drawn = HapticClip(Curve([0.0, 0.5, 1.0], [0.2, 0.8, 0.3]), transients=[Transient(0.5, 1.0, 0.4)])
+    humming = AudioClip(0.5 * np.sin(2 * np.pi * 120.0 * np.arange(4 * 48_000) / 48_000), 48_000)
+    bundle = bake(SceneSnapshot.build([phone, kettle, fan]))
+    corrected = rebake(bundle.override("kettle", clip=drawn, mass_kg=2.0).override("smartphone", clip=humming))
+    for one in (bundle, corrected):
+        assert HapticBundle.load(one.save(tmp_path / "b")) == one
+        assert pickle.loads(pickle.dumps(one)) == one == copy.deepcopy(one)
+    assert bundle != corrected
+    (loop,), (other,) = bundle.loops["desk fan"].values(), bundle.loops["smartphone"].values()
+    one_sample = loop.tactile.samples.copy()
+    one_sample[7] += 2.0**-20
+    changed = replace(loop, tactile=replace(loop.tactile, samples=one_sample))
+    assert replace(bundle, loops={**bundle.loops, "desk fan": {"on": changed}}) != bundle
+    twin = pickle.loads(pickle.dumps(loop))
+    assert len({loop, twin, other, changed}) == 3
+    assert len({drawn, copy.deepcopy(drawn), replace(drawn, range_hz=(60.0, 200.0))}) == 2
+    assert loop.tactile != loop.audible
+    assert (loop == "loop", loop.audible == 1, drawn.amplitude == drawn) == (False, False, False)
 
 
 def test_instances_share_a_mesh_file_and_names_stay_apart(tmp_path: Path) -> None:

@@ -27,6 +27,19 @@ def edit(folder: Path, object_id: str, **fields: Any) -> None:
     file.write_text(json.dumps(rows))
 
 
+def test_object_that_was_marked_as_silent_but_has_loops_brings_a_warning(folder: Path) -> None:
+    edit(folder, "phone", vibrates=False)
+    with pytest.warns(BundleWarning, match="'phone' does not vibrate, but it has loops, which still play.*rebake"):
+        HapticBundle.load(folder)
+
+
+@pytest.mark.parametrize("text", ['{"phone": {}, "phone": {}}', '{"phone": {"gain_db": -3, "gain_db": -6}}'])
+def test_key_that_is_given_twice_is_refused(folder: Path, text: str) -> None:
+    (folder / "overrides.json").write_text(text)
+    with pytest.raises(BundleError, match=r"overrides.json cannot be read: the key '(phone|gain_db)' is given twice"):
+        HapticBundle.load(folder)
+
+
 @pytest.mark.parametrize(
     ("size_m", "told"),
     [

@@ -42,6 +42,18 @@ def test_rebake_and_edit_apply_a_file_of_corrections(tmp_path: Path, capsys: pyt
     assert "absent.json cannot be read" in capsys.readouterr().err
 
 
+def test_a_name_in_a_file_of_corrections_is_applied_and_shown(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cube = SceneObject("Cube.012", geometry=Box((0.6, 0.6, 0.85)))
+    bundle = bake(SceneSnapshot.build([cube], name="room"))
+    file = saved(tmp_path / "c.json", {"Cube.012": {"name": "washing machine"}})
+    assert rebake(bundle, corrections=file).objects["Cube.012"].object_category == "washing machine"
+    folder = str(bundle.save(tmp_path / "b.bundle"))
+    assert main(["edit", folder, "apply", str(file)]) == 0
+    assert "Cube.012, name: - -> washing machine" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("content", "told"),
     [

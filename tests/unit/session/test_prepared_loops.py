@@ -1,5 +1,6 @@
 """Preparation of loops: on which thread, and how often; judged by threads and counts, not by clocks."""
 
+import gc
 import threading
 from collections.abc import Iterator
 
@@ -53,6 +54,24 @@ def session(**config: object) -> HapticSession:
 def add_fan(s: HapticSession, frequency_hz: float, name: str = "fan", x: float = 0.8) -> None:
     item = box(name, (0.1, 0.2, 0.1), (x, 0.82, 0.6))
     s.add(item, haptics("plastic", (0.2, 0.1, 0.1), "on"), {"on": tone_loop(frequency_hz)})
+
+
+def test_a_loop_is_found_as_long_as_its_own_clip_lives(notes: Notes, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without reading samples, since a session looks loops up while it plays; and not under an equal clip that dies."""
+    monkeypatch.setattr(prepared_loops, "KEPT_BYTES", 0)
+    bands = Bands.dominant()
+    first, second = tone_loop(150.0).tactile, tone_loop(150.0).tactile
+    assert first == second
+    prepared_loops.prepare(first, bands, RATE)
+    assert prepared_loops.find(second, bands, RATE) is None
+    kept = prepared_loops.prepare(second, bands, RATE)
+    assert len(notes.contents) == 1
+    del first
+    gc.collect()
+    assert prepared_loops.find(second, bands, RATE) is kept
+    del second
+    gc.collect()
+    assert not prepared_loops._OF_CLIP
 
 
 @pytest.mark.parametrize("skip", [True, False])

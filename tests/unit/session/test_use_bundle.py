@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import time
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from scene2hap import AudioClip, BundleWatch, HapticBundle, HapticLoop, HapticSession, Pose, Touch
+from scene2hap import AudioClip, BundleWatch, HapticBundle, HapticLoop, HapticSession, Pose, SceneWarning, Touch
 from scene2hap.errors import BundleError
 from scenes import RATE, table_with_two_phones
 
@@ -49,6 +50,21 @@ def test_use_bundle_replaces_changed_loops_only(bundle: HapticBundle) -> None:
     assert set(session.source_ids) == {source, other}
     assert felt(session, source) == pytest.approx(0.4, rel=0.02)
     assert felt(session, other) < 0.4 * 10 ** (-60 / 20) or not session._sources[other].is_on
+
+
+def test_use_bundle_warns_of_no_added_object(bundle: HapticBundle) -> None:
+    """A source becomes an unknown object, as when the correction of its name is undone."""
+    source = next(iter(bundle.loops))
+    unknown = replace(bundle.objects[source], object_category="unknown", material=None, vibrates=False, states=())
+    others = {key: states for key, states in bundle.loops.items() if key != source}
+    session = HapticSession(bundle)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        session.use_bundle(replace(bundle, objects={**bundle.objects, source: unknown}, loops=others))
+    assert source not in session.source_ids
+    item = replace(bundle.snapshot.object(source), id="another", name="another")
+    with pytest.warns(SceneWarning, match="'another', of unknown material, is added without loops"):
+        session.add(item, unknown)
 
 
 def test_use_bundle_keeps_states_set_by_the_game(bundle: HapticBundle) -> None:

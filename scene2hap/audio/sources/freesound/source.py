@@ -16,6 +16,7 @@ from scene2hap.audio.sources.freesound import licences as cc
 from scene2hap.audio.sources.freesound.queries import ladder
 from scene2hap.audio.sources.freesound.service import Service
 from scene2hap.audio.sources.freesound.sounds import Sound, read_sounds
+from scene2hap.calls import not_pickled
 from scene2hap.errors import AudioError, BackendUnavailable, ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.scene.scene_warning import warn_of
@@ -46,6 +47,7 @@ class UnusableSound(UserWarning):
     """A found sound cannot be used, and the next one was used instead."""
 
 
+@not_pickled(ConfigError, "it counts the requests that the service allows")
 class Freesound:
     """Find up to five sounds on freesound.org by key words; without a hit, by fewer of these words.
 

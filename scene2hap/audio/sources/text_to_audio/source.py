@@ -19,6 +19,7 @@ from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
 from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, plain_line
 from scene2hap.audio.sources.text_to_audio.contract import Reply, Request, read_file, read_reply
 from scene2hap.audio.sources.text_to_audio.process import Allowance, CannotStart, environment, run, scrubbed
+from scene2hap.calls import not_pickled
 from scene2hap.errors import AudioError, BackendError, BadAnswer, ConfigError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.scene.scene_warning import warn_of
@@ -40,6 +41,7 @@ class UnusableTake(UserWarning):
     """A generated sound cannot be used; the other sounds of its request are used."""
 
 
+@not_pickled(ConfigError, "its program is started once at a time")
 class TextToAudio:
     """Generate sounds by a text-to-audio model, which a program of your choice runs in its own process.
 
