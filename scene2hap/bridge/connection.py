@@ -17,7 +17,7 @@ from scene2hap.bridge.pictures import SentPictures
 from scene2hap.bridge.requests import answer
 from scene2hap.errors import BridgeError
 
-TOO_SLOW = 4008
+TOO_SLOW, SILENT = 4008, 1011
 
 
 class Connection:
@@ -27,14 +27,21 @@ class Connection:
         self._socket, self._host = socket, host
         self.loop = asyncio.get_running_loop()
         self.client = Client(SentPictures(host.jobs.folder))
+        self._n_taken, self._is_taking = 0, False
 
     async def run(self) -> None:
         """Serve the client until its connection ends."""
-        helpers = [asyncio.create_task(work) for work in (self._send_all(), self._close_if_slow())]
+        helpers = [
+            asyncio.create_task(work) for work in (self._send_all(), self._close_if_slow(), self._close_if_silent())
+        ]
         try:
             with contextlib.suppress(ConnectionClosed):
                 async for message in self._socket:
+                    await self.client.room()
+                    self._is_taking = True
                     await self._take(message)
+                    self._is_taking = False
+                    self._n_taken += 1
         finally:
             for one in helpers:
                 one.cancel()
@@ -46,13 +53,29 @@ class Connection:
         self._socket.transport.abort()
 
     async def _send_all(self) -> None:
-        with contextlib.suppress(ConnectionClosed):
-            while True:
-                await self._socket.send(await self.client.next())
+        while True:
+            message = await self.client.next()
+            # After the connection ends, the queue is still emptied: the reader may wait for room in it.
+            with contextlib.suppress(ConnectionClosed):
+                await self._socket.send(message)
 
     async def _close_if_slow(self) -> None:
         await self.client.is_too_slow.wait()
         await self._socket.close(TOO_SLOW, "the client reads too slowly")
+
+    async def _close_if_silent(self) -> None:
+        heartbeat_s = self._host.config.heartbeat_s
+        with contextlib.suppress(ConnectionClosed):
+            while True:
+                await asyncio.sleep(heartbeat_s)
+                n_taken = self._n_taken
+                try:
+                    async with asyncio.timeout(2 * heartbeat_s):
+                        await (await self._socket.ping())
+                except TimeoutError:
+                    # A pong is read after all messages before it, so a client whose messages still wait is alive.
+                    if n_taken == self._n_taken and not self._is_taking:
+                        await self._socket.close(SILENT, f"no answer to a ping within {2 * heartbeat_s:g} s")
 
     async def _take(self, message: str | bytes) -> None:
         re: int | None = None
@@ -72,7 +95,6 @@ class Connection:
         if kind == FRAME:
             if hosted is None:
                 raise BridgeError("a frame came without a session; send `play` first.")
-            await self.client.room()
             await hosted.take(message)
         elif kind == PICTURE:
             self.client.pictures.take(message)

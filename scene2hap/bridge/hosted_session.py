@@ -107,6 +107,9 @@ class HostedSession:
         if not hmac.compare_digest(frame.key, self.key):
             raise BridgeError("a frame carries another key than that of the session; copy it from `playing`.")
         if self._waits is not None:
+            if frame.sequence <= self._waits.sequence:  # datagrams may overtake each other
+                self.played.drop()
+                return
             self.played.n_skipped += 1
             frame = frame.after(self._waits)
         self._waits, self._reply = frame, reply
@@ -185,6 +188,7 @@ class HostedSession:
         if self.player is not None:  # its connection is lost, but this was not noticed yet
             self.player.give_up()
         self.player = player
+        self.played.expect_clock()
         if not self.played.is_paused:
             await self.run(self.played.session.resume)
         self._tell_watchers({"type": "state", "session": self.id, "is": "playing"})

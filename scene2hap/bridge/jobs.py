@@ -44,6 +44,16 @@ class Jobs:
         """The folder for files that jobs read and write."""
         return Path(self._folder.name)
 
+    def require_place(self) -> None:
+        """Raise a BridgeError if no bake can start now: too many run, or this program cannot start Python."""
+        if not can_start_python():
+            raise BridgeError(
+                f"a bake needs a Python of its own, and this program, {sys.executable!r}, is frozen or embeds Python, "
+                "so that it would start itself again. Bake before you ship the program, and play the bundle."
+            )
+        if len(self._tasks) >= MAX_RUNNING:
+            raise BridgeError(f"{MAX_RUNNING} bakes are running already; wait for one to end, or cancel one.")
+
     def write(self, text: str) -> Path:
         """Write a scene file for a job, which removes it at its end."""
         path = self.folder / f"scene-{next(self._numbers)}.json"
@@ -54,15 +64,8 @@ class Jobs:
         """Begin a bake. Returns its number; `tell` receives its messages.
 
         Parameters: wanted : as `bake_process` reads it, without the target; target : folder of the bundle, None to keep
-        it only as long as the server runs. Raises: BridgeError: too many bakes run; this program cannot start Python.
+        it only as long as the server runs.
         """
-        if not can_start_python():
-            raise BridgeError(
-                f"a bake needs a Python of its own, and this program, {sys.executable!r}, is frozen or embeds Python, "
-                "so that it would start itself again. Bake before you ship the program, and play the bundle."
-            )
-        if len(self._tasks) >= MAX_RUNNING:
-            raise BridgeError(f"{MAX_RUNNING} bakes are running already; wait for one to end, or cancel one.")
         job = next(self._job_numbers)
         folder = target or self.folder / f"job-{job}.bundle"
         self._tells[job] = tell

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
@@ -47,7 +46,7 @@ class PlayedSession:
         self._time_s: float | None = None
         self.sequence = 0
         self.n_received = self.n_skipped = self.n_outdated = 0
-        self._is_paused = False
+        self._is_paused = self._may_begin_clock = False
         self._last_impact: Impact | None = None
         if sink is not None:
             session.start()
@@ -98,7 +97,8 @@ class PlayedSession:
         """
         layout = self._layouts.of(frame.layout)
         self.n_received += 1
-        if layout is None or frame.sequence <= self.sequence or frame.time_s < (self._time_s or -math.inf):
+        goes_back = self._time_s is not None and frame.time_s < self._time_s
+        if layout is None or frame.sequence <= self.sequence or (goes_back and not self._may_begin_clock):
             self.n_outdated += 1
             return None
         touches = self._touches(frame, layout)
@@ -108,7 +108,9 @@ class PlayedSession:
         except Exception:
             self._changes.forget()
             raise
-        self.sequence = frame.sequence
+        self.sequence, self._may_begin_clock = frame.sequence, False
+        if goes_back:
+            self._time_s = None
         intensities = self._go_on(frame.time_s)
         self._tell_impacts()
         return self._gains(found, frame.time_s, intensities)
@@ -125,6 +127,15 @@ class PlayedSession:
             np.zeros(shape[0], np.float32),
             np.zeros(shape, np.float32),
         )
+
+    def expect_clock(self) -> None:
+        """Let the next frame begin a new clock, since the game may have been restarted."""
+        self._may_begin_clock = True
+
+    def drop(self) -> None:
+        """Count a frame that a newer one has overtaken."""
+        self.n_received += 1
+        self.n_outdated += 1
 
     def pause(self) -> None:
         """Fade out all vibration."""

@@ -122,18 +122,17 @@ def _bake(request: messages.Bake, client: Client, host: Host) -> Document:
             "The server's settings have the others."
         )
     _require_no_file(request.config)
-    if request.scene is not None:
-        scene = host.jobs.write(json.dumps(request.scene))
-    else:
-        scene = host.below_root(request.path or "")
+    target = None if request.save is None else host.below_root(request.save)
+    path = None if request.path is None else host.below_root(request.path)
+    host.jobs.require_place()
+    # Inputs are taken last: a refused bake leaves no scene file, and the client's pictures for the next one.
     pictures = client.pictures.hand_over() if request.pictures else None
     wanted = {
-        "scene": str(scene),
+        "scene": str(path or host.jobs.write(json.dumps(request.scene))),
         "config": {**host.config.bake, **request.config},
         "user_prompt": request.user_prompt,
         "pictures": None if pictures is None else str(pictures),
     }
-    target = None if request.save is None else host.below_root(request.save)
     return {"type": "baking", "job": host.jobs.start(wanted, target, client.send)}
 
 

@@ -62,8 +62,7 @@ class BridgeServer:
                 compression=None,  # numbers in frames are nearly random, so compression costs more than it saves
                 max_size=config.max_message_bytes,
                 open_timeout=HELLO_WITHIN_S,
-                ping_interval=config.heartbeat_s,
-                ping_timeout=2 * config.heartbeat_s,
+                ping_interval=None,  # `Connection` sends pings; this one would close connections with a backlog
                 close_timeout=1.0,
                 server_header=None,
                 logger=logging.getLogger("scene2hap.bridge.websockets"),

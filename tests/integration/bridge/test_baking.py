@@ -97,6 +97,21 @@ def test_a_bake_is_cancelled(bridge: Bridge, root: Path, desk: HapticBundle) -> 
             client.ask("bake", scene=scene)
 
 
+def test_a_refused_bake_leaves_no_file_and_keeps_the_pictures(bridge: Bridge, desk: HapticBundle) -> None:
+    server, scene = bridge(), json.loads(desk.snapshot.to_json())
+    with Client(server.url) as client:
+        client.socket.send(encode_picture(b'{"object": "phone", "kind": "isolated", "view": "front"}', png(200)))
+        with pytest.raises(Refused, match="not below"):
+            client.ask("bake", scene=scene, save="../outside.bundle", pictures=True)
+        jobs = [client.ask("bake", scene=scene)["job"] for _ in range(MAX_RUNNING)]
+        with pytest.raises(Refused, match="running already"):
+            client.ask("bake", scene=scene, pictures=True)
+        for job in jobs:
+            client.ask("cancel", job=job)
+        assert not [*server.host.jobs.folder.glob("scene-*.json")]
+        client.bake(scene=scene, pictures=True)  # it has the picture still
+
+
 def test_a_frozen_program_refuses_bakes(bridge: Bridge, desk: HapticBundle, monkeypatch: pytest.MonkeyPatch) -> None:
     """A child would be the program itself once more, not Python."""
     server = bridge()

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from bridge_client import Client, Refused
-from scene2hap import Touch
+from scene2hap import HapticSession, Touch
 from scene2hap.bridge import BridgeServer
 from scene2hap.cli import main
 
@@ -216,6 +216,22 @@ def test_a_dead_connection_is_noticed_by_its_heartbeat(bridge: Bridge) -> None:
     raw.close()
 
 
+def test_a_backlog_of_frames_is_not_a_dead_connection(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An answer to a ping is read after the frames before it; to process these takes longer than the heartbeat here."""
+    update = HapticSession.update
+
+    def slow(self: HapticSession, *args: Any, **options: Any) -> Any:
+        time.sleep(0.01)
+        return update(self, *args, **options)
+
+    with Client(bridge(heartbeat_s=0.1).url) as client:
+        client.play(bundle="desk.bundle", moving=[], frames="every")
+        monkeypatch.setattr(HapticSession, "update", slow)
+        for sequence in range(1, 101):
+            client.socket.send(client.frame(sequence, sequence / 60, NO_POSES, [ON_TABLE]))
+        assert [client.next_gains().sequence for _ in range(100)] == [*range(1, 101)]
+
+
 def test_random_and_mutated_messages(bridge: Bridge) -> None:
     """A short form of `stress/bridge.py`, which sends a hundred thousand messages."""
     rng = random.Random(0)
@@ -297,6 +313,24 @@ def test_a_server_that_is_killed_and_started_again(root: Path) -> None:
             again.next_gains()
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1001
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_the_server_ends_while_a_client_sends_every_frame_and_reads_nothing(root: Path) -> None:
+    with (
+        program("--port", "0", "--root", str(root)) as (process, url),
+        Client(url, max_queue=1, close_timeout=1) as client,
+    ):
+        client.play(bundle="desk.bundle", moving=[], frames="every")
+        until, sequence = time.monotonic() + 10, 0
+        while process.poll() is None and time.monotonic() < until:
+            sequence += 1
+            with suppress(ConnectionClosed):
+                client.socket.send(client.frame(sequence, sequence / 60, NO_POSES, [ON_TABLE]))
+            if sequence == 100:
+                process.send_signal(signal.SIGTERM)
+            time.sleep(0.002)
+        assert process.poll() == 0
 
 
 def test_warnings_reach_the_client(root: Path) -> None:

@@ -286,6 +286,33 @@ def test_session_is_kept_across_connections(bridge: Bridge) -> None:
             assert watcher.hear(lambda one: one["type"] == "state")["is"] == "playing"
 
 
+def test_a_time_before_0_goes_back_too(bridge: Bridge) -> None:
+    with Client(bridge().url) as client:
+        client.play(bundle="desk.bundle", moving=[], frames="every")
+        for sequence, at_s in ((1, 0.0), (2, -5.0), (3, 0.1)):
+            client.socket.send(client.frame(sequence, at_s, poses(), [ON_TABLE]))
+        assert [client.next_gains().sequence for _ in range(2)] == [1, 3]
+        assert client.ask("stats")["frames"]["outdated"] == 1
+
+
+def test_a_restarted_game_resumes_with_a_new_clock(bridge: Bridge) -> None:
+    server = bridge()
+    with Client(server.url) as client:
+        client.play(bundle="desk.bundle", moving=[])
+        client.socket.send(client.frame(1, 1000.0, poses(), [ON_TABLE]))
+        client.next_gains()
+    with Client(server.url) as again:
+        again.order = again.ask("resume", session=client.order["session"], key=client.order["key"])
+        again.key = client.key
+        again.next_gains()  # those of the last frame, again
+        for sequence, at_s in ((2, 0.5), (3, 0.6), (4, 0.1), (5, 0.7)):
+            again.socket.send(again.frame(sequence, at_s, poses(), [ON_TABLE]))
+            if sequence != 4:
+                found = again.next_gains()
+                assert (found.sequence, found.time_s) == (sequence, at_s)
+                assert found.intensities[0] > 0.0
+
+
 def test_session_key_allows_takeover(bridge: Bridge) -> None:
     server = bridge()
     with Client(server.url) as old, Client(server.url) as new:
@@ -360,6 +387,30 @@ def test_frames_by_udp(bridge: Bridge) -> None:
         datagrams.sendto(client.frame(2, 0.1, poses("phone"), [ON_TABLE])[:-1], ("127.0.0.1", port))
         with pytest.raises(Refused, match="must have 88"):
             client.hear(lambda one: one["type"] == "error", 5)
+
+
+def test_an_overtaken_datagram_does_not_replace_a_newer_frame(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
+    entered, may_go_on = threading.Event(), threading.Event()
+    update = HapticSession.update
+
+    def slow(self: HapticSession, *args: Any, **options: Any) -> Any:
+        entered.set()
+        assert may_go_on.wait(10)
+        return update(self, *args, **options)
+
+    with Client(bridge(udp=True).url) as client, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as datagrams:
+        port = client.play(bundle="desk.bundle", moving=[], session={"prepare": "blocking"})["udp_port"]
+        datagrams.settimeout(5)
+        monkeypatch.setattr(HapticSession, "update", slow)
+        for sequence in (1, 3, 2, 3):
+            datagrams.sendto(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]), ("127.0.0.1", port))
+            assert entered.wait(10)
+        time.sleep(0.2)
+        may_go_on.set()
+        from scene2hap.bridge.frames import decode_gains
+
+        assert [decode_gains(datagrams.recv(1 << 16)).sequence for _ in range(2)] == [1, 3]
+        assert client.ask("stats")["frames"] == {"received": 4, "skipped": 0, "outdated": 2}
 
 
 class ClockedSink:
