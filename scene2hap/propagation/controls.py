@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
 from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
-from scene2hap.propagation.points import points_on
+from scene2hap.propagation.points import object_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation, require_input
 
 
@@ -71,6 +71,6 @@ class ReachField:
 
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """1 or 0; see `PropagationField`."""
-        n_points = len(points_on(object_id, points_m))
+        n_points = len(object_points(object_id, points_m))
         reached = np.array([float(object_id in objects) for _, objects in self.reach])
         return np.broadcast_to(reached[None, :, None], (n_points, len(reached), self.n_bands)).copy()

@@ -30,7 +30,7 @@ def as_points(points_m: ArrayLike, dimensions: int) -> NDArray[np.float64]:
     return points
 
 
-def points_on(object_id: object, points_m: ArrayLike) -> NDArray[np.float64]:
+def object_points(object_id: object, points_m: ArrayLike) -> NDArray[np.float64]:
     """Convert points on an object to (n_points, 3) float64 [m], see `as_points`.
 
     Raises: ModelDomainError: also if the id is no text.
@@ -68,7 +68,7 @@ def arrivals_at(
 ) -> NDArray[np.float64]:
     """Cost of the cheapest path from each source to each point (n_points, n_sources): 0 on the source itself, infinite
     without a path."""
-    points = points_on(object_id, points_m)
+    points = object_points(object_id, points_m)
     costs = np.full((len(points), len(source_ids)), np.inf)
     if object_id in arrivals:
         arrived, least = arrivals[object_id], np.empty((len(source_ids), len(points)))

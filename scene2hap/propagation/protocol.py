@@ -19,7 +19,7 @@ from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.points import InRectangle, points_on
+from scene2hap.propagation.points import InRectangle, object_points
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 
@@ -79,7 +79,7 @@ class ContactNetwork:
         Points beside a body are moved to its nearest edge, as if a rigid leg led there. A body without size does not
         move them.
         """
-        points = points_on(object_id, points_m)
+        points = object_points(object_id, points_m)
         return self.placing(object_id)(points)
 
     def placing(self, object_id: str) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:

@@ -13,7 +13,7 @@ from contact_scenes import box
 from scene2hap import HapticSession, SceneSnapshot, SessionConfig, Touch, bake
 from scene2hap.blas_threads import one_blas_thread, set_threads
 from scene2hap.propagation.coupled.coupling import couple
-from scene2hap.propagation.points import as_points
+from scene2hap.propagation.points import object_points
 from serial_bench import eventually
 
 LIBRARIES = ThreadpoolController().select(user_api="blas").lib_controllers
@@ -93,7 +93,7 @@ def test_sessions_prepare_and_evaluate_physical_models_with_one_thread(
         return noted
 
     monkeypatch.setattr("scene2hap.propagation.coupled.substructuring.couple", noting("prepare", couple))
-    monkeypatch.setattr("scene2hap.propagation.coupled.substructuring.as_points", noting("evaluate", as_points))
+    monkeypatch.setattr("scene2hap.propagation.coupled.substructuring.object_points", noting("evaluate", object_points))
     phone, table = box("phone", (0.15, 0.01, 0.07), (0, 0.005, 0)), box("wooden table", (1, 0.03, 0.6), (0, -0.015, 0))
     scene = SceneSnapshot.build([phone, table])
     session = HapticSession(scene, bake(scene), SessionConfig(propagation={"kind": kind}, impacts=False))

@@ -41,7 +41,7 @@ from scene2hap.propagation.coupled.solved_object import SolvedObject
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.inclined_body import InclinedBody, inclined
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.points import points_on
+from scene2hap.propagation.points import object_points
 from scene2hap.propagation.protocol import Carrier, ContactNetwork, CoupledModel, Excitation, require_input
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
@@ -254,7 +254,7 @@ class CoupledField:
     @one_blas_thread
     def attenuation(self, object_id: str, points_m: ArrayLike) -> NDArray[np.float64]:
         """Deflection over the free deflection of each source; above 1 at resonances. See `PropagationField`."""
-        points = points_on(object_id, points_m)
+        points = object_points(object_id, points_m)
         found = self._responses.get(object_id)
         if found is None:
             # Another thread may have called `expect` by now.
