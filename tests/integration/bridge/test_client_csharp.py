@@ -76,9 +76,14 @@ def trial(programs: Path) -> Callable[..., list[str]]:
 
 @contextmanager
 def mock(take: Callable[[ServerConnection, str | bytes], None]) -> Iterator[str]:
-    """Run a WebSocket server that passes every message to `take`. Yields its URL."""
+    """Run a WebSocket server that passes every message to `take`. Yields its URL.
+
+    At its end it reads what clients sent before they ended.
+    """
+    readers: list[threading.Thread] = []
 
     def serve_one(connection: ServerConnection) -> None:
+        readers.append(threading.current_thread())
         try:
             for message in connection:
                 take(connection, message)
@@ -87,6 +92,8 @@ def mock(take: Callable[[ServerConnection, str | bytes], None]) -> Iterator[str]
 
     with serve(serve_one, "127.0.0.1", 0, compression=None, max_size=None) as server, running(server):
         yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}/"
+        for reader in readers:
+            reader.join(timeout=10.0)
 
 
 def order(kind: str, n_moving: int, **more: object) -> str:
