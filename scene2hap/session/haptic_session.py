@@ -69,7 +69,6 @@ from scene2hap.session.mix.output import Output
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import SourceInfo, Sources
 from scene2hap.session.mix.starts_and_stops import Switching
-from scene2hap.session.own_process import OwnProcess
 from scene2hap.session.prepared_shapes import PreparedShapes
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
@@ -148,7 +147,6 @@ class HapticSession:
         self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
         self._follows_landings, self._prepares_impacts = self.config.impacts, self.config.prepares_impacts
         self._output = Output(sink, self.config)
-        self._process = OwnProcess()
         self._user: UserProfile | None = None
         self._limit: PeakGuard | None = None
         if user is not None:
@@ -209,7 +207,7 @@ class HapticSession:
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
         before that of the last update, or another type than poses, touches and contacts.
         """
-        self._process.require()
+        self._output.require_own_process()
         if moved is not None and type(moved) is not dict and not isinstance(moved, Mapping):
             moved, touches = given_frame(moved, touches)
         felt = self._by_hand(touches)
@@ -498,7 +496,7 @@ class HapticSession:
 
         Returns: False after the timeout [s]. True also if the model cannot prepare the scene (`stats.fields_failed`).
         """
-        self._process.require()
+        self._output.require_own_process()
         if timeout_s is not None:
             timeout_s = checks.number("timeout_s", timeout_s, "s", at_least=0.0, at_most=86_400.0, error=SessionError)
         end = Deadline(timeout_s)
@@ -550,14 +548,13 @@ class HapticSession:
         Raises: SessionError: the session has no sink; DeviceError: the sink cannot be opened; ConfigError: the
         actuator's budget is out of bounds. Warns: SceneWarning: nothing vibrates.
         """
-        self._process.require()
+        self._output.require_own_process()
         self._mistakes.in_sources(self._sources.ids)
         self._output.start(self._mixed, self.hands)
 
     def stop(self) -> None:
         """Fade out, stop the sink and release it; may be called twice. In a forked child the parent's sink plays on."""
-        if self._process.is_here:
-            self._output.stop()
+        self._output.stop()
 
     close = stop
 
@@ -581,7 +578,7 @@ class HapticSession:
     ) -> None:
         if error is None:
             self.stop()
-        elif self._process.is_here:
+        else:
             self._output.abort()
 
     @property

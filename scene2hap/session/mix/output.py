@@ -27,8 +27,10 @@ LONGEST_FADE_OUT_S = 0.25
 
 
 class Output:
-    """A sink, and the safety layer before it.
+    """A sink, and the safety layer before it, in the process that made them.
 
+    A forked process has no copy of their threads, and shares the sink's file or device: there an output cannot start,
+    and does not stop what plays on in the parent.
     Raises: ConfigError: the sink lacks a method; also the errors of the sink's constructor.
     """
 
@@ -40,11 +42,24 @@ class Output:
                 f"sink is {str(sink)!r}, a path; give sink=WavSink({str(sink)!r}), and pull from it to write the file."
             )
         built = cast("ActuatorSink", SINKS.build(sink)) if sink is not None else None
+        self._pid = os.getpid()
         self._sink = built
         self._config = config
         self._safety: SafetyLayer | None = None
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
+
+    def require_own_process(self) -> None:
+        """Raises: SessionError: this is a fork of the process that made the session."""
+        if not self._is_here():
+            raise SessionError(
+                f"this session was made in process {self._pid}, and this is its fork {os.getpid()}, which has no "
+                "copy of the session's threads. Make another session here, of its bundle, or start processes by "
+                "multiprocessing.get_context('spawn') and make the session there."
+            )
+
+    def _is_here(self) -> bool:
+        return os.getpid() == self._pid
 
     @property
     def exists(self) -> bool:
@@ -110,13 +125,13 @@ class Output:
 
     def stop(self) -> None:
         """Fade out, stop the sink and release it, as at the end of the program; may be called twice."""
-        if self._sink is not None and self._safety is not None:
+        if self._is_here() and self._sink is not None and self._safety is not None:
             self._fade_out()
             self._release(self._sink, self._sink.close)
 
     def abort(self) -> None:
         """Stop after a failure. A sink with a method `abort` can then discard a half-written file."""
-        if self._sink is not None and self._safety is not None:
+        if self._is_here() and self._sink is not None and self._safety is not None:
             if has_clock(self._sink):
                 self._fade_out()
             self._safety = None
