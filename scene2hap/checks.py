@@ -248,6 +248,7 @@ def near_files(path: Path) -> str:
 def items(name: str, value: object, *, at_most: int = 10_000, error: type[Scene2HapError]) -> tuple[Any, ...]:
     """Return the items of a sequence, or raise `error` if it is no sequence or has more than `at_most` items."""
     try:
+        # The except clause handles values that are not iterable.
         found = value if type(value) is tuple else tuple(islice(value, at_most + 1))  # type: ignore[call-overload]
     except Exception as cause:  # a foreign `__iter__` may raise any error
         raise error(f"{name} is {represented(value)}; it must be a sequence.") from cause
