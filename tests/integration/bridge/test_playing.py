@@ -185,7 +185,8 @@ def test_impacts_are_sent_to_clients(bridge: Bridge) -> None:
         assert not [one for one in client.heard if one["type"] == "impact"], "an impact is told once"
 
 
-def test_the_newest_frame_wins(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
+def held_updates(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, threading.Event]:
+    """Hold updates of sessions. Returns an event that the first of them sets, and one that lets them go on."""
     entered, may_go_on = threading.Event(), threading.Event()
     update = HapticSession.update
 
@@ -194,9 +195,14 @@ def test_the_newest_frame_wins(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) 
         assert may_go_on.wait(10)
         return update(self, *args, **options)
 
+    monkeypatch.setattr(HapticSession, "update", slow)
+    return entered, may_go_on
+
+
+def test_the_newest_frame_wins(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=[])
-        monkeypatch.setattr(HapticSession, "update", slow)
+        entered, may_go_on = held_updates(monkeypatch)
         for sequence in range(1, 11):
             client.socket.send(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]))
         assert entered.wait(10)
@@ -212,19 +218,11 @@ def test_the_newest_frame_wins(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_poses_of_a_skipped_frame_hold(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
-    entered, may_go_on = threading.Event(), threading.Event()
-    update = HapticSession.update
-
-    def slow(self: HapticSession, *args: Any, **options: Any) -> Any:
-        entered.set()
-        assert may_go_on.wait(10)
-        return update(self, *args, **options)
-
     with Client(bridge().url) as client:
         client.play(bundle="desk.bundle", moving=["phone"])
         client.socket.send(client.frame(1, 0.0, poses("phone"), [ON_TABLE]))
         on_table = client.next_gains().gains[0, 0, 0]
-        monkeypatch.setattr(HapticSession, "update", slow)
+        entered, may_go_on = held_updates(monkeypatch)
         client.socket.send(client.frame(2, 0.1, np.empty((0, 7)), [ON_TABLE]))
         assert entered.wait(10)
         client.socket.send(client.frame(3, 0.2, poses("phone", phone=(0.2, 5.0, 0.0)), [ON_TABLE]))
@@ -390,18 +388,10 @@ def test_frames_by_udp(bridge: Bridge) -> None:
 
 
 def test_an_overtaken_datagram_does_not_replace_a_newer_frame(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
-    entered, may_go_on = threading.Event(), threading.Event()
-    update = HapticSession.update
-
-    def slow(self: HapticSession, *args: Any, **options: Any) -> Any:
-        entered.set()
-        assert may_go_on.wait(10)
-        return update(self, *args, **options)
-
     with Client(bridge(udp=True).url) as client, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as datagrams:
         port = client.play(bundle="desk.bundle", moving=[], session={"prepare": "blocking"})["udp_port"]
         datagrams.settimeout(5)
-        monkeypatch.setattr(HapticSession, "update", slow)
+        entered, may_go_on = held_updates(monkeypatch)
         for sequence in (1, 3, 2, 3):
             datagrams.sendto(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]), ("127.0.0.1", port))
             assert entered.wait(10)

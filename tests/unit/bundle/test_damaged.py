@@ -196,23 +196,23 @@ def test_a_correction_of_a_missing_state_warns(folder: Path) -> None:
     assert any("no state 'high', so that state has no effect" in one for one in sentences)
 
 
-def test_a_material_in_objects_json_may_be_a_name(folder: Path) -> None:
+def change_table(folder: Path, **fields: object) -> None:
     path = folder / "objects.json"
     answers = json.loads(path.read_text())
-    answers["table"]["material"] = "oak"
+    answers["table"] |= fields
     path.write_text(json.dumps(answers))
+
+
+def test_a_material_in_objects_json_may_be_a_name(folder: Path) -> None:
+    change_table(folder, material="oak")
     assert HapticBundle.load(folder).objects["table"].material == materials.lookup("oak")
-    answers["table"]["material"] = "oka"
-    path.write_text(json.dumps(answers))
+    change_table(folder, material="oka")
     with pytest.raises(BundleError, match=r"objects\.json: 'table': no material 'oka'"):
         HapticBundle.load(folder)
 
 
 def test_a_value_of_another_type_is_named(folder: Path) -> None:
-    path = folder / "objects.json"
-    answers = json.loads(path.read_text())
-    answers["table"]["mass_kg"] = "75 kg"
-    path.write_text(json.dumps(answers))
+    change_table(folder, mass_kg="75 kg")
     with pytest.raises(BundleError, match=r"objects\.json: table\.mass_kg is '75 kg': "):
         HapticBundle.load(folder)
 
