@@ -88,7 +88,7 @@ class Landings:
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """Find the objects that landed in this update. Call it after the graph is updated."""
         self._n_updates = now = self._n_updates + 1
-        moving: dict[str, tuple[MotionTrack, Pose, tuple[Vector, Vector]]] = {}
+        moving: list[tuple[str, MotionTrack, Pose, tuple[Vector, Vector]]] = []
         stopped: list[str] = []
         changed: list[str] = []
         at_rest: list[str] = []
@@ -97,23 +97,24 @@ class Landings:
             pose = moved.get(object_id)
             step = track.step_to(pose)
             if pose is not None and step is not None:
-                moving[object_id] = track, pose, step
-                # Few objects pass this check, which runs for all moved ones in every frame.
-                change, before = _change(step[0], track.step_m), track.step_m
-                if change >= _LEAST_CHANGE and (
-                    change >= _SUDDEN * dot(before, before)
-                    or not self._tracks.keys().isdisjoint(beside.get(object_id) or track.near)
-                ):
-                    changed.append(object_id)
+                moving.append((object_id, track, pose, step))
+                # Few objects pass these checks, which run for all moved ones in every frame.
+                near = beside.get(object_id) or track.near
+                if near:
+                    change, before = _change(step[0], track.step_m), track.step_m
+                    if change >= _LEAST_CHANGE and (
+                        change >= _SUDDEN * dot(before, before) or not self._tracks.keys().isdisjoint(near)
+                    ):
+                        changed.append(object_id)
             elif track.has_stopped(now) and beside.get(object_id) and track.is_falling:
                 stopped.append(object_id)
             elif track.is_at_rest(now):
                 at_rest.append(object_id)
         if changed:
-            steps_m = {object_id: step_m for object_id, (_, _, (step_m, _)) in moving.items()}
+            steps_m = {object_id: step_m for object_id, _, _, (step_m, _) in moving}
             stopped += [x for x in changed if self._tracks[x].is_falling and self._is_sudden(x, steps_m)]
         found = [one for object_id in stopped for one in self._landing(object_id, self._tracks[object_id], time_s)]
-        for track, pose, (step_m, middle_m) in moving.values():
+        for _, track, pose, (step_m, middle_m) in moving:
             track.follow(now, time_s, pose, step_m, middle_m)
         for object_id in at_rest:
             del self._tracks[object_id]

@@ -110,7 +110,8 @@ class MotionTrack:
             self.turn(last)
             self.gap, self.goes_on = 1.0, False
         else:
-            self.gap = max(1.0, waited, self.gap - GAP_DECAYS)
+            gap = self.gap - GAP_DECAYS
+            self.gap = gap if gap > waited else float(waited)
             (x, y, z), (u, v, w) = step_m, self.step_m
             if x * u + y * v + z * w <= 0:
                 stopped_m = self.stopped_m
