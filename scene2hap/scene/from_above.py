@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.geometry import joined
+from scene2hap.scene.geometry import counted_up, joined
 from scene2hap.scene.objects import VERTICAL
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -193,7 +193,7 @@ def _surface(
     kept = np.flatnonzero((most_cells > 0) & (area != 0))
     part = np.cumsum(most_cells[kept]) // _MOST_CELLS
     for chosen in np.split(kept, np.flatnonzero(np.diff(part)) + 1):
-        which, down = _counted_up(size[chosen, 1])
+        which, down = counted_up(size[chosen, 1])
         which = chosen[which]
         row = least[which, 1] + down
         corners = triangles[which]
@@ -208,14 +208,8 @@ def _surface(
         along = (p[which, 2] * q[which, 1] - q[which, 2] * p[which, 1]) / area[which]
         across = (q[which, 2] * p[which, 0] - p[which, 2] * q[which, 0]) / area[which]
         start = corners[:, 0, 2] + along * (first + 0.5 - x[:, 0]) + across * (middle[:, 0] - y[:, 0])
-        run, right = _counted_up(np.maximum(last - first + 1, 0).astype(np.intp))
+        run, right = counted_up(np.maximum(last - first + 1, 0).astype(np.intp))
         # The plane of a nearly vertical triangle is steep, so that rounding could leave the triangle's heights.
         lowest, highest = corners[..., 2].min(axis=1), corners[..., 2].max(axis=1)
         heights = np.clip(start[run] + along[run] * right, lowest[run], highest[run])
         yield which[run], (row * n_columns + first.astype(np.intp))[run] + right, heights
-
-
-def _counted_up(counts: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the number k of each count, `counts[k]` times, and beside it 0, 1, ... up to `counts[k]` - 1."""
-    which = np.repeat(np.arange(len(counts)), counts)
-    return which, np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)

@@ -1,4 +1,4 @@
-"""Small geometry: vectors as tuples, for which numpy takes ten times longer, and axis-aligned boxes.
+"""Small geometry: vectors as tuples, for which numpy takes ten times longer, axis-aligned boxes, runs of numbers.
 
 Bounds are boxes as arrays (2, n_axes) of the lowest and the highest corner.
 """
@@ -55,3 +55,9 @@ def distances(a: Bounds, b: Bounds) -> NDArray[np.float64]:
     gaps = np.maximum(np.maximum(a[..., 0, :] - b[..., 1, :], b[..., 0, :] - a[..., 1, :]), 0.0)
     apart: NDArray[np.float64] = np.linalg.norm(gaps, axis=-1)
     return apart
+
+
+def counted_up(counts: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the number k of each count, `counts[k]` times, and beside it 0, 1, ... up to `counts[k]` - 1."""
+    which = np.repeat(np.arange(len(counts)), counts)
+    return which, np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)

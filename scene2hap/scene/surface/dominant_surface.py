@@ -299,7 +299,7 @@ def _own_outline(outline: Outline, size: Floats, middle: Floats, *, is_turned: b
     if share > _FULL or not _LIKE[0] < outline.area_m2 / float(size[0] * size[1]) < _LIKE[1]:
         return None
     if is_turned:
-        outline = Outline(tuple(tuple((y, -x) for x, y in ring) for ring in outline.rings_m))
+        outline = Outline(np.array(ring)[:, ::-1] * (1.0, -1.0) for ring in outline.rings_m)
     return outline.placed((1.0, 1.0), (float(size[0] / 2 - middle[0]), float(size[1] / 2 - middle[1])))
 
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
+from scene2hap.scene.geometry import counted_up
 
 Floats = NDArray[np.float64]
 Ring = tuple[tuple[float, float], ...]
@@ -146,8 +147,7 @@ class Outline:
 
     def placed(self, scale: tuple[float, float], shift_m: tuple[float, float]) -> Outline:
         """Return the outline with each coordinate scaled and then shifted [m]."""
-        (a, b), (c, d) = scale, shift_m
-        return Outline(tuple(tuple((a * x + c, b * y + d) for x, y in ring) for ring in self.rings_m))
+        return Outline(np.array(ring) * scale + shift_m for ring in self.rings_m)
 
     def turned(self, angle_rad: float) -> tuple[Outline, Floats, Floats]:
         """Return the outline turned by an angle [rad] and moved so that its box starts at (0, 0).
@@ -158,7 +158,7 @@ class Outline:
         turn = np.array([[c, -s], [s, c]])
         rings = [np.array(ring) @ turn.T for ring in self.rings_m]
         shift = -np.concatenate(rings).min(axis=0)
-        return Outline(tuple(_ring(k, ring + shift) for k, ring in enumerate(rings))), turn, shift
+        return Outline(ring + shift for ring in rings), turn, shift
 
     def holds(self, points_m: Floats) -> NDArray[np.bool_]:
         """Return a mask of the points (n, 2) inside the area."""
@@ -229,9 +229,8 @@ def _crossings(starts: Floats, ends: Floats, y_m: Floats) -> tuple[Floats, NDArr
     scan = (y_m[:-1, None] + np.diff(y_m)[:, None] * (np.arange(_LINES) + 0.5) / _LINES).ravel()
     low, high = np.minimum(starts[:, 1], ends[:, 1]), np.maximum(starts[:, 1], ends[:, 1])
     first, last = np.searchsorted(scan, low), np.searchsorted(scan, high)
-    count = last - first
-    edge = np.repeat(np.arange(len(starts)), count)
-    line = np.arange(len(edge)) - np.repeat(np.cumsum(count) - count - first, count)
+    edge, nth = counted_up(last - first)
+    line = first[edge] + nth
     (xa, ya), (xb, yb) = starts[edge].T, ends[edge].T
     x = xa + (scan[line] - ya) / (yb - ya) * (xb - xa)
     order = np.lexsort((x, line))

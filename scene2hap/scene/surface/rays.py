@@ -16,6 +16,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.geometry import counted_up
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -87,8 +89,7 @@ def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n
 def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: int) -> tuple[Ints, Floats, Ints]:
     """Return rays, heights and sides of the hits of some triangles, unsorted; u and v are in cells of the grid."""
     pairs = span[0] * span[1]
-    which = np.repeat(np.arange(len(pairs)), pairs)
-    nth = np.arange(len(which)) - np.repeat(np.cumsum(pairs) - pairs, pairs)
+    which, nth = counted_up(pairs)
     across = span[1][which]
     i = first[0][which] + nth // across
     j = first[1][which] + nth % across
@@ -187,9 +188,8 @@ def median_span(segments: Floats, along: int, n: int) -> tuple[float, float] | N
     row = low + (high - low) * (np.arange(n) + 0.5) / n
     # A segment crosses a run of rows: from `first` up to, but not including, `last`.
     first, last = np.searchsorted(row, across.min(axis=0)), np.searchsorted(row, across.max(axis=0))
-    count = last - first
-    which = np.repeat(np.arange(len(count)), count)
-    met_row = first[which] + np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
+    which, nth = counted_up(last - first)
+    met_row = first[which] + nth
     ahead, aside = segments[along][:, which], across[:, which]
     place = ahead[0] + (ahead[1] - ahead[0]) * ((row[met_row] - aside[0]) / (aside[1] - aside[0]))
     start, end = np.full(n, np.inf), np.full(n, -np.inf)

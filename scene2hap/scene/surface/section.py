@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.surface.outline import MOST_CORNERS, Outline
+from scene2hap.scene.surface.rays import cut
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -19,42 +20,23 @@ def section_outline(triangles_m: Floats, level_m: float) -> Outline | None:
 
     It is the largest ring with the holes in it. None if the mesh is not closed there.
     """
-    starts, ends = _segments(triangles_m, level_m)
-    if not len(starts):
+    ends = cut(triangles_m, level_m).reshape(2, -1).T
+    if not len(ends):
         return None
     size = float(np.ptp(triangles_m, axis=(1, 2)).max())
-    corners, number = np.unique(
-        np.round(np.concatenate([starts, ends]) / (_SAME_POINT * size)), axis=0, return_inverse=True
-    )
+    corners, number = np.unique(np.round(ends / (_SAME_POINT * size)), axis=0, return_inverse=True)
     rings = _rings(number.reshape(2, -1).astype(np.intp), len(corners))
     if not rings:
         return None
     places = np.empty((len(corners), 2))
-    places[number.ravel()] = np.concatenate([starts, ends])
+    places[number.ravel()] = ends
     found = sorted((_simplified(places[ring], _TOLERANCE * size) for ring in rings), key=_area_m2, reverse=True)
     found = [ring for ring in found if len(ring) >= 3 and _area_m2(ring) > (10 * _TOLERANCE * size) ** 2]
     if not found or sum(map(len, found)) > MOST_CORNERS:
         return None
-    largest = Outline((_corners(found[0]),))
+    largest = Outline(found[:1])
     holes = [ring for ring in found[1:] if largest.holds(ring[:1])[0]]
-    return Outline((*largest.rings_m, *map(_corners, holes)))
-
-
-def _segments(triangles_m: Floats, level_m: float) -> tuple[Floats, Floats]:
-    """Return the segments in which triangles cross the plane, as starts (n, 2) and ends (n, 2)."""
-    above = triangles_m[2] > level_m
-    crossing = np.flatnonzero(above.any(axis=0) & ~above.all(axis=0))
-    corner, side = triangles_m[:, :, crossing], above[:, crossing]
-    # One corner is alone on its side; the edges from it to the others cross the plane.
-    alone = np.where(side.sum(axis=0) == 1, side.argmax(axis=0), side.argmin(axis=0))
-    every = np.arange(len(crossing))
-    apex = corner[:, alone, every]
-    ends = []
-    for step in (1, 2):
-        other = corner[:, (alone + step) % 3, every]
-        share = (level_m - apex[2]) / (other[2] - apex[2])
-        ends.append((apex[:2] + share * (other[:2] - apex[:2])).T)
-    return ends[0], ends[1]
+    return Outline((*largest.rings_m, *holes))
 
 
 def _rings(segments: Ints, n_corners: int) -> list[Ints]:
@@ -108,7 +90,3 @@ def _simplified(ring: Floats, tolerance_m: float) -> Floats:
 def _area_m2(ring: Floats) -> float:
     x, y = ring.T
     return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
-
-
-def _corners(ring: Floats) -> tuple[tuple[float, float], ...]:
-    return tuple((x, y) for x, y in ring.tolist())
