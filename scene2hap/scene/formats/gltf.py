@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.gltf_accessors import indices, positions, vectors
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, natural
+from scene2hap.scene.formats.gltf_accessors import indices, vectors
+from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
 from scene2hap.scene.formats.gltf_draco import DRACO, draco
 from scene2hap.scene.formats.gltf_materials import GltfMaterials, Paint
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
@@ -99,8 +99,8 @@ class _Reader:
 
     def _is_quantised(self, primitive: Json) -> bool:
         """Return True if positions are whole numbers. Rows of points and lines may be broken: these give False."""
-        attributes, rows = primitive.get("attributes"), self._file.table("accessors")
-        number = attributes.get("POSITION") if isinstance(attributes, dict) else None
+        rows = self._file.table("accessors")
+        number = mapping(primitive.get("attributes")).get("POSITION")
         return isinstance(number, int) and 0 <= number < len(rows) and rows[number].get("componentType") != _FLOAT
 
     def _scaled(self, piece: Piece, matrix: Matrix) -> Piece:
@@ -133,19 +133,17 @@ class _Reader:
             raise SceneFormatError(f"{place}.attributes must be an object.")
         if "POSITION" not in attributes:
             return None
-        extensions = row.get("extensions")
-        compressed = extensions.get(DRACO) if isinstance(extensions, dict) else None
+        compressed = mapping(row.get("extensions")).get(DRACO)
         if isinstance(compressed, dict):
-            mesh, numbers = draco(self._file, compressed, place), compressed.get("attributes")
+            mesh, numbers = draco(self._file, compressed, place), mapping(compressed.get("attributes"))
             points, faces = mesh.points, mesh.faces
             self._file.triangles.spend(len(faces), place)
 
             def attribute(name: str, types: tuple[str, ...]) -> NDArray[np.float64]:
-                number = numbers.get(name) if isinstance(numbers, dict) else None
-                return mesh.vectors(number, f"{place}: its {name}")
+                return mesh.vectors(numbers.get(name), f"{place}: its {name}")
 
         else:
-            points = positions(self._file, attributes["POSITION"], place)
+            points = vectors(self._file, attributes["POSITION"], ("VEC3",), f"{place}: positions")
             order = indices(self._file, row["indices"], place) if "indices" in row else np.arange(len(points))
             self._file.triangles.spend(len(order) // 3 if mode == _TRIANGLES else max(len(order) - 2, 0), place)
             faces = _triangles(order, mode)

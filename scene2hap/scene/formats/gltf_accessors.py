@@ -20,11 +20,6 @@ _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
 
-def positions(file: GltfFile, number: object, place: str) -> NDArray[np.float64]:
-    """Return vertex positions (n, 3) float64 of an accessor, in the mesh's own unit."""
-    return vectors(file, number, ("VEC3",), f"{place}: positions")
-
-
 def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -> NDArray[np.float64]:
     """Return values (n, columns) float64 of an accessor of one of these types. Messages call them `what`."""
     row = file.row("accessors", number, what)

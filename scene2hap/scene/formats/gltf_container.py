@@ -9,7 +9,6 @@ Source: glTF 2.0 specification (Khronos, 2.0.1), sections 3.6 and 4.4.
 from __future__ import annotations
 
 import base64
-import binascii
 import struct
 from pathlib import Path
 from typing import Any
@@ -120,8 +119,13 @@ def data_uri(uri: str, place: str) -> bytes:
         if not is_base64:
             raise ValueError("only base64 data is understood")
         return base64.b64decode(unquote(payload), validate=True)
-    except (ValueError, binascii.Error) as cause:
+    except ValueError as cause:  # also binascii.Error
         raise SceneFormatError(f"{place}: its data: URI cannot be decoded: {cause}.") from cause
+
+
+def mapping(value: object) -> Json:
+    """Return an object of a header; empty if the value is none."""
+    return value if isinstance(value, dict) else {}
 
 
 def natural(value: object, place: str, *, at_least: int = 0) -> int:
@@ -172,14 +176,17 @@ def _header(text: bytes) -> Json:
         raise SceneFormatError(f"not glTF: its JSON cannot be read: {cause}.") from cause
     if not isinstance(header, dict):
         raise SceneFormatError(f"not glTF: its JSON is a {type(header).__name__}, not an object.")
-    asset = header.get("asset")
-    version = asset.get("version") if isinstance(asset, dict) else None
+    version = mapping(header.get("asset")).get("version")
     if not isinstance(version, str) or version.split(".")[0] != "2":
         raise SceneFormatError(f"asset.version is {version!r}; glTF 2.0 is read. Export the scene as glTF 2.0.")
     for name in _TABLES:
         rows = header.setdefault(name, [])
         if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
             raise SceneFormatError(f"{name} must be a list of objects.")
+    # A scene can be read without its pictures, so these tables are not checked.
+    for name in ("textures", "images"):
+        rows = header.get(name)
+        header[name] = [mapping(row) for row in rows] if isinstance(rows, list) else []
     limits.at_most("the number of nodes", len(header["nodes"]), "MAX_NODES")
     required = header.get("extensionsRequired", [])
     if not isinstance(required, list):

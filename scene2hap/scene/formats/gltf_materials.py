@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.formats.gltf_accessors import view
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, data_uri, natural
+from scene2hap.scene.formats.gltf_container import GltfFile, Json, data_uri, mapping, natural
 from scene2hap.scene.looks.appearance import FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import EncodedTexture
@@ -54,9 +54,9 @@ class GltfMaterials:
         return self._paints[number]
 
     def _paint(self, row: Json, place: str) -> Paint:
-        pbr = _object(row.get("pbrMetallicRoughness"))
+        pbr = mapping(row.get("pbrMetallicRoughness"))
         color, info = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
-        older = _object(_object(row.get("extensions")).get("KHR_materials_pbrSpecularGlossiness"))
+        older = mapping(mapping(row.get("extensions")).get("KHR_materials_pbrSpecularGlossiness"))
         if older:
             color, info = older.get("diffuseFactor"), older.get("diffuseTexture")
         r, g, b, a = checks.vector(
@@ -72,7 +72,7 @@ class GltfMaterials:
         place = f"{place}, its texture"
         try:
             texture = self._texture(info.get("index"), place, keeps_alpha)
-            transform = _object(_object(info.get("extensions")).get("KHR_texture_transform"))
+            transform = mapping(mapping(info.get("extensions")).get("KHR_texture_transform"))
             uv_set = natural(transform.get("texCoord", info.get("texCoord", 0)), f"{place}.texCoord")
             return Paint(FaceMaterial(rgba, texture, name), uv_set, _affine(transform, place))
         except SceneError as error:
@@ -80,15 +80,15 @@ class GltfMaterials:
             return Paint(FaceMaterial(rgba, name=name))
 
     def _texture(self, number: object, place: str, keeps_alpha: bool) -> EncodedTexture | None:
-        row = self._row("textures", number, place)
-        webp = _object(_object(row.get("extensions")).get("EXT_texture_webp"))
+        row = self.file.row("textures", number, place)
+        webp = mapping(mapping(row.get("extensions")).get("EXT_texture_webp"))
         source = webp.get("source", row.get("source"))
         if source is None:
-            kinds = ", ".join(_object(row.get("extensions"))) or "none"
+            kinds = ", ".join(mapping(row.get("extensions"))) or "none"
             raise SceneFormatError(
                 f"{place}: textures[{number}] names no image that is read (its extensions: {kinds})."
             )
-        image = self._row("images", source, place)
+        image = self.file.row("images", source, place)
         uri, name = image.get("uri"), f"images[{source}]"
         if not isinstance(uri, str):
             return self.textures.named(name, lambda: self._embedded(image.get("bufferView"), name), keeps_alpha)
@@ -101,14 +101,6 @@ class GltfMaterials:
         self.file.image_bytes.spend(len(data), place)
         return bytes(data)
 
-    def _row(self, table: str, number: object, place: str) -> Json:
-        """Return row `number` of a table that the container does not check, since a scene can be read without it."""
-        rows = self.file.header.get(table)
-        n = len(rows) if isinstance(rows, list) else 0
-        if not isinstance(rows, list) or not isinstance(number, int) or not 0 <= number < n:
-            raise SceneFormatError(f"{place} refers to {table}[{number!r}]; the file has {n} {table} (from 0).")
-        return _object(rows[number])
-
 
 def _affine(row: Json, place: str) -> Affine:
     """Return the matrix that scales, then rotates counter-clockwise as seen on the image (v runs down), then moves."""
@@ -117,7 +109,3 @@ def _affine(row: Json, place: str) -> Affine:
     scale = checks.vector(f"{place}.scale", row.get("scale", (1.0, 1.0)), "-", size=2, error=SceneFormatError)
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     return np.column_stack((turn * scale, offset))
-
-
-def _object(value: object) -> Json:
-    return value if isinstance(value, dict) else {}

@@ -10,7 +10,7 @@ import numpy as np
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats import meshopt_codec
-from scene2hap.scene.formats.gltf_container import GltfFile, Json, natural
+from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
 
 MESHOPT = ("KHR_meshopt_compression", "EXT_meshopt_compression")
 _INDEX_BYTES = (2, 4)
@@ -20,12 +20,8 @@ _STORED_PER_DECODED = 2
 
 def meshopt_row(view: Json) -> tuple[str, Json] | None:
     """Return the name of a buffer view's compression extension and its row; None if the view is not compressed."""
-    extensions = view.get("extensions")
-    if isinstance(extensions, dict):
-        for name in MESHOPT:
-            if isinstance(row := extensions.get(name), dict):
-                return name, row
-    return None
+    extensions = mapping(view.get("extensions"))
+    return next(((name, row) for name in MESHOPT if isinstance(row := extensions.get(name), dict)), None)
 
 
 def decoded_view(file: GltfFile, number: int, row: Json, place: str) -> memoryview:
