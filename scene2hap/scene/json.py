@@ -180,7 +180,7 @@ def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
     objects = []
     for item in scene.objects:
         if item.surface is _UNMEASURED:
-            up = item.pose.rotation.T[:, VERTICAL[scene.up_axis]]
+            up = item.pose.rotation[VERTICAL[scene.up_axis]]
             item = replace(item, surface=surfaces.of(item.geometry.mesh, up, f"object {item.id!r}", turns=True))
         objects.append(item)
     above = with_relative_heights(objects, scene.up_axis)

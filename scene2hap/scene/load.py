@@ -19,9 +19,9 @@ from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_
 from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import TextureWarning
-from scene2hap.scene.objects import SceneObject, UpAxis, with_relative_heights
+from scene2hap.scene.object_maker import ObjectMaker
+from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import UnitWarning, warn_if_implausible
-from scene2hap.scene.rigid_meshes import MeshPool
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredScene
@@ -174,22 +174,6 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
     if not groups:
         raise SceneError(f"scene {name!r} holds no triangles; nothing in it can be touched. Export it with meshes.")
     limits.at_most("the number of objects", len(groups), "MAX_OBJECTS")
-    pool = MeshPool(unit_m)
-    up = np.array({"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}[up_axis])
-    objects = []
-    for item, object_id in zip(groups, unique_ids([item.name for item in groups]), strict=True):
-        placed = pool.place(item)
-        surface = pool.surfaces.of(placed.mesh, placed.pose.rotation.T @ up, f"object {object_id!r}")
-        objects.append(
-            SceneObject(
-                id=object_id,
-                name=item.name,
-                pose=placed.pose,
-                geometry=placed.mesh,
-                surface=surface,
-                instance_key=placed.instance_key,
-                mass_kg=item.mass_kg,
-                appearance=placed.appearance,
-            )
-        )
+    maker = ObjectMaker(up_axis, unit_m)
+    objects = list(map(maker.make, unique_ids([item.name for item in groups]), groups))
     return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))

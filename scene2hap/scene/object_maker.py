@@ -1,53 +1,48 @@
-"""Groups of pieces as scene objects with measured surfaces; shared by all engines."""
+"""Groups of pieces as scene objects with measured surfaces, for files and engines."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
-import numpy as np
-
+from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.grouping import Group
-from scene2hap.scene.objects import SceneObject, UpAxis
+from scene2hap.scene.objects import VERTICAL, SceneObject, UpAxis
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.rigid_meshes import MeshPool
 
-_UP = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
 
-
-@dataclass(eq=False)
 class ObjectMaker:
     """Maker of the objects of one scene; copies share mesh, looks and measured surface."""
 
-    up_axis: UpAxis
-    unit_m: float = 1.0
-    _pool: MeshPool = field(init=False)
+    def __init__(self, up_axis: UpAxis, unit_m: float) -> None:
+        self._up = VERTICAL[up_axis]
+        self._pool = MeshPool(unit_m)
 
-    def __post_init__(self) -> None:
-        self._pool = MeshPool(self.unit_m)
-
-    def make(self, object_id: str, name: str, group: Group, pose: Pose, mass_kg: float | None = None) -> SceneObject:
-        """Return the object made of a group's parts, at `pose` [m].
+    def make(self, object_id: str, group: Group, pose: Pose | None = None) -> SceneObject:
+        """Return the object made of a group's parts, at `pose` [m], else at the pose of the group's frame.
 
         Raises: SceneError: the geometry is invalid, or the object is too far away; see `MeshPool.place`.
         """
-        reach_m = max(map(abs, pose.position_m))
-        if reach_m > limits.MAX_COORDINATE_M:
+        if pose is not None and (reach_m := max(map(abs, pose.position_m))) > limits.MAX_COORDINATE_M:
             raise SceneError(
                 f"object {object_id!r} is {reach_m:g} m from the origin; up to {limits.MAX_COORDINATE_M:g} m are read. "
                 "Has the simulation blown up?"
             )
         placed = self._pool.place(group)
-        up = pose.rotation.T @ _UP[self.up_axis]
-        surface = self._pool.surfaces.of(placed.mesh, up, f"object {object_id!r}")
+        pose = pose or placed.pose
+        surface = self._pool.surfaces.of(placed.mesh, pose.rotation[self._up], f"object {object_id!r}")
         return SceneObject(
             id=object_id,
-            name=name,
+            name=group.name,
             pose=pose,
             geometry=placed.mesh,
             surface=surface,
             instance_key=placed.instance_key,
-            mass_kg=mass_kg,
+            mass_kg=group.mass_kg,
             appearance=placed.appearance,
         )
+
+
+def metres_per_unit(unit_m: float | None) -> float:
+    """Return the metres per unit of an engine, 1 if it is None. Raises: SceneError: it is not a number above 0."""
+    return checks.number("unit_m", 1.0 if unit_m is None else unit_m, "m", above=0.0, error=SceneError)

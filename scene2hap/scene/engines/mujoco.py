@@ -21,7 +21,7 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 from weakref import WeakKeyDictionary
@@ -35,8 +35,8 @@ from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
-from scene2hap.scene.engines.objects import ObjectMaker
 from scene2hap.scene.grouping import Group, group_objects, unique_ids
+from scene2hap.scene.object_maker import ObjectMaker, metres_per_unit
 from scene2hap.scene.objects import Contact, with_relative_heights
 from scene2hap.scene.plausibility.units import warn_if_implausible
 from scene2hap.scene.pose_table import PoseTable
@@ -75,48 +75,36 @@ def snapshot(
     Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number is invalid.
     Warns: UnitWarning: without unit_m, if sizes are implausible as metres.
     """
-    scene = _snapshot(model, data, name, geom_groups, contacts, masses, 1.0 if unit_m is None else unit_m)
-    if unit_m is None:
-        warn_if_implausible(scene, source="engine")
-    return scene
-
-
-def _snapshot(
-    model: Any,
-    data: Any,
-    name: str | None,
-    geom_groups: Collection[int] | None,
-    contacts: Literal["engine"] | None,
-    masses: Literal["engine"] | None,
-    unit_m: float,
-) -> SceneSnapshot:
     mujoco = _engine(model, data)
-    unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
+    metres = metres_per_unit(unit_m)
     if contacts not in (None, "engine"):
         raise SceneError(f"contacts is {contacts!r}; it must be 'engine', or None to find them from geometry.")
     if masses not in (None, "engine"):
         raise SceneError(f"masses is {masses!r}; it must be 'engine', or None to have them inferred.")
     items = _layout(mujoco, model, geom_groups, read_again=True)
     limits.at_most("the number of objects", len(items.all), "MAX_OBJECTS")
-    placed = _poses(model, data, items, unit_m)
-    reader, maker = GeomReader(model), ObjectMaker("z", unit_m)
+    placed = _poses(model, data, items, metres)
+    reader, maker = GeomReader(model), ObjectMaker("z", metres)
     objects = []
     for item in items.all:
         group = _group(mujoco, model, item, tuple(map(reader.piece, item.geoms)))
         label = group.name or _name_of_geoms(mujoco, model, item) or item.id
         mass_kg = float(model.body_mass[item.body]) if masses is not None else 0.0
-        objects.append(maker.make(item.id, label, group, placed[item.id], mass_kg or None))
+        objects.append(maker.make(item.id, replace(group, name=label, mass_kg=mass_kg or None), placed[item.id]))
     if not objects:
         why = "the model has no geoms" if geom_groups is None else f"no geom is in geom_groups {set(geom_groups)}"
         raise SceneError(f"{why}; nothing in it can be touched.")
-    touching = None if contacts is None else _contacts(model, data, items, unit_m)
+    touching = None if contacts is None else _contacts(model, data, items, metres)
     title = name or model.names[: model.names.index(b"\0")].decode("utf-8", "replace") or "mujoco"
-    return SceneSnapshot(title, "z", with_relative_heights(objects, "z"), touching)
+    scene = SceneSnapshot(title, "z", with_relative_heights(objects, "z"), touching)
+    if unit_m is None:
+        warn_if_implausible(scene, source="engine")
+    return scene
 
 
 def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> PoseTable:
     """Return the current pose of every object of the last `snapshot` with the same arguments."""
-    unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
+    unit_m = metres_per_unit(unit_m)
     return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
 
@@ -124,7 +112,7 @@ def contacts(
     model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0
 ) -> tuple[Contact, ...]:
     """Return the engine's contacts between objects of the last `snapshot` with the same arguments."""
-    unit_m = checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
+    unit_m = metres_per_unit(unit_m)
     return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
 
@@ -184,7 +172,7 @@ def load_mjcf(
 ) -> SceneSnapshot:
     """Return the scene in an MJCF file in its initial pose, named after the file; see `open_mjcf`."""
     model, data = open_mjcf(path, assets_root=assets_root)
-    return _snapshot(model, data, Path(path).stem, None, None, None, unit_m)  # `load_scene` checks the unit
+    return snapshot(model, data, name=Path(path).stem, unit_m=unit_m)
 
 
 def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[str] | None = None) -> tuple[Any, Any]:

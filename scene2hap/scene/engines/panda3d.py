@@ -20,9 +20,9 @@ from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
-from scene2hap.scene.engines.objects import ObjectMaker
 from scene2hap.scene.engines.panda3d_geoms import GeomReader
 from scene2hap.scene.grouping import Group, Grouping, group_objects, unique_ids
+from scene2hap.scene.object_maker import ObjectMaker, metres_per_unit
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import warn_if_implausible
 from scene2hap.scene.pose import Pose
@@ -53,12 +53,13 @@ def snapshot(
     if up_axis not in ("y", "z", None):
         raise SceneError(f"up_axis is {up_axis!r}; it must be 'y', 'z' or None.")
     up_axis = up_axis or _up_axis(engine("panda3d.core"))
-    metres = _unit(1.0 if unit_m is None else unit_m)
+    metres = metres_per_unit(unit_m)
     graph = _Graph.read(render)
     maker = ObjectMaker(up_axis, metres)
-    objects = []
-    for object_id, (found, path, _) in graph.objects(group).items():
-        objects.append(maker.make(object_id, found.name, found, _pose(path.get_net_transform(), metres)))
+    objects = [
+        maker.make(object_id, found, _pose(path.get_net_transform(), metres))
+        for object_id, (found, path, _) in graph.objects(group).items()
+    ]
     title = name or render.get_name() or "panda3d"
     if not objects:
         raise SceneError(f"scene {title!r} draws no triangles; nothing in it can be touched.")
@@ -66,10 +67,6 @@ def snapshot(
     if unit_m is None:
         warn_if_implausible(scene, source="engine")
     return scene
-
-
-def _unit(unit_m: float) -> float:
-    return checks.number("unit_m", unit_m, "m", above=0.0, error=SceneError)
 
 
 def _up_axis(core: Any) -> UpAxis:
@@ -88,7 +85,7 @@ def poses(render_or_nodes: Any, snapshot: SceneSnapshot, *, unit_m: float = 1.0)
         the rule "authored"; do not do that every frame; unit_m : as for `snapshot`.
     Returns: a pose for every object whose node still exists. Scale is as it was in the snapshot.
     """
-    unit_m = _unit(unit_m)
+    unit_m = metres_per_unit(unit_m)
     known = render_or_nodes if isinstance(render_or_nodes, Mapping) else nodes(render_or_nodes)
     placed = ((item.id, known.get(item.id)) for item in snapshot.objects)
     return {
@@ -106,7 +103,7 @@ class PoseReader:
     """
 
     def __init__(self, render: Any, *, group: Grouping = "authored", unit_m: float = 1.0) -> None:
-        self._render, self._unit_m = render, _unit(unit_m)
+        self._render, self._unit_m = render, metres_per_unit(unit_m)
         objects = _Graph.read(render).objects(group)
         self._nodes = {object_id: found.path for object_id, found in objects.items()}
         self._owners = {path: object_id for object_id, found in objects.items() for path in found.owned}
