@@ -15,11 +15,10 @@ from dataclasses import dataclass, field
 from math import prod
 from pathlib import Path
 from typing import NamedTuple
-from xml.parsers import expat
 
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
-from scene2hap.scene.files import read_bytes
+from scene2hap.scene.xml_files import walk_xml
 
 MAX_XML_BYTES = 1 << 26
 """Largest size of one XML file [bytes] (assumed: a hundred times a large robot)."""
@@ -170,7 +169,7 @@ class _Model:
         self.seen.add(path)
         if len(self.seen) > MAX_INCLUDED:
             raise SceneError(f"{path.name!r} is one of more than {MAX_INCLUDED:,} included files. Join them.")
-        _Reader(self, path, copies, depth).read()
+        _Reader(self, path, [copies], depth).read()
 
     def find(self, wanted: _Wanted) -> Path | None:
         """Return the file with a wanted name. If it is outside the root: None, and the file is recorded."""
@@ -218,44 +217,25 @@ class _Model:
 class _Reader:
     """Reader of one XML file that adds the named files to its model.
 
-    `open_copies` : the number of copies of each open element's content.
+    `open_copies` : the number of copies of the whole file, and of each open element's content.
     """
 
     model: _Model
     path: Path
-    copies: int
+    open_copies: list[int]
     depth: int
-    n_elements: int = 0
-    open_copies: list[int] = field(default_factory=list)
 
     def read(self) -> None:
-        data = read_bytes(self.path)
-        if len(data) > MAX_XML_BYTES:
-            raise SceneError(f"{self.path.name!r} has {len(data):,} bytes; MJCF of up to {MAX_XML_BYTES:,} is read.")
         # MuJoCo always reads UTF-8 and ignores a declared encoding, so this parser must too.
-        parser = expat.ParserCreate("utf-8")
-        parser.StartDoctypeDeclHandler = self._refuse_doctype
-        parser.StartElementHandler = lambda tag, attributes: self._start(tag, attributes, parser.CurrentLineNumber)
-        parser.EndElementHandler = lambda tag: self.open_copies.pop()
-        try:
-            parser.Parse(data, True)
-        except expat.ExpatError as cause:
-            raise SceneFormatError(f"{self.path.name!r} is not well-formed XML: {cause}.") from cause
+        walk_xml(self.path, "MJCF", MAX_XML_BYTES, self._start, lambda tag: self.open_copies.pop(), encoding="utf-8")
 
-    def _refuse_doctype(self, *declared: object) -> None:
-        raise SceneFormatError(f"{self.path.name!r} has a document type, which MJCF does not need; remove <!DOCTYPE>.")
-
-    def _start(self, tag: str, attributes: Mapping[str, str], line: int) -> None:
+    def _start(self, tag: str, attributes: Mapping[str, str], line: int, level: int) -> None:
         tag = tag.lower()
         place = f"{self.path.name}, line {line}, <{tag}>"
-        self.n_elements += 1
-        limits.at_most(f"the number of elements in {self.path.name!r}", self.n_elements, "MAX_NODES")
-        limits.at_most(f"the depth of {self.path.name!r}", len(self.open_copies), "MAX_DEPTH")
-        if not self.open_copies and self.depth == 0 and tag != "mujoco":
+        if level == 0 and self.depth == 0 and tag != "mujoco":
             hint = " A URDF file has the suffix .urdf." if tag == "robot" else ""
             raise SceneFormatError(f"{self.path.name!r} begins with <{tag}>; an MJCF file begins with <mujoco>.{hint}")
-        around = self.open_copies[-1] if self.open_copies else self.copies
-        self.open_copies.append(self._counted(tag, attributes, place, around))
+        self.open_copies.append(self._counted(tag, attributes, place, self.open_copies[-1]))
         if tag == "compiler":
             self._compiler(attributes)
         if tag == "size":

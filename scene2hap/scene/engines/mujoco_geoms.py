@@ -14,8 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene import limits
-from scene2hap.scene.engines import solids
+from scene2hap.scene import limits, solids
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.tree import Piece

@@ -19,20 +19,19 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from xml.etree import ElementTree
-from xml.parsers import expat
 
 import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
-from scene2hap.scene import limits
-from scene2hap.scene.engines import solids
+from scene2hap.scene import limits, solids
 from scene2hap.scene.files import read_bytes
 from scene2hap.scene.formats.urdf_files import UrdfFiles
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, with_own_keys
+from scene2hap.scene.xml_files import walk_xml
 
 MAX_XML_BYTES = 1 << 24
 """Largest size of a URDF file [bytes] (assumed: a hundred times a large robot)."""
@@ -52,45 +51,20 @@ def read_urdf(path: Path, assets_root: Path, read_mesh: Callable[[Path, Path], A
 
 
 def _parsed(path: Path) -> Element:
-    """Return the root element of a file without a document type. Size and depth are bounded."""
-    data = read_bytes(path)
-    if len(data) > MAX_XML_BYTES:
-        raise SceneError(f"{path.name!r} has {len(data):,} bytes; URDF of up to {MAX_XML_BYTES:,} is read.")
+    """Return the root element of a file."""
     builder = ElementTree.TreeBuilder()
-    open_tags: list[str] = []
-    n_elements = 0
 
-    def start(tag: str, attributes: dict[str, str]) -> None:
-        nonlocal n_elements
-        n_elements += 1
-        limits.at_most(f"the number of elements in {path.name!r}", n_elements, "MAX_NODES")
-        limits.at_most(f"the depth of {path.name!r}", len(open_tags), "MAX_DEPTH")
-        if not open_tags and tag != "robot":
+    def start(tag: str, attributes: dict[str, str], line: int, depth: int) -> None:
+        if depth == 0 and tag != "robot":
             hint = " An MJCF file has the suffix .xml." if tag == "mujoco" else ""
             raise SceneFormatError(f"{path.name!r} begins with <{tag}>; a URDF file begins with <robot>.{hint}")
         if tag.startswith("xacro:"):
             raise SceneFormatError(
                 f"{path.name!r} has <{tag}>, a macro of xacro. Write the file out first: xacro FILE > robot.urdf"
             )
-        open_tags.append(tag)
         builder.start(tag, attributes)
 
-    def end(tag: str) -> None:
-        open_tags.pop()
-        builder.end(tag)
-
-    def refuse(*declared: object) -> None:
-        raise SceneFormatError(f"{path.name!r} has a document type, which URDF does not need; remove <!DOCTYPE>.")
-
-    parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler, parser.StartElementHandler, parser.EndElementHandler = refuse, start, end
-    try:
-        parser.Parse(data, True)
-    # ValueError and LookupError: an encoding that does not exist, or that has several bytes per character.
-    except (expat.ExpatError, ValueError, LookupError) as cause:
-        if isinstance(cause, SceneError):
-            raise
-        raise SceneFormatError(f"{path.name!r} is not well-formed XML: {cause}.") from cause
+    walk_xml(path, "URDF", MAX_XML_BYTES, start, builder.end)
     return builder.close()
 
 

@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 from pxr import UsdGeom
 
 from scene2hap.errors import SceneFormatError
-from scene2hap.scene import limits
-from scene2hap.scene.engines import solids
+from scene2hap.scene import limits, solids
 from scene2hap.scene.formats.usd.polygons import triangulated
 from scene2hap.scene.formats.usd.values import floats, integers, positive, value
 

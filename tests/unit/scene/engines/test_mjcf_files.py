@@ -12,6 +12,7 @@ from others import SCENES, needed, there
 from rooms.furniture import COUNTER_BOUNDS_M, IDS, write_furniture
 from scene2hap import load_scene
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import xml_files
 from scene2hap.scene.engines import mjcf_files
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco import load_mjcf, open_mjcf, snapshot
@@ -126,8 +127,8 @@ def test_included_file_cannot_leave_the_root(home: Path) -> None:
 
 def test_nothing_outside_is_opened(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     opened: list[Path] = []
-    read = mjcf_files.read_bytes
-    monkeypatch.setattr(mjcf_files, "read_bytes", lambda path: (opened.append(path), read(path))[1])
+    read = xml_files.read_bytes
+    monkeypatch.setattr(xml_files, "read_bytes", lambda path: (opened.append(path), read(path))[1])
     with pytest.raises(SceneError, match="lies outside"):
         check_files(mjcf(home, REACHING_OUT["include"] + REACHING_OUT["model"]), home)
     assert opened == [home / "main.xml"]

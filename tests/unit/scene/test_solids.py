@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from scene2hap.scene.engines import solids
+from scene2hap.scene import solids
 
 SHAPES = {
     "box": (solids.box((0.1, 0.2, 0.3)), 8 * 0.1 * 0.2 * 0.3, (0.1, 0.2, 0.3)),
