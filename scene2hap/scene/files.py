@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -28,19 +30,26 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
     Raises: SceneError: it is no plain relative path, or leads outside `assets_root` (also through a link).
     """
     refusal = f"{place} wants {uri!r}, which lies outside {assets_root}; only files inside it are read."
-    try:
+    with usable_name(uri, place):
         parts = urlsplit(uri)
         if parts.scheme or parts.netloc:
             raise SceneError(f"{refusal} Addresses are never fetched: store the file beside the scene.")
         path = (folder / unquote(uri)).resolve()
         if not path.is_relative_to(assets_root.resolve()):
             raise SceneError(f"{refusal} Copy it there, or give assets_root={holding_both(path, assets_root)}.")
+    return path
+
+
+@contextmanager
+def usable_name(name: str, place: str) -> Iterator[None]:
+    """Raise a SceneError that names `place` if a file's name turns out to be invalid within the `with` statement."""
+    try:
+        yield
     except SceneError:
         raise
-    # A broken address, a zero byte or a cycle of links raises one of these errors.
+    # A broken address, a name that is too long, a zero byte or a cycle of links raises one of these errors.
     except (ValueError, OSError, RuntimeError) as cause:
-        raise SceneError(f"{place} wants {uri!r}, which is no usable file name: {reason_of(cause)}.") from cause
-    return path
+        raise SceneError(f"{place} wants {name!r}, which is no usable file name: {reason_of(cause)}.") from cause
 
 
 def holding_both(path: Path, assets_root: Path) -> str:

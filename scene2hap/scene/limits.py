@@ -41,6 +41,25 @@ def at_most(what: str, value: int, limit: str) -> None:
 
 
 @dataclass
+class TreeSize:
+    """The nodes and triangles of a scene that a reader has found so far."""
+
+    n_nodes: int = 0
+    n_triangles: int = 0
+
+    def add_nodes(self, n: int, depth: int = 0) -> None:
+        """Count nodes; `depth` is the number of nodes on the path to them. Raises: SceneError: too many or too deep."""
+        at_most("the depth of the node tree", depth, "MAX_DEPTH")
+        self.n_nodes += n
+        at_most("the number of nodes", self.n_nodes, "MAX_NODES")
+
+    def add_triangles(self, n: int) -> None:
+        """Count triangles. Raises: SceneError: too many."""
+        self.n_triangles += n
+        at_most("the number of triangles", self.n_triangles, "MAX_TRIANGLES")
+
+
+@dataclass
 class Budget:
     """A bound on the total that all rows of one file may request.
 

@@ -100,6 +100,11 @@ class AuthoredNode:
         for child in self.children:
             yield from child.walk()
 
+    @property
+    def n_triangles(self) -> int:
+        """The number of triangles of the node and all nodes below it."""
+        return sum(len(piece.faces) for node in self.walk() for piece in node.pieces)
+
     def with_geometry(self) -> AuthoredNode | None:
         """Return the node without parts that draw nothing (cameras, lights, curves); None if none is left."""
         children = tuple(kept for child in self.children if (kept := child.with_geometry()) is not None)

@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
+from scene2hap.scene.files import usable_name
 from scene2hap.scene.xml_files import walk_xml
 
 MAX_XML_BYTES = 1 << 26
@@ -173,14 +174,9 @@ class _Model:
 
     def find(self, wanted: _Wanted) -> Path | None:
         """Return the file with a wanted name. If it is outside the root: None, and the file is recorded."""
-        try:
+        with usable_name(wanted.name, wanted.place):
             candidates = [(base / self._name(wanted)).resolve() for base in self._bases(wanted)]
             existing = [path for path in candidates if _is_there(path)]
-        # A name that is too long, or a cycle of links, raises one of these errors.
-        except (ValueError, OSError, RuntimeError) as cause:
-            raise SceneError(
-                f"{wanted.place} wants {wanted.name!r}, which is no usable file name: {reason_of(cause)}."
-            ) from cause
         beyond = [path for path in existing or candidates if not path.is_relative_to(self.root)]
         if beyond:
             self.outside.append((wanted, beyond[0]))

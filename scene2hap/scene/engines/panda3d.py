@@ -157,8 +157,7 @@ class _Graph:
     core: Any
     root: AuthoredNode = field(init=False)
     trails: dict[int, tuple[tuple[Matrix, Any], ...]] = field(default_factory=dict)
-    n_nodes: int = 0
-    n_triangles: int = 0
+    size: limits.TreeSize = field(default_factory=limits.TreeSize)
 
     @classmethod
     def read(cls, render: Any) -> _Graph:
@@ -188,13 +187,10 @@ class _Graph:
     def _node(
         self, path: Any, matrix: Matrix, above: tuple[tuple[Matrix, Any], ...], reader: GeomReader
     ) -> AuthoredNode:
-        self.n_nodes += 1
-        limits.at_most("the number of nodes", self.n_nodes, "MAX_NODES")
-        limits.at_most("the depth of the node tree", len(above) + 1, "MAX_DEPTH")
+        self.size.add_nodes(1, len(above) + 1)
         trail = (*above, ((above[-1][0] if above else np.eye(4)) @ matrix, path))
         pieces = tuple(reader.read(path))
-        self.n_triangles += sum(len(piece.faces) for piece in pieces)
-        limits.at_most("the number of triangles", self.n_triangles, "MAX_TRIANGLES")
+        self.size.add_triangles(sum(len(piece.faces) for piece in pieces))
         self.trails.update((id(piece), trail) for piece in pieces)
         children = tuple(
             self._node(child, _matrix(child.get_transform()), trail, reader) for child in self._drawn_children(path)

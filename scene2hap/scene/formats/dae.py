@@ -78,17 +78,14 @@ class _Reader:
 
     def __init__(self, collada: Any, materials: DaeMaterials) -> None:
         self._scene, self._collada, self._materials = collada.scene, collada, materials
-        self._n_nodes = 0
-        self._n_triangles = 0
+        self._size = limits.TreeSize()
 
     def nodes(self, node: Any, depth: int) -> tuple[AuthoredNode, ...]:
         """Convert a node to one authored node. Cameras, lights and controllers give an empty tuple."""
         if not isinstance(node, self._scene.Node | self._scene.NodeNode):
             return ()
         # A node may instantiate itself, so the depth is bounded before anything else.
-        limits.at_most("the depth of the node tree", depth, "MAX_DEPTH")
-        self._n_nodes += 1
-        limits.at_most("the number of nodes", self._n_nodes, "MAX_NODES")
+        self._size.add_nodes(1, depth)
         actual = node.node if isinstance(node, self._scene.NodeNode) else node
         name = (actual.name or "").strip()
         pieces = tuple(
@@ -108,8 +105,7 @@ class _Reader:
                 primitive = primitive.triangleset()
             if not isinstance(primitive, self._collada.triangleset.TriangleSet) or primitive.vertex is None:
                 continue  # lines
-            self._n_triangles += len(primitive.vertex_index)
-            limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+            self._size.add_triangles(len(primitive.vertex_index))
             link = links.get(primitive.material)
             material = str((primitive.material or "") if link is None else link.target.id)
             key = (drawn.geometry.id, i)

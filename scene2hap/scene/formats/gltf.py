@@ -58,14 +58,14 @@ class _Reader:
         self._seen: set[int] = set()
         self._pieces: dict[int, tuple[Piece, ...]] = {}
         self._scaled_pieces: dict[tuple[object, bytes], Piece] = {}
-        self._n_triangles = 0
+        self._size = limits.TreeSize()
 
     def node(self, number: int, depth: int) -> AuthoredNode:
         row = self._file.row("nodes", number, "a node or scene")
         if number in self._seen:
             raise SceneFormatError(f"nodes[{number}] hangs below itself or below two nodes; nodes must form a tree.")
         self._seen.add(number)
-        limits.at_most("the depth of the node tree", depth, "MAX_DEPTH")
+        self._size.add_nodes(1, depth)
         name = _name(row)
         place = f"node {name!r}" if name else f"nodes[{number}]"
         pieces: tuple[Piece, ...] = ()
@@ -73,8 +73,7 @@ class _Reader:
             mesh = self._file.row("meshes", row["mesh"], place)
             pieces = self._mesh(row["mesh"], mesh, place)
             name = name or _name(mesh)
-            self._n_triangles += sum(len(piece.faces) for piece in pieces)
-            limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+            self._size.add_triangles(sum(len(piece.faces) for piece in pieces))
         below = _numbers(row.get("children", []), f"{place}.children")
         children = tuple(self.node(child, depth + 1) for child in below)
         if "mesh" not in row:

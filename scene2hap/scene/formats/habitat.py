@@ -122,7 +122,7 @@ class _Reader:
         self._read_model = read_model
         self._models: dict[Path, _Model] = {}
         self._middles: dict[Template, NDArray[np.float64]] = {}
-        self._n_triangles = self._n_nodes = 0
+        self._size = limits.TreeSize()
         # All models share one budget. With a budget each, thousands of small files could have a million triangles each.
         self._stored = limits.Budget("the triangles of its models", 1_000_000, 1.0)
         self._primitives: Counter[str] = Counter()
@@ -189,10 +189,8 @@ class _Reader:
         if file not in self._models:
             self._models[file] = self._read(file, place)
         model = self._models[file]
-        self._n_triangles += model.n_triangles
-        self._n_nodes += model.n_nodes
-        limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
-        limits.at_most("the number of nodes", self._n_nodes, "MAX_NODES")
+        self._size.add_triangles(model.n_triangles)
+        self._size.add_nodes(model.n_nodes)
         return model
 
     def _read(self, file: Path, place: str) -> _Model:

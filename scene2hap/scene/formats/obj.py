@@ -52,7 +52,7 @@ def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> Auth
     material, group = "", name
     into_object: _Faces | None = None
     into_group: _Faces | None = None
-    n_triangles = 0
+    size = limits.TreeSize()
     for number, keyword, rest in _statements(text):
         if keyword == "v":
             vertices.append(_vertex(rest, number))
@@ -63,8 +63,7 @@ def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> Auth
             triangles = _fan(rest, len(vertices), len(coordinates), number)
             into_object += triangles
             into_group += triangles
-            n_triangles += len(triangles)
-            limits.at_most("the number of triangles", n_triangles, "MAX_TRIANGLES")
+            size.add_triangles(len(triangles))
         elif keyword == "vt":
             coordinates.append(_coordinates(rest))
         elif keyword == "mtllib" and libraries is not None:

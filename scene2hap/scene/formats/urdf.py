@@ -81,7 +81,7 @@ class _Reader:
     _paths: dict[str, Path] = field(default_factory=dict)
     _materials: dict[str, Element] = field(default_factory=dict)
     _n_bytes: int = 0
-    _n_triangles: int = 0
+    _size: limits.TreeSize = field(default_factory=limits.TreeSize)
 
     def __post_init__(self) -> None:
         self._textures = TextureFiles(self.path.parent, self.root)
@@ -169,8 +169,7 @@ class _Reader:
         else:
             piece = self._solid(shape, place)
             mesh = AuthoredNode(name, np.eye(4), (piece,))
-        self._n_triangles += sum(len(piece.faces) for node in mesh.walk() for piece in node.pieces)
-        limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+        self._size.add_triangles(mesh.n_triangles)
         if material is not None:
             mesh = self._painted(mesh, material, place)
         return AuthoredNode(name, origin, (), (replace(mesh, name=name),))

@@ -8,8 +8,8 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
-from scene2hap.errors import SceneError, reason_of
-from scene2hap.scene.files import holding_both
+from scene2hap.errors import SceneError
+from scene2hap.scene.files import holding_both, usable_name
 
 _PACKAGES = ("package", "model")
 
@@ -28,18 +28,13 @@ class UrdfFiles:
         Raises: SceneError: there is none, or it is outside the root.
         """
         root, outside = self.root.resolve(), None
-        try:
+        with usable_name(name, place):
             for path in self._candidates(name, place):
                 path = path.resolve()
                 if not path.is_relative_to(root):
                     outside = outside or path
                 elif path.is_file():
                     return path
-        # A name that is too long, a zero byte or a cycle of links raises one of these errors.
-        except (ValueError, OSError, RuntimeError) as cause:
-            if isinstance(cause, SceneError):
-                raise
-            raise SceneError(f"{place} wants {name!r}, which is no usable file name: {reason_of(cause)}.") from cause
         if outside is None:
             raise SceneError(
                 f"{place} wants {name!r}; there is no such file. Copy it beside the scene, or give the folder that "

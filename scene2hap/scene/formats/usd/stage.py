@@ -106,7 +106,7 @@ class _Reader:
         self._triangles: dict[Hashable, Triangles | None] = {}
         self._pieces: dict[Hashable, tuple[Piece, ...]] = {}
         self._components: dict[int, AuthoredNode] = {}
-        self._n_nodes = self._n_triangles = self._n_bodies = 0
+        self._size, self._n_bodies = limits.TreeSize(), 0
 
     def roots(self) -> tuple[AuthoredNode, ...]:
         """Return the nodes of the prims at the top of the stage."""
@@ -133,8 +133,7 @@ class _Reader:
         if prim.GetTypeName() in _NO_NODES:
             return None
         depth = above.depth + 1
-        limits.at_most("the depth of the node tree", depth, "MAX_DEPTH")
-        self._count(1)
+        self._size.add_nodes(1, depth)
         is_imageable, purpose = prim.IsA(UsdGeom.Imageable), above.purpose
         if is_imageable:
             imageable = UsdGeom.Imageable(prim)
@@ -174,10 +173,6 @@ class _Reader:
             self._components[id(node)] = node
         return node
 
-    def _count(self, n: int) -> None:
-        self._n_nodes += n
-        limits.at_most("the number of nodes", self._n_nodes, "MAX_NODES")
-
     # -- gprims ------------------------------------------------------------------------------------------------------
 
     def _drawn(self, prim: Any) -> tuple[Piece, ...]:
@@ -188,8 +183,7 @@ class _Reader:
         found = self._triangles[key]
         if found is None or not len(found.vertices):
             return ()
-        self._n_triangles += len(found.vertices)
-        limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+        self._size.add_triangles(len(found.vertices))
         parts = [(None, np.arange(len(found.vertices)))] if found.is_made else subsets(UsdGeom.Mesh(prim), found)
         bound = [self._materials.bound(subset or prim) for subset, _ in parts]
         # Copies share their triangles, but may have materials of their own.
@@ -230,7 +224,7 @@ class _Reader:
         )
         which = integers(attributes[0])
         # Checked before usd-core makes a matrix for each copy.
-        self._count(len(which))
+        self._size.add_nodes(len(which))
         if which.min(initial=0) < 0 or which.max(initial=-1) >= len(prototypes):
             raise SceneFormatError(
                 f"{place}: protoIndices go to {int(which.max())}; it has {len(prototypes)} prototypes (from 0)."
@@ -254,9 +248,8 @@ class _Reader:
             if key not in made:
                 made[key] = self._prototype(prototype, replace(above, world=world, predicate=_PROTOTYPE))
             elif (again := made[key]) is not None:
-                self._count(sum(1 for _ in again.walk()))
-                self._n_triangles += sum(len(piece.faces) for each in again.walk() for piece in each.pieces)
-                limits.at_most("the number of triangles", self._n_triangles, "MAX_TRIANGLES")
+                self._size.add_nodes(sum(1 for _ in again.walk()))
+                self._size.add_triangles(again.n_triangles)
             node = made[key]
             if node is not None:
                 copies.append(replace(node, matrix=matrix @ node.matrix, is_object=True))
