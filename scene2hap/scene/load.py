@@ -103,7 +103,7 @@ def load_scene(
             first = " ".join(authored.left_out[:_LISTED]) + (f" And {n - _LISTED} more." if n > _LISTED else "")
             message = f"{path.name!r} is read without {counted(n, 'texture')}, in plain colours: {first}"
             warn_of(message, TextureWarning)
-        unit = unit_m or authored.unit_m or 1.0
+        unit = unit_m or authored.metres_per_unit(path.name)
         snapshot = _snapshot(writable(scene_stem(path)), authored, up_axis or authored.up_axis, unit, group)
     snapshot = named_after_file(snapshot, writable(scene_stem(path)))
     if unit_m is None:

@@ -19,7 +19,7 @@ from scene2hap.scene.looks.appearance import Appearance, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh
 from scene2hap.scene.surface.surfaces import Surfaces
-from scene2hap.scene.tree import Matrix, Piece, digest
+from scene2hap.scene.tree import Matrix, Piece, digest, transform
 
 # Matrices that were stored as float32 differ in the seventh digit, so instances may differ by this share of their size.
 _SAME_PLACE = 1e-6
@@ -165,9 +165,7 @@ def rigid_part(matrix: Matrix) -> Matrix:
     rotation = left @ right
     if np.linalg.det(rotation) < 0:
         rotation = rotation * [-1.0, 1.0, 1.0]
-    rigid: Matrix = np.eye(4)
-    rigid[:3, :3], rigid[:3, 3] = rotation, matrix[:3, 3]
-    return rigid
+    return transform(rotation, matrix[:3, 3])
 
 
 def _check_reach(name: str, reach_m: float) -> None:

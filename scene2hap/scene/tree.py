@@ -127,6 +127,23 @@ class AuthoredScene:
     unit_m: float | None = None
     left_out: tuple[str, ...] = ()
 
+    def metres_per_unit(self, file_name: str) -> float:
+        """Return the file's unit [m], 1 if it has none. Raises: SceneFormatError: the unit is not above 0."""
+        if self.unit_m is None:
+            return 1.0
+        if not 0.0 < self.unit_m < np.inf:
+            raise SceneFormatError(
+                f"{file_name!r} has {self.unit_m:g} metres per unit; it must be above 0. Correct it, or give unit_m."
+            )
+        return self.unit_m
+
+
+def transform(linear: NDArray[np.float64], position: ArrayLike) -> Matrix:
+    """Return the (4, 4) matrix of a linear map (3, 3) and a position (3,)."""
+    matrix: Matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = linear, position
+    return matrix
+
 
 def with_own_keys(roots: Sequence[AuthoredNode], file: Hashable) -> tuple[AuthoredNode, ...]:
     """Return the nodes of a file with keys of pieces that no other file has. A piece that nodes share stays shared."""

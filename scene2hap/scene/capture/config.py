@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from scene2hap.scene.images import Shot
 from scene2hap.settings import Settings
+
+_Channel = Annotated[int, Field(ge=0, le=255)]
 
 
 class CaptureConfig(Settings):
@@ -43,7 +45,7 @@ class CaptureConfig(Settings):
     fill: float = Field(default=0.75, ge=0.1, le=1.0)
     context_factor: float = Field(default=2.5, ge=1.0, le=20.0)
     outline_share: float = Field(default=1 / 128, gt=0.0, le=0.1)
-    outline_rgb: tuple[int, int, int] = (255, 0, 190)
+    outline_rgb: tuple[_Channel, _Channel, _Channel] = (255, 0, 190)
     near_share: float = Field(default=0.1, ge=0.0, le=1.0)
     hidden_share: float = Field(default=0.35, ge=0.0, le=1.0)
     antialias: bool = False

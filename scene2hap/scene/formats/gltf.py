@@ -26,7 +26,7 @@ from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.vertex_colors import painted, srgb
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, transform
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _FLOAT = 5126
@@ -230,10 +230,7 @@ def _matrix(row: Json, place: str) -> Matrix:
         rotation = Pose(rotation_xyzw=row.get("rotation", (0.0, 0.0, 0.0, 1.0))).rotation
     except SceneError as cause:
         raise SceneFormatError(f"{place}.rotation: {cause}") from cause
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation * numbers("scale", 1.0)
-    matrix[:3, 3] = numbers("translation", 0.0)
-    return matrix
+    return transform(rotation * numbers("scale", 1.0), numbers("translation", 0.0))
 
 
 def _numbers(value: object, place: str) -> list[int]:

@@ -46,7 +46,7 @@ from scene2hap.scene.formats.habitat_names import Names, ObjectNames
 from scene2hap.scene.geometry import Bounds, bounds_of, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, with_own_keys
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, transform, with_own_keys
 
 _INSTANCES: dict[Kind, str] = {
     "objects": "object_instances",
@@ -73,7 +73,6 @@ def read_habitat(
     """
     document = _document(path)
     dataset = Dataset(path, assets_root)
-    dataset.count(path)
     reader = _Reader(path.name, document, dataset, ObjectNames(names, dataset), read_model)
     with np.errstate(all="ignore"):  # overflows are refused when meshes are placed
         roots = [*reader.stage(), *reader.objects()]
@@ -88,7 +87,6 @@ def referenced_files(path: Path, assets_root: Path | None) -> list[Path]:
     """
     document = _document(path)
     dataset = Dataset(path, assets_root)
-    dataset.count(path)
     ObjectNames(None, dataset)
     for kind, place, row in _rows(path.name, document):
         template = _template(dataset, kind, place, row)
@@ -140,9 +138,8 @@ class _Reader:
                 warn_of(f"{place} is moved or turned, which Habitat does not apply to stages; neither is it here.")
             model = self._drawn(template.model, place)
             # The node has no name, so that the stage's own nodes keep their names.
-            found.append(
-                AuthoredNode("", template.frame * _column(_scale(row, place) * template.scale), (), model.roots)
-            )
+            scale = np.append(_scale(row, place) * template.scale, 1.0)
+            found.append(AuthoredNode("", template.frame * scale[:, None], (), model.roots))
         return found
 
     def objects(self) -> list[AuthoredNode]:
@@ -170,9 +167,7 @@ class _Reader:
         if file.suffix != ".urdf" and _is_com(row, place, is_com):
             middle = self._middle(template, model) if template.com is None else template.com
             origin = origin - rotation @ (scale * middle)
-        matrix: Matrix = np.eye(4)
-        matrix[:3, :3] = rotation @ (template.frame[:3, :3] * scale[:, None])
-        matrix[:3, 3] = origin
+        matrix = transform(rotation @ (template.frame[:3, :3] * scale[:, None]), origin)
         name = self._names.of(row["template_name"])
         mass_kg = _mass(row, place, template.mass_kg or _links_kg(model), float(np.prod(scale)))
         return AuthoredNode(name, matrix, (), model.roots, is_object=True, mass_kg=mass_kg)
@@ -294,11 +289,6 @@ def _scale(row: Json, place: str) -> NDArray[np.float64]:
     return uniform * np.array(each)
 
 
-def _column(scale: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return a scale (3,) as factors of the rows of a transform (4, 1)."""
-    return np.append(scale, 1.0)[:, None]
-
-
 def _is_com(row: Json, place: str, default: bool | None) -> bool | None:
     """Return True if a translation places the centre of mass; `default` if the row does not say."""
     given = row.get("translation_origin", "default")
@@ -352,9 +342,8 @@ def _with_parts(file: Path) -> list[Path]:
     """Return a model file and its parts: the buffer beside a .gltf, all files below the folder of a .urdf."""
     if file.suffix == ".urdf":
         return sorted(one for one in islice(file.parent.rglob("*"), _MOST_PARTS) if one.is_file())
-    return [
-        one for one in (file, file.with_suffix(".bin")) if one == file or (file.suffix == ".gltf" and one.is_file())
-    ]
+    buffer = file.with_suffix(".bin")
+    return [file, buffer] if file.suffix == ".gltf" and buffer.is_file() else [file]
 
 
 def _links_kg(model: _Model) -> float | None:

@@ -110,6 +110,7 @@ class Dataset:
         self.folder, found = self._found(scene, assets_root)
         self.root = self.folder if assets_root is None else assets_root
         self._document, self._file = self._of_scene(found, scene) if found else ({}, "")
+        self.count(scene)
 
     def template(self, kind: Kind, name: str, place: str) -> Template:
         """Return the template called `name`; `place` is where the scene names it, for messages.

@@ -30,7 +30,7 @@ from scene2hap.scene.formats.urdf_files import UrdfFiles
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, with_own_keys
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, transform, with_own_keys
 from scene2hap.scene.xml_files import walk_xml
 
 MAX_XML_BYTES = 1 << 24
@@ -255,10 +255,10 @@ class _Reader:
             limits.at_most("the bytes of all meshes", self._n_bytes, "MAX_FILE_BYTES")
             try:
                 scene = self.read_mesh(path, self.root)
+                unit = scene.metres_per_unit(path.name)
             except (SceneError, MissingExtra) as cause:
                 raise type(cause)(f"{place}, mesh {name!r}: {cause}") from cause
             self._left_out += scene.left_out
-            unit = scene.unit_m or 1.0
             roots = with_own_keys(scene.roots, str(path))
             self._meshes[path] = AuthoredNode("", np.diag([unit, unit, unit, 1.0]), (), roots)
         return self._meshes[path]
@@ -271,9 +271,7 @@ def _origin(row: Element, place: str) -> Matrix:
         return np.eye(4)
     place = f"{place}: <origin>"
     pose = Pose.from_euler(_numbers(origin, "xyz", place, 3, "0 0 0"), _numbers(origin, "rpy", place, 3, "0 0 0"))
-    matrix: Matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position_m
-    return matrix
+    return transform(pose.rotation, pose.position_m)
 
 
 def _child(row: Element, tag: str, place: str) -> Element:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from looks import BLUE, UPRIGHT, image_file, looks, refused, shown
-from scene2hap.errors import MissingExtra, SceneError
+from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene.load import load_scene
 
 needs_pycollada = pytest.mark.skipif(find_spec("collada") is None, reason="pycollada is not installed")
@@ -54,6 +54,15 @@ def test_nodes_keep_names_and_transforms(tmp_path: Path) -> None:
     np.testing.assert_allclose(board.bounds_m, [[5, 0, 0], [7, 4, 0]], atol=1e-6)
     np.testing.assert_allclose(second.bounds_m, [[-2, 0, 0], [0, 1, 0]], atol=1e-6)
     assert shelf.geometry is second.geometry
+
+
+@needs_pycollada
+@pytest.mark.parametrize("unit", ["0", "-1", "nan"])
+def test_invalid_unit_is_refused(tmp_path: Path, unit: str) -> None:
+    path = write(tmp_path, dae(f'<node id="n" name="n">{FLAT}</node>', unit=unit))
+    with pytest.raises(SceneFormatError, match=f"has {unit} metres per unit; it must be above 0"):
+        load_scene(path)
+    np.testing.assert_allclose(load_scene(path, unit_m=1.0).objects[0].bounds_m[1], [1.0, 2.0, 0.0], atol=1e-9)
 
 
 @needs_pycollada

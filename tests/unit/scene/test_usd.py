@@ -139,8 +139,9 @@ def test_unit_comes_from_the_stage_and_defaults_to_centimetres(
 @pytest.mark.parametrize("unit", ["0", "-1", "nan"])
 def test_invalid_unit_is_refused(tmp_path: Path, unit: str) -> None:
     path = text_file(tmp_path, f'(\n metersPerUnit = {unit}\n)\ndef Cube "a" {{}}\n')
-    with pytest.raises(SceneFormatError, match="metersPerUnit"):
+    with pytest.raises(SceneFormatError, match=rf"'scene\.usda' has {unit} metres per unit; .* or give unit_m"):
         load_scene(path)
+    assert load_scene(path, unit_m=0.01).objects[0].whole_size_m("y") == pytest.approx((0.02, 0.02, 0.02))
 
 
 def test_invisible_prims_are_left_out(tmp_path: Path) -> None:

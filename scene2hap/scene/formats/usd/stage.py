@@ -66,7 +66,9 @@ def read_stage(
         # usd-core raises its own errors, and attributes may hold values of any type.
         except Exception as cause:
             raise SceneFormatError(f"{path.name!r} cannot be read as USD: {reason_of(cause)}.") from cause
-        return AuthoredScene(roots, _up_axis(stage, path.name), _unit_m(stage, path.name), textures.left_out)
+        # The format defines centimetres for a stage without a unit, and other programs read it so.
+        unit_m = float(UsdGeom.GetStageMetersPerUnit(stage))
+        return AuthoredScene(roots, _up_axis(stage, path.name), unit_m, textures.left_out)
 
 
 def _up_axis(stage: Any, name: str) -> UpAxis:
@@ -74,14 +76,6 @@ def _up_axis(stage: Any, name: str) -> UpAxis:
     if up not in ("Y", "Z"):
         raise SceneError(f"{name!r} has {up} up; scene2hap knows Y and Z. Export it with Y or Z up.")
     return "z" if up == "Z" else "y"
-
-
-def _unit_m(stage: Any, name: str) -> float:
-    # The format defines centimetres for a stage without a unit, and other programs read it so.
-    unit_m = float(UsdGeom.GetStageMetersPerUnit(stage))
-    if not np.isfinite(unit_m) or unit_m <= 0:
-        raise SceneFormatError(f"{name!r} has metersPerUnit {unit_m}; it must be above 0. Give unit_m.")
-    return unit_m
 
 
 @dataclass(frozen=True, eq=False)

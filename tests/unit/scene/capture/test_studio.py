@@ -242,6 +242,7 @@ def test_error_names_unknown_objects() -> None:
         ({"config": {"fill": 1.5}}, "capture setting fill: .*got 1.5"),
         ({"config": {"colour": 1}}, "no capture setting 'colour'"),
         ({"config": {"elevation_deg": 90.0}}, "capture setting elevation_deg: .*less than 90"),
+        ({"config": {"outline_rgb": (300, 0, 0)}}, "capture setting outline_rgb.*less than or equal to 255"),
         ({"renderer": 5}, "renderer is 5; it must be a kind"),
     ],
 )
