@@ -76,7 +76,7 @@ def measure(scene: SceneSnapshot, options: argparse.Namespace) -> None:
 def show_visibility(studio: Studio, subjects: list[str]) -> None:
     """Print the share of each silhouette in isolated images that is visible in context images."""
     config = studio.config.model_copy(update={"size_px": 192})
-    photographer = Photographer(studio.stage, studio.factory(studio.stage, False), config)
+    photographer = Photographer(studio.stage, studio.factory(studio.stage, False), config, studio.below)
     good_views = []
     for subject in subjects:
         number = studio.stage.index[subject]

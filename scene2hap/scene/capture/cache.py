@@ -7,12 +7,11 @@ from pathlib import Path
 from threading import Lock
 
 from scene2hap.errors import ConfigError, reason_of
+from scene2hap.scene.capture.png import PNG_END
 from scene2hap.text_files import write_whole
 
 MEMORY_BYTES = 256 * 2**20
 """Bound of this process's LRU cache [bytes]: about 2000 pictures of 512 pixels (assumed)."""
-
-_PNG_END = b"IEND\xaeB\x60\x82"
 
 
 class MemoryCache:
@@ -66,7 +65,7 @@ class FolderCache:
             png = self._path(key).read_bytes()
         except OSError:
             return None
-        return png if png.endswith(_PNG_END) else None
+        return png if png.endswith(PNG_END) else None
 
     def put(self, key: str, png: bytes) -> None:
         """Add a picture. Raises: ConfigError: the folder cannot be written to."""

@@ -22,13 +22,14 @@ Objects whose box contains that middle are kept; shells are opened by rule 1.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.capture.protocol import Ids, Renderer, Selection
 from scene2hap.scene.capture.stage import Stage
-from scene2hap.scene.capture.surroundings import containers, near, shells, supports
+from scene2hap.scene.capture.surroundings import containers, near, shells
 from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.geometry import Vector, vector
 
@@ -46,27 +47,21 @@ _MAX_LAYERS = 64
 
 @dataclass(frozen=True)
 class Culler:
-    """Selection of the objects of each picture of a `Stage`; `near_share` and `hidden_share` as in `CaptureConfig`."""
+    """Selection of the objects of each picture of a `Stage`.
+
+    `near_share` and `hidden_share` as in `CaptureConfig`; `below` : the stage's `supports`.
+    """
 
     stage: Stage
     renderer: Renderer
-    below: tuple[int | None, ...]
-    shells: frozenset[int]
     near_share: float
     hidden_share: float
+    below: tuple[int | None, ...]
 
-    @classmethod
-    def of(
-        cls,
-        stage: Stage,
-        renderer: Renderer,
-        near_share: float,
-        hidden_share: float,
-        below: tuple[int | None, ...] | None = None,
-    ) -> Culler:
-        """Build a culler; `below` is the result of `supports`, if known."""
-        below = supports(stage) if below is None else below
-        return cls(stage, renderer, below, shells(stage), near_share, hidden_share)
+    @cached_property
+    def shells(self) -> frozenset[int]:
+        """Walls, floors, ceilings and rooms."""
+        return shells(self.stage)
 
     def around(self, target: int, close: Camera, wide: Camera) -> Selection:
         """Select the objects of the context picture `wide`; `close` has the same eye and frames only the target."""

@@ -10,15 +10,13 @@ Files are checked when they are given, and decoded at their first use.
 from __future__ import annotations
 
 import hashlib
-import io
 import json
 import os
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -28,14 +26,12 @@ from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.cache import MEMORY
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
-from scene2hap.scene.capture.png import png
+from scene2hap.scene.capture.png import PNG_END, PNG_SIGNATURE, png
 from scene2hap.scene.files import inside
 from scene2hap.scene.images import ImageSet, ObjectImages, Shot
+from scene2hap.scene.looks.textures import eight_bits, opened
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.text_files import read_small, read_small_text
-
-if TYPE_CHECKING:
-    from PIL import Image
 
 INDEX = "pictures.json"
 """Name of the index file in a folder of pictures. It says which object and view each picture shows."""
@@ -50,7 +46,6 @@ MAX_PICTURES = 100_000
 """Most pictures of one scene (assumed: 16 of each of some thousands of objects)."""
 _LONGEST_VIEW = 200
 
-_PNG_SIGNATURE, _PNG_END = b"\x89PNG\r\n\x1a\n", b"IEND\xaeB\x60\x82"
 _JPEG_SIGNATURE, _JPEG_END = b"\xff\xd8\xff", b"\xff\xd9"
 # Part of every key in the memory cache. Increase it when the conversion of a file changes.
 _FORM = "given 1"
@@ -182,16 +177,16 @@ def check_picture(file: object, name: str = "the picture") -> tuple[int, int]:
         raise SceneFormatError(f"{name} is {checks.described(file)}; it must be the bytes of a PNG or JPEG file.")
     if len(file) > MAX_BYTES:
         raise SceneError(f"{name} has {len(file):,} bytes; at most {MAX_BYTES:,} are read. Give a smaller one.")
-    if not file.startswith((_PNG_SIGNATURE, _JPEG_SIGNATURE)):
+    if not file.startswith((PNG_SIGNATURE, _JPEG_SIGNATURE)):
         raise SceneFormatError(f"{name} is neither PNG nor JPEG; it begins with {checks.represented(file[:8])}.")
     # Some cameras write bytes after the end of a JPEG. A PNG must end with its end mark.
-    is_whole = file.endswith(_PNG_END) if file.startswith(_PNG_SIGNATURE) else _JPEG_END in file[-4096:]
+    is_whole = file.endswith(PNG_END) if file.startswith(PNG_SIGNATURE) else _JPEG_END in file[-4096:]
     if not is_whole:
         raise SceneFormatError(f"{name} is cut short after {len(file):,} bytes. Write or send it again.")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Pillow warns of sizes that are refused below
-            with _opened(file) as image:
+            with opened(file) as image:
                 width, height = image.size
     except Exception as cause:  # broken bytes may raise any error in Pillow
         raise SceneFormatError(f"{name} is no picture that can be read: {cause}.") from cause
@@ -258,13 +253,11 @@ def _as_shown(file: bytes, name: str) -> bytes:
     from PIL import Image
 
     try:
-        with _opened(file) as image:
+        with opened(file) as image:
             image.load()
             if image.format == "PNG" and image.mode == "RGB" and max(image.size) <= SHOWN_PX:
                 return file
-            if image.mode.startswith("I"):  # 16-bit grey, which Pillow would clip instead of scaling
-                deep = np.asarray(image)
-                image = Image.fromarray((deep >> 8).clip(0, 255).astype(np.uint8))
+            image = eight_bits(image)
             if image.has_transparency_data:
                 image = image.convert("RGBA")
                 image = Image.alpha_composite(Image.new("RGBA", image.size, (*BACKGROUND_RGB, 255)), image)
@@ -273,11 +266,3 @@ def _as_shown(file: bytes, name: str) -> bytes:
             return png(np.asarray(image))
     except Exception as cause:  # broken bytes may raise any error in Pillow
         raise SceneFormatError(f"{name} cannot be decoded: {cause}. Write or send it again.") from cause
-
-
-def _opened(file: bytes) -> Image.Image:
-    kind, plugin = ("PNG", "PngImagePlugin") if file.startswith(_PNG_SIGNATURE) else ("JPEG", "JpegImagePlugin")
-    import_module(f"PIL.{plugin}")  # without this Pillow imports all of its plug-ins
-    from PIL import Image
-
-    return Image.open(io.BytesIO(file), formats=(kind,))

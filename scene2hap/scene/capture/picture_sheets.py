@@ -16,7 +16,6 @@ from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.surroundings import shells
 from scene2hap.scene.capture.views import axes_of
 from scene2hap.scene.from_above import NOTHING, HighestSurface
-from scene2hap.scene.images import ImageSet
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -41,7 +40,8 @@ def contact_sheet(item: SceneObject, *, thumb_px: int = _THUMB_PX) -> bytes:
     draw = ImageDraw.Draw(sheet)
     size = " x ".join(f"{edge:.3g}" for edge in np.ptp(item.bounds_m, axis=0))
     _write(draw, (_MARGIN, 8), f"{item.id}   ({item.name}; {size} m)", 17)
-    cells = [(kind, images, k) for kind, images in _rows(item) for k in range(len(images))]
+    rows = (("isolated", item.images.isolated), ("context", item.images.context))
+    cells = [(kind, images, k) for kind, images in rows for k in range(len(images))]
     for cell, (kind, images, k) in enumerate(cells):
         left = _MARGIN + cell % columns * (thumb_px + _MARGIN)
         top = _TITLE + cell // columns * (thumb_px + _LABEL)
@@ -49,11 +49,6 @@ def contact_sheet(item: SceneObject, *, thumb_px: int = _THUMB_PX) -> bytes:
         sheet.paste(picture, (left, top + _LABEL))
         _write(draw, (left, top + 2), f"{kind}, {images.shots[k].label}", 13)
     return png(np.asarray(sheet))
-
-
-def _rows(item: SceneObject) -> tuple[tuple[str, ImageSet], ...]:
-    assert item.images is not None, "contact_sheet asks for images before it lays out rows"
-    return (("isolated", item.images.isolated), ("context", item.images.context))
 
 
 def plan_view(scene: SceneSnapshot, *, width_px: int = _PLAN_PX) -> bytes:

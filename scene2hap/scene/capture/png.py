@@ -16,7 +16,8 @@ import numpy as np
 from isal import isal_zlib
 from numpy.typing import NDArray
 
-_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+PNG_SIGNATURE, PNG_END = b"\x89PNG\r\n\x1a\n", b"IEND\xaeB\x60\x82"
+"""First bytes of every PNG file, and last bytes of a complete one."""
 # Eight bits per channel, red green blue, the standard's compression and filters, not interlaced.
 _FORM = (8, 2, 0, 0, 0)
 _UP = 2
@@ -32,7 +33,7 @@ def png(picture: NDArray[np.uint8]) -> bytes:
     np.subtract(flat[1:], flat[:-1], out=lines[1:, 1:])
     packed = isal_zlib.compress(lines.data, 1)
     header = struct.pack(">IIBBBBB", width, height, *_FORM)
-    return _SIGNATURE + _chunk(b"IHDR", header) + _chunk(b"IDAT", packed) + _chunk(b"IEND", b"")
+    return PNG_SIGNATURE + _chunk(b"IHDR", header) + _chunk(b"IDAT", packed) + _chunk(b"IEND", b"")
 
 
 def _chunk(kind: bytes, content: bytes) -> bytes:

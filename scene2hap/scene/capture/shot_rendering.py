@@ -23,17 +23,17 @@ _LEAST_FACTOR = 1.25
 
 @dataclass(frozen=True, eq=False)
 class Photographer:
-    """Producer of pictures of a `Stage`; equal input gives equal bytes. `below` : its `supports`, if known."""
+    """Producer of pictures of a `Stage`; equal input gives equal bytes. `below` : the stage's `supports`."""
 
     stage: Stage
     renderer: Renderer
     config: CaptureConfig
-    below: tuple[int | None, ...] | None = None
+    below: tuple[int | None, ...]
 
     @cached_property
     def culler(self) -> Culler:
         """The `Culler` that selects the objects of each picture."""
-        return Culler.of(self.stage, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
+        return Culler(self.stage, self.renderer, self.config.near_share, self.config.hidden_share, self.below)
 
     def aim(self, shot: Shot) -> tuple[Camera, Selection]:
         """Return the camera, and its selection of objects."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scene2hap.errors import SceneError
 from scene2hap.scene.capture.colour_table import Palette, PaletteBuilder, neutral
 from scene2hap.scene.capture.views import axes_of
-from scene2hap.scene.geometry import bounds_of, joined
+from scene2hap.scene.geometry import bounds_of, joined, vector
 from scene2hap.scene.looks.appearance import Appearance
 from scene2hap.scene.objects import SceneObject, UpAxis
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -80,7 +80,7 @@ class Stage:
         palette = PaletteBuilder()
         inset_m = _INSET * float(np.linalg.norm(high - low))
         actors = tuple(_actor(item, origin, inset_m, palette) for item in scene.objects)
-        return cls(actors, palette.build(), scene.up_axis, (float(origin[0]), float(origin[1]), float(origin[2])))
+        return cls(actors, palette.build(), scene.up_axis, vector(origin))
 
     @cached_property
     def index(self) -> dict[str, int]:
@@ -122,7 +122,7 @@ def _actor(item: SceneObject, origin: Vector, inset_m: float, palette: PaletteBu
     corners = _drawn_in(item.pose.to_world(mesh.vertices_m) - origin, item.bounds_m - origin, inset_m)
     looks = item.appearance
     if looks is None:
-        looks = Appearance((neutral(item.instance_key or item.id),), np.zeros(len(mesh.faces), np.int32))
+        looks = Appearance.plain(neutral(item.instance_key or item.id), len(mesh.faces))
     if len(looks.face_material) != len(mesh.faces):
         raise SceneError(
             f"the appearance of {item.id!r} has {len(looks.face_material)} faces, its mesh has {len(mesh.faces)}; "

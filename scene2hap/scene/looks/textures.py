@@ -58,7 +58,7 @@ class EncodedTexture:
             # Pillow warns of large images, which our own limit refuses.
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                with _opened(encoded) as image:
+                with opened(encoded) as image:
                     edge, has_alpha = max(image.size), image.has_transparency_data
         # Broken bytes may raise any error in Pillow's plugins.
         except Exception as cause:
@@ -89,7 +89,7 @@ class EncodedTexture:
     def texels(self) -> NDArray[np.uint8] | None:
         """The pixels (height, width, 3 or 4) uint8 sRGB; None, after a TextureWarning, if they cannot be decoded."""
         try:
-            with _opened(self.encoded) as image:
+            with opened(self.encoded) as image:
                 texels = self._decoded(image)
         # Broken bytes may raise any error in Pillow.
         except Exception as cause:
@@ -104,21 +104,28 @@ class EncodedTexture:
 
         # JPEG decodes to a half, a quarter or an eighth of its size in a fraction of the time.
         image.draft(None, (DECODED_PX, DECODED_PX))
-        is_deep, has_alpha = image.mode.startswith("I"), self.has_alpha
-        if is_deep:
-            # 16-bit grey, which Pillow would clip instead of scaling.
-            image = Image.fromarray((np.asarray(image) >> 8).clip(0, 255).astype(np.uint8))
-        elif image.has_transparency_data:
+        image = eight_bits(image)
+        if image.has_transparency_data:
             image = image.convert("RGBA")
-        image = image.convert("RGBA" if has_alpha else "RGB")
+        image = image.convert("RGBA" if self.has_alpha else "RGB")
         image.thumbnail((DECODED_PX, DECODED_PX), Image.Resampling.BOX)
         return np.array(image)
 
 
-def _opened(encoded: bytes) -> Image.Image:
+def opened(encoded: bytes) -> Image.Image:
+    """Return an image file whose pixels are not decoded yet. Raises: any error of Pillow: it is no image."""
     kind, plugin = next((kind, plugin) for start, kind, plugin in _FORMATS if encoded.startswith(start))
     # For an unknown format Pillow would import all of its plugins.
     import_module(f"PIL.{plugin}")
     from PIL import Image
 
     return Image.open(io.BytesIO(encoded), formats=(kind,))
+
+
+def eight_bits(image: Image.Image) -> Image.Image:
+    """Scale 16-bit grey to 8 bits, where Pillow would clip it. Other images are unchanged."""
+    from PIL import Image
+
+    if not image.mode.startswith("I"):
+        return image
+    return Image.fromarray((np.asarray(image) >> 8).clip(0, 255).astype(np.uint8))

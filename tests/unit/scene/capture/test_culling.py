@@ -10,6 +10,7 @@ from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import Selection
 from scene2hap.scene.capture.shot_rendering import Photographer
 from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.surroundings import supports
 from scene2hap.scene.images import Shot
 from scenes import box, scene
 
@@ -34,7 +35,7 @@ def photographer(*objects: SceneObject, **settings: object) -> Photographer:
     snapshot: SceneSnapshot = scene(*objects)
     stage = Stage.of(snapshot)
     config = CaptureConfig.parse({"size_px": 128, "antialias": False, **settings})
-    return Photographer(stage, embree.EmbreeRenderer(stage, False), config)
+    return Photographer(stage, embree.EmbreeRenderer(stage, False), config, supports(stage))
 
 
 def shown(camera_man: Photographer, selection: Selection) -> set[str]:

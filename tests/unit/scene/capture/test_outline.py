@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import distance_transform_edt
 
-from scene2hap.scene.capture.outline import mark, outline_of
+from scene2hap.scene.capture.outline import mark
 
 
 @pytest.mark.parametrize("width", [1, 2, 4, 7])
@@ -17,11 +17,15 @@ def test_outline_covers_pixels_within_its_width(width: int, seed: int) -> None:
     is_target[20:30, 55:] = True
     distance = distance_transform_edt(~is_target)
     # A tolerance of half a pixel, since pixels have a size.
-    np.testing.assert_array_equal(outline_of(is_target, width), (distance > 0) & (distance <= width + 0.5))
+    picture = np.zeros((60, 60, 3), np.uint8)
+    mark(picture, is_target, width, (255, 0, 190))
+    np.testing.assert_array_equal(picture[..., 0] == 255, (distance > 0) & (distance <= width + 0.5))
 
 
 def test_invisible_target_has_no_outline() -> None:
-    assert not outline_of(np.zeros((8, 8), bool), 3).any()
+    picture = np.zeros((8, 8, 3), np.uint8)
+    mark(picture, np.zeros((8, 8), bool), 3, (255, 0, 190))
+    assert not picture.any()
 
 
 def test_outline_leaves_the_target_unchanged() -> None:
