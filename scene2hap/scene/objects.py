@@ -120,15 +120,9 @@ class SceneObject:
         images: ObjectImages | None = None,
         material_names: Sequence[str] = (),
     ) -> None:
-        given = {
-            "id": id,
-            "name": id if name is None else name,
-            "pose": pose,
-            "surface": surface,
-            "relative_height_m": relative_height_m,
-        }
-        given |= {"instance_key": instance_key, "mass_kg": mass_kg, "appearance": appearance, "images": images}
-        given["material_names"] = material_names
+        given = {"id": id, "name": id if name is None else name, "pose": pose, "surface": surface}
+        given |= {"relative_height_m": relative_height_m, "instance_key": instance_key, "mass_kg": mass_kg}
+        given |= {"appearance": appearance, "images": images, "material_names": material_names}
         for key, value in given.items():
             object.__setattr__(self, key, value)
         if not isinstance(id, str):

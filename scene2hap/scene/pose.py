@@ -18,8 +18,9 @@ from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import frozen, vector
 from scene2hap.scene.scene_warning import warn_of
 
-# A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical.
-_UNIT_TOLERANCE = 1e-9
+# A quaternion this close to unit length is kept unchanged, so that JSON round trips are bit-identical. One shorter than
+# `LEAST_LENGTH` is no rotation.
+UNIT_TOLERANCE, LEAST_LENGTH = 1e-9, 1e-12
 # Values rounded to one decimal have a smaller error, and so has the mean of two rotations 50 degrees apart.
 _FAR_FROM_UNIT = 0.1
 # Angles in radians that are a multiple of this are probably degrees.
@@ -49,11 +50,11 @@ class Pose:
         position = checks.vector("position_m", self.position_m, "m", size=3, error=SceneError)
         rotation = checks.vector("rotation_xyzw", self.rotation_xyzw, "-", size=4, error=SceneError)
         length = math.hypot(*rotation)
-        if length < 1e-12:
+        if length < LEAST_LENGTH:
             raise SceneError("rotation_xyzw has length 0; a rotation is a unit quaternion. Use (0, 0, 0, 1) for none.")
         if abs(length - 1.0) > _FAR_FROM_UNIT:
             _warn_of_length(rotation, length)
-        if abs(length - 1.0) > _UNIT_TOLERANCE:
+        if abs(length - 1.0) > UNIT_TOLERANCE:
             rotation = tuple(component / length for component in rotation)
         object.__setattr__(self, "position_m", position)
         object.__setattr__(self, "rotation_xyzw", rotation)
@@ -106,7 +107,7 @@ class Pose:
             aw * bw - ax * bx - ay * by - az * bz,
         )
         position = self.to_world(np.asarray(inner.position_m))
-        return Pose((float(position[0]), float(position[1]), float(position[2])), quaternion)
+        return Pose(vector(position), quaternion)
 
     @classmethod
     def from_wxyz(cls, position_m: Iterable[float], rotation_wxyz: Iterable[float]) -> Pose:
@@ -119,7 +120,7 @@ class Pose:
         """Return the pose of an object rotated about the vertical, counter-clockwise seen from above."""
         half = checks.number("yaw_rad", yaw_rad, "rad", error=SceneError) / 2
         _warn_of_degrees("yaw_rad", yaw_rad)
-        return cls(_given(position_m), _about(_axis(up_axis, "up_axis", "yz"), half))
+        return cls(_given(position_m), _about(vertical(up_axis), half))
 
     @classmethod
     def from_euler(cls, position_m: Iterable[float], angles_rad: Iterable[float], *, order: str = "xyz") -> Pose:
@@ -157,11 +158,8 @@ class Pose:
         The front is the own axis z if y is up, as in glTF, and x if z is up, as in ROS (REP 103).
         Raises: SceneError: the target is at the object's position, or straight above or below it.
         """
-        up = _axis(up_axis, "up_axis", "yz")
-        at, target = (
-            np.array(_given(position_m)),
-            np.array(checks.vector("target_m", target_m, "m", size=3, error=SceneError)),
-        )
+        up, at = vertical(up_axis), np.array(_given(position_m))
+        target = np.array(checks.vector("target_m", target_m, "m", size=3, error=SceneError))
         front, upwards = target - at, np.eye(3)[up]
         side = np.cross(upwards, front)
         if np.linalg.norm(side) <= _LEAST_SLANT * np.linalg.norm(front):
@@ -215,10 +213,11 @@ def _given(position_m: Iterable[float]) -> tuple[float, float, float]:
     return vector(checks.vector("position_m", position_m, "m", size=3, error=SceneError))
 
 
-def _axis(value: object, name: str, letters: str) -> int:
-    if not isinstance(value, str) or len(value) != 1 or value not in letters:
-        raise SceneError(f"{name} is {checks.represented(value)}; it must be {' or '.join(map(repr, letters))}.")
-    return "xyz".index(value)
+def vertical(up_axis: object) -> int:
+    """Return the index of the vertical coordinate. Raises: SceneError: the axis is neither "y" nor "z"."""
+    if not isinstance(up_axis, str) or up_axis not in ("y", "z"):
+        raise SceneError(f"up_axis is {checks.represented(up_axis)}; it must be 'y' or 'z'.")
+    return "xyz".index(up_axis)
 
 
 def _about(axis: int, half_rad: float) -> tuple[float, float, float, float]:

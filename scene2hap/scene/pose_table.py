@@ -11,9 +11,8 @@ from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.counted import counted
 from scene2hap.errors import SceneError
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import LEAST_LENGTH, UNIT_TOLERANCE, Pose
 
-_UNIT_TOLERANCE = 1e-9  # As in `Pose`: a rotation this close to unit length is kept unchanged.
 _MOST = 10_000_000  # only an endless generator exceeds this
 
 
@@ -35,9 +34,9 @@ class PoseTable(Mapping[str, Pose]):
         rotations = self._rows("rotations_xyzw", rotations_xyzw, (n, 4))
         x, y, z, w = rotations.T
         lengths = np.sqrt(x * x + y * y + z * z + w * w)
-        off = np.abs(lengths - 1.0) > _UNIT_TOLERANCE
+        off = np.abs(lengths - 1.0) > UNIT_TOLERANCE
         if off.any():
-            if (lengths < 1e-12).any():
+            if (lengths < LEAST_LENGTH).any():
                 thing = self.ids[int(np.argmin(lengths))]
                 raise SceneError(f"rotations_xyzw of {thing!r} has length 0. Use (0, 0, 0, 1) for no rotation.")
             rotations /= np.where(off, lengths, 1.0)[:, None]

@@ -29,7 +29,7 @@ from scene2hap.scene.objects import (
     with_relative_heights,
 )
 from scene2hap.scene.plausibility.check import Finding
-from scene2hap.scene.pose import Pose
+from scene2hap.scene.pose import Pose, vertical
 
 
 class ObjectTuple(tuple[SceneObject, ...]):
@@ -47,9 +47,9 @@ class ObjectTuple(tuple[SceneObject, ...]):
         return super().__getitem__(key)
 
 
-def _require_axis(up_axis: object) -> None:
-    if not isinstance(up_axis, str) or up_axis not in ("y", "z"):
-        raise SceneError(f"up_axis is {checks.represented(up_axis)}; it must be 'y' or 'z'.")
+def _require_object(item: object) -> None:
+    if not isinstance(item, SceneObject):
+        raise SceneError(f"an object is {checks.described(item)}; it must be a SceneObject(id, pose=, geometry=).")
 
 
 _MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # only an endless generator exceeds these
@@ -71,14 +71,11 @@ class SceneSnapshot(SceneData):
     _by_id: Mapping[str, SceneObject] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __post_init__(self) -> None:
-        _require_axis(self.up_axis)
+        vertical(self.up_axis)
         checks.text("name", self.name, error=SceneError)
         objects = checks.items("objects", self.objects, at_most=_MOST_OBJECTS, error=SceneError)
         for item in objects:
-            if not isinstance(item, SceneObject):
-                raise SceneError(
-                    f"an object is {checks.described(item)}; it must be a SceneObject(id, pose=, geometry=)."
-                )
+            _require_object(item)
         object.__setattr__(self, "objects", ObjectTuple(objects))
         if not self.objects:
             raise SceneError(f"scene {self.name!r} has no object with a surface; nothing in it can be touched.")
@@ -119,13 +116,10 @@ class SceneSnapshot(SceneData):
         if isinstance(objects, SceneObject | str | Mapping) or not isinstance(objects, Iterable):
             given = checks.described(objects)
             raise SceneError(f"objects is {given}; it must be a list of SceneObject, as SceneSnapshot.build([object]).")
-        _require_axis(up_axis)
+        vertical(up_axis)
         turned = []
         for item in objects:
-            if not isinstance(item, SceneObject):
-                raise SceneError(
-                    f"an object is {checks.described(item)}; it must be a SceneObject(id, pose=, geometry=)."
-                )
+            _require_object(item)
             if up_axis != "y" and item.is_measured_with_y_up:
                 item = replace(item, surface=measured_surface(item.geometry, item.pose, up_axis))
             if not item.instance_key and item.appearance is None:

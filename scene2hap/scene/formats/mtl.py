@@ -24,7 +24,7 @@ from scene2hap.scene.looks.texture_files import TextureFiles
 # Most words that follow each option of a texture; numbers may be left out.
 _OPTIONS = {
     **dict.fromkeys(("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type", "-bm", "-boost", "-texres"), 1),
-    **dict.fromkeys(("-mm",), 2),
+    "-mm": 2,
     **dict.fromkeys(("-o", "-s", "-t"), 3),
 }
 MAX_LIBRARIES = 1_000
@@ -65,7 +65,8 @@ class MtlLibraries:
         A library that is missing, broken or outside the assets root is recorded in `textures`.
         Raises: SceneError: the file names too many.
         """
-        for name in (names,) if names.lower().endswith(".mtl") and not self._are_many(names) else names.split():
+        lower = names.lower()
+        for name in (names,) if lower.endswith(".mtl") and lower.count(".mtl") == 1 else names.split():
             if name in self._read:
                 continue
             if len(self._read) == MAX_LIBRARIES:
@@ -86,10 +87,6 @@ class MtlLibraries:
                 continue
             for material, rows in _blocks(data.decode("utf-8", errors="replace")):
                 self.materials[material] = self._material(rows, material)
-
-    @staticmethod
-    def _are_many(names: str) -> bool:
-        return names.lower().count(".mtl") > 1
 
     def _material(self, rows: dict[str, str], name: str) -> MtlMaterial:
         color = _numbers(rows.get("kd", ""), 3) or (0.8, 0.8, 0.8)
