@@ -21,6 +21,8 @@ MAX_TEXTURE_PX = 8192
 """Greatest width and height of a texture. A larger texture is left out, and the scene is still read."""
 MAX_COORDINATE_M = 1e6
 """Greatest distance of any point from the origin [m]. Its squares and cubes are still exact enough."""
+MAX_MASS_KG = 1e9
+"""Greatest mass of an object [kg]."""
 
 MAX_OBJECTS = 4_000
 """Most objects of a scene. Each takes 0.5 ms to place, and 2 ms more to measure if its shape is no copy."""

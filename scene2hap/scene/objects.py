@@ -14,6 +14,7 @@ from pydantic import InstanceOf
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import SceneError
+from scene2hap.scene import limits
 from scene2hap.scene.geometry import bounds_of, frozen
 from scene2hap.scene.images import ObjectImages
 from scene2hap.scene.looks.appearance import Appearance
@@ -140,7 +141,7 @@ class SceneObject:
         self.__post_init__()
 
     def __post_init__(self) -> None:
-        if not isinstance(self.id, str) or not self.id:
+        if not self.id:
             raise SceneError(f"object {checks.represented(self.name)} has an empty id; give every object its own.")
         height = checks.number("relative_height_m", self.relative_height_m, "m", error=SceneError)
         object.__setattr__(self, "relative_height_m", height)
@@ -148,7 +149,7 @@ class SceneObject:
         object.__setattr__(self, "material_names", materials)
         if self.mass_kg is not None:
             named = f"mass_kg of object {checks.represented(self.id)}"
-            mass = checks.number(named, self.mass_kg, "kg", above=0.0, at_most=1e9, error=SceneError)
+            mass = checks.number(named, self.mass_kg, "kg", above=0.0, at_most=limits.MAX_MASS_KG, error=SceneError)
             object.__setattr__(self, "mass_kg", mass)
 
     @property

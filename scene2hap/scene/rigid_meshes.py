@@ -19,7 +19,7 @@ from scene2hap.scene.looks.appearance import Appearance, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh
 from scene2hap.scene.surface.surfaces import Surfaces
-from scene2hap.scene.tree import Matrix, Piece, digest, transform
+from scene2hap.scene.tree import Matrix, Piece, transform
 
 # Matrices that were stored as float32 differ in the seventh digit, so instances may differ by this share of their size.
 _SAME_PLACE = 1e-6
@@ -41,22 +41,19 @@ class Placed:
     appearance: Appearance | None = None
 
 
-@dataclass(eq=False)
 class MeshPool:
     """Maker of meshes from groups. Groups with equal results share one TriMesh; copies share their looks.
 
     `surfaces` measures the meshes. Its budget counts each vertex that the file stores.
     """
 
-    unit_m: float
-    surfaces: Surfaces = field(default_factory=Surfaces)
-    _copies: dict[tuple[object, ...], _Copies] = field(default_factory=dict)
-    _by_faces: dict[bytes, _Copies] = field(default_factory=dict)
-    _looks: dict[tuple[object, ...], Appearance | None] = field(default_factory=dict)
-    _stored: set[object] = field(default_factory=set)
-    _baked: limits.Budget = field(
-        default_factory=lambda: limits.Budget("triangles to draw", 500_000, 4.0, unit="triangles")
-    )
+    def __init__(self, unit_m: float) -> None:
+        self.unit_m, self.surfaces = unit_m, Surfaces()
+        self._copies: dict[tuple[object, ...], _Copies] = {}
+        self._by_faces: dict[bytes, _Copies] = {}
+        self._looks: dict[tuple[object, ...], Appearance | None] = {}
+        self._stored: set[object] = set()
+        self._baked = limits.Budget("triangles to draw", 500_000, 4.0, unit="triangles")
 
     def place(self, group: Group) -> Placed:
         """Return the group's mesh, pose and looks.
@@ -83,8 +80,8 @@ class MeshPool:
         if mesh is None:
             mesh = self._bake(group, own)
             copies.add(moves, mesh)
-        instance_key = f"{mesh.digest}-{digest(*(piece.paint for piece in pieces))}"
-        return Placed(Pose.from_matrix(rigid), mesh, instance_key, self._appearance(pieces, own))
+        paints = hashlib.sha256("\0".join(piece.paint for piece in pieces).encode()).hexdigest()[:8]
+        return Placed(Pose.from_matrix(rigid), mesh, f"{mesh.digest}-{paints}", self._appearance(pieces, own))
 
     def _bake(self, group: Group, own: NDArray[np.float64]) -> TriMesh:
         pieces = [piece for _, piece in group.parts]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -158,8 +157,3 @@ def with_own_keys(roots: Sequence[AuthoredNode], file: Hashable) -> tuple[Author
         return replace(node, pieces=tuple(map(own, node.pieces)), children=tuple(map(copied, node.children)))
 
     return tuple(map(copied, roots))
-
-
-def digest(*parts: str) -> str:
-    """Return a short hash of texts."""
-    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:8]

@@ -29,7 +29,8 @@ def lettering(text: str, size_px: int) -> tuple[str, Font]:
     if text.isascii():
         return text, ImageFont.load_default(size_px)
     lacking, font = min(((_lacking(font, text), font) for font in _fonts(size_px)), key=lambda found: len(found[0]))
-    return "".join(_escaped(one) if one in lacking else one for one in text), font
+    escaped = {one: one.encode("unicode_escape").decode("ascii") for one in lacking}
+    return "".join(escaped.get(one, one) for one in text), font
 
 
 @lru_cache(maxsize=8)
@@ -47,7 +48,3 @@ def _lacking(font: Font, text: str) -> frozenset[str]:
     """Return the letters of a text for which a font has no glyph."""
     none = bytes(font.getmask(_NO_LETTER))
     return frozenset(one for one in set(text) if not one.isspace() and bytes(font.getmask(one)) == none)
-
-
-def _escaped(letter: str) -> str:
-    return letter.encode("unicode_escape").decode("ascii")

@@ -78,29 +78,21 @@ class _Wanted(NamedTuple):
     kind: str
 
 
-@dataclass
 class _Totals:
     """Totals of a model and all models in it, since a million small elements cost as much as a large one."""
 
-    cells: limits.Budget = field(
-        default_factory=lambda: limits.Budget(
+    def __init__(self) -> None:
+        self.cells = limits.Budget(
             "the cells of textures and height fields", MAX_CELLS, _CELLS_PER_BYTE, unit="bytes of pictures"
         )
-    )
-    made: limits.Budget = field(
-        default_factory=lambda: limits.Budget("the triangles of built-in meshes", MAX_MADE_TRIANGLES)
-    )
-    mesh_bytes: limits.Budget = field(
-        default_factory=lambda: limits.Budget(
+        self.made = limits.Budget("the triangles of built-in meshes", MAX_MADE_TRIANGLES)
+        self.mesh_bytes = limits.Budget(
             "the bytes of mesh files, as often as they are named,",
             FREE_MESH_BYTES,
             MESH_BYTES_PER_STORED,
             advice="Name each file in one <mesh>, and use that mesh in all geoms.",
         )
-    )
-    n_copied: int = 0
-    n_bodies: int = 0
-    n_models: int = 0
+        self.n_copied = self.n_bodies = self.n_models = 0
 
     def add_copies(self, n: int, place: str) -> None:
         """Count copies. Raises: SceneError: all copies together have too many elements."""

@@ -8,7 +8,7 @@ Source: MuJoCo documentation (Google DeepMind), XML reference, `geom`, `mesh`, `
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -33,23 +33,18 @@ _FREE_TRIANGLES, _PER_TRIANGLE = 2_000_000, 4.0
 _TRIANGLES_OF_A_SOLID = 2 * solids.SIDES**2
 
 
-@dataclass(eq=False)
 class GeomReader:
     """Reader of the geoms of one `MjModel`; materials and textures are read once."""
 
-    model: Any
-    _colours: NDArray[np.float64] = field(init=False)
-    _drawn: limits.Budget = field(init=False)
-    _materials: dict[tuple[object, ...], FaceMaterial] = field(default_factory=dict)
-    _textures: dict[int, NDArray[np.uint8]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        self._colours = colours_rgba(self.model)
+    def __init__(self, model: Any) -> None:
+        self.model, self._colours = model, colours_rgba(model)
+        self._materials: dict[tuple[object, ...], FaceMaterial] = {}
+        self._textures: dict[int, NDArray[np.uint8]] = {}
         self._drawn = limits.Budget(
             "the triangles of its geoms",
             _FREE_TRIANGLES,
             _PER_TRIANGLE,
-            stored=int(self.model.nmeshface),
+            stored=int(model.nmeshface),
             unit="triangles of meshes",
             advice="Draw fewer round geoms, a smaller height field, or fewer copies of large meshes.",
         )
@@ -63,9 +58,9 @@ class GeomReader:
         kind, mesh = int(model.geom_type[geom]), self._mesh(geom)
         frame = Pose()
         if model.geom_bodyid[geom] != 0:
-            frame = pose(model.geom_pos[geom], model.geom_quat[geom])
+            frame = Pose.from_wxyz(model.geom_pos[geom], model.geom_quat[geom])
         elif mesh is not None:
-            frame = pose(model.mesh_pos[mesh], model.mesh_quat[mesh])
+            frame = Pose.from_wxyz(model.mesh_pos[mesh], model.mesh_quat[mesh])
         size = tuple(model.geom_size[geom].tolist())
         key = (kind, int(model.geom_dataid[geom]), size, frame.position_m, frame.rotation_xyzw)
         self._drawn.spend(self._n_triangles(geom), f"geom {geom}")
@@ -172,20 +167,13 @@ def colours_rgba(model: Any) -> NDArray[np.float64]:
     return colours
 
 
-def pose(position: NDArray[np.float64], quaternion_wxyz: NDArray[np.float64]) -> Pose:
-    """Return a pose from MuJoCo's numbers."""
-    x, y, z = position.tolist()
-    qw, qx, qy, qz = quaternion_wxyz.tolist()
-    return Pose((x, y, z), (qx, qy, qz, qw))
-
-
 def authored_pose(model: Any, geom: int) -> Pose:
     """Return the pose of a geom of the world body, without the frame that the compiler gave to its mesh."""
-    compiled = pose(model.geom_pos[geom], model.geom_quat[geom])
+    compiled = Pose.from_wxyz(model.geom_pos[geom], model.geom_quat[geom])
     mesh = int(model.geom_dataid[geom])
     if mesh < 0 or model.geom_type[geom] <= _BOX:
         return compiled
-    inner = pose(model.mesh_pos[mesh], model.mesh_quat[mesh])
+    inner = Pose.from_wxyz(model.mesh_pos[mesh], model.mesh_quat[mesh])
     x, y, z, w = inner.rotation_xyzw
     back = Pose(tuple((-inner.rotation.T @ inner.position_m).tolist()), (-x, -y, -z, w))
     return compiled.compose(back)

@@ -312,7 +312,8 @@ def _mass(row: Json, place: str, mass_kg: float | None, volume: float) -> float 
         factor *= volume
     if mass_kg is None or factor == 0.0:
         return None
-    return checks.number(f"{place}: its mass", mass_kg * factor, "kg", at_most=1e9, error=SceneFormatError)
+    scaled_kg = mass_kg * factor
+    return checks.number(f"{place}: its mass", scaled_kg, "kg", at_most=limits.MAX_MASS_KG, error=SceneFormatError)
 
 
 # -- models ----------------------------------------------------------------------------------------------------------

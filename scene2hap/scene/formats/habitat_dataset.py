@@ -289,7 +289,9 @@ class Dataset:
                 "metres. If objects are then too large or too small, set scale there."
             )
         mass = attributes.get("mass", 0.0)
-        mass_kg = checks.number(f"{place}: mass", mass, "kg", at_least=0.0, at_most=1e9, error=SceneFormatError)
+        mass_kg = checks.number(
+            f"{place}: mass", mass, "kg", at_least=0.0, at_most=limits.MAX_MASS_KG, error=SceneFormatError
+        )
         given = attributes.get("uniform_scale", 1.0) if kind == "articulated_objects" else 1.0
         uniform = checks.number(f"{place}: uniform_scale", given, "-", above=0.0, error=SceneFormatError)
         file = None

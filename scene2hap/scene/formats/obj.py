@@ -38,16 +38,15 @@ class _Part:
     faces: dict[str, _Faces] = field(default_factory=dict)
 
 
-def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> AuthoredScene:
+def read_obj(text: str, name: str, textures: TextureFiles) -> AuthoredScene:
     """Return the objects of an OBJ text; `name` is for faces outside any object.
 
-    Without `textures`, material libraries are not read, and materials are distinguished by name only.
     Raises: SceneFormatError: a vertex or face is not made of numbers, or a face uses a vertex that does not exist; the
     message gives the line.
     """
     vertices: list[tuple[float, float, float]] = []
     coordinates: list[tuple[float, float]] = []
-    libraries = None if textures is None else MtlLibraries(textures)
+    libraries = MtlLibraries(textures)
     objects, groups = [_Part(name)], {name: _Part(name)}
     material, group = "", name
     into_object: _Faces | None = None
@@ -66,7 +65,7 @@ def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> Auth
             size.add_triangles(len(triangles))
         elif keyword == "vt":
             coordinates.append(_coordinates(rest))
-        elif keyword == "mtllib" and libraries is not None:
+        elif keyword == "mtllib":
             libraries.read(rest)
         elif keyword in ("o", "g", "usemtl"):
             into_object = into_group = None
@@ -81,16 +80,15 @@ def read_obj(text: str, name: str, textures: TextureFiles | None = None) -> Auth
     # The first row is for corners without coordinates.
     uv = np.array([(0.0, 0.0), *coordinates], dtype=np.float64)
     nodes = tuple(_node(i, part, points, uv, libraries) for i, part in enumerate(parts) if part.faces)
-    return AuthoredScene(nodes, left_out=() if textures is None else textures.left_out)
+    return AuthoredScene(nodes, left_out=textures.left_out)
 
 
-def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLibraries | None) -> AuthoredNode:
+def _node(number: int, part: _Part, points: _Table, uv: _Table, libraries: MtlLibraries) -> AuthoredNode:
     pieces = []
     for key, faces in part.faces.items():
         corners = np.array(faces, dtype=np.int64)
         piece = Piece.checked((number, key), points, corners >> _SHIFT, key, f"object {part.name!r}")
-        material = None if libraries is None else libraries.materials.get(key)
-        if material is not None:
+        if (material := libraries.materials.get(key)) is not None:
             mapped = corners & ((1 << _SHIFT) - 1)
             looks = material.appearance(len(corners), uv[mapped] if mapped.any() else None)
             piece = replace(piece, appearance=looks)

@@ -36,7 +36,7 @@ class TextureFiles:
         """Store the reason why a file is not used; the first reason of a name counts."""
         self._refused.setdefault(name, reason)
 
-    def from_file(self, uri: str, place: str, *, keeps_alpha: bool = True) -> EncodedTexture | None:
+    def from_file(self, uri: str, place: str, *, keeps_alpha: bool) -> EncodedTexture | None:
         """Return the image at `uri` (percent-encoded, relative to the scene), or None if refused. `place` is for
         messages."""
         if uri in self._refused:

@@ -17,7 +17,6 @@ from scene2hap.scene.copies import name_words
 from scene2hap.scene.geometry import distances
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
-from scene2hap.scene.scene_warning import SceneWarning as SceneWarning
 
 Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass"]
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,20 +15,18 @@ _PER_VERTEX = 100.0
 """Further tests for each vertex that the file stores (assumed: 4,000 different meshes of 200 vertices)."""
 
 
-@dataclass(eq=False)
 class Surfaces:
     """Cache of measured surfaces. `work` is the budget; the reader of a file raises it by the file's vertices."""
 
-    work: limits.Budget = field(
-        default_factory=lambda: limits.Budget(
+    def __init__(self) -> None:
+        self.work = limits.Budget(
             "the rays that measure its shapes, times their triangles,",
             _FREE,
             _PER_VERTEX,
             unit="vertices",
             advice="Simplify the meshes, use copies of fewer shapes, or split the scene.",
         )
-    )
-    _measured: dict[tuple[object, ...], DominantSurface] = field(default_factory=dict)
+        self._measured: dict[tuple[object, ...], DominantSurface] = {}
 
     def of(self, mesh: TriMesh, up: NDArray[np.float64], place: str, *, turns: bool = False) -> DominantSurface:
         """Return the surface of a mesh; `up` (3,) is the upward direction in its frame. See `dominant_surface`.

@@ -15,8 +15,8 @@ from scene2hap import Box, DominantSurface, Pose, SceneObject, SceneSnapshot, Tr
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import SceneError
 from scene2hap.llm.sharing import copies
-from scene2hap.scene.plausibility.check import SceneWarning
 from scene2hap.scene.plausibility.units import UnitWarning
+from scene2hap.scene.scene_warning import SceneWarning
 
 ROOM = [
     SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0))),

@@ -9,15 +9,21 @@ import pytest
 
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene import limits
-from scene2hap.scene.formats.obj import read_obj
+from scene2hap.scene.formats import obj
 from scene2hap.scene.load import load_scene
+from scene2hap.scene.looks.texture_files import TextureFiles
+from scene2hap.scene.tree import AuthoredScene
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
 
+def read(text: str) -> AuthoredScene:
+    return obj.read_obj(text, "file", TextureFiles(Path(), Path()))
+
+
 def corners(text: str) -> list[list[list[float]]]:
     """The triangles of the only piece."""
-    (node,) = read_obj(text, "file").roots
+    (node,) = read(text).roots
     (piece,) = node.pieces
     triangles: list[list[list[float]]] = piece.vertices[piece.faces].tolist()
     return triangles
@@ -47,24 +53,22 @@ def test_an_object_of_edges_alone_is_left_out(tmp_path: Path) -> None:
 
 def test_negative_indices_count_back_from_their_line() -> None:
     text = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\no b\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf -3 -2 -1\n"
-    heights = [node.pieces[0].vertices[:, 2].tolist() for node in read_obj(text, "file").roots]
+    heights = [node.pieces[0].vertices[:, 2].tolist() for node in read(text).roots]
     assert heights == [[0, 0, 0], [5, 5, 5]]
 
 
 def test_each_o_statement_is_one_object_in_file_order() -> None:
     text = SQUARE + "o leg\nf 1 2 3\no top\nf 1 3 4\no leg\nf 2 3 4\n"
-    assert [node.name for node in read_obj(text, "file").roots] == ["leg", "top", "leg"]
+    assert [node.name for node in read(text).roots] == ["leg", "top", "leg"]
 
 
 def test_groups_are_objects_only_without_o_statements() -> None:
     faces = "g one\nf 1 2 3\ng two\nf 1 3 4\ng one\nf 2 3 4\n"
-    assert [(node.name, len(node.pieces[0].faces)) for node in read_obj(SQUARE + faces, "file").roots] == [
+    assert [(node.name, len(node.pieces[0].faces)) for node in read(SQUARE + faces).roots] == [
         ("one", 2),
         ("two", 1),
     ]
-    assert [(node.name, len(node.pieces[0].faces)) for node in read_obj(SQUARE + "o all\n" + faces, "file").roots] == [
-        ("all", 3)
-    ]
+    assert [(node.name, len(node.pieces[0].faces)) for node in read(SQUARE + "o all\n" + faces).roots] == [("all", 3)]
 
 
 def test_file_without_o_or_g_is_one_object_named_after_the_file(tmp_path: Path) -> None:
@@ -75,7 +79,7 @@ def test_file_without_o_or_g_is_one_object_named_after_the_file(tmp_path: Path) 
 
 def test_materials_split_an_object_into_pieces() -> None:
     text = SQUARE + "mtllib ../elsewhere.mtl\no a\nusemtl oak\nf 1 2 3\nusemtl steel\nf 1 3 4\nusemtl oak\nf 2 3 4\n"
-    (node,) = read_obj(text, "file").roots
+    (node,) = read(text).roots
     assert [(piece.material, len(piece.faces)) for piece in node.pieces] == [("oak", 2), ("steel", 1)]
 
 
@@ -108,12 +112,12 @@ def test_object_contains_only_its_used_vertices(tmp_path: Path) -> None:
 )
 def test_error_names_the_line(text: str, sentence: str) -> None:
     with pytest.raises(SceneFormatError, match=sentence):
-        read_obj(text, "file")
+        read(text)
 
 
 def test_non_finite_vertex_error_names_its_object() -> None:
     with pytest.raises(SceneError, match="object 'cup': vertex 1 is .*finite"):
-        read_obj("o cup\nv 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "file")
+        read("o cup\nv 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")
 
 
 def test_objects_are_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -126,4 +130,4 @@ def test_objects_are_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 def test_triangles_are_limited(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(limits, "MAX_TRIANGLES", 1)
     with pytest.raises(SceneError, match="number of triangles is 2; .*MAX_TRIANGLES"):
-        read_obj(SQUARE + "f 1 2 3 4\n", "file")
+        read(SQUARE + "f 1 2 3 4\n")

@@ -18,6 +18,7 @@ from scene2hap.errors import AudioError, SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import mjcf_files
 from scene2hap.scene.formats import mtl, obj
+from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.shapes import TriMesh
 from scene2hap.scene.surface.dominant_surface import dominant_surface
 from scene2hap.scene.tree import Piece
@@ -115,9 +116,10 @@ def test_excessive_triangles_fall_back_to_the_box_surface() -> None:
 
 def test_continued_lines_are_joined_once() -> None:
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 \\\n3 \\\n\nf 3 2 1\n"
-    assert [len(piece.faces) for piece in obj.read_obj(text, "a").roots[0].pieces] == [2]
+    textures = TextureFiles(Path(), Path())
+    assert [len(piece.faces) for piece in obj.read_obj(text, "a", textures).roots[0].pieces] == [2]
     long = "f 1 2 " + "\\\n" * 200_000 + "3\n"
-    scene = obj.read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + long, "a")
+    scene = obj.read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + long, "a", textures)
     assert len(scene.roots[0].pieces[0].faces) == 1
 
 

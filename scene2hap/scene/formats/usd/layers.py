@@ -59,7 +59,7 @@ class Layers:
         path: Path,
         assets_root: Path,
         textures: TextureFiles,
-        allow: Callable[[int, int], None] = lambda n_bytes, n_prims: None,
+        allow: Callable[[int, int], None],
     ) -> None:
         self._path, self._assets_root, self.textures, self._allow = path, assets_root, textures, allow
         self.n_bytes = 0

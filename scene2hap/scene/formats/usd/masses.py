@@ -16,11 +16,9 @@ from typing import Any
 import numpy as np
 from pxr import UsdPhysics, UsdShade
 
+from scene2hap.scene import limits
 from scene2hap.scene.formats.usd.meshes import Triangles
 from scene2hap.scene.formats.usd.values import positive
-
-MAX_KG = 1e9
-"""A larger mass is ignored (`SceneObject.mass_kg` has the same bound)."""
 
 
 class Masses:
@@ -32,7 +30,7 @@ class Masses:
         self._volumes: dict[Hashable, float | None] = {}
 
     def of_all_below(self, prim: Any) -> float | None:
-        """Return the authored mass of a prim [kg]; None if there is none."""
+        """Return the authored mass of a prim [kg]; None if there is none, or it is above the bound of objects."""
         if not prim.HasAPI(UsdPhysics.MassAPI):
             return None
         return self._kg(positive(UsdPhysics.MassAPI(prim).GetMassAttr()))
@@ -64,7 +62,7 @@ class Masses:
 
     def _kg(self, mass: float | None) -> float | None:
         kg = None if mass is None else mass * self._kg_per_unit
-        return kg if kg is not None and 0 < kg <= MAX_KG else None
+        return kg if kg is not None and 0 < kg <= limits.MAX_MASS_KG else None
 
 
 def _closed_volume(found: Triangles) -> float | None:
