@@ -125,6 +125,8 @@ class SceneSnapshot(SceneData):
             if not item.instance_key and item.appearance is None:
                 item = replace(item, instance_key=item.geometry.mesh.digest)
             turned.append(item)
+        if contacts is not None:
+            contacts = checks.items("contacts", contacts, at_most=_MOST_CONTACTS, error=SceneError)
         scene = cls(name, up_axis, tuple(turned), contacts)
         scene = replace(scene, objects=with_relative_heights(turned, up_axis))
         warn_if_implausible(scene, source="python")

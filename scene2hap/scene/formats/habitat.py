@@ -46,7 +46,7 @@ from scene2hap.scene.formats.habitat_names import Names, ObjectNames
 from scene2hap.scene.geometry import Bounds, bounds_of, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, transform, with_own_keys
+from scene2hap.scene.tree import AuthoredNode, AuthoredScene, transform, with_own_keys
 
 _INSTANCES: dict[Kind, str] = {
     "objects": "object_instances",
@@ -174,9 +174,8 @@ class _Reader:
 
     def _middle(self, template: Template, model: _Model) -> NDArray[np.float64]:
         if template not in self._middles:
-            box = _joined_box([_turned_box(_node_box(root), root.matrix) for root in model.roots])
-            turned = _turned_box(box, template.frame)
-            self._middles[template] = np.zeros(3) if turned is None else turned.mean(axis=0)
+            box = _turned_box(AuthoredNode("", template.frame, (), model.roots))
+            self._middles[template] = np.zeros(3) if box is None else box.mean(axis=0)
         return self._middles[template]
 
     def _drawn(self, file: Path, place: str) -> _Model:
@@ -319,24 +318,15 @@ def _mass(row: Json, place: str, mass_kg: float | None, volume: float) -> float 
 # -- models ----------------------------------------------------------------------------------------------------------
 
 
-def _node_box(node: AuthoredNode) -> Bounds | None:
-    """Return the box of a node and all nodes below it, in the node's own frame."""
-    own = [bounds_of(piece.vertices) for piece in node.pieces]
-    return _joined_box([*own, *(_turned_box(_node_box(child), child.matrix) for child in node.children)])
-
-
-def _turned_box(box: Bounds | None, matrix: Matrix) -> Bounds | None:
-    """Return the box around the corners of a transformed box."""
-    if box is None:
+def _turned_box(node: AuthoredNode) -> Bounds | None:
+    """Return the box, in the parent's frame, around the turned box of a node and all nodes below; None without any."""
+    boxes = [bounds_of(piece.vertices) for piece in node.pieces]
+    boxes += [box for child in node.children if (box := _turned_box(child)) is not None]
+    if not boxes:
         return None
+    box = joined(boxes)
     corners = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
-    moved = corners @ matrix[:3, :3].T + matrix[:3, 3]
-    return bounds_of(moved)
-
-
-def _joined_box(boxes: list[Bounds | None]) -> Bounds | None:
-    there = [box for box in boxes if box is not None]
-    return joined(there) if there else None
+    return bounds_of(corners @ node.matrix[:3, :3].T + node.matrix[:3, 3])
 
 
 def _with_parts(file: Path) -> list[Path]:
