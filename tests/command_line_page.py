@@ -6,6 +6,7 @@ import argparse
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from textwrap import fill
 
 from scene2hap.cli import command_parser
 
@@ -13,12 +14,16 @@ PAGE = Path(__file__).parents[1] / "docs" / "command-line.md"
 
 _HEAD = """# The command line
 
-To see what a command takes. `scene2hap COMMAND --help` shows the same; this page is written from the parser by `python
-tests/command_line_page.py`, and a test compares it. Every command takes `-q` (no progress, no tables) and `--json` (the
-outcome as JSON). The exit status is 0, 1 for an error that you can act on, 2 for wrong usage.
+To look up a command and its arguments. `scene2hap COMMAND --help` shows the same. Every command also takes `-q` (no
+progress, no tables) and `--json` (the result as JSON). The exit status is 0; 1 for an error that you can act on; 2 for
+wrong usage.
+
+<!-- python tests/command_line_page.py writes this page from the parser -->
 """
 
 _COMMON = {"help", "quiet", "json"}
+_LIKE_BAKE = ("bake-many", "batch")
+"""Commands whose options of `bake` are listed by name only."""
 
 
 def page() -> str:
@@ -27,10 +32,17 @@ def page() -> str:
 
 
 def _commands(parser: argparse.ArgumentParser) -> Iterator[str]:
-    for name, command in _below(parser).items():
+    commands = _below(parser)
+    of_bake = [*_rows(commands["bake"])]
+    for name, command in commands.items():
         yield f"## {name}\n"
         yield _described(command.description or "")
         rows = [*_rows(command)]
+        if name in _LIKE_BAKE:
+            shared = [left for left, right in rows if (left, right) in of_bake]
+            options = ", ".join(f"`{re.split('[ ,]', left)[0]}`" for left in shared)
+            yield fill(f"It takes these options of [bake](#bake): {options}.", 120, break_on_hyphens=False) + "\n"
+            rows = [row for row in rows if row not in of_bake]
         rows += [_verb(verb, below) for verb, below in _below(command).items()]
         if rows:
             yield "| argument | meaning |\n|---|---|"

@@ -9,7 +9,7 @@ The code is run with the public names of `scene2hap`, `np` for NumPy, `scene` an
 a mug on a table, and a lamp), `other_scene` of a chair, `new_object` that may be added, `session` over the room,
 `started` (a session that plays into `sink`, a `MemorySink`), `TOP`, a point of the table, and a folder with
 `kitchen.glb`, `kitchen.bundle`, `settings.json`, `settings.toml`, `flat.toml`, `tap.wav`, `photo.png`, `room.blend` and
-`room.fbx`. The first of each topic are on the page docs/errors.md.
+`room.fbx`. docs/errors.md shows some of them.
 """
 
 from typing import NamedTuple

@@ -65,6 +65,7 @@ def bake(
     scene : a snapshot, or the path of a scene file, which `load_scene` reads.
     config : a BakeConfig, its settings, or the path of a TOML or JSON file with a table `bake`.
     user_prompt : instruction to the model, with priority over all others.
+    progress : called with stage, step, number done and total number.
     on_report : receives the report of the inference: calls, skipped calls, tokens, errors of single objects.
     overrides : a person's corrections by id, for example of an earlier bundle; they replace inferred values.
     earlier : a bundle of this scene; the states and loops of objects that `overrides` lock are taken from it.

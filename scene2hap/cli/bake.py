@@ -35,7 +35,7 @@ from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.settings import read_settings
 
-HELP = "scene file -> haptic bundle"
+HELP = "bake a scene file into a haptic bundle"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -23,7 +23,7 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import ConfigError, SceneError
 from scene2hap.llm.wrappers import is_remote
 
-HELP = "many scene files -> haptic bundles"
+HELP = "bake many scene files, each into a bundle"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

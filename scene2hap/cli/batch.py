@@ -21,7 +21,7 @@ from scene2hap.cli.bake_many import add_many_arguments, files, many_settings
 from scene2hap.cli.console import Console
 from scene2hap.errors import ConfigError, SceneError
 
-HELP = "questions about many scenes in batches: submit, status, collect, cancel"
+HELP = "send questions about many scenes in batches: submit, status, collect, cancel"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

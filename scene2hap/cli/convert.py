@@ -21,7 +21,7 @@ from scene2hap.cli.console import Console
 from scene2hap.cli.specs import given_spec
 from scene2hap.errors import AudioError, ConfigError
 
-HELP = "sound files -> tactile files"
+HELP = "convert sound files into vibration"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -38,7 +38,7 @@ from scene2hap.render.safety import SafetyLayer
 from scene2hap.scene.capture import RENDERERS
 from scene2hap.session.mix.output import LONGEST_FADE_OUT_S
 
-HELP = "available and missing features of this machine, and a test sweep"
+HELP = "show what this machine can do and what is missing, or play a test sweep"
 
 RATE_HZ = 48000
 SWEEP_HZ = (40.0, 400.0)

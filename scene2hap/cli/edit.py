@@ -37,6 +37,7 @@ from scene2hap.baking import rebake
 from scene2hap.baking.scene import OnRemade
 from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable, save_stamp, write_bundle
 from scene2hap.cli.console import Console
+from scene2hap.counted import counted
 from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
 from scene2hap.file_stamp import file_stamp
 
@@ -158,9 +159,16 @@ def _edit_once(arguments: argparse.Namespace, console: Console) -> dict[str, Any
         ]
         console.table("loops made again", ("object", "state", "what changed"), rows)
     if not changes and not remade:
-        console.say("the values stay; noted as yours, for later bakes")
+        console.say(_without_values(arguments.verb, sum(row.what.startswith("loop ") for row in all_changes)))
     console.say(f"wrote {folder}")
     return {"bundle": str(folder), "remade": remade}
+
+
+def _without_values(verb: str, n_loops: int) -> str:
+    """Describe an edit that changed no value. Only `undo` brings back loops without making them."""
+    if verb != "undo":
+        return "the values stay; noted as yours, for later bakes"
+    return f"{counted(n_loops, 'loop') if n_loops else 'the corrections'} of the bundle before"
 
 
 def wishes(bundle: HapticBundle) -> dict[str, Override]:

@@ -23,7 +23,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.export import EXPORTS, ExportReport, export_bundle, export_clip
 from scene2hap.export.exporting import ALL
 
-HELP = "bundle -> haptic formats of other platforms"
+HELP = "write a bundle in the haptic formats of other platforms"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

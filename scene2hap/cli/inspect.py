@@ -5,8 +5,8 @@ lowest point above that of the scene. "measured" is "well", or the reason to loo
 
 The table of a bundle has the inferred values. "sound Hz" is the strongest frequency of the sound, "vibration Hz" that
 of the vibration: "80 from 98" was moved from 98 Hz, "rough 49" adds roughness at 49 Hz. "felt dB" is the level over the
-threshold of touch at the object itself; "17 of 22" stays below the planned 22 dB, because the actuator or full scale
-allows no more. "starts, stops s" are the times of start and stop.
+threshold of touch at the object itself. "17 of 22" is 17 dB where 22 dB were planned: the actuator or full scale allows
+no more. "starts, stops s" are the times of start and stop.
 
 Warnings name likely mistakes, such as objects that float.
 
@@ -30,7 +30,7 @@ from scene2hap.errors import SceneError
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot
 
-HELP = "tables of a scene or a bundle"
+HELP = "show tables of a scene or a bundle"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

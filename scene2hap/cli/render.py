@@ -19,7 +19,7 @@ from scene2hap.session import HapticSession, SessionConfig, UserProfile
 from scene2hap.touch_track import TouchTrack
 from scene2hap.track_player import PlayedFrame, play_track
 
-HELP = "bundle + touches -> WAV"
+HELP = "render a file of touches on a bundle to a WAV file"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

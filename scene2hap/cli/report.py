@@ -24,7 +24,7 @@ from scene2hap.cli.console import Console
 from scene2hap.errors import BundleError
 from scene2hap.haptics import SourceState
 
-HELP = "bundle -> inferred values of each object with sources and reasons, as a table or a page"
+HELP = "show inferred values with their sources and reasons, as tables or as a page"
 
 _PICTURE_PX = 256
 

@@ -22,7 +22,7 @@ from scene2hap.cli.console import Console
 from scene2hap.session import SessionConfig, UserProfile
 from scene2hap.settings import Settings
 
-HELP = "every setting, with its default"
+HELP = "list every setting with its default"
 
 TABLES: dict[str, type[Settings]] = {"bake": BakeConfig, "session": SessionConfig, "user": UserProfile}
 

@@ -1,4 +1,4 @@
-"""The warning of a scene, or of a use of it, that is almost certainly wrong."""
+"""The warning of input that is probably a mistake: a scene, or a use of it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _PASSED = (__name__.partition(".")[0], "asyncio", "contextlib", "dataclasses")
 
 
 class SceneWarning(UserWarning):
-    """A scene, or a use of it, that is almost certainly wrong."""
+    """Input that is probably a mistake: a scene, or a use of it. The program continues."""
 
 
 def warn_of(sentence: str, category: type[Warning] = SceneWarning) -> None:

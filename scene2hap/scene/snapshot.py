@@ -60,8 +60,13 @@ _MOST_OBJECTS, _MOST_CONTACTS = 10_000_000, 100_000_000  # only an endless gener
 class SceneSnapshot(SceneData):
     """A scene as data that never changes: objects with names, poses and geometry, in metres.
 
-    `contacts` is None if the source of the scene has none; they are then found from geometry. `images` are of the whole
-    scene, None until `capture_images`.
+    `SceneSnapshot.build(objects)` makes one in Python, `load_scene` reads one from a file.
+
+    Parameters:
+    name : for people. up_axis : "y" or "z".
+    objects : at least one, each with an id of its own.
+    contacts : given contacts; None to find contacts from geometry.
+    images : of the whole scene; None until `capture_images`.
     Raises: SceneError: no object, two objects with one id, or a contact with an object that does not exist.
     """
 

@@ -19,7 +19,12 @@ _TOUCH = "A touch is Touch(hand, object_id, point_m), its point in the world."
 @clear_construction
 @dataclass(frozen=True)
 class Touch:
-    """A hand on an object at a world point [m]."""
+    """A hand on an object.
+
+    Parameters: hand : its name in the session; object_id : the touched object; point_m : the touched point in the world
+    [m], where the object is in this frame.
+    Raises: SessionError: `point_m` is not three finite numbers.
+    """
 
     hand: str
     object_id: str

@@ -98,16 +98,19 @@ class HapticSession:
                 frame = session.update({"cup": cup_pose}, [Touch("left", "table", point_m)])
                 frame.gain("left", "phone")  # 1 on the phone itself, 0 where nothing arrives
 
-    Parameters: scene : objects and their present poses; bundle : the bundle baked for them; config : a SessionConfig,
-    its settings, or the path of a TOML or JSON file with a table `session`; hands : names of the outputs; sink : the
-    output to which `start` sends the mix: a sink, its kind, or a mapping with a `kind`; None to call `render` yourself;
+    Parameters:
+    scene : objects and their present poses.
+    bundle : the bundle that was baked for them. A bundle alone, `HapticSession(bundle)`, is played on its own scene.
+        Scene and bundle may be paths, which are loaded here, in either order.
+    config : a SessionConfig, its settings, or the path of a TOML or JSON file with a table `session`.
+    hands : names of the outputs, in the order of channels.
+    sink : the output to which `start` sends the mix: a sink, its kind, or a mapping with a `kind`; None if the game
+        calls `render` itself.
     user : levels and limits of the person who plays: a UserProfile, its settings, or the path of a saved one.
-    Scene and bundle may be paths, which are loaded here (`load_scene`, `HapticBundle.load`), in either order. A bundle
-    alone, `HapticSession(bundle)` or `HapticSession("kitchen.bundle")`, is played on the scene that it was baked for.
     Raises: ConfigError; SceneError, BundleError: no scene or bundle, or files that cannot be read; UnknownObject: the
-    bundle has an object that the scene does not have. Warns: OtherActuatorWarning: the bundle's loops were made
-    for another actuator than the one that the settings name. Without a name, the bundle's is played on. SceneWarning:
-    the scene has objects that the bundle does not have.
+    bundle has an object that the scene does not have.
+    Warns: OtherActuatorWarning: the settings name another actuator than the one that the bundle's loops were made for
+    (without a name the session takes the bundle's). SceneWarning: the scene has objects that the bundle does not have.
     """
 
     def __init__(
@@ -197,11 +200,14 @@ class HapticSession:
     ) -> HapticFrame:
         """Apply a frame of the game: move objects, and set the gains of all hands.
 
-        Parameters: moved : new poses of objects that moved; touches : all touches of this frame (a hand that is not
-        among them is lifted; one with several feels the largest gain per source); contacts : contacts that an engine
-        reports, with normals from `a` to `b`, instead of those found from geometry; at_sample : the position on
-        `render`'s clock from which the gains change, None for the next block.
-        A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are accepted too.
+        Parameters:
+        moved : new poses of objects that moved, by id.
+        touches : all touches of this frame. A hand that is not among them is lifted; a hand with several feels the
+            largest gain of each source. A single Touch, and (hand, object id, point) instead of a Touch, are accepted
+            too, also as the first argument.
+        contacts : contacts that an engine reports, with normals from `a` to `b`; None to find them from geometry.
+        at_sample : the position on `render`'s clock from which the gains change; None for the next block.
+        Returns: the gains of the frame.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
         vibrates; normals of contacts that point from `b` to `a`.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position

@@ -179,6 +179,21 @@ def test_a_comparison_lists_only_what_an_edit_changed(
     assert found == [[source, "gain", "-3.0 dB", "+0.0 dB"]]
 
 
+def test_undo_of_another_actuator_tells_of_the_loops(
+    kitchen: Callable[..., Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = str(kitchen())
+    assert main(["edit", folder, "rebake", "--actuator", "lra", "-q"]) == 0
+    capsys.readouterr()
+    assert main(["edit", folder, "undo"]) == 0
+    told = capsys.readouterr().out
+    assert "3 loops of the bundle before" in told
+    assert "the values stay" not in told
+    assert main(["edit", folder, "material", "oak table", "oak", "-q"]) == 0
+    assert main(["edit", folder, "undo"]) == 0
+    assert "the corrections of the bundle before" in capsys.readouterr().out
+
+
 def test_undo_without_edits_is_refused(
     kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
