@@ -198,9 +198,10 @@ class HapticSession:
         """Apply a frame of the game: move objects, and set the gains of all hands.
 
         Parameters: moved : new poses of objects that moved; touches : all touches of this frame (a hand that is not
-        among them is lifted; one with several feels the largest gain per source); contacts : contacts that an engine
-        reports, with normals from `a` to `b`, instead of those found from geometry; at_sample : the position on
-        `render`'s clock from which the gains change, None for the next block.
+        among them is lifted; one with several feels the largest gain per source); contacts : all contacts that an
+        engine reports, with normals from `a` to `b`; none are found from geometry from then on, and with None later the
+        last ones stay, but for those of objects that move; at_sample : the position on `render`'s clock from which the
+        gains change, None for the next block.
         A single Touch, touches as the first argument, and (hand, object id, point) instead of a Touch are accepted too.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
         vibrates; normals of contacts that point from `b` to `a`.
