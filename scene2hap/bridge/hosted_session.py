@@ -12,7 +12,7 @@ from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 
 from scene2hap.bridge.frames import Frame, decode_frame, encode_gains
 from scene2hap.bridge.played_session import PlayedSession
-from scene2hap.bridge.session_warnings import forwarding_warnings
+from scene2hap.bridge.session_warnings import Tell, forwarding_warnings
 from scene2hap.errors import BridgeError, Scene2HapError, UnknownSession
 
 P = ParamSpec("P")
@@ -25,7 +25,6 @@ N_REPEATED = 64
 
 Frames = Literal["newest", "every"]
 Reply = Callable[[bytes], None]
-Tell = Callable[[dict[str, Any]], None]
 
 
 class Receiver(Protocol):
@@ -156,7 +155,7 @@ class HostedSession:
             one.send_gains(message, must_arrive=False)
 
     async def change_layout(self, work: Callable[[], object]) -> dict[str, Any]:
-        """Add or remove objects or sources, and send all watchers the new layout. Returns the layout for the player."""
+        """Add or remove objects or sources, and send all watchers the new layout. Returns the message to the player."""
 
         def changed() -> dict[str, Any]:
             work()
@@ -166,7 +165,7 @@ class HostedSession:
         order = await self.run(changed)
         for one in self.watchers:
             one.send({"type": "order", "session": self.id, **order})
-        return order
+        return {"type": "order", **order}
 
     async def lose(self, player: Receiver) -> None:
         """Pause after the player's connection is lost, and keep the session for `keep_s`."""
