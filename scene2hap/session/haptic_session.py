@@ -354,8 +354,7 @@ class HapticSession:
 
     def remove_hand(self, name: str) -> None:
         """Remove an output, but not the last; see `add_hand`. Raises: SessionError: an unknown hand."""
-        if not isinstance(name, str) or name not in self.hands:
-            raise SessionError(unknown_hand(name, self.hands))
+        self._require_hand(name)
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
         with self._output.reopened_for(hands, self._mixed):
             self._playback.remove_hand(self.hands.index(name))
@@ -418,8 +417,7 @@ class HapticSession:
 
         Raises: SessionError: an unknown hand.
         """
-        if not isinstance(hand, str) or hand not in self.hands:
-            raise SessionError(unknown_hand(hand, self.hands))
+        self._require_hand(hand)
         explained = self._hand_frames.explain(hand, is_paused=self._playback.is_paused)
         return replace(explained, impacts=self._impacts.felt_by(hand))
 
@@ -470,8 +468,7 @@ class HapticSession:
 
         column = self._sources.ids.index(self._sources[source_id].row.source_id)
         hand = self.hands[0] if hand is None else hand
-        if not isinstance(hand, str) or hand not in self.hands:
-            raise SessionError(unknown_hand(hand, self.hands))
+        self._require_hand(hand)
         cells = checks.whole("cells", cells, "-", at_least=4, at_most=2000, error=SessionError)
         if up_to_m is not None:
             up_to_m = checks.number("up_to_m", up_to_m, "m", error=SessionError)
@@ -665,6 +662,10 @@ class HapticSession:
         if self._user is not None:
             self._use_profile(self._user)
         self._hand_frames.levels_changed()
+
+    def _require_hand(self, hand: object) -> None:
+        if not isinstance(hand, str) or hand not in self.hands:
+            raise SessionError(unknown_hand(hand, self.hands))
 
     def _by_hand(self, touches: Any) -> Felt:
         if type(touches) is not list and type(touches) is not tuple:
