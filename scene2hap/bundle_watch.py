@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
+from collections import deque
 from types import TracebackType
 from typing import Self
 
@@ -36,7 +37,8 @@ class BundleWatch:
         self._session, self._folder = session, checks.path("folder", folder, error=BundleError)
         if not self._folder.is_dir():
             raise BundleError(f"there is no folder {str(self._folder)!r} to watch; `bake` and `save` write one.")
-        self._read: HapticBundle | None = None
+        # A deque, since the worker may publish a bundle at any step of `update`.
+        self._read: deque[HapticBundle] = deque(maxlen=1)
         self._closed = threading.Event()
         self._worker = threading.Thread(target=self._watch, args=(self._stamps(),), name="scene2hap-watch", daemon=True)
         self._worker.start()
@@ -46,10 +48,9 @@ class BundleWatch:
 
         Raises: BundleError: it is of another scene.
         """
-        bundle, self._read = self._read, None
-        if bundle is None:
+        if not self._read:
             return False
-        self._session.use_bundle(bundle)
+        self._session.use_bundle(self._read.pop())
         return True
 
     def close(self) -> None:
@@ -77,7 +78,7 @@ class BundleWatch:
 
     def _load(self) -> None:
         try:
-            self._read = HapticBundle.load(self._folder)
+            self._read.append(HapticBundle.load(self._folder))
             self.problem = ""
         except Scene2HapError as error:
             self.problem = str(error)

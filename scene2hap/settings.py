@@ -90,7 +90,7 @@ class Settings(BaseModel):
 
 _SUFFIXES = (".json", ".toml")
 
-SECTIONS = ("bake", "session", "user")
+SECTIONS = ("bake", "bridge", "session", "user")
 """The tables that a file of settings may have."""
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
@@ -121,7 +122,7 @@ class TouchTrack(BaseModel):
 
     @model_validator(mode="after")
     def _in_order(self) -> TouchTrack:
-        for number, (earlier, later) in enumerate(zip(self.steps, self.steps[1:], strict=False), start=2):
+        for number, (earlier, later) in enumerate(pairwise(self.steps), start=2):
             if later.time_s < earlier.time_s:
                 raise ValueError(f"step {number} is at {later.time_s} s, before the one above it at {earlier.time_s} s")
         if self.steps and self.steps[-1].time_s > self.duration_s:

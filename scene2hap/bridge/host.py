@@ -52,13 +52,14 @@ class Host:
         return found
 
     def hosted(self, session_id: str) -> HostedSession:
-        """Return a session by its id. Raises: UnknownSession."""
-        if session_id not in self._sessions:
+        """Return a session by its id. Raises: UnknownSession: it has ended, or is ending."""
+        found = self._sessions.get(session_id)
+        if found is None or found.is_closed:
             raise UnknownSession(
                 f"there is no session {checks.represented(session_id)}: it ended, or the bridge was restarted. Send "
                 "`play` again."
             )
-        return self._sessions[session_id]
+        return found
 
     def host(self, hosted: HostedSession, *, plays_sink: bool) -> None:
         """Register an open session."""

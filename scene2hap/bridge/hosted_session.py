@@ -12,7 +12,7 @@ from typing import Any, Literal, ParamSpec, Protocol, TypeVar
 
 from scene2hap.bridge.frames import Frame, decode_frame, encode_gains
 from scene2hap.bridge.played_session import PlayedSession
-from scene2hap.bridge.session_warnings import forwarding_warnings
+from scene2hap.bridge.session_warnings import Tell, forwarding_warnings
 from scene2hap.errors import BridgeError, Scene2HapError, UnknownSession
 
 P = ParamSpec("P")
@@ -25,7 +25,6 @@ N_REPEATED = 64
 
 Frames = Literal["newest", "every"]
 Reply = Callable[[bytes], None]
-Tell = Callable[[dict[str, Any]], None]
 
 
 class Receiver(Protocol):
@@ -74,7 +73,7 @@ class HostedSession:
         self._reply: Reply | None = None
         self._taking: asyncio.Task[None] | None = None
         self._forgetting: asyncio.TimerHandle | None = None
-        self._is_closed = False
+        self.is_closed = False
         # Gains that a lost connection may have dropped.
         self.last_gains: deque[bytes] = deque(maxlen=N_REPEATED if frames == "every" else 1)
 
@@ -103,6 +102,8 @@ class HostedSession:
         Parameters: reply : receives the gains, None to send them to the player. Raises: BridgeError: not a frame of
         this session.
         """
+        if self.is_closed:
+            return
         frame = decode_frame(message)
         if not hmac.compare_digest(frame.key, self.key):
             raise BridgeError("a frame carries another key than that of the session; copy it from `playing`.")
@@ -120,7 +121,7 @@ class HostedSession:
 
     async def _take_all(self) -> None:
         try:
-            while self._waits is not None and not self._is_closed:
+            while self._waits is not None:
                 try:
                     message, reply = await self._take_newest()
                 except Exception as error:
@@ -154,7 +155,7 @@ class HostedSession:
             one.send_gains(message, must_arrive=False)
 
     async def change_layout(self, work: Callable[[], object]) -> dict[str, Any]:
-        """Add or remove objects or sources, and send all watchers the new layout. Returns the layout for the player."""
+        """Add or remove objects or sources, and send all watchers the new layout. Returns the message to the player."""
 
         def changed() -> dict[str, Any]:
             work()
@@ -164,15 +165,15 @@ class HostedSession:
         order = await self.run(changed)
         for one in self.watchers:
             one.send({"type": "order", "session": self.id, **order})
-        return order
+        return {"type": "order", **order}
 
     async def lose(self, player: Receiver) -> None:
         """Pause after the player's connection is lost, and keep the session for `keep_s`."""
-        if self.player is not player or self._is_closed:
+        if self.player is not player or self.is_closed:
             return
         self.player = None
         # Set the timer before any await, so that a client that resumes at once can cancel it.
-        self._forgetting = self._loop.call_later(self._keep_s, lambda: self._loop.create_task(self.close()))
+        self._forgetting = self._loop.call_later(self._keep_s, lambda: self._loop.create_task(self._forget()))
         await self.run(self.played.session.pause)
         if self.player is None:
             self._tell_watchers({"type": "state", "session": self.id, "is": "waiting"})
@@ -194,12 +195,16 @@ class HostedSession:
         self._tell_watchers({"type": "state", "session": self.id, "is": "playing"})
         return await self.run(self.played.order)
 
+    async def _forget(self) -> None:
+        if self.player is None:  # else it was resumed in the same step of the loop
+            await self.close()
+
     async def close(self) -> None:
         """End the session."""
-        if self._is_closed:
+        if self.is_closed:
             return
+        self.is_closed = True
         await self.settle()
-        self._is_closed = True
         if self._forgetting is not None:
             self._forgetting.cancel()
         await self._on_a_thread(self.played.close)

@@ -10,11 +10,12 @@ import secrets
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from scene2hap.bridge.hosted_session import error_message
+from scene2hap.bridge.session_warnings import Tell
 from scene2hap.errors import BridgeError
 from scene2hap.interpreter import can_start_python
 
@@ -24,8 +25,6 @@ N_KEPT = 32
 """Number of bundles of ended jobs that are kept for `play`, besides saved ones."""
 LONGEST_LINE = 1 << 24
 """Most bytes of one answer of the process; assumed: some hundred thousand objects."""
-
-Tell = Callable[[dict[str, Any]], None]
 
 
 class Jobs:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from scene2hap.bridge.frame_layout import Layout, Layouts
 from scene2hap.bridge.frames import IS_PREPARING, PAUSED, Frame, Gains
+from scene2hap.bridge.session_warnings import Tell
 from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.devices.whole_frames import WholeFrames
@@ -22,8 +23,6 @@ from scene2hap.session.impacts.felt_impacts import Impact
 
 LONGEST_FRAME_S = 1.0
 """Most time by which the session's clock advances between two frames, for example while a debugger stops the game."""
-
-Tell = Callable[[dict[str, Any]], None]
 
 
 class PlayedSession:
@@ -46,7 +45,7 @@ class PlayedSession:
         self._time_s: float | None = None
         self.sequence = 0
         self.n_received = self.n_skipped = self.n_outdated = 0
-        self._is_paused = self._may_begin_clock = False
+        self.is_paused = self._may_begin_clock = False
         self._last_impact: Impact | None = None
         if sink is not None:
             session.start()
@@ -139,18 +138,13 @@ class PlayedSession:
 
     def pause(self) -> None:
         """Fade out all vibration."""
-        self._is_paused = True
+        self.is_paused = True
         self.session.pause()
 
     def unpause(self) -> None:
         """Continue after a pause."""
-        self._is_paused = False
+        self.is_paused = False
         self.session.resume()
-
-    @property
-    def is_paused(self) -> bool:
-        """True if the session was paused and not continued since."""
-        return self._is_paused
 
     def close(self) -> None:
         """End the session."""
@@ -198,7 +192,7 @@ class PlayedSession:
         gains = found.gains
         if found.hands != self.layout.hands or found.sources != self.layout.sources:
             raise BridgeError("the session's hands or sources changed without a new layout.")
-        flags = (PAUSED if self._is_paused else 0) | (0 if self.session.is_current else IS_PREPARING)
+        flags = (PAUSED if self.is_paused else 0) | (0 if self.session.is_current else IS_PREPARING)
         return Gains(self.layout.number, self.sequence, self.n_skipped, time_s, flags, intensities, gains)
 
     def _tell_impacts(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any, cast
@@ -15,16 +15,17 @@ from scene2hap.bridge.client import Client
 from scene2hap.bridge.garbage_collection import settle_garbage
 from scene2hap.bridge.host import Host
 from scene2hap.bridge.hosted_session import HostedSession
+from scene2hap.bridge.messages import Document
 from scene2hap.bridge.played_session import PlayedSession
+from scene2hap.bridge.session_warnings import Tell
 from scene2hap.bundle import HapticBundle
 from scene2hap.devices import SINKS
 from scene2hap.devices.protocol import ActuatorSink
 from scene2hap.errors import BridgeError
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session import HapticSession
-
-Document = dict[str, Any]
 
 BAKE_SETTINGS = ("actuator", "enough_candidates", "seed", "spread", "tactile")
 """Bake settings that a client may choose. The server chooses models, keys, prices and folders."""
@@ -59,7 +60,7 @@ async def answer(request: messages.Request, client: Client, host: Host) -> Docum
         case messages.Explain():
             shared = _shared(client)
             explanation = await shared.run(shared.played.session.explain, request.hand)
-            return {"type": "explanation", **explanation.to_data(), "text": explanation.text}
+            return {"type": "explanation", **explanation.to_data()}
         case messages.Stats():
             shared = _shared(client)
             return {"type": "stats", **await shared.run(shared.played.stats)}
@@ -98,17 +99,15 @@ async def _changed(request: messages.Request, hosted: HostedSession, host: Host)
         case messages.Unpause():
             await hosted.run(played.unpause)
         case messages.Moving():
-            return _order(await hosted.change_layout(lambda: played.use_layout(request.moving)))
+            return await hosted.change_layout(lambda: played.use_layout(request.moving))
         case messages.Remove():
-            return _order(await hosted.change_layout(lambda: session.remove(request.object)))
+            return await hosted.change_layout(lambda: session.remove(request.object))
         case messages.Add():
-            return _order(await hosted.change_layout(lambda: session.add(_one_object(request.object, session))))
+            return await hosted.change_layout(lambda: session.add(_one_object(request.object, session)))
         case messages.Spawn():
             folder = _bundle_folder(request.prefab, request.job, "spawn", host)
             pose = Pose(request.position_m, request.rotation_xyzw)
-            return _order(
-                await hosted.change_layout(lambda: session.spawn(HapticBundle.load(folder), request.object, pose))
-            )
+            return await hosted.change_layout(lambda: session.spawn(HapticBundle.load(folder), request.object, pose))
     return {"type": "done"}
 
 
@@ -160,7 +159,7 @@ def _made(
     folder: Path,
     settings: Mapping[str, Any],
     sink_spec: object,
-    tell: Callable[[Document], None],
+    tell: Tell,
 ) -> PlayedSession:
     """Make the session that a client requested. This takes seconds, so it runs on a thread."""
     bundle = HapticBundle.load(folder)
@@ -210,10 +209,6 @@ def _playing(hosted: HostedSession, order: Document, host: Host) -> Document:
     }
 
 
-def _order(order: Document) -> Document:
-    return {"type": "order", **order}
-
-
 def _require_free(client: Client) -> None:
     if client.hosted is not None or client.watched is not None:
         raise BridgeError("this connection has a session already; send `leave` first, or open another connection.")
@@ -242,7 +237,7 @@ def _bundle_folder(path: str | None, job: int | None, kind: str, host: Host) -> 
     return host.jobs.bundle(job) if job is not None else host.below_root(path or "")
 
 
-def _one_object(row: Document, session: HapticSession) -> Any:
+def _one_object(row: Document, session: HapticSession) -> SceneObject:
     """Return the object in a row of scene JSON. Raises: SceneError."""
     document = {
         "format": "scene2hap/scene",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 
 class Pace:
     """Counter of frames at a rate from a start time. After a pause of over `max_lag_s` [s] the excess is dropped.
@@ -36,6 +38,9 @@ class Pace:
         """Count frames as taken."""
         self._taken += n_frames
 
-    def wait_s(self, n_frames: int, now_s: float) -> float:
-        """Return the time until a number of frames is due [s], 0 if they are."""
-        return max(0.0, self._since_s + (self._taken + n_frames) / self._rate_hz - now_s)
+    def wait(self, n_frames: int, timeout_s: float) -> int:
+        """Wait at most `timeout_s` [s] until frames are due on `time.monotonic`. Returns their number, 0 if not due."""
+        wait_s = self._since_s + (self._taken + n_frames) / self._rate_hz - time.monotonic()
+        if wait_s > 0:
+            time.sleep(min(wait_s, timeout_s))
+        return n_frames if self.due(time.monotonic()) >= n_frames else 0

@@ -78,10 +78,7 @@ class OscLine:
     def wanted(self, timeout_s: float) -> int:
         """Send the changed gains, then wait for the clock."""
         self._send_changes()
-        wait_s = self._pace.wait_s(self._block_frames, time.monotonic())
-        if wait_s > 0:
-            time.sleep(min(wait_s, timeout_s))
-        return self._block_frames if self._pace.due(time.monotonic()) >= self._block_frames else 0
+        return self._pace.wait(self._block_frames, timeout_s)
 
     def send(self, block: Block) -> None:
         """Discard the samples: the receiver plays its own."""

@@ -65,9 +65,14 @@ class PlaybackRing:
         self._data[: len(block) - first] = block[first:]
         self._written += len(block)
 
-    def play(self, out: Block) -> None:
-        """Fill `out` (n, n_channels) with the next frames, or with a fade and silence."""
+    def play(self, out: Block, *, after_gap: bool = False) -> None:
+        """Fill `out` (n, n_channels) with the next frames, or with a fade and silence.
+
+        Parameters: after_gap : the device was silent before, since it ran out of samples.
+        """
         n_frames = len(out)
+        if after_gap:
+            self._place = 0
         if self._place == 0:
             self._is_dry = False
             if self.closing or self.level < n_frames:

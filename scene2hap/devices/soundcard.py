@@ -135,14 +135,15 @@ class _CardLine:
         self._pace = self._rendered_at = 0.0
         self._columns: list[int] = []
         self._wide: Block = np.zeros((0, 0), dtype=np.float32)
-        self._gaps = self._flags = 0
+        self._gaps = self._driver_gaps = 0
+        self._is_in_gap = False
         self.latency_s: float | None = None
         self.device = self.remark = ""
 
     @property
     def underruns(self) -> int:
         """Number of gaps, of our own rendering or reported by the driver."""
-        return self._gaps + self._ring.gaps + self._flags
+        return self._gaps + self._ring.gaps + self._driver_gaps
 
     @property
     def load(self) -> float:
@@ -191,9 +192,11 @@ class _CardLine:
         ring.restart()
 
         def callback(out: NDArray[np.float32], n_frames: int, when: Any, status: Any) -> None:
-            ring.play(out)
-            if status.output_underflow:
-                self._flags += 1
+            # The driver reports a gap with each block that it requests at once after it.
+            was_in_gap, self._is_in_gap = self._is_in_gap, bool(status.output_underflow)
+            is_after_gap = self._is_in_gap and not was_in_gap
+            self._driver_gaps += is_after_gap
+            ring.play(out, after_gap=is_after_gap)
 
         self._stream = portaudio.open_stream(card, n_channels, rate_hz, self._latency, self._block_frames, callback)
         self._ahead = min(rate_hz, round((self._stream.latency + AHEAD_S) * rate_hz))

@@ -69,8 +69,6 @@ class UdpSink(LiveSink):
     def show(self, frame: GainFrame) -> None:
         """Store the gains of one update; never blocks the game's thread. No effect for PCM."""
         if self._osc is not None:
-            # Computed here, since on the sink's thread the scene might change meanwhile.
-            _ = frame.gains
             self._osc.latest = frame
 
 
@@ -109,10 +107,7 @@ class PcmLine:
 
     def wanted(self, timeout_s: float) -> int:
         """Return the frames of one block whenever one is due."""
-        wait_s = self._pace.wait_s(self._block_frames, time.monotonic())
-        if wait_s > 0:
-            time.sleep(min(wait_s, timeout_s))
-        return self._block_frames if self._pace.due(time.monotonic()) >= self._block_frames else 0
+        return self._pace.wait(self._block_frames, timeout_s)
 
     def send(self, block: Block) -> None:
         """Send one PCM datagram, and the announcement at its interval."""

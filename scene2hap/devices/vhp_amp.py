@@ -71,7 +71,7 @@ class VhpLine:
         self._port = SerialPort(self._name, BAUD_RATE)
         self._heard = b""
         if not self._slim:
-            self._port.write(vhp.packet(vhp.Message(vhp.MessageType.ENABLE_AMPLIFIERS, recipient=vhp.Recipient.SLEEVE)))
+            self._port.write(vhp.packet(vhp.Message(vhp.MessageType.ENABLE_AMPLIFIERS)))
         began = time.monotonic()
         self._write(_REST)
         while carry_on() and not self._has_request(0.005):
@@ -112,8 +112,7 @@ class VhpLine:
                 self._has_request(KICK_S / 2)
                 self._write(_REST)
             if not self._slim:
-                off = vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS, recipient=vhp.Recipient.SLEEVE)
-                port.write(vhp.packet(off))
+                port.write(vhp.packet(vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS)))
             # Closing discards unsent bytes: 132 bytes take 1.3 ms at 1 Mbaud.
             time.sleep(0.004)
         except DeviceError:

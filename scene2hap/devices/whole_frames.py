@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 
 from scene2hap import checks
 from scene2hap.devices.protocol import Block
-from scene2hap.errors import Scene2HapError, SessionError
+from scene2hap.errors import SessionError
 
 MAX_S = 3600.0
 """Longest time at once [s] (assumed: far beyond any game's frame). A larger number is probably a number of frames."""
@@ -15,14 +15,13 @@ MAX_S = 3600.0
 class WholeFrames:
     """Converter of times [s] to numbers of frames. The remainder, at most half a frame, is added to the next time."""
 
-    def __init__(self, rate_hz: int, error: type[Scene2HapError] = SessionError) -> None:
-        self._rate_hz, self._error = rate_hz, error
-        self._carried = 0.0
+    def __init__(self, rate_hz: int) -> None:
+        self._rate_hz, self._carried = rate_hz, 0.0
 
     def of(self, seconds: float) -> int:
-        """Return the frames that are due after another `seconds` [s]. Raises: it is no time from 0 to `MAX_S`."""
+        """Return the frames that are due after another `seconds` [s]. Raises: SessionError: no time up to `MAX_S`."""
         hint = "Give seconds, as 1 / 90 for a frame at 90 Hz; `render` and `pull` take a number of samples."
-        time_s = checks.number("seconds", seconds, "s", at_least=0.0, at_most=MAX_S, error=self._error, hint=hint)
+        time_s = checks.number("seconds", seconds, "s", at_least=0.0, at_most=MAX_S, error=SessionError, hint=hint)
         due = time_s * self._rate_hz + self._carried
         n_frames = max(0, round(due))
         self._carried = due - n_frames

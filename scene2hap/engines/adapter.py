@@ -23,5 +23,8 @@ class EngineAdapter(Protocol):
         ...
 
     def contacts(self) -> Sequence[Contact] | None:
-        """Return the current contacts of objects; None if the session must find them from geometry."""
+        """Return all current contacts of objects; None if the session must find them from geometry.
+
+        After a first list, None means that this frame has no report; see `HapticSession.update`.
+        """
         ...

@@ -88,7 +88,6 @@ class LoopBank:
         self.n_bands = bands.n_bands
         self._stored = [_stored(loop, bands, sample_rate_hz) for loop in loops]
         self.loops = [one.loop for one in self._stored]
-        self._periods = [(len(loop.samples), loop.sample_rate_hz) for loop in loops]
 
     def __len__(self) -> int:
         return len(self.loops)
@@ -129,10 +128,6 @@ class LoopBank:
         """Return the loop of a bank of one, at a tactile sample of the common clock; None for silence."""
         return self.loops[0]
 
-    def position_s(self, loop: int, frame: int, sample_rate_hz: int) -> float:
-        """Return the position of a loop [s] at a frame of a clock with another rate."""
-        return position_s(*self._periods[loop], frame, sample_rate_hz)
-
 
 class SlotBank(LoopBank):
     """A bank of slots. Each holds a bank of one loop, or is empty.
@@ -152,11 +147,6 @@ class SlotBank(LoopBank):
 
     def __len__(self) -> int:
         return len(self.slots)
-
-    @property
-    def nbytes(self) -> int:
-        """Memory of the loops [bytes]."""
-        return sum(bank.nbytes for bank in self.slots if bank is not None)
 
     def read(self, loops: Sequence[int], begin: int, out: Block) -> None:
         """Write as `LoopBank`; an empty slot is silent."""

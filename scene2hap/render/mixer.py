@@ -27,8 +27,8 @@ from scene2hap import checks
 from scene2hap.compiled import compiled
 from scene2hap.errors import ConfigError, SessionError
 from scene2hap.render.limiter import THRESHOLD, decays, limit_in_place, turn_down_in_place
-from scene2hap.render.loop_bank import CELL, LoopBank
-from scene2hap.render.tactile_mix import Block, Gains, TactileMix
+from scene2hap.render.loop_bank import CELL, Block, LoopBank
+from scene2hap.render.tactile_mix import Gains, TactileMix
 from scene2hap.render.upsampler import Upsampler
 
 

@@ -123,14 +123,8 @@ class Passage(LoopBank):
         low = math.floor(at.min())
         source = steady.taken(0, begin + low - 1, math.ceil(at.max()) - low + 4)
         samples = _between(source, at - low + 1) * amplitude[:, None].astype(np.float32)
-        self._samples = samples
         self.loops: list[StoredLoop] = [stored_once(samples, begin)]
         self._afterwards = steady.loops[0] if course.goes_up else None
-
-    @property
-    def nbytes(self) -> int:
-        """Memory of the loop [bytes]."""
-        return self._samples.nbytes
 
     def only(self, begin: int) -> StoredLoop | None:
         """Return the passage, or from its end on the steady loop or silence."""

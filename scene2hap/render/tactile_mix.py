@@ -24,12 +24,9 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.render.loop_bank import CELL, LoopBank
-
-Block = NDArray[np.float32]
+from scene2hap.render.loop_bank import CELL, Block, LoopBank
 
 MOST_SLOTS = 40
 

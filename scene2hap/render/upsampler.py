@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.render.loop_bank import CELL
+from scene2hap.render.loop_bank import CELL, Block
 
 PASS_HZ = 1000.0
 """End of the filter's flat pass band [Hz]; higher frequencies are not felt."""
@@ -32,8 +32,6 @@ IMAGE_DB = 80.0
 _MOST_KEPT = 64
 """Most matrices that are cached; 44.1 kHz has 10. Rates with a small common divisor have up to f_in matrices, which are
 made on demand."""
-
-Block = NDArray[np.float32]
 
 
 @compiled

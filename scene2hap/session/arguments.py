@@ -5,9 +5,8 @@ An ordinary frame runs only the check of its stamp from this module, so these co
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Collection, Mapping, Sequence
-from typing import Any, NoReturn
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import NoReturn
 
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
@@ -112,16 +111,9 @@ def require_pose(object_id: str, pose: object) -> None:
 
 def given_contacts(contacts: object) -> Sequence[Contact]:
     """Return contacts of an engine. Raises: SessionError: another type."""
-    found: tuple[Any, ...] = (contacts,)
-    if not isinstance(contacts, str | Mapping | Contact):
-        with contextlib.suppress(Exception):  # an object of another type may raise any error
-            found = tuple(contacts)  # type: ignore[arg-type]  # if it cannot, an error is raised below
-    if isinstance(contacts, Contact) or not all(isinstance(one, Contact) for one in found):
-        wrong = next((one for one in found if not isinstance(one, Contact)), contacts)
-        raise SessionError(
-            f"contacts is or has {checks.described(wrong)}; it must be a list, as [Contact('mug', 'table', point_m)]."
-        )
-    return found
+    given = contacts if isinstance(contacts, Iterable | Contact) else (contacts,)
+    wanted = "a list, as [Contact('mug', 'table', point_m)]"
+    return checks.instances("contacts", given, Contact, wanted, error=SessionError)
 
 
 def given_strike(

@@ -75,10 +75,9 @@ class Audibility:
         self._counts.silent_bands += n_silent
         return mixed, columns
 
-    def loud(self, gains: NDArray[np.float32], columns: Sequence[int] | None = None) -> NDArray[np.float32]:
-        """Zero silent bands in the gains of the sources in some columns (None for all), in place."""
+    def silence(self, gains: NDArray[np.float32], columns: Sequence[int]) -> None:
+        """Zero silent bands in the gains of the sources in some columns, in place."""
         self._counts.silent_bands += silence(gains, self._least_gain, columns)
-        return gains
 
 
 class CutoffCost:

@@ -190,7 +190,7 @@ class RemovedIds:
         return f" {wanted_id!r} was removed; `add(object)` puts it back." if is_removed else ""
 
 
-def unknown_hand(hand: str, hands: Sequence[str]) -> str:
+def unknown_hand(hand: object, hands: Sequence[str]) -> str:
     """The sentence for a name that is no hand."""
     near = checks.did_you_mean(hand, hands)
     return f"no hand {checks.represented(hand)}; this session has {', '.join(map(repr, hands))}. {near}".rstrip()

@@ -111,11 +111,9 @@ class HandFrames:
     ) -> tuple[HapticFrame, HandGains | None]:
         """Gains of the hands, and the part to be mixed; None if nothing has changed."""
         self._catch_up()
+        self._use_hands(hands)
         if self.keeper.take():
             self._is_fresh = False
-        if hands is not self._hands:
-            self._hands = hands
-            self.levels_changed()
         if self._is_unchanged(felt, moved):
             self._counts.unchanged_frames += 1
             self.keeper.order()
@@ -163,9 +161,7 @@ class HandFrames:
     def would_feel(self, hands: tuple[str, ...], touches: Sequence[Touch]) -> NDArray[np.float64]:
         """Gains (n_touches, n_sources, n_bands) [-] of each touch alone, 0 below -140 dB; no touch is counted."""
         self._catch_up()
-        if hands is not self._hands:
-            self._hands = hands
-            self.levels_changed()
+        self._use_hands(hands)
         if not touches or not self._sources.ids:
             return np.zeros((len(touches), len(self._sources.ids), self._config.bands.n_bands))
         levels = {hand: np.stack([*self._levels_at(hand).values()]) for hand in {touch.hand for touch in touches}}
@@ -176,6 +172,11 @@ class HandFrames:
         for one, touch in zip(given, touches, strict=True):
             one *= levels[touch.hand]
         return np.where(given < SILENT, 0.0, given)
+
+    def _use_hands(self, hands: tuple[str, ...]) -> None:
+        if hands is not self._hands:
+            self._hands = hands
+            self.levels_changed()
 
     def stats(self, updates: int, rows_not_mixed: int) -> SessionStats:
         """Counters so far."""

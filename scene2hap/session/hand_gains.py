@@ -237,7 +237,7 @@ class PrunedGains:
         self._counts.idle_hands += n_hands - len(felt)
         mixed = self._loudness.applied(gains.at(self._field, each, columns), columns)
         if self._skips_silent_bands:
-            mixed = self._loudness.audibility.loud(mixed, columns)
+            self._loudness.audibility.silence(mixed, columns)
 
         version = self._graph.version
 

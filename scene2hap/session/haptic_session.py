@@ -205,7 +205,8 @@ class HapticSession:
         touches : all touches of this frame. A hand that is not among them is lifted; a hand with several feels the
             largest gain of each source. A single Touch, and (hand, object id, point) instead of a Touch, are accepted
             too, also as the first argument.
-        contacts : contacts that an engine reports, with normals from `a` to `b`; None to find them from geometry.
+        contacts : all contacts that an engine reports, with normals from `a` to `b`. From then on none are found from
+            geometry; with None later, the last ones stay, but for those of objects that move.
         at_sample : the position on `render`'s clock from which the gains change; None for the next block.
         Returns: the gains of the frame.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
@@ -359,8 +360,7 @@ class HapticSession:
 
     def remove_hand(self, name: str) -> None:
         """Remove an output, but not the last; see `add_hand`. Raises: SessionError: an unknown hand."""
-        if not isinstance(name, str) or name not in self.hands:
-            raise SessionError(unknown_hand(name, self.hands))
+        self._require_hand(name)
         hands = checks.names("hands", [hand for hand in self.hands if hand != name])
         with self._output.reopened_for(hands, self._mixed):
             self._playback.remove_hand(self.hands.index(name))
@@ -423,8 +423,7 @@ class HapticSession:
 
         Raises: SessionError: an unknown hand.
         """
-        if not isinstance(hand, str) or hand not in self.hands:
-            raise SessionError(unknown_hand(hand, self.hands))
+        self._require_hand(hand)
         explained = self._hand_frames.explain(hand, is_paused=self._playback.is_paused)
         return replace(explained, impacts=self._impacts.felt_by(hand))
 
@@ -475,8 +474,7 @@ class HapticSession:
 
         column = self._sources.ids.index(self._sources[source_id].row.source_id)
         hand = self.hands[0] if hand is None else hand
-        if not isinstance(hand, str) or hand not in self.hands:
-            raise SessionError(unknown_hand(hand, self.hands))
+        self._require_hand(hand)
         cells = checks.whole("cells", cells, "-", at_least=4, at_most=2000, error=SessionError)
         if up_to_m is not None:
             up_to_m = checks.number("up_to_m", up_to_m, "m", error=SessionError)
@@ -670,6 +668,10 @@ class HapticSession:
         if self._user is not None:
             self._use_profile(self._user)
         self._hand_frames.levels_changed()
+
+    def _require_hand(self, hand: object) -> None:
+        if not isinstance(hand, str) or hand not in self.hands:
+            raise SessionError(unknown_hand(hand, self.hands))
 
     def _by_hand(self, touches: Any) -> Felt:
         if type(touches) is not list and type(touches) is not tuple:

@@ -185,8 +185,8 @@ def warn_if_other_actuator(bundle: HapticBundle, actuator: ActuatorProfile) -> N
     Limits of amplitude and power are not compared: only the safety layer uses them, and loops do not depend on them. A
     bundle without a record of its actuator, or without loops, fits any actuator. Warns: OtherActuatorWarning.
     """
-    made_for = getattr(getattr(bundle, "made_with", None), "actuator", None)
-    if not bundle.loops or not isinstance(made_for, ActuatorProfile) or _response(made_for) == _response(actuator):
+    made_for = bundle.actuator
+    if not bundle.loops or made_for is None or _response(made_for) == _response(actuator):
         return
     warn_of(
         f"the bundle's loops were made for the actuator {made_for.name!r}, and this session plays on "

@@ -22,8 +22,6 @@ _LABEL_IN = 0.5
 """Height of the ticks and the label of an axis [inch]."""
 RANGE_DB = 60.0
 """Range of the colours below the highest level [dB]: full scale is 45 dB over the threshold of touch."""
-CELLS = 96
-"""Number of cells along the longer side of the scene. Twice as many take four times as long."""
 _AT_ONCE = 8192
 """Most points of one query, since a query for a large grid would need large arrays for all sources."""
 

@@ -429,6 +429,28 @@ def test_link_moves_a_diverged_session_to_the_engine_state(as_table: bool) -> No
     assert session.poses["phone"] == there
 
 
+def test_the_last_reported_contacts_stay_in_frames_without_a_report() -> None:
+    """None ends no contact of objects at rest, and never begins a search: physics may run more slowly than frames."""
+    scene = own_scene()
+    adapter = Given(scene, contacts=[Contact("phone", "table", (0.2, 0.72, 0.1))])
+    link = EngineLink(adapter, HapticSession(scene, baked(scene)))
+    touch = [Touch("left", "table", (0.4, 0.72, 0.1))]
+
+    def feels_the_phone(contacts: Any, phone: Pose = PHONE) -> bool:
+        adapter.given |= {"contacts": contacts, "poses": {"table": TABLE, "phone": phone}}
+        return link.update(touch).gain("left", "phone") > 0
+
+    moved = Pose((0.3, 0.724, 0.1))
+    report = [Contact("phone", "table", (0.2, 0.72, 0.1))]
+    assert feels_the_phone(report)
+    assert feels_the_phone(None)
+    assert not feels_the_phone([])
+    assert not feels_the_phone(None)
+    assert feels_the_phone(report)
+    assert not feels_the_phone(None, moved)
+    assert feels_the_phone(report, moved)
+
+
 def test_frame_has_a_time_on_the_clock() -> None:
     scene = own_scene()
     link = EngineLink(Given(scene), HapticSession(scene, baked(scene)))

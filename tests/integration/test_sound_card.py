@@ -103,10 +103,9 @@ def test_the_card_plays_the_fade_of_a_stop(server: SoundServer) -> None:
     assert level_at_end_db(recorder.stop()) < -50.0
 
 
-@pytest.mark.parametrize("last_line", ["pass", "raise ValueError"])
-def test_a_program_that_ends_fades_out_on_the_card(server: SoundServer, last_line: str) -> None:
-    """sounddevice ends PortAudio at the end of a program, which cut the sound, and sometimes never returned."""
-    program = f"""
+def program_that_plays(seconds: float, last_lines: str) -> str:
+    """A program that plays a session on the card, and then runs the last lines."""
+    return f"""
 import sys, time
 sys.path.insert(0, {str(Path(__file__).parents[1])!r})
 from scene2hap.devices.soundcard import SoundCardSink
@@ -115,16 +114,45 @@ sink = SoundCardSink({DEVICE!r})
 session = session_on(sink)
 session.start()
 assert sink.wait_connected(10.0)
-end = time.monotonic() + 0.7
+print("plays", flush=True)
+end = time.monotonic() + {seconds}
 while time.monotonic() < end:
     session.update(touches=TOUCHES)
     time.sleep(0.01)
-{last_line}
+{last_lines}
 """
+
+
+@pytest.mark.parametrize("last_line", ["pass", "raise ValueError"])
+def test_a_program_that_ends_fades_out_on_the_card(server: SoundServer, last_line: str) -> None:
+    """sounddevice ends PortAudio at the end of a program, which cut the sound, and sometimes never returned."""
+    program = program_that_plays(0.7, last_line)
     recorder = server.record()
     subprocess.run([sys.executable, "-c", program], stderr=subprocess.DEVNULL, timeout=60, check=False)
     time.sleep(0.3)
     assert level_at_end_db(recorder.stop()) < -50.0
+
+
+def test_a_program_that_was_stopped_fades_in_again(server: SoundServer) -> None:
+    """As after the sleep of a machine: without a fade, the sound begins with -10 to -6 dB above 1 kHz."""
+    recorder = server.record()
+    program = [sys.executable, "-c", program_that_plays(2.2, "print(sink.stats.underruns)")]
+    with subprocess.Popen(program, stdout=subprocess.PIPE, text=True) as player:
+        assert player.stdout is not None
+        while player.stdout.readline() != "plays\n":
+            pass
+        time.sleep(0.8)
+        player.send_signal(signal.SIGSTOP)
+        time.sleep(0.6)
+        player.send_signal(signal.SIGCONT)
+        n_gaps = int(player.stdout.readline())
+    heard = recorder.stop()
+    loud = np.flatnonzero(np.abs(heard).max(axis=1) > 1e-6)
+    begin = int(loud[1:][np.diff(loud) > RATE // 5][-1])
+    high = sosfiltfilt(butter(6, 1000.0, "highpass", fs=RATE, output="sos"), heard[begin - RATE // 10 :], axis=0)
+    level_db = 20 * np.log10(np.abs(high[: RATE // 5]).max() / np.abs(heard).max())
+    assert level_db < -40.0
+    assert 1 <= n_gaps <= 2
 
 
 def test_unplugged_sound_card_is_reconnected(server: SoundServer) -> None:

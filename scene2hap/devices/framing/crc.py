@@ -1,4 +1,4 @@
-"""Checksums that detect damaged bytes."""
+"""The checksum that detects damaged bytes."""
 
 from __future__ import annotations
 
@@ -18,12 +18,3 @@ def without_crc32(data: bytes) -> bytes | None:
     if len(data) < CRC_SIZE or zlib.crc32(body) != int.from_bytes(data[-CRC_SIZE:], "little"):
         return None
     return body
-
-
-def fletcher16(data: bytes, start: int = 1) -> int:
-    """Return Fletcher's 16-bit sum modulo 255 (Fletcher 1982), beginning at `start`; VHP boards begin at 1."""
-    low, high = start & 0xFF, start >> 8
-    for byte in data:
-        low = (low + byte) % 255
-        high = (high + low) % 255
-    return high << 8 | low

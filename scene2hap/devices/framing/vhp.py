@@ -13,7 +13,6 @@ from enum import IntEnum
 
 import numpy as np
 
-from scene2hap.devices.framing.crc import fletcher16
 from scene2hap.devices.protocol import Block
 from scene2hap.errors import DeviceError
 
@@ -61,11 +60,11 @@ class MessageType(IntEnum):
 
 @dataclass(frozen=True)
 class Message:
-    """A message of type and payload (at most 128 bytes); `recipient` is None in the wireless form."""
+    """A message of type and payload (at most 128 bytes) to a recipient."""
 
     type: int
     payload: bytes = b""
-    recipient: int | None = None
+    recipient: int = Recipient.SLEEVE
 
     def __post_init__(self) -> None:
         if len(self.payload) > _PACKET_SIZE - _HEADER_SIZE:
@@ -98,22 +97,15 @@ def slim_frame(block: Block) -> bytes:
     return SLIM_HEADER + to_bytes(block)
 
 
-def slim_ending() -> bytes:
-    """Return eight frames at rest. An idle board repeats its last buffer for ever, so that must be silence."""
-    return (SLIM_HEADER + bytes([MIDDLE]) * (FRAMES * CHANNELS)) * SLIM_QUEUE_FRAMES
-
-
 def packet(message: Message) -> bytes:
-    """Return the sleeve's wired form: 132 bytes, padded by zeros. Raises: DeviceError: no recipient."""
-    if message.recipient is None:
-        raise DeviceError("a wired VHP message needs a recipient, such as Recipient.SLEEVE.")
+    """Return the sleeve's wired form: 132 bytes, padded by zeros."""
     head = bytes([_START, message.recipient, message.type, len(message.payload)])
     return (head + message.payload).ljust(_PACKET_SIZE, b"\0")
 
 
-def sleeve_packet(block: Block, recipient: Recipient = Recipient.SLEEVE) -> bytes:
+def sleeve_packet(block: Block) -> bytes:
     """Return the packet with samples for all channels."""
-    return packet(Message(MessageType.ALL_TACTORS_SAMPLES, to_bytes(block), recipient))
+    return packet(Message(MessageType.ALL_TACTORS_SAMPLES, to_bytes(block)))
 
 
 def from_packet(data: bytes) -> Message | None:
@@ -121,18 +113,3 @@ def from_packet(data: bytes) -> Message | None:
     if len(data) != _PACKET_SIZE or data[0] != _START or data[3] > _PACKET_SIZE - _HEADER_SIZE:
         return None
     return Message(data[2], data[_HEADER_SIZE : _HEADER_SIZE + data[3]], data[1])
-
-
-def wireless(message: Message) -> bytes:
-    """Return the Bluetooth form: a Fletcher sum (start 1, little-endian) in place of start byte and recipient."""
-    rest = bytes([message.type, len(message.payload)]) + message.payload
-    return fletcher16(rest).to_bytes(2, "little") + rest
-
-
-def from_wireless(data: bytes) -> Message | None:
-    """Return the message of a Bluetooth packet, or None if any byte is wrong; never raises."""
-    if len(data) < _HEADER_SIZE or data[3] != len(data) - _HEADER_SIZE or data[3] > _PACKET_SIZE - _HEADER_SIZE:
-        return None
-    if fletcher16(data[2:]) != int.from_bytes(data[:2], "little"):
-        return None
-    return Message(data[2], data[_HEADER_SIZE:])

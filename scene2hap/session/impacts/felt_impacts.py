@@ -17,7 +17,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.audio.actuators import inverse_db, is_flat
 from scene2hap.audio.levels import TACTILE_HEADROOM_DB
@@ -29,16 +28,13 @@ from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, wave_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.hand_gains import Felt
-from scene2hap.session.impacts.gains import struck_later, struck_live
+from scene2hap.session.impacts.gains import Floats, Point, struck_later, struck_live
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.scene_state import SceneState
 from scene2hap.session.user_profile import UserProfile
 
 if TYPE_CHECKING:
     from scene2hap.session.impacts.struck_ahead import StruckAhead
-
-Floats = NDArray[np.float64]
-Point = tuple[float, float, float]
 
 PEAK = 10 ** (-TACTILE_HEADROOM_DB / 20)
 LOUDEST_M_S2 = 1000.0

@@ -13,7 +13,6 @@ from concurrent.futures import Future, wait
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.coupled.impact_scene import StruckScene
@@ -21,11 +20,8 @@ from scene2hap.propagation.coupled.substructuring import prepare_struck
 from scene2hap.propagation.live import TouchedPoint
 from scene2hap.propagation.protocol import Body, CoupledModel
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.impacts.gains import at_least_itself
+from scene2hap.session.impacts.gains import Floats, Point, at_least_itself
 from scene2hap.session.scene_state import SceneState
-
-Floats = NDArray[np.float64]
-Point = tuple[float, float, float]
 
 AT_REST_S, EVERY_S = 0.05, 1.0
 """A scene is prepared again once its contacts have rested for `AT_REST_S`, or after `EVERY_S` of changes [s]."""

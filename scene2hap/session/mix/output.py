@@ -51,15 +51,12 @@ class Output:
 
     def require_own_process(self) -> None:
         """Raises: SessionError: this is a fork of the process that made the session."""
-        if not self._is_here():
+        if os.getpid() != self._pid:
             raise SessionError(
                 f"this session was made in process {self._pid}, and this is its fork {os.getpid()}, which has no "
                 "copy of the session's threads. Make another session here, of its bundle, or start processes by "
                 "multiprocessing.get_context('spawn') and make the session there."
             )
-
-    def _is_here(self) -> bool:
-        return os.getpid() == self._pid
 
     @property
     def exists(self) -> bool:
@@ -125,17 +122,21 @@ class Output:
 
     def stop(self) -> None:
         """Fade out, stop the sink and release it, as at the end of the program; may be called twice."""
-        if self._is_here() and self._sink is not None and self._safety is not None:
-            self._fade_out()
-            self._release(self._sink, self._sink.close)
+        if (sink := self._played_here()) is not None:
+            self._fade_out(sink)
+            self._release(sink, sink.close)
 
     def abort(self) -> None:
         """Stop after a failure. A sink with a method `abort` can then discard a half-written file."""
-        if self._is_here() and self._sink is not None and self._safety is not None:
-            if has_clock(self._sink):
-                self._fade_out()
+        if (sink := self._played_here()) is not None:
+            if has_clock(sink):
+                self._fade_out(sink)
             self._safety = None
-            self._release(self._sink, _discard(self._sink))
+            self._release(sink, _discard(sink))
+
+    def _played_here(self) -> ActuatorSink | None:
+        """The sink if it is started and this process made it."""
+        return self._sink if self._safety is not None and os.getpid() == self._pid else None
 
     def _release(self, sink: ActuatorSink, end: Callable[[], None]) -> None:
         """Stop a sink and call `end`, `close` or `abort`, also if it does not stop; then give it back."""
@@ -166,17 +167,17 @@ class Output:
         if was_started:
             self.start(fill, hands)
 
-    def _fade_out(self) -> None:
+    def _fade_out(self, sink: ActuatorSink) -> None:
         safety, self._safety = self._safety, None
-        if safety is None or self._sink is None:
+        if safety is None:
             return
         safety.release()
-        if has_clock(self._sink):
+        if has_clock(sink):
             safety.silent.wait(LONGEST_FADE_OUT_S)
         else:
             # No clock, so the sink must be pulled. A sink that its owner has closed accepts no more samples.
             with contextlib.suppress(DeviceError):
-                self._sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]  # above
+                sink.pull(round(FADE_OUT_S * self._config.sample_rate_hz))  # type: ignore[attr-defined]  # above
 
 
 def _discard(sink: ActuatorSink) -> Callable[[], None]:

@@ -74,9 +74,9 @@ class MixerInstance:
         self._send(gains, slots, at_frame)
         self._last_request = request
 
-    def fade(self, slots: list[int], at_frame: int) -> None:
-        """Ramp to 0 for these slots only."""
-        kept = [i for i, slot in enumerate(self._slots) if slot not in slots]
+    def fade(self, faded: int, at_frame: int) -> None:
+        """Ramp to 0 for one slot only."""
+        kept = [i for i, slot in enumerate(self._slots) if slot != faded]
         self._send(self._gains[:, kept], [self._slots[i] for i in kept], at_frame)
 
     def silence(self, at_frame: int) -> None:
@@ -255,7 +255,7 @@ class Playback:
             place.free_at = at_frame + self._fade_frames
             for mixer in self._mixers:
                 if mixer.bank.slots is place.bank.slots:
-                    mixer.fade([place.slot], at_frame)
+                    mixer.fade(place.slot, at_frame)
         self._retired = [place for place in (*self._retired, *gone) if not self._is_emptied(place)]
         self._coming = {row: loop for row, loop in self._coming.items() if row in wanted}
         new = [row for row in rows if row not in self._places and row not in self._coming]

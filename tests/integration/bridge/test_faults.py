@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -21,6 +22,7 @@ from websockets.sync.client import connect
 from bridge_client import Client, Refused
 from scene2hap import HapticSession, Touch
 from scene2hap.bridge import BridgeServer
+from scene2hap.bridge.played_session import PlayedSession
 from scene2hap.cli import main
 
 Bridge = Callable[..., BridgeServer]
@@ -191,6 +193,30 @@ def test_too_many_clients(bridge: Bridge) -> None:
     time.sleep(0.2)
     with Client(url) as client:
         assert client.welcome["version"] == 1
+
+
+def test_a_session_that_ends_is_not_resumed(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A session on a sink takes up to a quarter of a second to fade out."""
+    begins, may_end, close = threading.Event(), threading.Event(), PlayedSession.close
+
+    def close_slowly(played: PlayedSession) -> None:
+        begins.set()
+        may_end.wait(10.0)
+        close(played)
+
+    monkeypatch.setattr(PlayedSession, "close", close_slowly)
+    server = bridge()
+    with Client(server.url) as lost:
+        playing = lost.play(bundle="desk.bundle", keep_s=0.0)
+    assert begins.wait(10.0)
+    with Client(server.url) as late:
+        for request in ({"kind": "resume", "key": playing["key"]}, {"kind": "watch"}):
+            with pytest.raises(Refused) as refused:
+                late.ask(**request, session=playing["session"])
+            assert refused.value.kind == "UnknownSession"
+        may_end.set()
+        late.play(bundle="desk.bundle")
+        assert_plays(late)
 
 
 def test_a_dead_connection_is_noticed_by_its_heartbeat(bridge: Bridge) -> None:

@@ -37,3 +37,10 @@ def test_root_must_be_a_folder(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="must be a folder"):
         BridgeConfig(root=tmp_path / "none")
     assert BridgeConfig(root=tmp_path).root == tmp_path.resolve()
+
+
+def test_settings_from_a_file_with_the_tables_of_the_command_line(tmp_path: Path) -> None:
+    file = tmp_path / "bridge.toml"
+    file.write_text(f'[bridge]\nroot = {str(tmp_path)!r}\nheartbeat_s = 5.0\n[session]\nbands = "around"\n')
+    config = BridgeConfig.parse(file)
+    assert (config.root, config.heartbeat_s) == (tmp_path.resolve(), 5.0)

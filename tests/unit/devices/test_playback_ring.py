@@ -73,6 +73,18 @@ def test_a_gap_is_counted_once_and_faded_in_again() -> None:
     assert np.abs(back[0]).max() < 0.01
 
 
+def test_a_gap_of_the_device_is_followed_by_a_fade_in() -> None:
+    """The ring still holds samples after the program was stopped, while the device has played silence meanwhile."""
+    ring = PlaybackRing(1000, 2, N_FADE)
+    ring.write(tone(600))
+    played(ring, 200)
+    back = np.empty((200, 2), dtype=np.float32)
+    ring.play(back, after_gap=True)
+    assert np.abs(np.diff(back, axis=0, prepend=0.0)).max() <= 2 * np.pi / 400 + np.pi / 2 / N_FADE
+    np.testing.assert_array_equal(back[N_FADE:], tone(200, 200)[N_FADE:])
+    assert ring.gaps == 0
+
+
 def test_silence_before_the_first_samples_is_no_gap() -> None:
     ring = PlaybackRing(1000, 2, N_FADE)
     assert not played(ring, 500).any()

@@ -18,12 +18,6 @@ def test_slim_frame_equals_one_worked_by_hand() -> None:
     assert len(vhp.slim_frame(block)) == 100
 
 
-def test_slim_ending_fills_the_buffer_of_the_board_with_zero_drive() -> None:
-    ending = vhp.slim_ending()
-    assert len(ending) == 800
-    assert ending == bytes([0xC8, 0xC9, 0x11, 0x80, *[128] * 96]) * 8
-
-
 def test_sleeve_packets_equal_those_worked_by_hand() -> None:
     packet = vhp.sleeve_packet(np.zeros((8, 12), dtype=np.float32))
     assert packet == bytes([200, 3, 17, 96, *[128] * 96, *[0] * 32])
@@ -32,17 +26,10 @@ def test_sleeve_packets_equal_those_worked_by_hand() -> None:
     assert vhp.from_packet(amplifiers) == vhp.Message(15, b"", 1)
 
 
-def test_wireless_packet_equals_one_worked_by_hand() -> None:
-    # Type 14, no payload: low sum 1 + 14 = 15, 15 + 0 = 15; high sum 15, 15 + 15 = 30.
-    assert vhp.wireless(vhp.Message(vhp.MessageType.DISABLE_AMPLIFIERS)) == bytes([15, 30, 14, 0])
-
-
 @given(st.binary(max_size=128), st.integers(0, 255), st.sampled_from(vhp.Recipient))
 def test_messages_round_trip(payload: bytes, type: int, recipient: vhp.Recipient) -> None:
     wired = vhp.Message(type, payload, recipient)
     assert vhp.from_packet(vhp.packet(wired)) == wired
-    bare = vhp.Message(type, payload)
-    assert vhp.from_wireless(vhp.wireless(bare)) == bare
 
 
 @given(st.lists(st.integers(-127, 127), min_size=96, max_size=96))
@@ -55,15 +42,6 @@ def test_samples_round_trip(levels: list[int]) -> None:
 def test_decoders_accept_arbitrary_bytes_without_raising(data: bytes) -> None:
     vhp.from_packet(data)
     vhp.from_packet((b"\xc8" + data).ljust(132, b"\0")[:132])
-    vhp.from_wireless(data)
-
-
-@given(st.binary(min_size=1, max_size=60), st.data())
-def test_flipped_bit_in_a_wireless_packet_is_detected(payload: bytes, data: st.DataObject) -> None:
-    packet = bytearray(vhp.wireless(vhp.Message(17, payload)))
-    place = data.draw(st.integers(0, len(packet) - 1))
-    packet[place] ^= 1 << data.draw(st.integers(0, 7))
-    assert vhp.from_wireless(bytes(packet)) is None
 
 
 def test_blocks_and_messages_of_wrong_size_are_refused() -> None:
@@ -72,7 +50,5 @@ def test_blocks_and_messages_of_wrong_size_are_refused() -> None:
             vhp.to_bytes(np.zeros(shape, dtype=np.float32))
     with pytest.raises(DeviceError, match="at most 128"):
         vhp.Message(1, b"x" * 129)
-    with pytest.raises(DeviceError, match="recipient"):
-        vhp.packet(vhp.Message(1))
     with pytest.raises(DeviceError, match="96 bytes"):
         vhp.from_bytes(b"abc")

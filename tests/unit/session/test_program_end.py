@@ -26,8 +26,7 @@ class Line:
         return format.sample_rate_hz
 
     def wanted(self, timeout_s):
-        time.sleep(min(timeout_s, self.pace.wait_s(240, time.monotonic())))
-        return 240 if self.pace.due(time.monotonic()) >= 240 else 0
+        return self.pace.wait(240, timeout_s)
 
     def send(self, block):
         self.pace.take(len(block))

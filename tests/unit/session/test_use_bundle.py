@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import json
+import sys
 import time
 import warnings
 from dataclasses import replace
 from pathlib import Path
+from types import FrameType
 
 import numpy as np
 import pytest
 
-from scene2hap import AudioClip, BundleWatch, HapticBundle, HapticLoop, HapticSession, Pose, SceneWarning, Touch
+from scene2hap import (
+    AudioClip,
+    BundleWatch,
+    HapticBundle,
+    HapticLoop,
+    HapticSession,
+    Pose,
+    SceneWarning,
+    Touch,
+    bundle_watch,
+)
 from scene2hap.errors import BundleError
 from scenes import RATE, table_with_two_phones
 
@@ -162,6 +174,30 @@ def test_a_saved_bundle_and_one_edited_by_hand_are_followed(bundle: HapticBundle
         until(watch.update, watch)
         assert watch.problem == ""
     watch.close()
+
+
+@pytest.mark.parametrize("step", range(20))
+def test_a_bundle_that_is_read_during_an_update_is_not_lost(bundle: HapticBundle, tmp_path: Path, step: int) -> None:
+    """The worker may publish a bundle between any two steps of `update` in Python's interpreter."""
+    watch = BundleWatch(HapticSession(bundle), bundle.save(tmp_path / "b"))
+    watch.close()
+    n_steps = 0
+
+    def between_steps(frame: FrameType, event: str, _: object) -> object:
+        nonlocal n_steps
+        frame.f_trace_opcodes = True
+        if event == "opcode" and frame.f_code.co_filename == bundle_watch.__file__:
+            n_steps += 1
+            if n_steps == step + 1:
+                watch._load()
+        return between_steps
+
+    before = sys.gettrace()
+    sys.settrace(between_steps)
+    was_new = watch.update()
+    sys.settrace(before)
+    if n_steps > step:
+        assert was_new or watch.update()
 
 
 def test_following_a_bundle_needs_a_folder(bundle: HapticBundle, tmp_path: Path) -> None:
