@@ -72,11 +72,13 @@ async def infer_scene(
     only: Collection[str] | None = None,
     scene_category: str | None = None,
     wishes: Mapping[str, str] | None = None,
+    slots: Slots | None = None,
 ) -> Inference:
     """Run the chain on every object of a scene, or only on the objects with ids in `only`.
 
     If the scene has images (`capture_images`), the backend gets them. A known `scene_category` saves the call that
-    infers it. `wishes` are user prompts for single objects, by object id.
+    infers it. `wishes` are user prompts for single objects, by object id. `slots` limit the
+    concurrent questions of several scenes together; without them, `concurrency` limits those of this scene.
 
     An object without an answer becomes "unknown" and silent. Its error is in the report and in its provenance. An error
     that would affect every further call is raised after running calls have ended.
@@ -93,7 +95,7 @@ async def infer_scene(
     questions = Questions(
         backend,
         Prompts.load(settings.prompts),
-        getattr(backend, "slots", None) or Slots(settings.concurrency),
+        slots or Slots(settings.concurrency),
         user_prompt=user_prompt,
         temperature=settings.temperature,
         wishes=wishes,
