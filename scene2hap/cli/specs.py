@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.errors import ConfigError
+from scene2hap.printable import parse_json
 from scene2hap.session import SessionConfig
 from scene2hap.settings import read_settings
 
@@ -16,7 +16,7 @@ def given_spec(option: str, text: str) -> object:
     if not text.lstrip().startswith("{"):
         return text
     try:
-        return json.loads(text)
+        return parse_json(text)
     except (ValueError, RecursionError) as cause:
         raise ConfigError(f"{option} is {text!r}, which is no JSON ({cause}). Give a kind, or an object.") from cause
 
