@@ -142,7 +142,7 @@ def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics, l
         "facts": _facts(item, haptics, bundle),
         "reasons": [list(reason) for reason in haptics.reasons.items()],
         "constants": [] if haptics.material is None else _constants(haptics.material),
-        "editable": _editable(bundle, item.id, haptics),
+        "editable": _editable(bundle, item, haptics),
         "states": [_state(bundle, item.id, state, loops) for state in haptics.states],
     }
 
@@ -193,10 +193,11 @@ def _said(wish: Override) -> dict[str, Any]:
     return {name: dict(value) if isinstance(value, Mapping) else value for name, value in said.items()}
 
 
-def _editable(bundle: HapticBundle, object_id: str, haptics: ObjectHaptics) -> dict[str, Any]:
+def _editable(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics) -> dict[str, Any]:
+    object_id = item.id
     wish = bundle.overrides.get(object_id, Override())
-    pitch = dict(wish.pitch_hz)
     return {
+        "name": item.name if wish.name is None else wish.name,
         "material": "" if haptics.material is None else haptics.material.name,
         "mass_kg": haptics.mass_kg,
         "gain_db": bundle.gain_db(object_id),
@@ -204,7 +205,7 @@ def _editable(bundle: HapticBundle, object_id: str, haptics: ObjectHaptics) -> d
         "muted": bundle.is_muted(object_id),
         "locked": wish.locked,
         "states": [
-            {"name": state.name, "intensity": state.intensity, "pitch_hz": pitch.get(state.name, pitch.get("*"))}
+            {"name": state.name, "intensity": state.intensity, "pitch_hz": wish.pitch_of(state.name)}
             for state in haptics.states
         ],
     }
