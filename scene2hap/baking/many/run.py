@@ -29,13 +29,13 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
-from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures, wishes_at
-from scene2hap.baking.scene import VIBRATES
-from scene2hap.bundle import HapticBundle
+from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures
+from scene2hap.baking.scene import infer_corrected
+from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
-from scene2hap.llm.chain import Inference, infer_scene
+from scene2hap.llm.chain import Inference
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Slots
@@ -246,7 +246,7 @@ class Run:
 
         Returns True if the scene now has a draft or a bundle.
 
-        Raises: as `load_scene` and `infer_scene`.
+        Raises: as `load_scene` and `infer_corrected`.
         """
         made_of, before = await self._state(path)
         made_at = {"baked": self._target(path), "inferred": self._draft(path)}.get(before.get("stage", ""))
@@ -269,9 +269,9 @@ class Run:
         scene = await asyncio.to_thread(load_scene, path, **self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = await self._captured(path, scene) if self.pictures else scene
-        wishes = {key: VIBRATES for key, wish in wishes_at(self._target(path), scene).items() if wish.vibrates}
-        found = await infer_scene(
-            seen, backend, user_prompt=self.user_prompt, config=self.config, wishes=wishes, slots=self.slots
+        wishes = read_overrides(self._target(path))
+        found = await infer_corrected(
+            seen, backend, self.config, wishes, user_prompt=self.user_prompt, slots=self.slots
         )
         return _Inferred(scene, found, {"reading": read_s, "inference": time.perf_counter() - begun})
 
