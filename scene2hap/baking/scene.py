@@ -25,8 +25,8 @@ from scene2hap.bundle.checking import vain_corrections
 from scene2hap.calls import clear_call
 from scene2hap.counted import counted, first_of
 from scene2hap.errors import ConfigError, SceneError
-from scene2hap.haptics import ObjectHaptics, SourceState
-from scene2hap.llm.chain import UNKNOWN, Inference, infer_scene
+from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
+from scene2hap.llm.chain import Inference, infer_scene
 from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Slots
 from scene2hap.llm.report import InferenceReport
@@ -271,7 +271,7 @@ def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None
     for found in scene.check():
         if found.kind != "units":
             warn_of(str(found))
-    unknown = [key for key, haptics in objects.items() if haptics.object_category.lower() in UNKNOWN]
+    unknown = [key for key, haptics in objects.items() if is_unknown(haptics.object_category)]
     if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
         is_one_model = 2 * len(unknown) > len(objects)
         parts = " If the file is one model of many parts, load it with group=0." if is_one_model else ""
@@ -375,7 +375,7 @@ def _as_named(object_id: str, haptics: ObjectHaptics, wish: Override | None) -> 
     why = None if wish is None else _why_named(wish.name)
     if wish is None or why is None:
         return haptics
-    if haptics.object_category.lower() in UNKNOWN:
+    if is_unknown(haptics.object_category):
         warn_of(
             f"nothing is known of {checks.shown(wish.name)}, the name that a person gave {object_id!r}; no material "
             "and no vibration are inferred. Use a common noun, as 'washing machine', or infer it by a model (llm).",
@@ -461,11 +461,11 @@ def of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> di
         )
     known = {item.id for item in scene.objects}
     for object_id, wish in overrides.items():
-        if object_id not in known and wish.corrected_fields():
+        if object_id not in known and wish.corrections():
             near = checks.did_you_mean(object_id, sorted(known - overrides.keys()))
             warn_of(
                 f"the override of {object_id!r} is dropped: the scene has no such object any more. Dropped are its "
-                f"{', '.join(wish.corrected_fields())}. {near}".rstrip(),
+                f"{', '.join(wish.corrections())}. {near}".rstrip(),
                 BundleWarning,
             )
     return {key: wish for key, wish in overrides.items() if key in known}

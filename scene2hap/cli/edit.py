@@ -34,7 +34,7 @@ import contextlib
 import signal
 import threading
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -242,15 +242,9 @@ def interrupted() -> Iterator[threading.Event]:
         signal.signal(signal.SIGINT, before)
 
 
-_FIELDS = (
-    *("name", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s", "material", "mass_kg", "feet", "state"),
-    *("muted", "vibrates", "locked"),
-)
-
-
 def _overridden(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
     arguments = remaking.arguments
-    changes = {name: getattr(arguments, name) for name in _FIELDS if hasattr(arguments, name)}
+    changes = {one.name: getattr(arguments, one.name) for one in fields(Override) if one.name in arguments}
     if getattr(arguments, "only", None) is not None:
         changes = {name: {arguments.only: value} for name, value in changes.items()}
     return bundle.override(arguments.id, **changes)

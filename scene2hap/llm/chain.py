@@ -19,7 +19,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_call
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
-from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
+from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown, unmet_needs
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.config import InferenceConfig
@@ -42,9 +42,6 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _Result = TypeVar("_Result")
-
-UNKNOWN = frozenset({"", "unknown", "undefined"})
-"""Words with which a backend reports that something is unknown."""
 
 Progress = Callable[[str, int, int], None]
 """Called with (name of the step, number done, total number)."""
@@ -258,7 +255,7 @@ class _Chain:
     def _begin_material(self, category: str) -> asyncio.Task[Estimate]:
         word = _word(category)
         if word in self._materials:
-            self._report.skipped["unknown_material" if word in UNKNOWN else "same_material"] += 1
+            self._report.skipped["unknown_material" if is_unknown(word) else "same_material"] += 1
         else:
             self._materials[word] = asyncio.ensure_future(self._estimate(word))
         return self._materials[word]
@@ -267,7 +264,7 @@ class _Chain:
         return await self._materials[_word(category)]
 
     async def _estimate(self, word: str) -> Estimate:
-        if word in UNKNOWN:
+        if is_unknown(word):
             self._report.skipped["unknown_material"] += 1
             return Estimate(None, "no estimate: the material is unknown")
         if self._settings.materials == "table" and (known := from_table(word)) is not None:

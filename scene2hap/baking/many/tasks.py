@@ -20,7 +20,7 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.scene import bake, of_this_scene, with_locked, with_sounds
 from scene2hap.baking.sound import N_THREADS
 from scene2hap.bundle import HapticBundle, read_overrides
-from scene2hap.llm.chain import UNKNOWN
+from scene2hap.haptics import is_unknown
 from scene2hap.llm.report import InferenceReport
 from scene2hap.scene.capture import capture_images, render_all
 from scene2hap.scene.load import load_scene
@@ -83,7 +83,7 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
 
 
 def _counted(bundle: HapticBundle, watch: _Watch, calls: int = 0) -> Counters:
-    n_unknown = sum(haptics.object_category in UNKNOWN for haptics in bundle.objects.values())
+    n_unknown = sum(is_unknown(haptics.object_category) for haptics in bundle.objects.values())
     return Counters(watch.seconds, len(bundle.objects), len(bundle.loops), n_unknown, calls, tuple(watch.warnings))
 
 
