@@ -43,6 +43,11 @@ _LONGEST = 200  # most letters of a need or a category that are read; assumed
 Words = tuple[str, ...]
 
 
+def is_unknown(category: str) -> bool:
+    """Return True if a category of an object or a material says that nothing is known."""
+    return category.casefold().strip() in _UNKNOWN
+
+
 def stated(needed: str | None) -> str | None:
     """Return a need, or None if its words mean that there is none ("", "none", "null")."""
     if needed is None or " ".join(_words(needed)) in _NO_NEED:
@@ -60,7 +65,7 @@ def meets(needed: str, object_id: str, category: str) -> bool:
     """
     if needed == object_id or _words(needed) == _words(object_id):
         return True
-    thing = _words(object_id if category.casefold().strip() in _UNKNOWN else category)
+    thing = _words(object_id if is_unknown(category) else category)
     return any(_are_same(wanted, thing) for wanted in _alternatives(needed))
 
 

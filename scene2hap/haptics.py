@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
-from scene2hap.contact_needs import stated, unmet
+from scene2hap.contact_needs import is_unknown as is_unknown, stated, unmet
 from scene2hap.errors import ConfigError, Scene2HapError
 from scene2hap.materials import Material
 

@@ -38,12 +38,13 @@ def writable(text: str) -> str:
     return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "replace")
 
 
-def each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return the object of a JSON text, as `object_pairs_hook`: of two equal keys, Python would drop the first.
+def parse_json(text: str | bytes) -> Any:
+    """Parse a JSON text. Raises: ValueError: it is none, or an object has a key twice; RecursionError."""
+    return json.loads(text, object_pairs_hook=_each_key_once)
 
-    Raises: ValueError: a key is given twice.
-    """
-    found = dict(pairs)
+
+def _each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)  # of two equal keys, this drops the first
     if len(found) < len(pairs):
         twice = next(key for key, n in Counter(key for key, _ in pairs).items() if n > 1)
         raise ValueError(f"the key {printable(twice)[:200]!r} is given twice in one object; remove one")
@@ -51,8 +52,8 @@ def each_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def read_json(text: str) -> Any:
-    """Parse a JSON text, and make its texts `writable`. Raises: ValueError, RecursionError: as `json.loads`."""
-    document = json.loads(text)
+    """Parse a JSON text as `parse_json`, and make its texts `writable`. Raises: ValueError, RecursionError."""
+    document = parse_json(text)
     if not _SPELT_SURROGATE.search(text) and not _SURROGATES.search(text):
         return document
-    return json.loads(writable(json.dumps(document, ensure_ascii=False)))
+    return parse_json(writable(json.dumps(document, ensure_ascii=False)))

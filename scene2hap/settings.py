@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import tomllib
 from collections.abc import Mapping
@@ -14,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from scene2hap import checks
 from scene2hap.calls import clear_attributes
 from scene2hap.errors import ConfigError, reason_of
+from scene2hap.printable import parse_json
 from scene2hap.text_files import read_small_text
 
 
@@ -103,7 +103,7 @@ def read_settings(path: str | None, section: str) -> dict[str, Any]:
         return {}
     try:
         text = read_small_text(path)
-        document = json.loads(text) if path.lower().endswith(".json") else tomllib.loads(text)
+        document = parse_json(text) if path.lower().endswith(".json") else tomllib.loads(text)
     except (OSError, ValueError, RecursionError) as cause:
         near = checks.near_files(Path(path)) if isinstance(cause, FileNotFoundError) else ""
         raise ConfigError(

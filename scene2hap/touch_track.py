@@ -7,7 +7,6 @@ moment. A hand that touches an object stays on it, and follows its moves, until 
 from __future__ import annotations
 
 import csv
-import json
 import os
 from itertools import pairwise
 from typing import Annotated, Any, Literal
@@ -17,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, Validatio
 from scene2hap import checks
 from scene2hap.calls import clear_attributes
 from scene2hap.errors import SessionError, reason_of
+from scene2hap.printable import parse_json
 from scene2hap.text_files import read_small_text
 
 FORMAT: Literal["scene2hap/touches"] = "scene2hap/touches"
@@ -138,7 +138,7 @@ class TouchTrack(BaseModel):
         path = checks.path("path", path, error=SessionError)
         try:
             text = read_small_text(path)
-            document = _from_csv(text) if path.suffix.lower() == ".csv" else json.loads(text)
+            document = _from_csv(text) if path.suffix.lower() == ".csv" else parse_json(text)
         except (OSError, ValueError, RecursionError, csv.Error) as cause:
             raise SessionError(f"{path} cannot be read as touches: {reason_of(cause)}. See docs/touches.md.") from cause
         return cls.parse(document, str(path))

@@ -43,7 +43,8 @@ def _commands(parser: argparse.ArgumentParser) -> Iterator[str]:
             options = ", ".join(f"`{re.split('[ ,]', left)[0]}`" for left in shared)
             yield fill(f"It takes these options of [bake](#bake): {options}.", 120, break_on_hyphens=False) + "\n"
             rows = [row for row in rows if row not in of_bake]
-        rows += [_verb(verb, below) for verb, below in _below(command).items()]
+        explained: set[str] = set()
+        rows += [_verb(verb, below, explained) for verb, below in _below(command).items()]
         if rows:
             yield "| argument | meaning |\n|---|---|"
             yield from (f"| `{_cell(left)}` | {_cell(right)} |" for left, right in rows)
@@ -65,10 +66,13 @@ def _own(parser: argparse.ArgumentParser) -> list[argparse.Action]:
     ]
 
 
-def _verb(name: str, parser: argparse.ArgumentParser) -> tuple[str, str]:
+def _verb(name: str, parser: argparse.ArgumentParser, explained: set[str]) -> tuple[str, str]:
+    """Return the cells of a verb. An option of several verbs is explained at the first of them."""
     own = _own(parser)
     takes = [f"[{_spelled(one)}]" if one.option_strings else _spelled(one) for one in own]
-    meanings = [f"`{_spelled(one)}`: {one.help}" for one in own if one.help and one.dest != "id"]
+    new = [one for one in own if one.help and one.dest != "id" and not explained & {*one.option_strings}]
+    meanings = [f"`{_spelled(one)}`: {one.help}" for one in new]
+    explained.update(*(one.option_strings for one in new))
     return " ".join([name, *takes]), "; ".join([parser.description or "", *meanings])
 
 

@@ -25,8 +25,10 @@ from scene2hap.bundle.checking import vain_corrections
 from scene2hap.calls import clear_call
 from scene2hap.counted import counted, first_of
 from scene2hap.errors import ConfigError, SceneError
-from scene2hap.haptics import ObjectHaptics, SourceState
-from scene2hap.llm.chain import UNKNOWN, Inference, infer_scene
+from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
+from scene2hap.llm.chain import Inference, infer_scene
+from scene2hap.llm.protocol import LLMBackend
+from scene2hap.llm.questions import Slots
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import reports
@@ -39,7 +41,7 @@ OnReport = Callable[[InferenceReport], None]
 OnRemade = Callable[[Remade], None]
 
 
-VIBRATES = "This object vibrates by itself: tell in which states."
+_VIBRATES = "This object vibrates by itself: tell in which states."
 """Prompt for an object that a person wants to vibrate."""
 
 _ASSUMED_INTENSITY = 0.3
@@ -99,8 +101,10 @@ async def abake(
     scene = given_scene(scene)
     _require_callable(progress=progress, on_report=on_report)
     config = BakeConfig.parse(config)
-    wishes = _of_this_scene(overrides or {}, scene)
-    inference = await _infer(scene, config, wishes, user_prompt, progress, on_report)
+    wishes = of_this_scene(overrides or {}, scene)
+    inference = await infer_corrected(scene, config.llm, config, wishes, user_prompt=user_prompt, progress=progress)
+    if on_report is not None:
+        on_report(inference.report)
     return await with_sounds(scene, inference.scene_category, inference.objects, wishes, config, progress, earlier)
 
 
@@ -225,9 +229,18 @@ async def arebake(
     ]
     objects = [*objects, *renamed]
     again = list(dict.fromkeys([*objects, *silent]))
-    inference = await _infer(
-        bundle.snapshot, config, wishes, user_prompt, progress, on_report, again, bundle.scene_category
+    inference = await infer_corrected(
+        bundle.snapshot,
+        config.llm,
+        config,
+        wishes,
+        user_prompt=user_prompt,
+        progress=progress,
+        only=again,
+        scene_category=bundle.scene_category,
     )
+    if on_report is not None:
+        on_report(inference.report)
     answers = {
         key: haptics if key in objects else _with_vibration(bundle.objects[key], haptics)
         for key, haptics in inference.objects.items()
@@ -259,7 +272,7 @@ def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None
     for found in scene.check():
         if found.kind != "units":
             warn_of(str(found))
-    unknown = [key for key, haptics in objects.items() if haptics.object_category.lower() in UNKNOWN]
+    unknown = [key for key, haptics in objects.items() if is_unknown(haptics.object_category)]
     if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
         is_one_model = 2 * len(unknown) > len(objects)
         parts = " If the file is one model of many parts, load it with group=0." if is_one_model else ""
@@ -328,29 +341,31 @@ def _warn_of_weak(
                 warn_of(doubt, LevelWarning)
 
 
-async def _infer(
+async def infer_corrected(
     scene: SceneSnapshot,
+    backend: LLMBackend,
     config: BakeConfig,
     wishes: Mapping[str, Override],
-    user_prompt: str,
-    progress: Progress | None,
-    on_report: OnReport | None,
+    *,
+    user_prompt: str = "",
+    progress: Progress | None = None,
     only: Collection[str] | None = None,
     scene_category: str | None = None,
+    slots: Slots | None = None,
 ) -> Inference:
+    """Infer a scene by the names that a person gave, and with the wish that objects vibrate. See `infer_scene`."""
     tell = progress or _say_nothing
     inference = await infer_scene(
         _renamed(scene, wishes),
-        config.llm,
+        backend,
         user_prompt=user_prompt,
         config=config,
-        progress=lambda what, done, total: tell("inference", what + _hits(config.llm), done, total),
+        progress=lambda what, done, total: tell("inference", what + _hits(backend), done, total),
         only=only,
         scene_category=scene_category,
-        wishes={key: VIBRATES for key, wish in wishes.items() if wish.vibrates},
+        wishes={key: _VIBRATES for key, wish in wishes.items() if wish.vibrates},
+        slots=slots,
     )
-    if on_report is not None:
-        on_report(inference.report)
     return replace(
         inference, objects={key: _as_named(key, said, wishes.get(key)) for key, said in inference.objects.items()}
     )
@@ -361,7 +376,7 @@ def _as_named(object_id: str, haptics: ObjectHaptics, wish: Override | None) -> 
     why = None if wish is None else _why_named(wish.name)
     if wish is None or why is None:
         return haptics
-    if haptics.object_category.lower() in UNKNOWN:
+    if is_unknown(haptics.object_category):
         warn_of(
             f"nothing is known of {checks.shown(wish.name)}, the name that a person gave {object_id!r}; no material "
             "and no vibration are inferred. Use a common noun, as 'washing machine', or infer it by a model (llm).",
@@ -430,7 +445,11 @@ def _as_recorded(
     }
 
 
-def _of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> dict[str, Override]:
+def of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> dict[str, Override]:
+    """Return the overrides of the objects of a scene.
+
+    Raises: ConfigError: they are no overrides. Warns: BundleWarning: one of an absent object is dropped.
+    """
     wrong = (
         [wish for wish in overrides.values() if not isinstance(wish, Override)]
         if isinstance(overrides, Mapping)
@@ -443,11 +462,11 @@ def _of_this_scene(overrides: Mapping[str, Override], scene: SceneSnapshot) -> d
         )
     known = {item.id for item in scene.objects}
     for object_id, wish in overrides.items():
-        if object_id not in known and wish.corrected_fields():
+        if object_id not in known and wish.corrections():
             near = checks.did_you_mean(object_id, sorted(known - overrides.keys()))
             warn_of(
                 f"the override of {object_id!r} is dropped: the scene has no such object any more. Dropped are its "
-                f"{', '.join(wish.corrected_fields())}. {near}".rstrip(),
+                f"{', '.join(wish.corrections())}. {near}".rstrip(),
                 BundleWarning,
             )
     return {key: wish for key, wish in overrides.items() if key in known}

@@ -7,19 +7,18 @@ Fields are those of `HapticBundle.override`, except clips. Absent fields stay un
 
 from __future__ import annotations
 
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
-from scene2hap.bundle.override import BY_STATE
+from scene2hap.bundle.override import Override
 from scene2hap.errors import BundleError, reason_of
 from scene2hap.printable import read_json
 from scene2hap.text_files import read_small_text
 
 FORMAT, VERSION = "scene2hap/overrides", 1
-FIELDS = frozenset(
-    {"name", "vibrates", "gain_db", "material", "mass_kg", "feet", "state", "muted", "locked", "keep", *BY_STATE}
-)
+FIELDS = frozenset(one.name for one in fields(Override)) - {"clip"}
 
 
 def read_corrections(path: Path) -> dict[str, dict[str, Any]]:

@@ -33,7 +33,7 @@ from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import FORMAT as CORRECTIONS_FORMAT
 from scene2hap.bundle.folder_replacement import recover, replaced
 from scene2hap.bundle.made_with import MadeWith
-from scene2hap.bundle.override import BY_STATE, Override
+from scene2hap.bundle.override import Override
 from scene2hap.bundle.own_files import (
     FORMAT,
     MANIFEST,
@@ -223,10 +223,9 @@ def _read_scene(folder: Path) -> SceneSnapshot:
 def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, Any]:
     rows: dict[str, Any] = {}
     for object_id, wish in bundle.overrides.items():
-        row: dict[str, Any] = {"name": wish.name, "vibrates": wish.vibrates, "gain_db": wish.gain_db}
-        row["mass_kg"], row["feet"] = wish.mass_kg, asdict(wish.feet) if wish.feet is not None else None
-        row["material"] = asdict(wish.material) if wish.material is not None else None
-        row["clip"] = None
+        row = rows[object_id] = wish.corrections()
+        for name in {"material", "feet"} & row.keys():
+            row[name] = asdict(row[name])
         if wish.clip is not None:
             name = f"sounds/{file_stem(object_id)}.override.wav"
             write_wav(folder / name, wish.clip.samples, wish.clip.sample_rate_hz)
@@ -234,11 +233,6 @@ def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> 
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
             if wish.clip.is_vibration:
                 row["clip"]["is_vibration"] = True
-        row["keep"] = None if wish.keep else False
-        row["locked"] = True if wish.locked else None
-        row |= {name: getattr(wish, name) or None for name in BY_STATE}
-        row["state"], row["muted"] = wish.state, True if wish.muted else None
-        rows[object_id] = {field: value for field, value in row.items() if value is not None}
     return rows
 
 

@@ -123,9 +123,10 @@ class Override:
         by_state: dict[str, Any] = {name: _on_top(getattr(self, name), getattr(now, name)) for name in BY_STATE}
         return replace(now, **by_state)
 
-    def corrected_fields(self) -> list[str]:
-        """Return the names of the fields that correct something."""
-        return [one.name for one in fields(self) if getattr(self, one.name) != getattr(Override(), one.name)]
+    def corrections(self) -> dict[str, Any]:
+        """Return the fields that correct something, by name."""
+        given = {one.name: getattr(self, one.name) for one in fields(self)}
+        return {name: value for name, value in given.items() if value != getattr(Override(), name)}
 
     def pitch_of(self, state: str) -> float | None:
         """Return the corrected frequency of a state's vibration [Hz], None if it is not overridden."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import stat
@@ -11,7 +10,7 @@ from typing import Any
 
 from scene2hap import checks
 from scene2hap.errors import BundleError, BundleIncomplete, BundleVersionError, reason_of
-from scene2hap.printable import each_key_once
+from scene2hap.printable import parse_json
 
 FORMAT = "scene2hap/bundle"
 VERSION = 1
@@ -70,9 +69,7 @@ def read_json(folder: Path, name: str) -> dict[str, Any]:
     """Return the JSON object in a file of a bundle. Raises: BundleIncomplete, BundleError."""
     data = read_bytes(folder, name)
     try:
-        document = json.loads(
-            data.decode("utf-8-sig"), object_pairs_hook=each_key_once
-        )  # Windows editors add a byte-order mark
+        document = parse_json(data.decode("utf-8-sig"))  # Windows editors add a byte-order mark
     except (ValueError, RecursionError) as cause:  # ValueError: not UTF-8, not JSON, or a number of thousands of digits
         raise BundleIncomplete(f"{folder / name} cannot be read: {cause}. Bake again, or mend the file.") from cause
     if not isinstance(document, dict):

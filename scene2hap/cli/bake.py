@@ -21,7 +21,7 @@ from scene2hap.bundle import HapticBundle, differences, read_overrides, require_
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
 from scene2hap.cli.edit import kept_before, wishes
-from scene2hap.cli.specs import given_spec
+from scene2hap.cli.specs import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import BundleError, ConfigError
 from scene2hap.llm.dry_run import dry_run
@@ -33,7 +33,6 @@ from scene2hap.scene.capture import capture_images
 from scene2hap.scene.capture.given_pictures import GivenPictures
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
-from scene2hap.settings import read_settings
 
 HELP = "bake a scene file into a haptic bundle"
 
@@ -50,21 +49,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that choose the model and the sound sources."""
-    parser.add_argument("--prompt", default="", help="instruction to the model, with priority over all others")
-    parser.add_argument("--llm", metavar="KIND[:MODEL]", help="lexicon (default), openai:MODEL, local:MODEL, ...")
-    parser.add_argument("--base-url", metavar="URL", help="address of the model's server, if not the default one")
-    parser.add_argument("--max-cost", type=float, metavar="DOLLARS", help="stop before the answers cost more than this")
-    parser.add_argument("--cache", metavar="FOLDER", help="folder of stored answers; default: the user's cache folder")
+    """Add the arguments that choose the model, its pictures and the sound sources."""
+    add_backend_arguments(parser)
     parser.add_argument(
         "--pictures",
         action=argparse.BooleanOptionalAction,
         help="show pictures to the model (extra `pictures`); default for models with a network address",
     )
     parser.add_argument("--sounds", metavar="FOLDER", help="your own sounds, tried before the synthesizer")
-    parser.add_argument("--actuator", metavar="NAME", help="name of an actuator, or a CSV file of Hz and dB")
-    parser.add_argument("--tactile", metavar="KIND", help="converter from sound to vibration")
-    parser.add_argument("--settings", metavar="FILE", help="TOML or JSON with a table [bake]")
+    add_loop_arguments(parser)
 
 
 def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
@@ -167,30 +160,11 @@ def _keep(before: HapticBundle | None, after: HapticBundle, target: Path) -> Pat
 
 def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return the settings of a bake: those of the file, overridden by the arguments. Raises: ConfigError."""
-    settings = read_settings(arguments.settings, "bake")
+    settings = {**backend_settings(arguments), **loop_settings(arguments)}
     if arguments.sounds:
         given = settings.get("audio", "synth")
         others = given if isinstance(given, list) else [given]
         settings["audio"] = [{"kind": "library", "folder": arguments.sounds}, *others]
-    if arguments.llm:
-        given_llm = given_spec("--llm", arguments.llm)
-        if isinstance(given_llm, str):
-            kind, _, model = given_llm.partition(":")
-            given_llm = {"kind": kind, "model": model} if model else {"kind": kind}
-        settings["llm"] = given_llm
-    if arguments.base_url:
-        if not isinstance(settings.get("llm"), dict):
-            raise ConfigError("--base-url needs a model to ask there. Name one with --llm KIND:MODEL.")
-        settings["llm"] = {**settings["llm"], "base_url": arguments.base_url}
-    given_alone = {
-        "max_cost_usd": arguments.max_cost,
-        "cache_dir": arguments.cache,
-        "actuator": arguments.actuator,
-        "tactile": given_spec("--tactile", arguments.tactile) if arguments.tactile else None,
-    }
-    for name, value in given_alone.items():
-        if value is not None:
-            settings[name] = value
     return settings
 
 

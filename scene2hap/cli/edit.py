@@ -14,6 +14,7 @@ scene2hap edit kitchen.bundle sound fan my_fan.haptic
 scene2hap edit kitchen.bundle state fan high
 scene2hap edit kitchen.bundle mute fan
 scene2hap edit kitchen.bundle name Cube.012 "washing machine"
+scene2hap edit kitchen.bundle name Cube.013 "espresso machine" --llm openai:gpt-4o
 scene2hap edit kitchen.bundle silence hood
 scene2hap edit kitchen.bundle vibrate kettle
 scene2hap edit kitchen.bundle lock fan
@@ -21,6 +22,9 @@ scene2hap edit kitchen.bundle apply corrections.json
 scene2hap edit kitchen.bundle rebake --actuator lra
 scene2hap edit kitchen.bundle undo
 scene2hap edit kitchen.bundle diff other.bundle
+
+A named object, and one that is made to vibrate, is inferred again by the lexicon, or by the model of `--llm`. A bundle
+has the names of its objects but no pictures, so the model reads the names alone.
 """
 
 from __future__ import annotations
@@ -30,23 +34,53 @@ import contextlib
 import signal
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from scene2hap.baking import rebake
-from scene2hap.baking.scene import OnRemade
+from scene2hap.baking import BakeConfig, rebake
+from scene2hap.baking.sound import Remade
 from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable, save_stamp, write_bundle
 from scene2hap.cli.console import Console
+from scene2hap.cli.specs import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
+from scene2hap.cli.tables import show_report
 from scene2hap.counted import counted
 from scene2hap.errors import BundleChanged, BundleError, Scene2HapError
 from scene2hap.file_stamp import file_stamp
+from scene2hap.llm.report import InferenceReport
+from scene2hap.llm.wrappers import is_remote
 
 HELP = "correct one object of a bundle"
 
 POLL_S = 0.05
 """Interval between checks of a watched file [s]."""
 
-Changed = Callable[[HapticBundle, argparse.Namespace, OnRemade], HapticBundle]
+
+@dataclass
+class Remaking:
+    """Bake parts of a bundle again, with the settings in the arguments, and note what was done.
+
+    `remade` has the loops that were made, with the reasons. `report` is the inference by a model, None without one.
+    """
+
+    arguments: argparse.Namespace
+    config: BakeConfig
+    remade: dict[str, dict[str, list[str]]] = field(default_factory=dict)
+    report: InferenceReport | None = None
+
+    def rebake(self, bundle: HapticBundle) -> HapticBundle:
+        """Return the bundle after `scene2hap.rebake`. Raises: as it does."""
+        prompt = getattr(self.arguments, "prompt", "")
+        return rebake(bundle, self.config, user_prompt=prompt, on_report=self._note, on_remade=self._note_loops)
+
+    def _note(self, report: InferenceReport) -> None:
+        self.report = report if is_remote(self.config.llm) and report.calls else None
+
+    def _note_loops(self, remade: Remade) -> None:
+        self.remade = {key: {state: list(why) for state, why in states.items()} for key, states in remade.items()}
+
+
+Changed = Callable[[HapticBundle, Remaking], HapticBundle]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -98,15 +132,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("unlock", "allow changes of an object's loops again", {"locked": False}),
     ):
         verb(name, text, _overridden).set_defaults(**changes)
-    verb("vibrate", "mark an object as vibrating, and make its loops", _remade).set_defaults(vibrates=True)
+    vibrate = verb("vibrate", "mark an object as vibrating, and make its loops", _remade)
+    vibrate.set_defaults(vibrates=True)
     verb("undo", "undo the last edit or bake; a second undo restores it", _undone, of_object=False)
     diff = verb("diff", "show the differences to another bundle; changes nothing", None, of_object=False)
     diff.add_argument("other", metavar="OTHER", help="folder of a bundle")
     apply = verb("apply", "apply the corrections that were saved on a report page", _corrected, of_object=False)
     apply.add_argument("file", metavar="FILE", help="the file of corrections")
     again = verb("rebake", "make every loop again whose inputs have changed", _rebaked, of_object=False)
-    again.add_argument("--actuator", metavar="NAME", help="name of an actuator, or a CSV file of Hz and dB")
-    again.add_argument("--tactile", metavar="KIND", help="converter from sound to vibration")
+    add_loop_arguments(again)
+    for added in (called, vibrate, apply, again):
+        add_backend_arguments(added)
     for added in verbs.choices.values():  # accept the options before and after the verb
         added.add_argument("-q", "--quiet", action="store_true", default=argparse.SUPPRESS)
         added.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help="print the result as JSON")
@@ -124,22 +160,23 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
 
 def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     require_replaceable(kept_before(arguments.bundle))
+    settings = backend_settings(arguments) if "llm" in arguments else {}
+    config = BakeConfig.parse(settings | (loop_settings(arguments) if "actuator" in arguments else {}))
     while True:
         try:
-            return _edit_once(arguments, console)
+            return _edit_once(Remaking(arguments, config), console)
         except BundleChanged:
             continue  # Another process has edited the bundle in the meantime. Both edits must be kept.
 
 
-def _edit_once(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
+def _edit_once(remaking: Remaking, console: Console) -> dict[str, Any]:
+    arguments = remaking.arguments
     read = save_stamp(Path(arguments.bundle))
     before = HapticBundle.load(arguments.bundle)
-    remade: dict[str, dict[str, list[str]]] = {}
-
-    def note(what: Any) -> None:
-        remade.update({key: {state: list(why) for state, why in states.items()} for key, states in what.items()})
-
-    after = arguments.change(before, arguments, note)
+    after = arguments.change(before, remaking)
+    remade = remaking.remade
+    if remaking.report is not None:
+        show_report(console, remaking.report, remaking.config.prices)
     all_changes = differences(before, after)
     if not all_changes and not remade and wishes(after) == wishes(before):
         # Saving would replace the kept bundle, so that `undo` could no longer take back the edit before.
@@ -213,38 +250,32 @@ def interrupted() -> Iterator[threading.Event]:
         signal.signal(signal.SIGINT, before)
 
 
-_FIELDS = (
-    *("name", "gain_db", "intensity", "pitch_hz", "start_up_s", "wind_down_s", "material", "mass_kg", "feet", "state"),
-    *("muted", "vibrates", "locked"),
-)
-
-
-def _overridden(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
-    changes = {name: getattr(arguments, name) for name in _FIELDS if hasattr(arguments, name)}
+def _overridden(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+    arguments = remaking.arguments
+    changes = {one.name: getattr(arguments, one.name) for one in fields(Override) if one.name in arguments}
     if getattr(arguments, "only", None) is not None:
         changes = {name: {arguments.only: value} for name, value in changes.items()}
     return bundle.override(arguments.id, **changes)
 
 
-def _remade(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
-    return rebake(_overridden(bundle, arguments, note), on_remade=note)
+def _remade(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+    return remaking.rebake(_overridden(bundle, remaking))
 
 
-def _with_sound(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
-    return rebake(bundle.override(arguments.id, clip=arguments.file), on_remade=note)
+def _with_sound(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+    return remaking.rebake(bundle.override(remaking.arguments.id, clip=remaking.arguments.file))
 
 
-def _corrected(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
-    return rebake(bundle, corrections=arguments.file, on_remade=note)
+def _corrected(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+    return remaking.rebake(bundle.corrected(remaking.arguments.file))
 
 
-def _rebaked(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
-    given = {"actuator": arguments.actuator, "tactile": arguments.tactile}
-    return rebake(bundle, {name: value for name, value in given.items() if value is not None}, on_remade=note)
+def _rebaked(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+    return remaking.rebake(bundle)
 
 
-def _undone(bundle: HapticBundle, arguments: argparse.Namespace, note: OnRemade) -> HapticBundle:
-    kept = kept_before(arguments.bundle)
+def _undone(bundle: HapticBundle, remaking: Remaking) -> HapticBundle:
+    kept = kept_before(remaking.arguments.bundle)
     if not kept.exists():
         raise BundleError(
             f"there is nothing to undo: the folder {str(kept)!r} of the bundle before an edit does not exist."

@@ -10,8 +10,7 @@ from scene2hap.audio.haptic_loop import NOTICED_DB, HapticLoop, Sensation
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.counted import counted
-from scene2hap.haptics import ObjectHaptics, SourceState
-from scene2hap.llm.chain import UNKNOWN
+from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers.prices import Given, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -99,7 +98,7 @@ def _times_outcome(haptics: ObjectHaptics, name: str, loop: HapticLoop) -> dict[
 
 def bundle_counts(bundle: HapticBundle) -> dict[str, int]:
     """Return the numbers of objects, sources, and unrecognised objects."""
-    unknown = sum(haptics.object_category.lower() in UNKNOWN for haptics in bundle.objects.values())
+    unknown = sum(is_unknown(haptics.object_category) for haptics in bundle.objects.values())
     return {"objects": len(bundle.objects), "sources": len(bundle.loops), "unknown": unknown}
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
 from scene2hap.errors import ClipError
+from scene2hap.printable import parse_json
 from scene2hap.text_files import read_small
 
 MAX_BYTES = 1 << 27
@@ -100,7 +100,7 @@ def read_fields(path: Path, *, needed: str, kind: str) -> Fields:
         reason = getattr(cause, "strerror", None) or cause
         raise ClipError(f"{path}: cannot be read as {kind}: {reason}.{near}") from cause
     try:
-        document = json.loads(content.decode("utf-8-sig"))
+        document = parse_json(content.decode("utf-8-sig"))
     except (ValueError, RecursionError) as cause:  # ValueError: no UTF-8, no JSON, or a number of thousands of digits
         raise ClipError(f"{path}: is no {kind} file, which is JSON: {str(cause)[:200]}. Export it again.") from cause
     fields = Fields(document, str(path))

@@ -19,7 +19,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_call
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
-from scene2hap.haptics import ObjectHaptics, SourceState, unmet_needs
+from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown, unmet_needs
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.config import InferenceConfig
@@ -42,9 +42,6 @@ from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
 _Result = TypeVar("_Result")
-
-UNKNOWN = frozenset({"", "unknown", "undefined"})
-"""Words with which a backend reports that something is unknown."""
 
 Progress = Callable[[str, int, int], None]
 """Called with (name of the step, number done, total number)."""
@@ -72,11 +69,13 @@ async def infer_scene(
     only: Collection[str] | None = None,
     scene_category: str | None = None,
     wishes: Mapping[str, str] | None = None,
+    slots: Slots | None = None,
 ) -> Inference:
     """Run the chain on every object of a scene, or only on the objects with ids in `only`.
 
     If the scene has images (`capture_images`), the backend gets them. A known `scene_category` saves the call that
-    infers it. `wishes` are user prompts for single objects, by object id.
+    infers it. `wishes` are user prompts for single objects, by object id. `slots` limit the
+    concurrent questions of several scenes together; without them, `concurrency` limits those of this scene.
 
     An object without an answer becomes "unknown" and silent. Its error is in the report and in its provenance. An error
     that would affect every further call is raised after running calls have ended.
@@ -93,7 +92,7 @@ async def infer_scene(
     questions = Questions(
         backend,
         Prompts.load(settings.prompts),
-        getattr(backend, "slots", None) or Slots(settings.concurrency),
+        slots or Slots(settings.concurrency),
         user_prompt=user_prompt,
         temperature=settings.temperature,
         wishes=wishes,
@@ -256,7 +255,7 @@ class _Chain:
     def _begin_material(self, category: str) -> asyncio.Task[Estimate]:
         word = _word(category)
         if word in self._materials:
-            self._report.skipped["unknown_material" if word in UNKNOWN else "same_material"] += 1
+            self._report.skipped["unknown_material" if is_unknown(word) else "same_material"] += 1
         else:
             self._materials[word] = asyncio.ensure_future(self._estimate(word))
         return self._materials[word]
@@ -265,7 +264,7 @@ class _Chain:
         return await self._materials[_word(category)]
 
     async def _estimate(self, word: str) -> Estimate:
-        if word in UNKNOWN:
+        if is_unknown(word):
             self._report.skipped["unknown_material"] += 1
             return Estimate(None, "no estimate: the material is unknown")
         if self._settings.materials == "table" and (known := from_table(word)) is not None:

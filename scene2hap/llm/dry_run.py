@@ -14,7 +14,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from scene2hap.errors import BadAnswer
-from scene2hap.llm.chain import UNKNOWN, infer_scene
+from scene2hap.haptics import is_unknown
+from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import COMPONENTS, Component, LLMReply, LLMRequest
@@ -200,7 +201,7 @@ class _Counter:
             constants = {"density_kg_m3": 1.0, "youngs_modulus_gpa": 1.0, "poisson_ratio": 0.0, "damping_ratio": 0.0}
             return LLMReply(json.dumps(constants), "nobody")
         answer = json.loads(reply.text)
-        if answer.get("material_category") in UNKNOWN:
+        if is_unknown(answer.get("material_category", "known")):
             answer["material_category"] = f"material of {request.subject}"[:60]
         return LLMReply(json.dumps(answer), reply.model)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from typing import Any
 
 _THOUGHT = re.compile(r"<(/?)think>", re.IGNORECASE)
 _OPENING = re.compile(r'\{\s*["}]')
@@ -17,11 +18,11 @@ def first_object(text: str) -> str | None:
     Braces within strings do not count, and text after the object is ignored. Valid JSON is preferred to an earlier
     candidate that only has balanced braces. Reasoning is searched last, since it may hold a draft of the answer.
     """
-    if _is_object(text):
+    if fields_of(text) is not None:
         return text.strip()
     for searched in (_without_thoughts(text), text):
         candidates = list(_balanced(searched))
-        found = next((candidate for candidate in candidates if _is_object(candidate)), None)
+        found = next((candidate for candidate in candidates if fields_of(candidate) is not None), None)
         if found or candidates:
             return found or candidates[0]
     return None
@@ -73,8 +74,10 @@ def _closing(text: str, start: int) -> int | None:
     return None
 
 
-def _is_object(text: str) -> bool:
+def fields_of(text: str) -> dict[str, Any] | None:
+    """Return the fields of a text that is one JSON object; None for any other text."""
     try:
-        return isinstance(json.loads(text), dict)
-    except (ValueError, RecursionError):
-        return False
+        found = json.loads(text)
+    except (ValueError, RecursionError):  # ValueError: also a number with thousands of digits
+        return None
+    return found if isinstance(found, dict) else None

@@ -6,10 +6,9 @@ refused again.
 
 from __future__ import annotations
 
-import json
 import re
 
-from scene2hap.llm.json_text import first_object
+from scene2hap.llm.json_text import fields_of, first_object
 
 FILTERED = frozenset({"content_filter", "safety", "prohibited_content", "blocklist", "recitation", "spii", "refusal"})
 """Finish reasons of withheld answers: OpenAI's, and those of Gemini and Claude at OpenAI-compatible addresses."""
@@ -48,11 +47,8 @@ def refusal_in(text: str) -> str | None:
     if found is None:
         opening = text.strip()[:_LOOKED_AT].replace("\u2019", "'")
         return text.strip() if "{" not in opening and _REFUSAL.search(opening) else None
-    try:
-        fields = json.loads(found)
-    except (ValueError, RecursionError):
-        return None
-    if not isinstance(fields, dict) or not fields or not set(fields) <= _EXCUSES:
+    fields = fields_of(found)
+    if not fields or not fields.keys() <= _EXCUSES:
         return None
     excuse = " ".join(value for value in fields.values() if isinstance(value, str))
     is_refusal = "refusal" in fields or _REFUSAL.search(excuse.replace("\u2019", "'"))

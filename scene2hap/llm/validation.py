@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from scene2hap.llm.answers import Answer, MaterialAnswer, ObjectAnswer, SceneAnswer, VibrationAnswer, read_answer
+from scene2hap.llm.json_text import fields_of
 from scene2hap.llm.plausibility import implausible
 from scene2hap.llm.protocol import Component
 
@@ -46,7 +46,7 @@ def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None 
     With the `facts` of the request, a sentence must begin with the object's category, and numbers must be plausible for
     that object or material. The fault names all errors at once.
     """
-    doubtful = implausible(component, _fields(text), facts or {})
+    doubtful = implausible(component, fields_of(text) or {}, facts or {})
     try:
         answer = read_answer(ANSWERS[component], text)
     except ValidationError as error:
@@ -61,15 +61,6 @@ def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None 
     if isinstance(answer, VibrationAnswer) and facts is not None:
         return _misses_category(answer.sentence, str(facts.get("object_category", "")))
     return None
-
-
-def _fields(text: str) -> dict[str, Any]:
-    """Return the fields of an answer; an empty dict if it is no JSON object."""
-    try:
-        fields = json.loads(text)
-    except (ValueError, RecursionError):  # json raises ValueError also for a number with thousands of digits
-        return {}
-    return fields if isinstance(fields, dict) else {}
 
 
 def _misses_category(sentence: str, category: str) -> Fault | None:

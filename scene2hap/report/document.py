@@ -19,7 +19,7 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle, Override
 from scene2hap.counted import first_of
 from scene2hap.errors import UnknownMaterial
-from scene2hap.haptics import ObjectHaptics, SourceState
+from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown
 from scene2hap.materials import Material, lookup
 from scene2hap.propagation.exponential_plate import ExponentialPlate
 from scene2hap.report.account import account_table
@@ -142,7 +142,7 @@ def _inferred(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics, l
         "facts": _facts(item, haptics, bundle),
         "reasons": [list(reason) for reason in haptics.reasons.items()],
         "constants": [] if haptics.material is None else _constants(haptics.material),
-        "editable": _editable(bundle, item.id, haptics),
+        "editable": _editable(bundle, item, haptics),
         "states": [_state(bundle, item.id, state, loops) for state in haptics.states],
     }
 
@@ -183,20 +183,19 @@ def _constants(material: Material) -> list[list[Any]]:
 
 def _said(wish: Override) -> dict[str, Any]:
     """Return a person's corrections as texts and numbers."""
-    rest = Override()
-    fields = {name: getattr(wish, name) for name in wish.__dataclass_fields__}
-    changed = {name: value for name, value in fields.items() if value != getattr(rest, name)}
-    names = {"material", "feet"}
-    said: dict[str, Any] = {name: value.name if name in names else value for name, value in changed.items()}
-    if "clip" in said:
-        said["clip"] = wish.clip.credit.title if wish.clip is not None else ""
-    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in said.items()}
+    said = wish.corrections()
+    for name in {"material", "feet"} & said.keys():
+        said[name] = said[name].name
+    if wish.clip is not None:
+        said["clip"] = wish.clip.credit.title
+    return said
 
 
-def _editable(bundle: HapticBundle, object_id: str, haptics: ObjectHaptics) -> dict[str, Any]:
+def _editable(bundle: HapticBundle, item: SceneObject, haptics: ObjectHaptics) -> dict[str, Any]:
+    object_id = item.id
     wish = bundle.overrides.get(object_id, Override())
-    pitch = dict(wish.pitch_hz)
     return {
+        "name": item.name if wish.name is None else wish.name,
         "material": "" if haptics.material is None else haptics.material.name,
         "mass_kg": haptics.mass_kg,
         "gain_db": bundle.gain_db(object_id),
@@ -204,7 +203,7 @@ def _editable(bundle: HapticBundle, object_id: str, haptics: ObjectHaptics) -> d
         "muted": bundle.is_muted(object_id),
         "locked": wish.locked,
         "states": [
-            {"name": state.name, "intensity": state.intensity, "pitch_hz": pitch.get(state.name, pitch.get("*"))}
+            {"name": state.name, "intensity": state.intensity, "pitch_hz": wish.pitch_of(state.name)}
             for state in haptics.states
         ],
     }
@@ -300,7 +299,7 @@ def path_bytes(of_points: NDArray[np.uint32]) -> str:
 def _counters(bundle: HapticBundle) -> list[list[str]]:
     objects = bundle.objects.values()
     n_states = sum(map(len, bundle.loops.values()))
-    unknown = sum(haptics.object_category in ("", "unknown") for haptics in objects)
+    unknown = sum(is_unknown(haptics.object_category) for haptics in objects)
     answered = {who for haptics in objects if (who := haptics.provenance.get("object_category", ""))}
     models = sorted({who.split(",")[0] for who in answered if not who.startswith("error")})
     rows = [

@@ -9,10 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.bundle import HapticBundle
-from scene2hap.haptics import ObjectHaptics, unmet_needs
+from scene2hap.haptics import ObjectHaptics, is_unknown, unmet_needs
 from scene2hap.report.felt_map import ALL_BANDS, ALL_SOURCES, FeltMap
-
-_UNKNOWN = ("", "unknown", "undefined")
 
 
 def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> list[dict[str, Any]]:
@@ -24,7 +22,7 @@ def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> li
     reasons: Mapping[str, Callable[[str, ObjectHaptics], bool]] = {
         "not answered: the model's answer failed": lambda _, haptics: _is_error(haptics, "object_category"),
         "unknown: it was not recognised, so it is silent": lambda _, haptics: (
-            haptics.object_category in _UNKNOWN and not haptics.vibrates and not _is_error(haptics, "object_category")
+            is_unknown(haptics.object_category) and not haptics.vibrates and not _is_error(haptics, "object_category")
         ),
         "material unknown: no vibration spreads through it": lambda _, haptics: haptics.material is None,
         "vibrates, but has no sound": lambda key, haptics: haptics.vibrates and not bundle.loops.get(key),
@@ -36,7 +34,7 @@ def left_out(bundle: HapticBundle, felt: FeltMap, shells: Collection[str]) -> li
         "out of reach: no vibration of any source arrives": lambda key, _: key in reached and not reached[key],
         "hides the room: its surface is not on the felt map": lambda key, _: key in shells,
         "silent: it does not vibrate by itself": lambda key, haptics: (
-            not haptics.vibrates and haptics.object_category not in _UNKNOWN
+            not haptics.vibrates and not is_unknown(haptics.object_category)
         ),
     }
     rows = [

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from scene2hap.bundle.corrections import parsed_corrections
 from scene2hap.errors import ConfigError, Scene2HapError
+from scene2hap.printable import parse_json
 from scene2hap.text_files import write_whole
 
 MAX_BYTES = 1 << 20
@@ -48,7 +49,7 @@ class ReportServer:
 
             def _keep(self, posted: bytes) -> None:
                 try:
-                    document = json.loads(posted)
+                    document = parse_json(posted)
                     parsed_corrections(document, "the page")
                     write_whole(corrections, json.dumps(document, indent=1))
                 except (ValueError, RecursionError, OSError, Scene2HapError) as problem:

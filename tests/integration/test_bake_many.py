@@ -12,6 +12,7 @@ import sys
 import time
 import warnings
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, ClassVar
@@ -36,6 +37,7 @@ from scene2hap import (
     bake,
     bake_many,
     load_scene,
+    rebake,
 )
 from scene2hap.baking.many.record import scene_digest
 from scene2hap.baking.many.run import abake_many
@@ -160,6 +162,35 @@ def test_model_is_queried_from_the_main_process_once_per_question(
         assert again.kept == again.calls
     assert digests(tmp_path / "a") == digests(tmp_path / "b")
     assert not list((tmp_path / "a" / ".bake-many").glob("*.draft"))
+
+
+def test_a_model_reads_the_name_that_a_person_gave(plain: None, tmp_path: Path) -> None:
+    (scene,) = write_scenes(tmp_path / "scenes", 1)
+    target = tmp_path / "out" / "room_0.bundle"
+    bake_many([scene], tmp_path / "out")
+    HapticBundle.load(target).override("radio", name="flurbelgurk").save(target)
+    with serving(by=answered) as server:
+        llm = {"kind": "local", "model": "scripted", "base_url": f"{server.base_url}/v1"}
+        bake_many([scene], tmp_path / "out", config={"llm": llm, "cache_dir": str(tmp_path / "cache")})
+        assert any('"flurbelgurk"' in one.prompt for one in server.asked)
+    named = HapticBundle.load(target)
+    assert named.objects["radio"].reasons["name"] == "a person calls it 'flurbelgurk'."
+    assert rebake(named).objects == named.objects
+
+
+def test_a_report_names_corrections_of_objects_that_are_gone(tmp_path: Path) -> None:
+    (scene,) = write_scenes(tmp_path / "scenes", 1)
+    target = tmp_path / "out" / "room_0.bundle"
+    bake_many([scene], tmp_path / "out")
+    bundle = HapticBundle.load(target).override("radio", gain_db=-6.0)
+    bundle.save(target)
+    left = [item for item in bundle.snapshot.objects if item.id != "radio"]
+    smaller = tmp_path / "smaller" / "room_0.json"
+    smaller.parent.mkdir()
+    smaller.write_text(replace(bundle.snapshot, objects=tuple(left)).to_json(), encoding="utf-8")
+    (report,) = bake_many([smaller], tmp_path / "out").scenes
+    assert report.outcome == "baked", report.error
+    assert any("override of 'radio' is dropped" in sentence for sentence in report.warnings), report.warnings
 
 
 class Held:

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 import soundfile
 
+from batch_server import answered
+from llm_server import serving
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.audio.files import write_wav
 from scene2hap.bundle import differences
@@ -305,6 +307,28 @@ def test_vibrate_keeps_the_material_that_was_inferred_from_colours(tmp_path: Pat
     assert edited.objects["Object_7"].material == inferred.material
     assert edited.objects["Object_7"].vibrates
     assert edited.loops["Object_7"]
+
+
+def test_a_name_is_inferred_by_the_model_of_the_options(
+    kitchen: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The lexicon does not know the word; the model answers that it is a fridge."""
+    for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
+        monkeypatch.delenv(name, raising=False)
+    folder = str(kitchen())
+    before = HapticBundle.load(folder)
+    with serving(by=answered) as server:
+        model = ["--llm", "local:scripted", "--base-url", f"{server.base_url}/v1", "--cache", str(tmp_path / "cache")]
+        assert main(["edit", folder, "name", "oak table", "flurbelgurk", *model]) == 0
+        asked = [one.prompt for one in server.asked]
+        assert any("flurbelgurk" in prompt for prompt in asked)
+        assert "inference: " in capsys.readouterr().out
+        assert main(["edit", folder, "rebake", "-q", *model]) == 0
+        assert len(server.asked) == len(asked)
+    named = HapticBundle.load(folder)
+    assert named.objects["oak table"].object_category == "fridge"
+    assert named.loops["oak table"]
+    assert {key for key in before.objects if named.objects[key] != before.objects[key]} == {"oak table"}
 
 
 def test_audition_writes_ten_minutes(kitchen: Callable[..., Path], tmp_path: Path) -> None:

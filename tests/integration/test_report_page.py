@@ -184,6 +184,16 @@ def test_only_changed_fields_are_downloaded(opened: Opened) -> None:
     assert opened.report("overrides()")["overrides"] == {}
 
 
+def test_a_name_says_what_an_object_is(opened: Opened) -> None:
+    opened.report("select('table')")
+    name = opened.page.locator("[data-field=name]")
+    assert name.input_value() == "oak table"
+    name.fill(" washing machine ")
+    assert opened.report("overrides()")["overrides"] == {"table": {"name": "washing machine"}}
+    name.fill("oak table")
+    assert opened.report("overrides()")["overrides"] == {}
+
+
 def test_the_table_is_searched_sorted_and_used_by_keys(opened: Opened) -> None:
     body = opened.page.locator("table.list tbody")
     opened.page.get_by_role("button", name="name", exact=True).click()

@@ -74,7 +74,7 @@ def _of_habitat(path: Path, options: Mapping[str, Any]) -> list[Path]:
 
 def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, Any]) -> str:
     """Return a digest of all settings that affect the content of a bundle."""
-    backend = dict(identity(config.llm)) or type(getattr(config.llm, "inner", config.llm)).__qualname__
+    backend = dict(identity(config.llm)) or type(config.llm).__qualname__
     document = {
         "version": __version__,
         "llm": backend,

@@ -29,20 +29,19 @@ from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.many.pool import Pool, Submits
 from scene2hap.baking.many.record import REPORT, WORK, Record, read_record, scene_digest, settings_digest, write_record
 from scene2hap.baking.many.report import ManyReport, SceneReport
-from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures, wishes_at
-from scene2hap.baking.scene import VIBRATES
-from scene2hap.bundle import HapticBundle
+from scene2hap.baking.many.tasks import Counters, bake_scene, make_sounds, take_pictures
+from scene2hap.baking.scene import infer_corrected
+from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.calls import clear_call
 from scene2hap.errors import ConfigError
-from scene2hap.llm.chain import Inference, infer_scene
+from scene2hap.llm.chain import Inference
 from scene2hap.llm.lexicon import LexiconBackend
-from scene2hap.llm.protocol import LLMBackend, LLMReply, LLMRequest
+from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.questions import Slots
 from scene2hap.llm.run_coroutine import run_waiting
-from scene2hap.llm.wrappers import identity, reports
+from scene2hap.llm.wrappers import is_remote, reports
 from scene2hap.llm.wrappers.prices import price_list
-from scene2hap.llm.wrappers.stack import Wrapper
 from scene2hap.scene.capture import capture_images
 from scene2hap.scene.files import scene_stem
 from scene2hap.scene.load import load_scene
@@ -120,10 +119,10 @@ async def abake_many(
     with Pool(executor) as pool:
         run = Run(
             checks.path("folder", folder, error=ConfigError),
-            parsed.model_copy(update={"llm": _Limited(parsed.llm, parsed.concurrency)}),
+            parsed,
             # Workers get the lexicon in place of a network model: they send no questions, and a connection cannot be
             # pickled.
-            parsed.model_copy(update={"llm": LexiconBackend()}) if "base_url" in identity(parsed.llm) else parsed,
+            parsed.model_copy(update={"llm": LexiconBackend()}) if is_remote(parsed.llm) else parsed,
             dict(options or {}),
             user_prompt,
             pool,
@@ -141,21 +140,6 @@ def scene_paths(scenes: Iterable[str | os.PathLike[str]]) -> list[Path]:
     if not paths:
         raise ConfigError("scenes is empty; name at least one scene file.")
     return paths
-
-
-class _Limited(Wrapper):
-    """Limit the number of concurrent questions over all scenes: `infer_scene` takes the slots of its backend.
-
-    A question that waits for a slot is not sent after a cancellation.
-    """
-
-    def __init__(self, inner: Any, n_at_once: int) -> None:
-        super().__init__(inner)
-        self.slots = Slots(n_at_once)
-
-    async def complete(self, request: LLMRequest) -> LLMReply:
-        """Return the inner backend's answer."""
-        return await self.inner.complete(request)
 
 
 @dataclass(frozen=True)
@@ -183,6 +167,11 @@ class Run:
     total: int = 0
     settings: str = ""
     names: dict[Path, str] = field(default_factory=dict)
+    slots: Slots = field(init=False)
+    """The limit of concurrent questions of all scenes together."""
+
+    def __post_init__(self) -> None:
+        self.slots = Slots(self.config.concurrency)
 
     def name(self, paths: list[Path]) -> None:
         """Set the name of each scene, and the digest of the settings."""
@@ -236,7 +225,7 @@ class Run:
             if stage == "baked" and (target / "bundle.json").is_file():
                 counts = {key: before[key] for key in _COUNTS if isinstance(before.get(key), int)}
                 return replace(report, outcome="kept", **counts)
-            if self._is_remote:
+            if is_remote(self.config.llm):
                 draft = self._draft(path)
                 if stage != "inferred" or not (draft / "bundle.json").is_file():
                     report = await self._drafted(path, made_of, await self._inferred(path, self.config.llm))
@@ -257,7 +246,7 @@ class Run:
 
         Returns True if the scene now has a draft or a bundle.
 
-        Raises: as `load_scene` and `infer_scene`.
+        Raises: as `load_scene` and `infer_corrected`.
         """
         made_of, before = await self._state(path)
         made_at = {"baked": self._target(path), "inferred": self._draft(path)}.get(before.get("stage", ""))
@@ -280,8 +269,10 @@ class Run:
         scene = await asyncio.to_thread(load_scene, path, **self.options)
         read_s, begun = time.perf_counter() - begun, time.perf_counter()
         seen = await self._captured(path, scene) if self.pictures else scene
-        wishes = {key: VIBRATES for key, wish in wishes_at(self._target(path), scene).items() if wish.vibrates}
-        found = await infer_scene(seen, backend, user_prompt=self.user_prompt, config=self.config, wishes=wishes)
+        wishes = read_overrides(self._target(path))
+        found = await infer_corrected(
+            seen, backend, self.config, wishes, user_prompt=self.user_prompt, slots=self.slots
+        )
         return _Inferred(scene, found, {"reading": read_s, "inference": time.perf_counter() - begun})
 
     async def _drafted(self, path: Path, made_of: Mapping[str, str], inferred: _Inferred) -> SceneReport:
@@ -309,10 +300,6 @@ class Run:
     def _pictures(self, path: Path) -> Path:
         """Return the folder of pictures for inference. Pictures of single objects are shared by all scenes."""
         return self._work("all" if self.config.share_scenes else self.names[path], ".pictures")
-
-    @property
-    def _is_remote(self) -> bool:
-        return "base_url" in identity(self.config.llm)
 
     def _unmade(self, path: Path) -> SceneReport:
         return SceneReport(str(path), str(self._target(path)), "failed")

@@ -17,14 +17,13 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.baking.config import BakeConfig
-from scene2hap.baking.scene import bake, with_locked, with_sounds
+from scene2hap.baking.scene import bake, of_this_scene, with_locked, with_sounds
 from scene2hap.baking.sound import N_THREADS
-from scene2hap.bundle import HapticBundle, Override, read_overrides
-from scene2hap.llm.chain import UNKNOWN
+from scene2hap.bundle import HapticBundle, read_overrides
+from scene2hap.haptics import is_unknown
 from scene2hap.llm.report import InferenceReport
 from scene2hap.scene.capture import capture_images, render_all
 from scene2hap.scene.load import load_scene
-from scene2hap.scene.snapshot import SceneSnapshot
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,7 @@ def bake_scene(
     with _watched(n_threads) as watch:
         snapshot = load_scene(scene, **options)
         accounts: list[InferenceReport] = []
-        wishes = wishes_at(Path(target), snapshot)
+        wishes = read_overrides(Path(target))
         bundle = bake(
             snapshot,
             config,
@@ -69,7 +68,7 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
     """Make the loops of a draft, and write the bundle. Raises: AudioError, BundleError."""
     with _watched(n_threads) as watch:
         inferred = HapticBundle.load(draft)
-        wishes = wishes_at(Path(target), inferred.snapshot)
+        wishes = of_this_scene(read_overrides(Path(target)), inferred.snapshot)
         baking = with_sounds(
             inferred.snapshot,
             inferred.scene_category,
@@ -83,14 +82,8 @@ def make_sounds(n_threads: int, draft: str, target: str, config: BakeConfig) -> 
     return _counted(bundle, watch)
 
 
-def wishes_at(target: Path, scene: SceneSnapshot) -> dict[str, Override]:
-    """Return the overrides of an earlier bundle at this path, for objects that still exist."""
-    known = {item.id for item in scene.objects}
-    return {key: wish for key, wish in read_overrides(target).items() if key in known}
-
-
 def _counted(bundle: HapticBundle, watch: _Watch, calls: int = 0) -> Counters:
-    n_unknown = sum(haptics.object_category in UNKNOWN for haptics in bundle.objects.values())
+    n_unknown = sum(is_unknown(haptics.object_category) for haptics in bundle.objects.values())
     return Counters(watch.seconds, len(bundle.objects), len(bundle.loops), n_unknown, calls, tuple(watch.warnings))
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
-from scene2hap.llm.backends.http_client import HttpReply
 from scene2hap.llm.backends.http_errors import failure, server_error
+from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.finish_reasons import is_cut
 from scene2hap.llm.protocol import LLMRequest
 from scene2hap.llm.quoting import shown

@@ -17,12 +17,12 @@ from urllib.parse import urlsplit
 from scene2hap import checks, web
 from scene2hap.errors import BackendError, ConfigError
 from scene2hap.llm.backends import retry_after
-from scene2hap.llm.backends.http_reply import HttpReply as HttpReply
+from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.pace import Pace
-from scene2hap.secret import Secret as Secret
+from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
-    from scene2hap.web import Transport as Transport
+    from scene2hap.web import Transport
 
 _LOG = logging.getLogger(__name__)
 

@@ -15,7 +15,8 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.backends import chat, server_models
 from scene2hap.llm.backends.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
-from scene2hap.llm.backends.http_client import Endpoint, HttpReply
+from scene2hap.llm.backends.http_client import Endpoint
+from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.image_tokens import LostImages
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
@@ -24,7 +25,7 @@ from scene2hap.scene.scene_warning import warn_of
 from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
-    from scene2hap.llm.backends.http_client import Transport
+    from scene2hap.web import Transport
 
 _FORM_REJECTED = frozenset({400, 422, 501})
 _OURS = frozenset({"model", "messages", "images", "response_format", "format", "stream", "max_tokens", "num_predict"})

@@ -23,7 +23,7 @@ from scene2hap.scene.scene_warning import warn_of
 from scene2hap.secret import Secret
 
 if TYPE_CHECKING:
-    from scene2hap.llm.backends.http_client import Transport
+    from scene2hap.web import Transport
 
 KEY_VARIABLE = "OPENAI_API_KEY"
 BASE_URL = "https://api.openai.com/v1"

@@ -14,7 +14,7 @@ import csv
 from collections.abc import Mapping, Sequence
 from functools import cache
 
-from scene2hap.llm.lexicon.table import ObjectRow, usual_boxes_text
+from scene2hap.llm.lexicon.table import ObjectRow, text_of
 
 FARTHEST = 2.0
 """The largest factor between an object's mass and the usual one. Assumed: kits of models exaggerate sizes."""
@@ -37,5 +37,5 @@ def usual_mass_kg(row: ObjectRow, whole_m: Sequence[float]) -> float | None:
 
 @cache
 def _usual_sides_m2() -> Mapping[str, float]:
-    rows = csv.DictReader(usual_boxes_text().splitlines())
+    rows = csv.DictReader(text_of("usual_boxes.csv").splitlines())
     return {fields["noun"]: float(fields["longest_m"]) * float(fields["middle_m"]) for fields in rows}

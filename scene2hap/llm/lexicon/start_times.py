@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from scene2hap.llm.lexicon.table import ObjectRow, starting_text
+from scene2hap.llm.lexicon.table import ObjectRow, text_of
 
 
 def starting_of(row: ObjectRow | None, verb: str) -> Mapping[str, Any]:
@@ -21,7 +21,7 @@ def starting_of(row: ObjectRow | None, verb: str) -> Mapping[str, Any]:
 
 @cache
 def _table() -> Mapping[str, Mapping[str, Any]]:
-    return {fields["what"]: _row(fields) for fields in csv.DictReader(starting_text().splitlines())}
+    return {fields["what"]: _row(fields) for fields in csv.DictReader(text_of("start_times.csv").splitlines())}
 
 
 def _row(fields: Mapping[str, str]) -> Mapping[str, Any]:

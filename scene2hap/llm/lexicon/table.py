@@ -79,32 +79,21 @@ class ObjectRow:
 @cache
 def table() -> tuple[ObjectRow, ...]:
     """Return every row, in the order of the file."""
-    return tuple(_row(fields) for fields in csv.DictReader(_text().splitlines()))
+    return tuple(_row(fields) for fields in csv.DictReader(text_of("table.csv").splitlines()))
 
 
 @cache
 def version() -> str:
     """Return a short digest of the tables, so that an answer's provenance changes exactly when a row does."""
-    texts = _text(), starting_text(), usual_boxes_text()
-    rows = [line for text in texts for line in text.splitlines()]
+    names = ("table.csv", "start_times.csv", "usual_boxes.csv")
+    rows = [line for name in names for line in text_of(name).splitlines()]
     return hashlib.sha256("\n".join(rows).encode()).hexdigest()[:8]
 
 
 @cache
-def starting_text() -> str:
-    """Return the content of the file of start and stop times; see `lexicon.start_times`."""
-    return files(__package__).joinpath("start_times.csv").read_text(encoding="utf-8")
-
-
-@cache
-def usual_boxes_text() -> str:
-    """Return the content of the file of usual sizes; see `lexicon.masses`."""
-    return files(__package__).joinpath("usual_boxes.csv").read_text(encoding="utf-8")
-
-
-@cache
-def _text() -> str:
-    return files(__package__).joinpath("table.csv").read_text(encoding="utf-8")
+def text_of(name: str) -> str:
+    """Return the content of a file of the lexicon."""
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
 def _row(fields: dict[str, str]) -> ObjectRow:

@@ -10,7 +10,8 @@ import csv
 import unicodedata
 from collections.abc import Iterator
 from functools import cache
-from importlib.resources import files
+
+from scene2hap.llm.lexicon.table import text_of
 
 # Foreign words that are also English words: a number, a state, a tool's cube, or another object.
 _ENGLISH = frozenset({"four", "lit", "cubo", "piso", "bank", "trap", "kop", "wand"})
@@ -113,7 +114,7 @@ def _folded(language: str, word: str) -> str:
 
 def _rows() -> Iterator[tuple[str, str, tuple[str, ...]]]:
     """Yield language, word and meaning. A noun of several words ("lave linge") is written together."""
-    text = files(__package__).joinpath("translations.csv").read_text(encoding="utf-8")
+    text = text_of("translations.csv")
     for row in csv.DictReader(text.splitlines()):
         for pair in row["words"].split(";"):
             word, meaning = pair.split("=")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Awaitable, Callable, Mapping
+from typing import cast
 
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.protocol import LLMBackend
@@ -13,7 +14,7 @@ from scene2hap.llm.wrappers.cache import CacheBackend
 from scene2hap.llm.wrappers.prices import Given, Price
 from scene2hap.llm.wrappers.repair import RepairBackend
 from scene2hap.llm.wrappers.retry import RetryBackend
-from scene2hap.llm.wrappers.stack import Spec, Wrapper
+from scene2hap.llm.wrappers.stack import Spec, Wrapper, is_remote
 
 RETRIES = 6
 """Assumed: waits of 0.5, 1, 2, 4, 8 and 8 s are enough for a server to load its model."""
@@ -55,7 +56,7 @@ def build_backend(
     *,
     max_cost: float | None = None,
     prices: Mapping[str, Price | Given] | None = None,
-) -> object:
+) -> LLMBackend:
     """Build the backend of a configuration, and add the standard stack if it needs one.
 
     The stack is added if `spec` is a kind or mapping, and the backend has a network address. Ready-made backends,
@@ -66,10 +67,7 @@ def build_backend(
     if isinstance(spec, str) and ":" in spec:
         kind, _, model = spec.partition(":")
         spec = {"kind": kind, "model": model}
-    built = BACKENDS.build(spec)
-    if built is spec or isinstance(built, Wrapper) or not isinstance(built, LLMBackend):
+    built = cast("LLMBackend", BACKENDS.build(spec))  # `build` checks it
+    if built is spec or isinstance(built, Wrapper) or not is_remote(built):
         return built
-    identity = getattr(built, "identity", None)
-    if isinstance(identity, Mapping) and "base_url" in identity:
-        return standard_stack(built, cache_folder, max_cost=max_cost, prices=prices)
-    return built
+    return standard_stack(built, cache_folder, max_cost=max_cost, prices=prices)

@@ -10,7 +10,6 @@ Files are checked when they are given, and decoded at their first use.
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import warnings
 from collections.abc import Mapping
@@ -23,6 +22,7 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.calls import clear_calls
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
+from scene2hap.printable import parse_json
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.capture.cache import MEMORY
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
@@ -228,7 +228,7 @@ def _label(shot: Shot) -> str:
 
 def _rows(index: Path) -> list[Any]:
     try:
-        rows = json.loads(read_small_text(index))
+        rows = parse_json(read_small_text(index))
     except OSError as cause:
         raise SceneError(f"{str(index)!r} cannot be read: {cause.strerror}. Give the folder that holds it.") from cause
     except (ValueError, RecursionError) as cause:

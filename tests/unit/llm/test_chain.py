@@ -10,6 +10,7 @@ import pytest
 from scene2hap import LLMReply, LLMRequest, infer_haptics
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.prompts import VERSION
+from scene2hap.llm.questions import Slots
 from scripted_backend import SCENE, Scripted, run
 
 
@@ -54,6 +55,30 @@ def test_chain_reports_progress_per_object() -> None:
     asyncio.run(infer_scene(SCENE, Scripted(), progress=lambda *news: told.append(news)))
     assert [(done, total) for _, done, total in told] == [(1, 3), (2, 3), (3, 3)]
     assert {what for what, _, _ in told} == {"table", "phone", "cup"}
+
+
+def test_scenes_that_share_slots_keep_one_concurrency_limit() -> None:
+    class Counting(Scripted):
+        """A backend with an attribute `slots` of its own, which is no limit of ours."""
+
+        running = most = slots = 0
+
+        async def complete(self, request: LLMRequest) -> LLMReply:
+            self.running += 1
+            self.most = max(self.most, self.running)
+            await asyncio.sleep(0.001)
+            self.running -= 1
+            return await super().complete(request)
+
+    async def two_scenes(slots: Slots | None) -> int:
+        backend = Counting()
+        backend.slots = 3
+        config = {"concurrency": 2}
+        await asyncio.gather(*(infer_scene(SCENE, backend, config=config, slots=slots) for _ in range(2)))
+        return backend.most
+
+    assert asyncio.run(two_scenes(Slots(1))) == 1
+    assert asyncio.run(two_scenes(None)) > 1
 
 
 def test_chain_respects_the_concurrency_limit() -> None:

@@ -60,6 +60,9 @@ def test_the_document_is_plain_data_with_sounds_that_play(kitchen: HapticBundle)
     fridge = next(item for item in found["objects"] if item["id"] == "refrigerator")
     assert fridge["override"] == {"gain_db": -3.0}
     assert fridge["editable"]["gain_db"] == -3.0
+    assert fridge["editable"]["name"] == kitchen.snapshot.object("refrigerator").name
+    named = document(kitchen.override("refrigerator", name="wine cooler"), most_points=500)["objects"]
+    assert next(item for item in named if item["id"] == "refrigerator")["editable"]["name"] == "wine cooler"
     assert [name for name, *_ in fridge["constants"]] == [
         "density",
         "Young's modulus",

@@ -3,6 +3,7 @@
 import { h, visible } from "./dom.js";
 
 const FIELDS = [
+  { field: "name", label: "name: what it is", kind: "text", maxlength: 200 },
   { field: "gain_db", label: "gain [dB]", kind: "number", min: -120, max: 60, step: 0.5 },
   { field: "material", label: "material", kind: "text" },
   { field: "mass_kg", label: "mass [kg]", kind: "number", min: 0.0001, max: 1e6, step: "any" },
@@ -39,12 +40,13 @@ export function makeForm(object, corrections, materials) {
   return form;
 }
 
-function makeField(id, { field, label, kind, min, max, step }, state, corrections) {
+function makeField(id, { field, label, kind, min, max, step, maxlength }, state, corrections) {
   const input = h("input", {
     type: kind,
     min,
     max,
     step,
+    maxlength,
     list: field === "material" ? "materials" : null,
     placeholder: kind === "checkbox" ? null : "unknown",
     "data-field": field,

@@ -6,7 +6,7 @@ import pytest
 
 from scene2hap import Box, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.llm.lexicon.masses import FARTHEST, usual_mass_kg
-from scene2hap.llm.lexicon.table import table, usual_boxes_text
+from scene2hap.llm.lexicon.table import table, text_of
 
 ROWS = {row.noun: row for row in table()}
 
@@ -51,7 +51,7 @@ def test_an_unknown_size_leaves_the_usual_mass(whole_m: tuple[float, ...]) -> No
 
 
 def test_usual_boxes_are_of_nouns_that_have_a_mass() -> None:
-    lines = [line.split(",") for line in usual_boxes_text().splitlines()]
+    lines = [line.split(",") for line in text_of("usual_boxes.csv").splitlines()]
     assert {len(line) for line in lines} == {4}
     nouns = [line[0] for line in lines[1:]]
     assert len(set(nouns)) == len(nouns)
