@@ -13,8 +13,10 @@ wavenumber, k_c^4 = m omega^2 / (D (1 + j eta)). Time runs as e^{+j omega t}.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import count
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -272,13 +274,15 @@ def _coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> str:
     )
 
 
-_WARNED_OF: set[Plate] = set()
+@lru_cache(maxsize=4096)
+def _times_coarsened(plate: Plate) -> Iterator[int]:
+    """A counter for each plate."""
+    return count()
 
 
 def _warn_coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> None:
     """Warn of a plate once, whatever the highest frequency."""
-    if plate not in _WARNED_OF:
-        _WARNED_OF.add(plate)
+    if next(_times_coarsened(plate)) == 0:
         warn_of(_coarsened(plate, max_frequency_hz, limit_hz), CoarsenedWarning)
 
 

@@ -217,6 +217,15 @@ def test_search_ignores_sources_not_connected_to_a_touch() -> None:
     assert live.least_costs([("floor", (0, 0, 0))], None, {0}) == live.costs("floor", (0, 0, 0))
 
 
+def test_the_ball_around_a_source_does_not_depend_on_the_version_of_python() -> None:
+    """`sum` keeps digits from Python 3.12 on that neither earlier versions nor the compiled kernel keep."""
+    graph = ContactGraph(scene(*(box(name, (0.1, 0.1, 0.1), (0, 0, 0)) for name in ("floor", "radio"))))
+    feet = [(1e16, 0.0, 0.0), (1.0, 0.0, 0.0), (-1e16, 0.0, 0.0)]
+    graph.update({}, contacts=[Contact("radio", "floor", foot) for foot in feet])
+    paths = noted(graph, {"floor": 0.3, "radio": 0.2})
+    assert paths._ball("radio")[0] == (0.0, 0.0, 0.0)
+
+
 def test_with_two_contacts_left_only_neighbours_of_sources_are_entered() -> None:
     graph, prices = floor_with_cups()
     paths = noted(graph, prices, 2)
