@@ -206,7 +206,7 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
         f = checks.number(
             "max_frequency_hz", max_frequency_hz, "Hz", at_least=0, at_most=most_hz, error=ModelDomainError
         )
-        return _modes_up_to(plate, f)
+        return modes_up_to(plate, f, FINE)
     return _lowest(
         plate, checks.whole("n_modes", n_modes, "-", at_least=1, at_most=LARGEST_BLOCK**2, error=ModelDomainError)
     )
@@ -222,6 +222,23 @@ def receptance_frequencies(plate: Plate, frequencies_hz: ArrayLike) -> NDArray[n
     require_plate(plate)
     loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
     return as_frequencies(frequencies_hz, positive_because=loose)
+
+
+def n_modes_to(plate: Plate, k: float) -> float:
+    """Approximate number of modes of a plate with free edges up to a wavenumber [rad/m] (Weyl)."""
+    return (plate.area_m2 * k**2 + 2 * sum(plate.extent_m) * k) / (4 * math.pi)
+
+
+def wavenumber_of_mode(plate: Plate, n_modes: float) -> float:
+    """The wavenumber [rad/m] at which `n_modes_to` is `n_modes`."""
+    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
+    return edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)
+
+
+def beam_hz(plate: Plate) -> float:
+    """Upper bound on `first_bending_hz` of a plate with free edges [Hz]: the first mode of a free beam along its longer
+    side, which is a trial deflection (Rayleigh)."""
+    return 22.374 / (max(plate.extent_m) * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
 
 
 @lru_cache(maxsize=4096)
@@ -264,19 +281,12 @@ def points_on(plate: Plate, points_m: ArrayLike) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=32)
 def _lowest(plate: Plate, count: int) -> PlateModes:
-    # Weyl's count of modes below k for free edges, (S k^2 + U k) / 4 pi, gives the start; held edges need a higher k.
-    area, edge = plate.length_m * plate.width_m, 2 * (plate.length_m + plate.width_m)
-    k = edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * count / edge**2) - 1)
+    k = wavenumber_of_mode(plate, count)  # held edges need a higher one
     while True:
-        modes = _modes_up_to(plate, (k / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi))
+        modes = modes_up_to(plate, (k / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi), FINE)
         if len(modes.block) >= count:
             return replace(modes, block=modes.block[:count], column=modes.column[:count])
         k *= 1.3
-
-
-def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
-    """Compute modes as `plate_modes` does, with a basis of another fineness."""
-    return _modes_up_to(plate, max_frequency_hz, fineness)
 
 
 def _wavenumber(plate: Plate, frequency_hz: float) -> float:
@@ -285,7 +295,8 @@ def _wavenumber(plate: Plate, frequency_hz: float) -> float:
 
 
 @cached_while_used
-def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
+def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness) -> PlateModes:
+    """Compute modes as `plate_modes` does, with a basis of any fineness."""
     k = _wavenumber(plate, max_frequency_hz)
     terms, largest = _terms(plate, k, fineness), largest_block(plate, max_frequency_hz, fineness)
     if largest > LARGEST_BLOCK:

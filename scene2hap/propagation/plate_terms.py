@@ -189,11 +189,6 @@ class PlateTerms:
         x, y = (len(axis.family.chebyshev) for axis in self._axes)
         return x, y
 
-    @property
-    def n_modes(self) -> int:
-        """Number of terms that are modes; `N_NODES` other terms follow."""
-        return len(self._k4)
-
     def spectrum(self, q: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Each term at each frequency (n_terms, n_frequencies): 1 / (k_n^4 - q) [m^4], then l_i(q) [-]."""
         return np.concatenate([1 / (self._k4[:, None] - q), self._between(q)])

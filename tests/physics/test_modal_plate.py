@@ -64,7 +64,7 @@ def test_a_larger_basis_agrees(name: str, where: tuple[float, float], monkeypatc
     found = ModalPlate().plate_receptance(plate, drive, points, FREQUENCIES_HZ)
     terms = modes_module._n_terms
     monkeypatch.setattr(modes_module, "_n_terms", lambda *args: 2 * terms(*args))
-    monkeypatch.setattr("scene2hap.propagation.modes._modes_up_to", modes_module._modes_up_to.__wrapped__)
+    monkeypatch.setattr("scene2hap.propagation.modes.modes_up_to", modes_module.modes_up_to.__wrapped__)
     finer = ModalPlate().plate_receptance(plate, drive, points, FREQUENCIES_HZ)
     apart = db_apart(found, finer)
     assert np.median(apart) < 0.1

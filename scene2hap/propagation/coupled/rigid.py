@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
-from scene2hap.propagation.modes import first_bending_hz
+from scene2hap.propagation.modes import beam_hz, first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
 
 _THICK = 1 / 5
@@ -41,11 +41,7 @@ def is_too_thick(plate: Plate) -> bool:
 
 def is_stiff(plate: Plate, above_hz: float) -> bool:
     """Whether the first mode of a free plate is above a frequency [Hz]."""
-    # The first mode of a free beam along the longer side is a trial deflection: the plate's mode is lower (Rayleigh).
-    longer = max(plate.extent_m)
-    if 22.374 / (longer * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi) < above_hz:
-        return False
-    return first_bending_hz(plate) > above_hz
+    return beam_hz(plate) >= above_hz and first_bending_hz(plate) > above_hz
 
 
 @lru_cache(maxsize=4096)

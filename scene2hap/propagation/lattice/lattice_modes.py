@@ -32,7 +32,7 @@ from scene2hap.propagation.lattice.block_lanczos import largest
 from scene2hap.propagation.lattice.factors import Factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.lattice.unit_plate import of_size_one
-from scene2hap.propagation.modes import n_rigid_motions
+from scene2hap.propagation.modes import n_modes_to, n_rigid_motions, wavenumber_of_mode
 from scene2hap.propagation.plate import Plate
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
         raise ModelDomainError(
             f"n_modes is {n_modes}; a lattice of resolution {resolution} has {n_nodes} modes. Raise the resolution."
         )
-    wanted = _k_of_mode(plate, 1.2 * n_modes + 2) ** 4
+    wanted = wavenumber_of_mode(plate, 1.2 * n_modes + 2) ** 4
     lattice, factors, shift = _factorised(plate, resolution, wanted)
     while True:
         k4, _ = _all_below(lattice, factors, shift, wanted)
@@ -141,18 +141,7 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
 
 def n_modes_up_to(plate: Plate, frequency_hz: float) -> float:
     """Approximate number of modes of a plate with free edges up to a frequency [Hz] (Weyl)."""
-    return _n_modes_to(plate, float(plate.wavenumber_rad_m(frequency_hz)))
-
-
-def _n_modes_to(plate: Plate, k: float) -> float:
-    """Approximate number of modes of a plate with free edges up to a wavenumber [rad/m] (Weyl)."""
-    return (plate.area_m2 * k**2 + 2 * sum(plate.extent_m) * k) / (4 * math.pi)
-
-
-def _k_of_mode(plate: Plate, n_modes: float) -> float:
-    """The wavenumber [rad/m] at which `_n_modes_to` is `n_modes`."""
-    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
-    return edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)
+    return n_modes_to(plate, float(plate.wavenumber_rad_m(frequency_hz)))
 
 
 def is_too_much(plate: Plate, resolution: int, top_frequency_hz: float) -> bool:
@@ -232,7 +221,7 @@ def _all_below(
     def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
         return solve_shifted(lattice, factors, shift_k4, force)
 
-    expected = _n_modes_to(lattice.plate, wanted_k4**0.25)
+    expected = n_modes_to(lattice.plate, wanted_k4**0.25)
     if expected > DENSE_SHARE * n and np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * wanted_k4:
         k4, shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd", check_finite=False)
         # Some more than wanted, since `_ritz` removes the rounding error of an eigenvalue.
