@@ -17,9 +17,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import count
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
@@ -212,7 +213,8 @@ class MassSpringDamper:
         look = lattice.interpolation(points)
         shapes = modes.shapes / math.sqrt(m)
         push, seen = (shapes.T @ pushed)[:, 0], look @ shapes
-        static = (look @ _summed(modes.stiffer(pushed)[:, :, 0], modes.shift_k4)) / plate.bending_stiffness_nm
+        stiffer = np.asarray(polyval(modes.shift_k4, modes.stiffer(pushed)[:, :, 0]))
+        static = (look @ stiffer) / plate.bending_stiffness_nm
 
         walk = self._stepper(plate, modes, 1 / rate, stepper)
         state = State(np.zeros(len(push)), np.zeros(len(push)))
@@ -284,11 +286,3 @@ def _warn_coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> N
     """Warn of a plate once, whatever the highest frequency."""
     if next(_times_coarsened(plate)) == 0:
         warn_of(_coarsened(plate, max_frequency_hz, limit_hz), CoarsenedWarning)
-
-
-def _summed(terms: NDArray[Any], ratio: NDArray[Any] | float) -> NDArray[Any]:
-    """Sum of terms[j] ratio^j over the first axis."""
-    total: NDArray[Any] = terms[-1]
-    for term in terms[-2::-1]:
-        total = total * ratio + term
-    return total

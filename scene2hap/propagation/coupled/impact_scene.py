@@ -31,7 +31,6 @@ from scene2hap.propagation.inclined_body import InclinedBody
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-"""Ids of a touched object and of a struck object."""
 
 IMPACT_BANDS = Bands((20.0, 40.0, 80.0, 160.0, 320.0, 480.0))
 """Bands of the components of bursts: from `impact.SLOWEST_HZ` to `impact.HIGHEST_MODE_HZ`, and a quarter of an octave
