@@ -51,8 +51,9 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         for object_id in pair:
             touching[object_id] += contacts
             touching[object_id] += [one for one, _ in pressed.get(pair, ())]
+    bodies, poses = network.bodies, network.poses
     places = {
-        object_id: iter(_on_body(network, object_id, tuple([one.point_m for one in contacts])))
+        object_id: iter(_on_body(bodies.get(object_id), poses.get(object_id), tuple([one.point_m for one in contacts])))
         for object_id, contacts in touching.items()
     }
     axes = {object_id: _level_axis(network, object_id, contacts) for object_id, contacts in touching.items()}
@@ -115,18 +116,12 @@ def source_groups(joints: Sequence[Joint], source_ids: Iterable[str]) -> list[tu
 
 
 @lru_cache(maxsize=4096)
-def _remembered(
+def _on_body(
     body: Body | None, pose: Pose | None, points_m: tuple[tuple[float, float, float], ...]
 ) -> tuple[tuple[float, float], ...]:
+    """See `ContactNetwork.on_body`. Cached, since most objects stay where they are."""
     network = ContactNetwork({} if body is None else {"": body}, (), {} if pose is None else {"": pose})
     return tuple([(x, y) for x, y in network.on_body("", points_m).tolist()])
-
-
-def _on_body(
-    network: ContactNetwork, object_id: str, points_m: tuple[tuple[float, float, float], ...]
-) -> tuple[tuple[float, float], ...]:
-    """See `ContactNetwork.on_body`. Cached, since most objects stay where they are."""
-    return _remembered(network.bodies.get(object_id), network.poses.get(object_id), points_m)
 
 
 def _level_axis(network: ContactNetwork, object_id: str, contacts: Sequence[Contact]) -> Direction | None:

@@ -19,8 +19,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import TYPE_CHECKING
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,8 +34,7 @@ from scene2hap.propagation.lattice.unit_plate import of_size_one
 from scene2hap.propagation.modes import n_modes_to, n_rigid_motions, wavenumber_of_mode
 from scene2hap.propagation.plate import Plate
 
-if TYPE_CHECKING:
-    from scipy.sparse import csr_array
+Floats = NDArray[np.float64]
 
 MARGIN = 1.5
 """Modes are solved up to this many times the top frequency; the series takes over from there."""
@@ -69,15 +67,15 @@ class LatticeModes:
     """
 
     lattice: Lattice
-    k4: NDArray[np.float64]
-    shapes: NDArray[np.float64]
+    k4: Floats
+    shapes: Floats
     shift_k4: float
     factors: Factors
 
     @property
-    def frequencies_hz(self) -> NDArray[np.float64]:
+    def frequencies_hz(self) -> Floats:
         """Natural frequencies (n_modes,) [Hz]."""
-        found: NDArray[np.float64] = np.sqrt(self.k4) / self.lattice.plate.wavenumber_per_root_omega**2 / (2 * math.pi)
+        found: Floats = np.sqrt(self.k4) / self.lattice.plate.wavenumber_per_root_omega**2 / (2 * math.pi)
         return found
 
     def resized(self, plate: Plate, size_m: float) -> LatticeModes:
@@ -87,7 +85,7 @@ class LatticeModes:
             lattice, self.k4 / size_m**4, self.shapes / size_m**2, self.shift_k4 / size_m**4, self.factors
         )
 
-    def stiffer(self, forces: NDArray[np.float64]) -> NDArray[np.float64]:
+    def stiffer(self, forces: Floats) -> Floats:
         """Terms R_j of the series (TERMS, n_nodes, n_forces) for forces (n_nodes, n_forces)."""
         masses = self.lattice.masses
         terms = np.empty((TERMS, *forces.shape))
@@ -115,7 +113,7 @@ def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> Lat
     return _modes_up_to(alike, resolution, thirds).resized(plate, size_m)
 
 
-def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:
+def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> Floats:
     """The lowest natural frequencies (n_modes,) [Hz], rigid motions included.
 
     Raises: ModelDomainError: the lattice has fewer nodes; too many nodes, see `bending_lattice`; too many modes, see
@@ -135,7 +133,7 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
         if len(k4) >= n_modes:
             break
         wanted *= 2
-    frequencies: NDArray[np.float64] = np.sqrt(k4[:n_modes]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi)
+    frequencies: Floats = np.sqrt(k4[:n_modes]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi)
     return frequencies
 
 
@@ -188,20 +186,12 @@ def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, 
     lattice = bending_lattice(plate, resolution)
     # Large compared with the rounding of K, for refinement to converge; small compared with the modes of interest.
     shift = max(1e-2 * top_k4, _ABOVE_ROUNDING * lattice.rounding_k4)
-    return lattice, positive_factors(_shifted(lattice, shift)), shift
+    return lattice, positive_factors(lattice.stiffness + shift * lattice.masses), shift
 
 
-def _shifted(lattice: Lattice, shift_k4: float) -> csr_array:
-    """K + s A."""
-    shifted: csr_array = lattice.stiffness + shift_k4 * lattice.masses
-    return shifted
-
-
-def solve_shifted(
-    lattice: Lattice, factors: Factors, shift_k4: float, forces: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def solve_shifted(lattice: Lattice, factors: Factors, shift_k4: float, forces: Floats) -> Floats:
     """Solve (K + s A) u = p for deflections u, (n_nodes, ...) each, refined where rounding would show."""
-    found: NDArray[np.float64] = factors.solve(forces)
+    found: Floats = factors.solve(forces)
     if lattice.is_clear:
         return found
     # Each pass divides the error by the ratio of the shift to the rounding of K.
@@ -210,28 +200,23 @@ def solve_shifted(
     return found
 
 
-def _all_below(
-    lattice: Lattice, factors: Factors, shift_k4: float, wanted_k4: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _all_below(lattice: Lattice, factors: Factors, shift_k4: float, wanted_k4: float) -> tuple[Floats, Floats]:
     """k^4 (n_modes,) [m^-4], rising, and shapes (n_nodes, n_modes) [1/m] of all modes below a value, and some more."""
     from scipy.linalg import eigh
 
     n, masses = lattice.n_nodes, lattice.masses
-
-    def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
-        return solve_shifted(lattice, factors, shift_k4, force)
-
     expected = n_modes_to(lattice.plate, wanted_k4**0.25)
     if expected > DENSE_SHARE * n and np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * wanted_k4:
         k4, shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd", check_finite=False)
         # Some more than wanted, since `_ritz` removes the rounding error of an eigenvalue.
         shapes = shapes[:, k4 <= (1 + _BURIED) * wanted_k4]
     else:
+        compliance = partial(solve_shifted, lattice, factors, shift_k4)
         shapes = largest(compliance, masses, 1 / (wanted_k4 + shift_k4), expected)
     return _ritz(lattice, shapes)
 
 
-def _ritz(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _ritz(lattice: Lattice, shapes: Floats) -> tuple[Floats, Floats]:
     """Modes within the span of shapes (Ritz); their error is the square of the error of the shapes."""
     from scipy.linalg import eigh
 
