@@ -202,9 +202,8 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
             "least 1 or a frequency [Hz]."
         )
     if n_modes is None:
-        most_hz = MAX_FREQUENCY_HZ
         f = checks.number(
-            "max_frequency_hz", max_frequency_hz, "Hz", at_least=0, at_most=most_hz, error=ModelDomainError
+            "max_frequency_hz", max_frequency_hz, "Hz", at_least=0, at_most=MAX_FREQUENCY_HZ, error=ModelDomainError
         )
         return modes_up_to(plate, f, FINE)
     return _lowest(
@@ -333,8 +332,8 @@ def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness) -> Pl
 
 def _terms(plate: Plate, k: float, fineness: Fineness) -> tuple[int, int]:
     """Numbers of functions along length and width, with as many even as odd ones, so that all blocks are alike."""
-    k_along = max(k, _HELD_WAVE / plate.width_m) if _is_held(plate.edges[2:]) else k
-    k_across = max(k, _HELD_WAVE / plate.length_m) if _is_held(plate.edges[:2]) else k
+    k_along = max(k, _HELD_WAVE / plate.width_m) if plate.edges[2:] != "FF" else k
+    k_across = max(k, _HELD_WAVE / plate.length_m) if plate.edges[:2] != "FF" else k
     return _paired(plate, _n_terms(k_along * plate.length_m, fineness), _n_terms(k_across * plate.width_m, fineness))
 
 
@@ -358,10 +357,6 @@ def _padded(
     padded = np.zeros((more_x, more_y, vectors.shape[1]))
     padded[:n_x, :n_y] = vectors.reshape(n_x, n_y, -1)
     return padded.reshape(more_x * more_y, -1)
-
-
-def _is_held(edges: str) -> bool:
-    return edges != "FF"
 
 
 def _n_terms(k_length: float, fineness: Fineness) -> int:
