@@ -183,12 +183,11 @@ class JointForces:
 class JointSystem:
     """The linear system of all joints at some frequencies.
 
-    ends, joints : as given; receptances : of each body among its joints (n_f, n_ends, n_ends) [m/N]; compliances :
+    ends : see `ends_of`; receptances : of each body among its joints (n_f, n_ends, n_ends) [m/N]; compliances :
     (n_joints, n_f) [m/N].
     """
 
     ends: Mapping[str, Ends]
-    joints: Sequence[Joint]
     receptances: Mapping[str, Complex]
     compliances: Complex
 
@@ -262,7 +261,7 @@ def systems(
     for begin, end in pairwise(np.linspace(0, n_f, n_parts + 1).astype(int).tolist()):
         few_hz = frequencies_hz[begin:end]
         receptances = {key: bodies[key].receptance(own.points_m, own.points_m, few_hz) for key, own in ends.items()}
-        yield slice(begin, end), JointSystem(ends, joints, receptances, compliances[:, begin:end])
+        yield slice(begin, end), JointSystem(ends, receptances, compliances[:, begin:end])
         if end < n_f:
             receptances.clear()  # else those of two parts would be in memory
 

@@ -70,11 +70,6 @@ class StruckScene:
         # Each frequency represents the interval between two of these ends (n_frequencies + 1,).
         self._ends_hz = np.concatenate([frequencies_hz[:1], between, frequencies_hz[-1:]])
 
-    @property
-    def nbytes(self) -> int:
-        """Memory of all H [byte]."""
-        return sum(held.nbytes for held in self._passed.values())
-
     def knows(self, touched_id: str, struck_id: str) -> bool:
         """Whether `gains` has an answer for a touched object and a struck one."""
         return (touched_id, struck_id) in self._passed or (touched_id, struck_id) in self._silent
