@@ -109,7 +109,7 @@ def ms(work: Callable[[], object]) -> float:
 
 def clear_caches() -> None:
     """Clear the caches of plates."""
-    for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, infinite_plate._table):
+    for cached in (modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, infinite_plate._table):
         cached.cache_clear()
     for cached in (lattice_body.lattice_body, *LATTICE_CACHES):
         cached.cache_clear()

@@ -162,7 +162,7 @@ def by_rung(one: Draw, rung: str, density: float = 1.0) -> CoupledField:
 
 def forget() -> None:
     """Clear the caches of plates."""
-    for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
+    for cached in (modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
     for kept in (lattice_modes._modes_up_to, unit_plate.of_size_one, unit_plate.outline_of, lattice_body.lattice_body):
         kept.cache_clear()

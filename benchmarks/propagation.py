@@ -95,7 +95,7 @@ def seconds(work: Callable[[], object], repeat: int = 1) -> float:
 
 def clear_caches() -> None:
     """Clear the caches of plates."""
-    for cached in (modes._modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
+    for cached in (modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
     infinite_plate._table.cache_clear()
 

@@ -70,7 +70,7 @@ MODELS: dict[str, Any] = {
     "mass_spring_damper": MassSpringDamper(outside_domain="ignore"),
 }
 CACHES: tuple[Any, ...] = (
-    modes._modes_up_to,
+    modes.modes_up_to,
     modal_body.modal_body,
     lattice_body.lattice_body,
     lattice_modes._modes_up_to,

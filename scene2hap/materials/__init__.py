@@ -95,7 +95,7 @@ def lookup(name: str) -> Material:
 
 def lookup_row(name: str) -> MaterialRow:
     """Return the row of a material, with ranges and sources. Raises: UnknownMaterial, as `lookup`."""
-    key = " ".join(checks.text("name", name, error=UnknownMaterial).lower().replace("_", " ").replace("-", " ").split())
+    key = _key(checks.text("name", name, error=UnknownMaterial))
     try:
         return _by_name()[key]
     except KeyError:
@@ -114,9 +114,11 @@ def table() -> tuple[MaterialRow, ...]:
 
 @cache
 def _by_name() -> dict[str, MaterialRow]:
-    return {
-        " ".join(name.replace("-", " ").split()): row for row in table() for name in (row.material.name, *row.aliases)
-    }
+    return {_key(name): row for row in table() for name in (row.material.name, *row.aliases)}
+
+
+def _key(name: str) -> str:
+    return " ".join(name.lower().replace("_", " ").replace("-", " ").split())
 
 
 def _row(fields: dict[str, str]) -> MaterialRow:

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.blas_threads import one_blas_thread
 from scene2hap.calls import clear_construction
-from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
@@ -36,6 +36,7 @@ from scene2hap.propagation.domain import (
     THIN_WAVELENGTHS,
     OutsideDomain,
     as_frequencies,
+    driven_on_held_edge,
     floored_loss,
     off_zero,
     warn_if_thick,
@@ -96,14 +97,8 @@ class AutoFidelity:
             for key, plate in scene.plates.items()
         }
         solved = scene.solve(elastic, self._density(), self.hand)
-        return AutoField(
-            solved.source_ids,
-            solved.bands,
-            solved.network,
-            solved.sampling,
-            solved.reach,
-            dict(sorted(choices.items())),
-        )
+        of_field = solved.source_ids, solved.bands, solved.network, solved.sampling, solved.reach
+        return AutoField(*of_field, dict(sorted(choices.items())))
 
     def choose(self, plate: Plate, max_frequency_hz: float) -> Choice:
         """Choose the model of a single plate, for frequencies up to `max_frequency_hz` [Hz]."""
@@ -127,10 +122,7 @@ class AutoFidelity:
         drive = points_on(plate, drive_m)
         driven = self._receptance(plate, drive, drive, f)
         if (np.abs(driven) <= 1e-12 * self._scale(plate, f)).any():
-            raise ModelDomainError(
-                f"the driven point ({drive[0, 0]:g}, {drive[0, 1]:g}) m lies on an edge that does not move (boundary "
-                f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."
-            )
+            raise driven_on_held_edge(plate, drive)
         ratio: NDArray[np.complex128] = self._receptance(plate, drive, points_on(plate, points_m), f) / driven
         return ratio
 

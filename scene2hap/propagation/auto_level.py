@@ -20,6 +20,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import reduce
+from operator import add
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -71,7 +73,8 @@ def _rise_at(plate: Plate, places_m: NDArray[np.float64], omega: NDArray[np.floa
 
 
 def _push(omega: NDArray[np.float64], mass_kg: float, joints: list[Joint]) -> NDArray[np.float64]:
-    stiffness = sum(joint.stiffness_n_m * complex(1, joint.loss_factor) for joint in joints)
+    # Not `sum`, which rounds complex numbers otherwise from Python 3.14 on.
+    stiffness = reduce(add, (joint.stiffness_n_m * complex(1, joint.loss_factor) for joint in joints))
     force: NDArray[np.float64] = 1 / np.abs(1 / stiffness - 1 / (omega**2 * mass_kg))
     return force
 

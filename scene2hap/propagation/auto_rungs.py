@@ -28,7 +28,7 @@ from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.lattice.lattice_modes import lowest_frequencies_hz
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 from scene2hap.propagation.modal_body import modal_body
-from scene2hap.propagation.modes import FINE, Fineness, first_bending_hz
+from scene2hap.propagation.modes import FINE, Fineness, beam_hz, first_bending_hz
 from scene2hap.propagation.plate import Plate
 
 FLOOR_DB = -40.0
@@ -94,10 +94,7 @@ class Situation:
 
     def _bending(self, tolerance_db: float) -> float:
         """Ratio of the top frequency to the first bending mode's; infinite for a held plate or above a simple bound."""
-        longer = max(self.plate.length_m, self.plate.width_m)
-        # A free beam along the longer side is a trial deflection, so the plate's first mode is below it (Rayleigh).
-        beam_hz = 22.374 / (longer * self.plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
-        if self.plate.edges != "FFFF" or RIGID_DB * (self.top_hz / beam_hz) ** 2 > tolerance_db:
+        if self.plate.edges != "FFFF" or RIGID_DB * (self.top_hz / beam_hz(self.plate)) ** 2 > tolerance_db:
             return math.inf
         if self.plate.outline is not None and len(self.plate.outline.inward[0]):
             # Arms of an L, tongues beside a slot and rings bend at lower frequencies than the rectangle.

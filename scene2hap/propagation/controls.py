@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
+from scene2hap.propagation.domain import check_hops
 from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
 from scene2hap.propagation.points import object_points
 from scene2hap.propagation.protocol import ContactNetwork, Excitation, require_input
@@ -37,11 +38,15 @@ class NoPropagation:
 class FullPropagation:
     """Control condition of the paper: every object connected to a source vibrates as strongly as the source.
 
-    Parameters: max_hops : contacts that vibration may cross, None for any number.
+    Parameters: max_hops : contacts that vibration may cross, at least 1, None for any number.
+    Raises: ConfigError: `max_hops` is out of bounds.
     """
 
     max_hops: int | None = None
     kind: Literal["full_propagation"] = "full_propagation"
+
+    def __post_init__(self) -> None:
+        check_hops(self.max_hops)
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
         """Prepare the field in which every source reaches all objects connected to it by contacts of weight above 0."""

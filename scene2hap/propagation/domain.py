@@ -1,4 +1,5 @@
-"""The domain of the thin-plate kernels: valid frequencies, and plates that are thin compared with the wavelength."""
+"""The domain of the thin-plate kernels: valid frequencies, plates that are thin compared with the wavelength, and
+settings that models share."""
 
 from __future__ import annotations
 
@@ -87,10 +88,7 @@ def floored_loss(plate: Plate, loss_floor: float) -> float:
 def warn_if_thick(plate: Plate, frequencies_hz: NDArray[np.float64]) -> None:
     """Issue a `ThinPlateWarning`, once per plate, if six thicknesses exceed its wavelength at the top frequency."""
     require_plate(plate)
-    if frequencies_hz.size == 0:
-        return
-    limit_hz = _thin_limit_hz(plate)
-    if frequencies_hz.max() > limit_hz:
+    if frequencies_hz.max(initial=0.0) > _thin_limit_hz(plate):
         _warn_once(plate)
 
 
@@ -104,6 +102,12 @@ def check_choice(outside_domain: str) -> None:
         raise ConfigError(f"outside_domain is {outside_domain!r}; it must be 'warn', 'raise' or 'ignore'.")
 
 
+def check_hops(max_hops: int | None) -> None:
+    """Raise a ConfigError unless `max_hops` is a whole number of contacts, at least 1, or None for any number."""
+    if max_hops is not None:
+        checks.whole("max_hops", max_hops, "contacts", at_least=1, at_most=2**31 - 1, error=ConfigError)
+
+
 def check_thin(object_id: str, plate: Plate, top_hz: float, outside_domain: OutsideDomain) -> None:
     """Warn once per object, or raise, if six thicknesses exceed its wavelength at the top frequency.
 
@@ -111,14 +115,10 @@ def check_thin(object_id: str, plate: Plate, top_hz: float, outside_domain: Outs
     """
     if outside_domain == "ignore" or top_hz <= _thin_limit_hz(plate):
         return
+    whose = f"object {object_id!r}: "
     if outside_domain == "raise":
-        raise ModelDomainError(f"object {object_id!r}: {_too_thick(plate)}")
-    _warn_of_object(object_id, plate)
-
-
-@lru_cache(maxsize=4096)
-def _warn_of_object(object_id: str, plate: Plate) -> None:
-    warn_of(f"object {object_id!r}: {_too_thick(plate)}", ThinPlateWarning)
+        raise ModelDomainError(whose + _too_thick(plate))
+    _warn_once(plate, whose)
 
 
 def _thin_limit_hz(plate: Plate) -> float:
@@ -127,8 +127,8 @@ def _thin_limit_hz(plate: Plate) -> float:
 
 
 @lru_cache(maxsize=4096)
-def _warn_once(plate: Plate) -> None:
-    warn_of(_too_thick(plate), ThinPlateWarning)
+def _warn_once(plate: Plate, whose: str = "") -> None:
+    warn_of(whose + _too_thick(plate), ThinPlateWarning)
 
 
 def _too_thick(plate: Plate) -> str:

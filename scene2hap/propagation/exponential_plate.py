@@ -24,7 +24,7 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.band_rms import BandRms, band_rms
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_hops, check_thin
 from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
 from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
@@ -68,8 +68,7 @@ class ExponentialPlate:
     def __post_init__(self) -> None:
         if self.frequency not in ("tactile", "raw"):
             raise ConfigError(f"frequency is {self.frequency!r}; it must be 'tactile' or 'raw'.")
-        if self.max_hops is not None:
-            checks.whole("max_hops", self.max_hops, "contacts", at_least=1, at_most=2**31 - 1, error=ConfigError)
+        check_hops(self.max_hops)
         checks.number("interface_loss_db", self.interface_loss_db, "dB", at_least=0.0, error=ConfigError)
         if self.floor_db is not None:
             checks.number("floor_db", self.floor_db, "dB", at_most=0.0, error=ConfigError, hint="None is no floor.")

@@ -200,6 +200,11 @@ def _bending(ports: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
     return rows, np.ascontiguousarray(ports[rows, :2]), ports[rows, 5]
 
 
+def felt_ports(body: ElasticBody, points_m: Floats) -> Floats:
+    """Points of a body, or the ports of an inclined body: one for each direction at each point."""
+    return body.felt(points_m) if isinstance(body, InclinedBody) else points_m
+
+
 class FeltInSpace:
     """Gains of a body that moves in three directions: the length of the motion, from its three components."""
 

@@ -13,11 +13,14 @@ wavenumber, k_c^4 = m omega^2 / (D (1 + j eta)). Time runs as e^{+j omega t}.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Literal
+from functools import lru_cache
+from itertools import count
+from typing import ClassVar, Literal
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
@@ -210,7 +213,8 @@ class MassSpringDamper:
         look = lattice.interpolation(points)
         shapes = modes.shapes / math.sqrt(m)
         push, seen = (shapes.T @ pushed)[:, 0], look @ shapes
-        static = (look @ _summed(modes.stiffer(pushed)[:, :, 0], modes.shift_k4)) / plate.bending_stiffness_nm
+        stiffer = np.asarray(polyval(modes.shift_k4, modes.stiffer(pushed)[:, :, 0]))
+        static = (look @ stiffer) / plate.bending_stiffness_nm
 
         walk = self._stepper(plate, modes, 1 / rate, stepper)
         state = State(np.zeros(len(push)), np.zeros(len(push)))
@@ -272,19 +276,13 @@ def _coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> str:
     )
 
 
-_WARNED_OF: set[Plate] = set()
+@lru_cache(maxsize=4096)
+def _times_coarsened(plate: Plate) -> Iterator[int]:
+    """A counter for each plate."""
+    return count()
 
 
 def _warn_coarsened(plate: Plate, max_frequency_hz: float, limit_hz: float) -> None:
     """Warn of a plate once, whatever the highest frequency."""
-    if plate not in _WARNED_OF:
-        _WARNED_OF.add(plate)
+    if next(_times_coarsened(plate)) == 0:
         warn_of(_coarsened(plate, max_frequency_hz, limit_hz), CoarsenedWarning)
-
-
-def _summed(terms: NDArray[Any], ratio: NDArray[Any] | float) -> NDArray[Any]:
-    """Sum of terms[j] ratio^j over the first axis."""
-    total: NDArray[Any] = terms[-1]
-    for term in terms[-2::-1]:
-        total = total * ratio + term
-    return total

@@ -19,6 +19,9 @@ from scene2hap.propagation.modes import FINE, MARGIN, QUICK_BLOCK, Fineness, lar
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.plate_terms import N_NODES, ContractedShapes, ForcedPlate, PlateTerms
 
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
 MOST_REMEMBERED = 65_536
 """Complex numbers of the largest receptance among contacts that is cached, 1 MB: objects that stay in place need not be
 summed again when others move."""
@@ -51,14 +54,14 @@ class ModalBasis:
     """A `ResponseBasis`: the plate's modes, and the remaining response to each force."""
 
     pushed: ForcedPlate
-    spectrum: Callable[[NDArray[np.float64]], NDArray[np.complex128]]
+    spectrum: Callable[[Floats], Complex]
 
     @property
-    def sizes(self) -> NDArray[np.float64]:
+    def sizes(self) -> Floats:
         """See `ResponseBasis`."""
         return self.pushed.sizes
 
-    def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def weights(self, frequencies_hz: Floats, forces: Complex) -> Complex:
         """See `ResponseBasis`."""
         return self.pushed.weights(self.spectrum(frequencies_hz), forces)
 
@@ -85,9 +88,7 @@ class ModalBody:
         """Memory [byte], without the cached values, which `ByteBoundedLru` bounds."""
         return self.terms.nbytes
 
-    def receptance(
-        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
-    ) -> NDArray[np.complex128]:
+    def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
         """See `ElasticBody`."""
         if points_m is not forces_m:
             return self._summed(self._at_forces(forces_m)(points_m), frequencies_hz)
@@ -97,39 +98,37 @@ class ModalBody:
             return self._coupled(points_m, frequencies_hz)
         return self._between(points_m, frequencies_hz)
 
-    def pieces(
-        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
-    ) -> Iterator[tuple[slice, NDArray[np.complex128]]]:
+    def pieces(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Iterator[tuple[slice, Complex]]:
         """See `Piecewise`."""
         terms = self._at_forces(forces_m)(points_m)
         for part, sums in self._sums(frequencies_hz).pieces(terms.reshape(-1, terms.shape[2])):
             yield part, sums.T.copy().reshape(-1, *terms.shape[:2])
 
-    def response_basis(self, forces_m: NDArray[np.float64]) -> ModalBasis:
+    def response_basis(self, forces_m: Floats) -> ModalBasis:
         """See `HasResponseBasis`."""
         return ModalBasis(self._at_forces(forces_m), self.spectrum)
 
-    def spectrum(self, frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def spectrum(self, frequencies_hz: Floats) -> Complex:
         """Value of each of the plate's terms at each frequency (n_terms, n_frequencies)."""
         q, scale = self._damped(frequencies_hz)
         return self.terms.spectrum(q) * scale
 
-    def _between(self, points_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def _between(self, points_m: Floats, frequencies_hz: Floats) -> Complex:
         return self._summed(self._among_forces(points_m), frequencies_hz)
 
-    def _summed(self, terms: NDArray[np.float64], frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def _summed(self, terms: Floats, frequencies_hz: Floats) -> Complex:
         n_points, n_forces, n_terms = terms.shape
-        flat: NDArray[np.complex128] = self._sums(frequencies_hz)(terms.reshape(-1, n_terms))
+        flat: Complex = self._sums(frequencies_hz)(terms.reshape(-1, n_terms))
         return flat.reshape(n_points, n_forces, len(frequencies_hz)).transpose(2, 0, 1)
 
-    def _sums_at(self, frequencies_hz: NDArray[np.float64]) -> OctaveSums:
+    def _sums_at(self, frequencies_hz: Floats) -> OctaveSums:
         return self.terms.sums(*self._damped(frequencies_hz))
 
-    def _symmetric(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _symmetric(self, points_m: Floats) -> Floats:
         terms = self._at_forces(points_m)(points_m)
         return (terms + terms.transpose(1, 0, 2)) / 2  # exactly symmetric, despite rounding
 
-    def _shapes_among(self, points_m: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _shapes_among(self, points_m: Floats) -> tuple[Floats, Floats]:
         """Shapes of the modes at points (n, n_modes), and of the other terms among them (n, n, N_NODES)."""
         forced, n = self._at_forces(points_m), len(points_m)
         rest, width = np.empty((n, n, N_NODES)), rows_at_once(n)
@@ -139,8 +138,8 @@ class ModalBody:
         rest /= 2
         return forced.phi, rest
 
-    def _damped(self, frequencies_hz: NDArray[np.float64]) -> tuple[NDArray[np.complex128], complex]:
+    def _damped(self, frequencies_hz: Floats) -> tuple[Complex, complex]:
         """q (n_frequencies,) [m^-4], and 1 / D_c [1/(N m)]."""
         loss = complex(1, self.loss_factor)
-        q: NDArray[np.complex128] = (self.plate.wavenumber_rad_m(frequencies_hz) ** 4 / loss).astype(np.complex128)
+        q: Complex = (self.plate.wavenumber_rad_m(frequencies_hz) ** 4 / loss).astype(np.complex128)
         return q, 1 / (self.plate.bending_stiffness_nm * loss)

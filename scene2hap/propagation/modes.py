@@ -202,11 +202,10 @@ def plate_modes(plate: Plate, n_modes: int | None = None, *, max_frequency_hz: f
             "least 1 or a frequency [Hz]."
         )
     if n_modes is None:
-        most_hz = MAX_FREQUENCY_HZ
         f = checks.number(
-            "max_frequency_hz", max_frequency_hz, "Hz", at_least=0, at_most=most_hz, error=ModelDomainError
+            "max_frequency_hz", max_frequency_hz, "Hz", at_least=0, at_most=MAX_FREQUENCY_HZ, error=ModelDomainError
         )
-        return _modes_up_to(plate, f)
+        return modes_up_to(plate, f, FINE)
     return _lowest(
         plate, checks.whole("n_modes", n_modes, "-", at_least=1, at_most=LARGEST_BLOCK**2, error=ModelDomainError)
     )
@@ -222,6 +221,23 @@ def receptance_frequencies(plate: Plate, frequencies_hz: ArrayLike) -> NDArray[n
     require_plate(plate)
     loose = "nothing holds this plate in place" if n_rigid_motions(plate) else ""
     return as_frequencies(frequencies_hz, positive_because=loose)
+
+
+def n_modes_to(plate: Plate, k: float) -> float:
+    """Approximate number of modes of a plate with free edges up to a wavenumber [rad/m] (Weyl)."""
+    return (plate.area_m2 * k**2 + 2 * sum(plate.extent_m) * k) / (4 * math.pi)
+
+
+def wavenumber_of_mode(plate: Plate, n_modes: float) -> float:
+    """The wavenumber [rad/m] at which `n_modes_to` is `n_modes`."""
+    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
+    return edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)
+
+
+def beam_hz(plate: Plate) -> float:
+    """Upper bound on `first_bending_hz` of a plate with free edges [Hz]: the first mode of a free beam along its longer
+    side, which is a trial deflection (Rayleigh)."""
+    return 22.374 / (max(plate.extent_m) * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi)
 
 
 @lru_cache(maxsize=4096)
@@ -264,19 +280,12 @@ def points_on(plate: Plate, points_m: ArrayLike) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=32)
 def _lowest(plate: Plate, count: int) -> PlateModes:
-    # Weyl's count of modes below k for free edges, (S k^2 + U k) / 4 pi, gives the start; held edges need a higher k.
-    area, edge = plate.length_m * plate.width_m, 2 * (plate.length_m + plate.width_m)
-    k = edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * count / edge**2) - 1)
+    k = wavenumber_of_mode(plate, count)  # held edges need a higher one
     while True:
-        modes = _modes_up_to(plate, (k / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi))
+        modes = modes_up_to(plate, (k / plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi), FINE)
         if len(modes.block) >= count:
             return replace(modes, block=modes.block[:count], column=modes.column[:count])
         k *= 1.3
-
-
-def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
-    """Compute modes as `plate_modes` does, with a basis of another fineness."""
-    return _modes_up_to(plate, max_frequency_hz, fineness)
 
 
 def _wavenumber(plate: Plate, frequency_hz: float) -> float:
@@ -285,7 +294,8 @@ def _wavenumber(plate: Plate, frequency_hz: float) -> float:
 
 
 @cached_while_used
-def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> PlateModes:
+def modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness) -> PlateModes:
+    """Compute modes as `plate_modes` does, with a basis of any fineness."""
     k = _wavenumber(plate, max_frequency_hz)
     terms, largest = _terms(plate, k, fineness), largest_block(plate, max_frequency_hz, fineness)
     if largest > LARGEST_BLOCK:
@@ -322,8 +332,8 @@ def _modes_up_to(plate: Plate, max_frequency_hz: float, fineness: Fineness = FIN
 
 def _terms(plate: Plate, k: float, fineness: Fineness) -> tuple[int, int]:
     """Numbers of functions along length and width, with as many even as odd ones, so that all blocks are alike."""
-    k_along = max(k, _HELD_WAVE / plate.width_m) if _is_held(plate.edges[2:]) else k
-    k_across = max(k, _HELD_WAVE / plate.length_m) if _is_held(plate.edges[:2]) else k
+    k_along = max(k, _HELD_WAVE / plate.width_m) if plate.edges[2:] != "FF" else k
+    k_across = max(k, _HELD_WAVE / plate.length_m) if plate.edges[:2] != "FF" else k
     return _paired(plate, _n_terms(k_along * plate.length_m, fineness), _n_terms(k_across * plate.width_m, fineness))
 
 
@@ -347,10 +357,6 @@ def _padded(
     padded = np.zeros((more_x, more_y, vectors.shape[1]))
     padded[:n_x, :n_y] = vectors.reshape(n_x, n_y, -1)
     return padded.reshape(more_x * more_y, -1)
-
-
-def _is_held(edges: str) -> bool:
-    return edges != "FF"
 
 
 def _n_terms(k_length: float, fineness: Fineness) -> int:

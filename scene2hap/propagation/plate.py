@@ -94,23 +94,23 @@ class Plate:
                 f"boundary is {checks.represented(self.boundary)}; it must be one of {', '.join(map(repr, _EDGES))}, "
                 "or four letters F, S, C for the edges x=0, x=length, y=0, y=width."
             )
-
-        if self.outline is not None and not isinstance(self.outline, Outline):
+        if self.outline is None:
+            return
+        if not isinstance(self.outline, Outline):
             raise ModelDomainError(
                 f"outline is {checks.described(self.outline)}; it must be an Outline of rings of corners, or None."
             )
-        if self.outline is not None and self.edges != "FFFF":
+        if self.edges != "FFFF":
             raise ModelDomainError(
                 f'boundary is {self.boundary!r}; a plate with an outline has free edges, boundary="free".'
             )
-        if self.outline is not None:
-            x0, y0, x1, y1 = self.outline.box_m
-            length, width = 1e-6 * self.length_m, 1e-6 * self.width_m
-            if x0 < -length or y0 < -width or x1 > self.length_m + length or y1 > self.width_m + width:
-                raise ModelDomainError(
-                    f"the outline reaches from ({x0:g}, {y0:g}) to ({x1:g}, {y1:g}) m; it must be within the plate's "
-                    f"(0, 0) to ({self.length_m:g}, {self.width_m:g}) m. Plate.of_outline takes these from it."
-                )
+        x0, y0, x1, y1 = self.outline.box_m
+        length, width = 1e-6 * self.length_m, 1e-6 * self.width_m
+        if x0 < -length or y0 < -width or x1 > self.length_m + length or y1 > self.width_m + width:
+            raise ModelDomainError(
+                f"the outline reaches from ({x0:g}, {y0:g}) to ({x1:g}, {y1:g}) m; it must be within the plate's "
+                f"(0, 0) to ({self.length_m:g}, {self.width_m:g}) m. Plate.of_outline takes these from it."
+            )
 
     @classmethod
     def of_outline(cls, outline: Outline, thickness_m: float, material: Material, **others: Any) -> Plate:

@@ -189,24 +189,19 @@ class PlateTerms:
         x, y = (len(axis.family.chebyshev) for axis in self._axes)
         return x, y
 
-    @property
-    def n_modes(self) -> int:
-        """Number of terms that are modes; `N_NODES` other terms follow."""
-        return len(self._k4)
-
-    def spectrum(self, q: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def spectrum(self, q: Complex) -> Complex:
         """Each term at each frequency (n_terms, n_frequencies): 1 / (k_n^4 - q) [m^4], then l_i(q) [-]."""
         return np.concatenate([1 / (self._k4[:, None] - q), self._between(q)])
 
-    def sums(self, q: NDArray[np.complex128], scale: complex) -> OctaveSums:
+    def sums(self, q: Complex, scale: complex) -> OctaveSums:
         """Return the `OctaveSums` that sum terms at frequencies by their q, times `scale`."""
         return OctaveSums(self._k4, self._between(q), q, scale)
 
-    def _between(self, q: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def _between(self, q: Complex) -> Complex:
         apart = self._nodes[:, None] - self._nodes
         is_other = apart != 0
         factors = (q - self._nodes[:, None]) / np.where(is_other, apart, 1.0)[:, :, None]
-        between: NDArray[np.complex128] = np.where(is_other[:, :, None], factors, 1.0).prod(axis=1)
+        between: Complex = np.where(is_other[:, :, None], factors, 1.0).prod(axis=1)
         return between
 
     def of_forces(self, forces_m: Floats) -> ForcedPlate:

@@ -58,7 +58,7 @@ def plot_field(
     chosen = int(checks.number("band", band, "-", at_least=0, at_most=last, error=ModelDomainError))
     level_db = 20 * np.log10(np.maximum(gains[:, :, field.source_ids.index(source), chosen], 1e-30))
 
-    figure = _new_figure(plate)
+    figure = new_figure(7.5, 1.4 + 5.5 * min(1.2, max(0.25, plate.width_m / plate.length_m)))
     axes = figure.add_subplot()
     loudest = float(level_db.max())
     image = axes.imshow(
@@ -97,8 +97,3 @@ def _map(field: PropagationField, network: ContactNetwork, object_id: str, plate
 def _feet(network: ContactNetwork, object_id: str, source_id: str) -> NDArray[np.float64]:
     points = [one.point_m for one in network.contacts if {one.a, one.b} == {object_id, source_id}]
     return network.on_body(object_id, points) if points else np.empty((0, 2))
-
-
-def _new_figure(plate: Plate) -> Figure:
-    height = 1.4 + 5.5 * min(1.2, max(0.25, plate.width_m / plate.length_m))
-    return new_figure(7.5, height)

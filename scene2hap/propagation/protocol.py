@@ -155,10 +155,8 @@ def checked_field(
     made_by = f"{type(model).__name__}.prepare"
     if problem := lacking(field, _FIELD):
         raise ModelDomainError(f"{made_by} gave no PropagationField: {problem}")
-    ids, requested = (
-        checks.items("source_ids", field.source_ids, error=ModelDomainError),
-        {x.source_id for x in excitations},
-    )
+    ids = checks.items("source_ids", field.source_ids, error=ModelDomainError)
+    requested = {x.source_id for x in excitations}
     if set(ids) != requested:
         raise ModelDomainError(
             f"{made_by} gave a field of the sources {checks.shown(list(ids))}; it must have those of its excitations, "

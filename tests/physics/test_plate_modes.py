@@ -10,6 +10,7 @@ from plate_fe import fe_frequencies_hz
 from scene2hap import Material, Plate, plate_modes
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation import modes as modes_module
+from scene2hap.propagation.plate_terms import PlateTerms
 
 MATERIAL = Material("test", 2500.0, 70e9, 0.3, loss_factor=0.02)
 
@@ -168,13 +169,18 @@ def test_finite_elements(boundary: str, length_m: float, width_m: float, nu: flo
     np.testing.assert_allclose(plate_modes(of, 12).frequencies_hz, fe_frequencies_hz(of, (8, 6), 12), rtol=1e-3)
 
 
+def test_models_and_callers_share_the_modes_of_a_plate() -> None:
+    oak = Plate(0.71, 0.43, 0.01, "oak")
+    assert PlateTerms(oak, 400.0).modes is plate_modes(oak, max_frequency_hz=modes_module.MARGIN * 400.0)
+
+
 @pytest.mark.parametrize("boundary", ["FFFF", "CFFF", "CSFC"])
 def test_every_mode_up_to_the_top_is_converged(boundary: str, monkeypatch: pytest.MonkeyPatch) -> None:
     of = plate(boundary, 1.2, 0.8)
     found = plate_modes(of, max_frequency_hz=1500.0).frequencies_hz
     more = modes_module._n_terms
     monkeypatch.setattr(modes_module, "_n_terms", lambda *args: more(*args) + 10)
-    finer = modes_module._modes_up_to.__wrapped__(of, 1500.0).frequencies_hz
+    finer = modes_module.modes_up_to.__wrapped__(of, 1500.0, modes_module.FINE).frequencies_hz
     assert len(found) > 30
     np.testing.assert_allclose(found, finer[: len(found)], rtol=1e-3)
     assert len(finer) - len(found) <= 1  # one mode may move below the limit

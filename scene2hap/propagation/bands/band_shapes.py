@@ -68,17 +68,6 @@ class BandLengths:
         return np.stack(found, axis=-1)
 
 
-class SourceLengths:
-    """Lengths as of `BandLengths`, with one space for each source."""
-
-    def __init__(self, lengths: BandLengths) -> None:
-        self._lengths = lengths
-
-    def __call__(self, points_m: Floats) -> Floats:
-        """|R v| at points (n_points, 2) [m]: (n_points, n_spaces, 1)."""
-        return self._lengths(points_m).transpose(0, 2, 1)
-
-
 def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling, columns: NDArray[np.intp]) -> Gains:
     """Gains of sources at points of a body, from the contact forces of each source.
 
@@ -99,8 +88,9 @@ def band_gains(response: ResponseBasis, forces: Complex, sampling: Sampling, col
     common, _ = _few(every * np.concatenate(carried), 2 * n_before + _MORE)
     # Single precision is a thousand times finer than the part left out, and halves the data that a touch reads.
     shapes = response.mixed((common / sizes).astype(np.float32))
-    lengths_of_bands = BandLengths(shapes, (common.T @ every).astype(np.float32), factors)
-    return lengths_of_bands if sampling.is_shared else SourceLengths(lengths_of_bands)
+    gains = BandLengths(shapes, (common.T @ every).astype(np.float32), factors)
+    # Otherwise each source has a space of its own, which is its only band.
+    return gains if sampling.is_shared else lambda points_m: gains(points_m).transpose(0, 2, 1)
 
 
 def _spaces(sampling: Sampling, columns: NDArray[np.intp]) -> Iterator[tuple[Band, slice]]:

@@ -32,6 +32,9 @@ from scene2hap.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.coupled.elimination import Element, inverse, solve
 
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
 AT_ONCE_BYTES = 256_000_000
 """Memory of the receptances of all bodies that are in memory at once. A furnished room needs less for all frequencies;
 200 objects on one floor would need gigabytes."""
@@ -49,9 +52,7 @@ class ElasticBody(Protocol):
         """Smallest loss factor of the resonances [-], infinite without any; it decides how finely bands are sampled."""
         ...
 
-    def receptance(
-        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
-    ) -> NDArray[np.complex128]:
+    def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
         """Deflection at points per force at others.
 
         Parameters: points_m : (n_points, 2), forces_m : (n_forces, 2) [m], in the body's own coordinates, such as from
@@ -104,14 +105,14 @@ class Joint:
         checks.number("damping_n_s_m", self.damping_n_s_m, "N s/m", at_least=0.0, error=ModelDomainError)
 
 
-def compliances_m_n(joints: Sequence[Joint], frequencies_hz: NDArray[np.float64]) -> NDArray[np.complex128]:
+def compliances_m_n(joints: Sequence[Joint], frequencies_hz: Floats) -> Complex:
     """Compliances Z of joints (n_joints, n_frequencies) [m/N]; 0 if rigid, very large without stiffness and damping."""
     k, eta, c = np.array([(one.stiffness_n_m, one.loss_factor, one.damping_n_s_m) for one in joints]).T[:, :, None]
     is_rigid = np.isinf(k)
     dynamic = np.where(is_rigid, 1.0, k) * (1 + 1j * eta)
     if c.any():
         dynamic = dynamic + 2j * np.pi * c * frequencies_hz
-    compliances: NDArray[np.complex128] = np.where(is_rigid, 0.0, 1 / np.where(dynamic == 0, 1e-200, dynamic))
+    compliances: Complex = np.where(is_rigid, 0.0, 1 / np.where(dynamic == 0, 1e-200, dynamic))
     return np.broadcast_to(compliances, (len(joints), len(frequencies_hz)))
 
 
@@ -123,9 +124,9 @@ class Ends:
     rows : (n,) indices among all joints; signs : (n,) +1 where the body is the joint's a, -1 where it is b.
     """
 
-    points_m: NDArray[np.float64]
+    points_m: Floats
     rows: NDArray[np.intp]
-    signs: NDArray[np.float64]
+    signs: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,12 +141,12 @@ class JointForces:
     bodies: Mapping[str, ElasticBody]
     joints: tuple[Joint, ...]
     source_ids: tuple[str, ...]
-    frequencies_hz: NDArray[np.float64]
-    forces: NDArray[np.complex128]
+    frequencies_hz: Floats
+    forces: Complex
     ends: Mapping[str, Ends]
     system: JointSystem | None = None
 
-    def deflection(self, body_id: str, points_m: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def deflection(self, body_id: str, points_m: Floats) -> Complex:
         """Deflection of a body per free deflection of each source; that of a source includes its own free motion.
 
         Parameters: points_m : (n_points, 2) [m], in the body's own coordinates.
@@ -161,7 +162,7 @@ class JointForces:
             moved[:, :, self.source_ids.index(body_id)] += 1.0
         return moved
 
-    def holding(self, body_id: str) -> NDArray[np.complex128]:
+    def holding(self, body_id: str) -> Complex:
         """Forces H of all other bodies on a body at its joints, per free deflection at each of these joints.
 
             Y_coupled(x, x') = Y(x, x') - Y(x, x_j) H Y(x_j, x')
@@ -182,22 +183,19 @@ class JointForces:
 class JointSystem:
     """The linear system of all joints at some frequencies.
 
-    ends, joints : as given; receptances : of each body among its joints (n_f, n_ends, n_ends) [m/N]; compliances :
+    ends : see `ends_of`; receptances : of each body among its joints (n_f, n_ends, n_ends) [m/N]; compliances :
     (n_joints, n_f) [m/N].
     """
 
     ends: Mapping[str, Ends]
-    joints: Sequence[Joint]
-    receptances: Mapping[str, NDArray[np.complex128]]
-    compliances: NDArray[np.complex128]
+    receptances: Mapping[str, Complex]
+    compliances: Complex
 
-    def forces(self, free: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def forces(self, free: Floats) -> Complex:
         """Forces (n_joints, n, n_f) [N/m] for free deflections across the joints (n_joints, n)."""
         return solve(self._elements(), self.compliances, free)
 
-    def answers(
-        self, rows: NDArray[np.intp], body_ids: Collection[str]
-    ) -> tuple[NDArray[np.complex128], dict[str, NDArray[np.complex128]]]:
+    def answers(self, rows: NDArray[np.intp], body_ids: Collection[str]) -> tuple[Complex, dict[str, Complex]]:
         """Forces in all joints per free deflection across each joint of `rows` (n_f, n_joints, n_rows) [N/m], and
         `JointForces.holding` of each body of `body_ids`."""
         number = {body_id: k for k, body_id in enumerate(self.ends)}
@@ -213,7 +211,7 @@ def couple(
     bodies: Mapping[str, ElasticBody],
     joints: Sequence[Joint],
     source_ids: Sequence[str],
-    frequencies_hz: NDArray[np.float64],
+    frequencies_hz: Floats,
 ) -> JointForces:
     """Solve all joints together.
 
@@ -244,7 +242,7 @@ def systems(
     bodies: Mapping[str, ElasticBody],
     ends: Mapping[str, Ends],
     joints: Sequence[Joint],
-    frequencies_hz: NDArray[np.float64],
+    frequencies_hz: Floats,
     at_once: int | None = None,
 ) -> Iterator[tuple[slice, JointSystem]]:
     """Yield the system of all joints for a part of the frequencies at a time. Each is valid until the next.
@@ -263,7 +261,7 @@ def systems(
     for begin, end in pairwise(np.linspace(0, n_f, n_parts + 1).astype(int).tolist()):
         few_hz = frequencies_hz[begin:end]
         receptances = {key: bodies[key].receptance(own.points_m, own.points_m, few_hz) for key, own in ends.items()}
-        yield slice(begin, end), JointSystem(ends, joints, receptances, compliances[:, begin:end])
+        yield slice(begin, end), JointSystem(ends, receptances, compliances[:, begin:end])
         if end < n_f:
             receptances.clear()  # else those of two parts would be in memory
 
@@ -297,7 +295,7 @@ def inclined_in(joints: Sequence[Joint]) -> set[str]:
     return {key for key, along in ends if along is not NORMAL}
 
 
-def _free_deflections(ends: Mapping[str, Ends], n_joints: int, source_ids: Sequence[str]) -> NDArray[np.float64]:
+def _free_deflections(ends: Mapping[str, Ends], n_joints: int, source_ids: Sequence[str]) -> Floats:
     """Free deflection across each joint for each source (n_joints, n_sources)."""
     free = np.zeros((n_joints, len(source_ids)))
     for column, source_id in enumerate(source_ids):
@@ -306,10 +304,10 @@ def _free_deflections(ends: Mapping[str, Ends], n_joints: int, source_ids: Seque
     return free
 
 
-def _free_motion(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+def _free_motion(points_m: Floats) -> Floats:
     """Free deflection of a source along each of its joints, +1 or -1: it moves in phase along its own three axes."""
     if points_m.shape[1] == 2:
         return np.ones(len(points_m))
     along = points_m[:, 3:]
-    largest: NDArray[np.float64] = np.take_along_axis(along, np.abs(along).argmax(axis=1)[:, None], axis=1)[:, 0]
+    largest: Floats = np.take_along_axis(along, np.abs(along).argmax(axis=1)[:, None], axis=1)[:, 0]
     return np.copysign(1.0, largest)

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.coupling import ElasticBody, JointForces
 from scene2hap.propagation.coupled.hand import Hand
-from scene2hap.propagation.inclined_body import InclinedBody
+from scene2hap.propagation.inclined_body import felt_ports
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -85,7 +85,7 @@ class LoadedGains:
         return found
 
     def _at(self, point_m: Floats) -> Floats:
-        ports = self._body.felt(point_m) if isinstance(self._body, InclinedBody) else point_m
+        ports = felt_ports(self._body, point_m)
         # A copy, since bodies cache their receptance if points and forces are the same array.
         yielding = self._body.receptance(ports, ports.copy(), self._frequencies_hz)
         towards = self._body.receptance(ports, self._points_m, self._frequencies_hz)

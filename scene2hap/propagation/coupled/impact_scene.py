@@ -27,11 +27,10 @@ from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.hand_load import loaded, stiffness_of
-from scene2hap.propagation.inclined_body import InclinedBody
+from scene2hap.propagation.inclined_body import InclinedBody, felt_ports
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-"""Ids of a touched object and of a struck object."""
 
 IMPACT_BANDS = Bands((20.0, 40.0, 80.0, 160.0, 320.0, 480.0))
 """Bands of the components of bursts: from `impact.SLOWEST_HZ` to `impact.HIGHEST_MODE_HZ`, and a quarter of an octave
@@ -70,11 +69,6 @@ class StruckScene:
         between = (frequencies_hz[1:] + frequencies_hz[:-1]) / 2
         # Each frequency represents the interval between two of these ends (n_frequencies + 1,).
         self._ends_hz = np.concatenate([frequencies_hz[:1], between, frequencies_hz[-1:]])
-
-    @property
-    def nbytes(self) -> int:
-        """Memory of all H [byte]."""
-        return sum(held.nbytes for held in self._passed.values())
 
     def knows(self, touched_id: str, struck_id: str) -> bool:
         """Whether `gains` has an answer for a touched object and a struck one."""
@@ -121,7 +115,7 @@ class StruckScene:
         """Magnitudes of the accelerations of the struck point and of points of each object (n_used, 1 + n_points)."""
         f, struck = self._frequencies_hz[used], self._bodies[struck_id]
         on_it = np.concatenate([struck_m, points[struck_id]]) if struck_id in points else struck_m
-        ports = _ports(struck.body, on_it)
+        ports = felt_ports(struck.body, on_it)
         # The impact acts along the normal, which is the first direction. A copy, since bodies cache their receptance
         # if points and forces are the same array.
         pushed = ports[:1].copy()
@@ -135,7 +129,7 @@ class StruckScene:
                 found.append(own[:, 1:])
                 continue
             touched = self._bodies[touched_id]
-            ports = _ports(touched.body, places)
+            ports = felt_ports(touched.body, places)
             towards = touched.body.receptance(ports, touched.joints_m, f)
             moved = towards @ self._forces((touched_id, struck_id), used, free)
             found.append(_lengths(self._under_hand(touched_id, ports, towards, moved, used), len(places)))
@@ -166,11 +160,6 @@ class StruckScene:
             yielding = alone - towards[:, at] @ self._forces(pair, used, towards[:, at].transpose(0, 2, 1))
             answer[:, at] = loaded(stiffness, yielding, moved[:, at])
         return answer
-
-
-def _ports(body: ElasticBody, points_m: Floats) -> Floats:
-    """Points of a body, or the ports of an inclined body: one for each direction at each point."""
-    return body.felt(points_m) if isinstance(body, InclinedBody) else points_m
 
 
 def _lengths(moved: Complex, n_points: int) -> Floats:

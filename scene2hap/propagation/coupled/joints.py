@@ -10,6 +10,7 @@ from functools import cache, lru_cache
 
 import numpy as np
 
+from scene2hap.contact.junction import Pair, pair_of
 from scene2hap.materials import Material
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import NORMAL, Along, Joint
@@ -34,13 +35,12 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
     A contact's weight scales its stiffness; a contact of weight 0 makes no joint. Coinciding contacts of a pair act in
     parallel, so their stiffnesses add up. A soft layer also touches its support below a load (`layers`).
     """
-    pairs: dict[tuple[str, str], list[Contact]] = defaultdict(list)
+    pairs: dict[Pair, list[Contact]] = defaultdict(list)
     for contact in network.contacts:
         if contact.weight > 0 and contact.a in carriers and contact.b in carriers:
-            first, second = sorted((contact.a, contact.b))
-            pairs[first, second].append(contact)
+            pairs[pair_of(contact.a, contact.b)].append(contact)
     masses = {object_id: _known_mass_kg(network, object_id) for pair in pairs for object_id in pair}
-    preloads_n: dict[tuple[str, str], float] = {}
+    preloads_n: dict[Pair, float] = {}
     for pair, contacts in pairs.items():
         contacts.sort(key=lambda one: (one.point_m, one.weight, one.area_m2 or 0.0))
         known = [mass for mass in (masses[pair[0]], masses[pair[1]]) if mass is not None]
@@ -51,8 +51,9 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         for object_id in pair:
             touching[object_id] += contacts
             touching[object_id] += [one for one, _ in pressed.get(pair, ())]
+    bodies, poses = network.bodies, network.poses
     places = {
-        object_id: iter(_on_body(network, object_id, tuple([one.point_m for one in contacts])))
+        object_id: iter(_on_body(bodies.get(object_id), poses.get(object_id), tuple([one.point_m for one in contacts])))
         for object_id, contacts in touching.items()
     }
     axes = {object_id: _level_axis(network, object_id, contacts) for object_id, contacts in touching.items()}
@@ -66,7 +67,7 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         mass_a, mass_b = masses[a], masses[b]
         # The lighter object stands on the other; if no mass is known, neither stands.
         a_rests = mass_a is not None and (mass_b is None or mass_a < mass_b)
-        b_rests = mass_b is not None and (mass_a is None or mass_b <= mass_a)
+        b_rests = mass_b is not None and not a_rests
         materials = (_material(network, a, stands=a_rests), _material(network, b, stands=b_rests))
         found = []
         springs = [(one, stiffness(*materials, one.area_m2, preloads_n[a, b])) for one in contacts]
@@ -115,18 +116,12 @@ def source_groups(joints: Sequence[Joint], source_ids: Iterable[str]) -> list[tu
 
 
 @lru_cache(maxsize=4096)
-def _remembered(
+def _on_body(
     body: Body | None, pose: Pose | None, points_m: tuple[tuple[float, float, float], ...]
 ) -> tuple[tuple[float, float], ...]:
+    """See `ContactNetwork.on_body`. Cached, since most objects stay where they are."""
     network = ContactNetwork({} if body is None else {"": body}, (), {} if pose is None else {"": pose})
     return tuple([(x, y) for x, y in network.on_body("", points_m).tolist()])
-
-
-def _on_body(
-    network: ContactNetwork, object_id: str, points_m: tuple[tuple[float, float, float], ...]
-) -> tuple[tuple[float, float], ...]:
-    """See `ContactNetwork.on_body`. Cached, since most objects stay where they are."""
-    return _remembered(network.bodies.get(object_id), network.poses.get(object_id), points_m)
 
 
 def _level_axis(network: ContactNetwork, object_id: str, contacts: Sequence[Contact]) -> Direction | None:

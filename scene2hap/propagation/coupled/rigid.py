@@ -16,8 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
-from scene2hap.propagation.modes import first_bending_hz
+from scene2hap.propagation.modes import beam_hz, first_bending_hz
 from scene2hap.propagation.plate import Plate, RigidBody
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 _THICK = 1 / 5
 """Largest thickness over a side for which a plate can bend along the side; thin-plate theory is not valid beyond."""
@@ -41,11 +44,7 @@ def is_too_thick(plate: Plate) -> bool:
 
 def is_stiff(plate: Plate, above_hz: float) -> bool:
     """Whether the first mode of a free plate is above a frequency [Hz]."""
-    # The first mode of a free beam along the longer side is a trial deflection: the plate's mode is lower (Rayleigh).
-    longer = max(plate.extent_m)
-    if 22.374 / (longer * plate.wavenumber_per_root_omega) ** 2 / (2 * math.pi) < above_hz:
-        return False
-    return first_bending_hz(plate) > above_hz
+    return beam_hz(plate) >= above_hz and first_bending_hz(plate) > above_hz
 
 
 @lru_cache(maxsize=4096)
@@ -76,21 +75,17 @@ class RigidMotion:
             size = body.size_m if body is not None else None
         return cls(mass_kg, size if rocks else None)
 
-    def response_basis(self, forces_m: NDArray[np.float64]) -> RigidBasis:
+    def response_basis(self, forces_m: Floats) -> RigidBasis:
         """See `HasResponseBasis`."""
         return RigidBasis(self, self._moved_by(forces_m))
 
-    def receptance(
-        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
-    ) -> NDArray[np.complex128]:
+    def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
         """See `ElasticBody`."""
         yielding = self.motions(points_m) @ self._moved_by(forces_m)
-        answer: NDArray[np.complex128] = (-yielding / (2 * np.pi * frequencies_hz[:, None, None]) ** 2).astype(
-            np.complex128
-        )
+        answer: Complex = (-yielding / (2 * np.pi * frequencies_hz[:, None, None]) ** 2).astype(np.complex128)
         return answer
 
-    def motions(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    def motions(self, points_m: Floats) -> Floats:
         """Displacement of points (n_points, 2) [m] in each motion (n_points, n_motions).
 
         It is 1 in the vertical motion. If the body rocks, it is the distance from the middle along length and width [m]
@@ -99,17 +94,17 @@ class RigidMotion:
         up = np.ones((len(points_m), 1))
         return up if self.size_m is None else np.concatenate([up, points_m - self._middle_m], axis=1)
 
-    def _moved_by(self, forces_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _moved_by(self, forces_m: Floats) -> Floats:
         """Acceleration of each motion per force at points (n_forces, 2) [m]: (n_motions, n_forces)."""
         inertias = np.array([self.mass_kg])
         if self.size_m is not None:
             turning = self.mass_kg / 12 * (np.square(self.size_m[:2]) + self.size_m[2] ** 2)
             inertias = np.append(inertias, turning)
-        moved: NDArray[np.float64] = (self.motions(forces_m) / inertias).T
+        moved: Floats = (self.motions(forces_m) / inertias).T
         return moved
 
     @property
-    def _middle_m(self) -> NDArray[np.float64]:
+    def _middle_m(self) -> Floats:
         length, width, _ = self.size_m or (0.0, 0.0, 0.0)
         return np.array([length / 2, width / 2])
 
@@ -119,19 +114,19 @@ class RigidBasis:
     """The `ResponseBasis` of a rigid body: its motions. moved_by : (n_motions, n_forces)."""
 
     body: RigidMotion
-    moved_by: NDArray[np.float64]
+    moved_by: Floats
 
     @property
-    def sizes(self) -> NDArray[np.float64]:
+    def sizes(self) -> Floats:
         """See `ResponseBasis`."""
         return np.array([1.0, *(side / 2 for side in (self.body.size_m or ())[:2])])
 
-    def weights(self, frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def weights(self, frequencies_hz: Floats, forces: Complex) -> Complex:
         """See `ResponseBasis`."""
         weights = real_times(self.moved_by, forces)
         weights /= -((2 * np.pi * frequencies_hz) ** 2)
         return weights
 
-    def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[NDArray[np.float64]], NDArray[AnyFloat]]:
+    def mixed(self, weights: NDArray[AnyFloat]) -> Callable[[Floats], NDArray[AnyFloat]]:
         """See `ResponseBasis`."""
         return lambda points_m: (self.body.motions(points_m) @ weights).astype(weights.dtype)

@@ -22,11 +22,13 @@ from numpy.typing import NDArray
 
 from scene2hap.propagation.bands.band_shapes import band_gains
 from scene2hap.propagation.bands.sampling import Sampling
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint
+from scene2hap.propagation.coupled.coupling import ElasticBody, Ends, Joint
 from scene2hap.propagation.coupled.hand_load import HandLoad, LoadedGains
 from scene2hap.propagation.coupled.object_response import Gains, Magnitudes
 from scene2hap.propagation.coupled.response_basis import HasResponseBasis
 from scene2hap.propagation.inclined_body import FeltInSpace, InclinedBody
+
+Complex = NDArray[np.complex128]
 
 MOST_CONTRACTED = 64
 """Most sources that are contracted: an object keeps up to some 100 kB for each. More are summed at every touch."""
@@ -47,9 +49,7 @@ alternating."""
 class Contractible(Protocol):
     """A body without a `ResponseBasis` that can sum over known forces before the touched point is known."""
 
-    def under(
-        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
-    ) -> Pairs:
+    def under(self, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> Pairs:
         """Deflection under forces (n_forces, n_frequencies) at points (n_forces, 2) [m]."""
         ...
 
@@ -58,31 +58,21 @@ class Contractible(Protocol):
 class Piecewise(Protocol):
     """A body that returns its receptance a few frequencies at a time, each part used while it is in the cache."""
 
-    def pieces(
-        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
-    ) -> Iterator[tuple[slice, NDArray[np.complex128]]]:
+    def pieces(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Iterator[tuple[slice, Complex]]:
         """Yield each part of the frequencies and the receptance there, see `ElasticBody.receptance`."""
         ...
 
 
 def pieces(
-    body: ElasticBody,
-    points_m: NDArray[np.float64],
-    forces_m: NDArray[np.float64],
-    frequencies_hz: NDArray[np.float64],
-) -> Iterator[tuple[slice, NDArray[np.complex128]]]:
+    body: ElasticBody, points_m: Floats, forces_m: Floats, frequencies_hz: Floats
+) -> Iterator[tuple[slice, Complex]]:
     """See `Piecewise.pieces`; any other body gives all frequencies at once."""
     if isinstance(body, Piecewise):
         return body.pieces(points_m, forces_m, frequencies_hz)
     return iter([(slice(None), np.ascontiguousarray(body.receptance(points_m, forces_m, frequencies_hz)))])
 
 
-def contracted(
-    body: ElasticBody,
-    forces_m: NDArray[np.float64],
-    frequencies_hz: NDArray[np.float64],
-    forces: NDArray[np.complex128],
-) -> Pairs:
+def contracted(body: ElasticBody, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> Pairs:
     """Deflection under known forces as a function of points, see `Contractible.under`; other bodies sum over contacts
     at each query."""
     if len(frequencies_hz) <= MOST_CONTRACTED:
@@ -92,7 +82,7 @@ def contracted(
         if isinstance(body, Contractible):
             return body.under(forces_m, frequencies_hz, forces)
 
-    def summed(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    def summed(points_m: Floats) -> Floats:
         receptance = body.receptance(points_m, forces_m, frequencies_hz)
         return np.ascontiguousarray(np.einsum("fpc,cf->pf", receptance, forces)).view(np.float64)
 
@@ -103,36 +93,33 @@ def contracted(
 class SolvedObject:
     """An object that some sources reach.
 
-    points_m : (n_joints, 2) [m], or ports (n_joints, 6) of an `InclinedBody`; rows, signs : (n_joints,) indices of its
-    joints in the forces of its group and their signs, see `coupling.Ends`; forces : (n_all_joints, n_sources,
-    n_frequencies), or without the last axis if each source has one frequency [N/m]; columns : (n_sources,) indices of
-    these sources among all; joints : all of its group; load : a hand that may touch it, if any.
+    ends : its joints; forces : in all joints of its group (n_all_joints, n_sources, n_frequencies), or without the last
+    axis if each source has one frequency [N/m]; columns : (n_sources,) indices of these sources among all; joints : all
+    of its group; load : a hand that may touch it, if any.
     """
 
     body: ElasticBody
-    points_m: NDArray[np.float64]
-    rows: NDArray[np.intp]
-    signs: NDArray[np.float64]
-    forces: NDArray[np.complex128]
+    ends: Ends
+    forces: Complex
     columns: NDArray[np.intp]
-    joints: Sequence[Joint] = ()
-    load: HandLoad | None = None
-    _own: NDArray[np.complex128] | None = field(default=None, repr=False)
+    joints: Sequence[Joint]
+    load: HandLoad | None
+    _own: Complex | None = field(default=None, repr=False)
 
     @property
-    def own_forces(self) -> NDArray[np.complex128]:
+    def own_forces(self) -> Complex:
         """Forces that act on this object at its joints ([n_frequencies,] n_joints, n_sources); extracted from those of
         the group at first use."""
         if self._own is None:
-            taken = self.forces[self.rows]
-            taken *= -self.signs.reshape(-1, *[1] * (taken.ndim - 1))
+            taken = self.forces[self.ends.rows]
+            taken *= -self.ends.signs.reshape(-1, *[1] * (taken.ndim - 1))
             self._own = np.ascontiguousarray(np.moveaxis(taken, 2, 0)) if taken.ndim == 3 else taken
         return self._own
 
     @property
     def others(self) -> list[str]:
         """The object on the other side of each of its joints."""
-        pairs = zip(self.rows.tolist(), self.signs.tolist(), strict=True)
+        pairs = zip(self.ends.rows.tolist(), self.ends.signs.tolist(), strict=True)
         return [self.joints[row].b if sign > 0 else self.joints[row].a for row, sign in pairs]
 
     def shares_of_power(self, column: int, band: int, sampling: Sampling) -> Floats:
@@ -145,11 +132,11 @@ class SolvedObject:
         """
         mine = np.flatnonzero(self.columns == column)
         if not mine.size:
-            return np.zeros(len(self.rows))
+            return np.zeros(len(self.ends.rows))
         at, weights = sampling.of_source(column, band)
         forces = self.own_forces[None, :, mine[0]] if sampling.is_single else self.own_forces[at, :, mine[0]]
-        frequencies = sampling.frequencies_hz[at]
-        moved = np.einsum("fpc,fc->fp", self.body.receptance(self.points_m, self.points_m, frequencies), forces)
+        frequencies, points_m = sampling.frequencies_hz[at], self.ends.points_m
+        moved = np.einsum("fpc,fc->fp", self.body.receptance(points_m, points_m, frequencies), forces)
         weights = frequencies * weights
         passed = weights @ (forces.conj() * moved)
         others, number = np.unique(self.others, return_inverse=True)
@@ -165,7 +152,7 @@ class SolvedObject:
     def gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
         """Gains of its sources at points on the object; fast if `is_expected` or if each source has one frequency."""
         if self.load is not None:
-            return LoadedGains(self.body, self.points_m, self.own_forces, self.columns, self.load, sampling)
+            return LoadedGains(self.body, self.ends.points_m, self.own_forces, self.columns, self.load, sampling)
         if isinstance(self.body, InclinedBody):
             return FeltInSpace(self._gains(sampling, is_expected=is_expected), self.body)
         return self._gains(sampling, is_expected=is_expected)
@@ -173,9 +160,9 @@ class SolvedObject:
     def _gains(self, sampling: Sampling, *, is_expected: bool) -> Gains:
         if sampling.is_single:
             own_hz = sampling.frequencies_hz[self.columns]
-            return Magnitudes(contracted(self.body, self.points_m, own_hz, self.own_forces))
+            return Magnitudes(contracted(self.body, self.ends.points_m, own_hz, self.own_forces))
         if is_expected and isinstance(self.body, HasResponseBasis):
-            return band_gains(self.body.response_basis(self.points_m), self.own_forces, sampling, self.columns)
+            return band_gains(self.body.response_basis(self.ends.points_m), self.own_forces, sampling, self.columns)
         return lambda points_m: self._summed(points_m, sampling)
 
     def _summed(self, points_m: Floats, sampling: Sampling) -> Floats:
@@ -184,7 +171,7 @@ class SolvedObject:
         for begin in range(0, len(points_m), POINTS_AT_ONCE):
             few = points_m[begin : begin + POINTS_AT_ONCE]
             moved = np.empty((len(sampling.frequencies_hz), len(few), len(self.columns)), dtype=np.complex128)
-            for part, receptance in pieces(self.body, few, self.points_m, sampling.frequencies_hz):
+            for part, receptance in pieces(self.body, few, self.ends.points_m, sampling.frequencies_hz):
                 moved[part] = receptance @ self.own_forces[part]
             found[begin : begin + POINTS_AT_ONCE] = sampling.gains(moved, self.columns)
         return found

@@ -11,6 +11,9 @@ from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.solved_object import Pairs, contracted
 from scene2hap.propagation.infinite_plate import InfiniteBody
 
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
 
 @dataclass(frozen=True, eq=False)
 class SplitBody:
@@ -30,9 +33,7 @@ class SplitBody:
         """See `ElasticBody`."""
         return self.below.loss_factor
 
-    def receptance(
-        self, points_m: NDArray[np.float64], forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64]
-    ) -> NDArray[np.complex128]:
+    def receptance(self, points_m: Floats, forces_m: Floats, frequencies_hz: Floats) -> Complex:
         """See `ElasticBody`."""
         is_low = frequencies_hz <= self.limit_hz
         answer = np.empty((len(is_low), len(points_m), len(forces_m)), dtype=np.complex128)
@@ -40,15 +41,13 @@ class SplitBody:
         answer[~is_low] = self.above.receptance(points_m, forces_m, frequencies_hz[~is_low])
         return answer
 
-    def under(
-        self, forces_m: NDArray[np.float64], frequencies_hz: NDArray[np.float64], forces: NDArray[np.complex128]
-    ) -> Pairs:
+    def under(self, forces_m: Floats, frequencies_hz: Floats, forces: Complex) -> Pairs:
         """See `Contractible`."""
         is_low = frequencies_hz <= self.limit_hz
         low = contracted(self.below, forces_m, frequencies_hz[is_low], forces[:, is_low])
         high = contracted(self.above, forces_m, frequencies_hz[~is_low], forces[:, ~is_low])
 
-        def both(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        def both(points_m: Floats) -> Floats:
             answer = np.empty((len(points_m), len(is_low)), dtype=np.complex128)
             answer[:, is_low], answer[:, ~is_low] = (one(points_m).view(np.complex128) for one in (low, high))
             return answer.view(np.float64)

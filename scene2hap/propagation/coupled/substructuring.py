@@ -210,19 +210,8 @@ def _solved(
     columns = np.array([source_ids.index(x) for x in sources])
     if sampling.is_single:
         forces = np.take_along_axis(forces, columns[None, :, None], axis=2)[:, :, 0]
-    return {
-        x: SolvedObject(
-            bodies[x],
-            ends.points_m,
-            ends.rows,
-            ends.signs,
-            forces,
-            columns,
-            joints,
-            None if hand is None else HandLoad(hand, x, solved),
-        )
-        for x, ends in solved.ends.items()
-    }
+    loads = {x: None if hand is None else HandLoad(hand, x, solved) for x in solved.ends}
+    return {x: SolvedObject(bodies[x], own, forces, columns, joints, loads[x]) for x, own in solved.ends.items()}
 
 
 def _require_memory(joints: Sequence[Joint], sources: Sequence[str], sampling: Sampling, hand: Hand | None) -> None:
@@ -278,7 +267,8 @@ class CoupledField:
             return ()
         shares = solved.shares_of_power(self.source_ids.index(source_id), band, self.sampling)
         pose = self.network.poses.get(object_id, Pose())
-        points = pose.to_world(np.column_stack([solved.points_m[:, :2], np.zeros(len(solved.points_m))]))
+        at_m = solved.ends.points_m[:, :2]
+        points = pose.to_world(np.column_stack([at_m, np.zeros(len(at_m))]))
         found = [
             Carrier(by, (float(x), float(y), float(z)), float(share))
             for by, (x, y, z), share in zip(solved.others, points, shares, strict=True)

@@ -19,8 +19,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import TYPE_CHECKING
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,11 +31,10 @@ from scene2hap.propagation.lattice.block_lanczos import largest
 from scene2hap.propagation.lattice.factors import Factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.lattice.unit_plate import of_size_one
-from scene2hap.propagation.modes import n_rigid_motions
+from scene2hap.propagation.modes import n_modes_to, n_rigid_motions, wavenumber_of_mode
 from scene2hap.propagation.plate import Plate
 
-if TYPE_CHECKING:
-    from scipy.sparse import csr_array
+Floats = NDArray[np.float64]
 
 MARGIN = 1.5
 """Modes are solved up to this many times the top frequency; the series takes over from there."""
@@ -69,15 +67,15 @@ class LatticeModes:
     """
 
     lattice: Lattice
-    k4: NDArray[np.float64]
-    shapes: NDArray[np.float64]
+    k4: Floats
+    shapes: Floats
     shift_k4: float
     factors: Factors
 
     @property
-    def frequencies_hz(self) -> NDArray[np.float64]:
+    def frequencies_hz(self) -> Floats:
         """Natural frequencies (n_modes,) [Hz]."""
-        found: NDArray[np.float64] = np.sqrt(self.k4) / self.lattice.plate.wavenumber_per_root_omega**2 / (2 * math.pi)
+        found: Floats = np.sqrt(self.k4) / self.lattice.plate.wavenumber_per_root_omega**2 / (2 * math.pi)
         return found
 
     def resized(self, plate: Plate, size_m: float) -> LatticeModes:
@@ -87,7 +85,7 @@ class LatticeModes:
             lattice, self.k4 / size_m**4, self.shapes / size_m**2, self.shift_k4 / size_m**4, self.factors
         )
 
-    def stiffer(self, forces: NDArray[np.float64]) -> NDArray[np.float64]:
+    def stiffer(self, forces: Floats) -> Floats:
         """Terms R_j of the series (TERMS, n_nodes, n_forces) for forces (n_nodes, n_forces)."""
         masses = self.lattice.masses
         terms = np.empty((TERMS, *forces.shape))
@@ -115,7 +113,7 @@ def lattice_modes(plate: Plate, resolution: int, top_frequency_hz: float) -> Lat
     return _modes_up_to(alike, resolution, thirds).resized(plate, size_m)
 
 
-def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArray[np.float64]:
+def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> Floats:
     """The lowest natural frequencies (n_modes,) [Hz], rigid motions included.
 
     Raises: ModelDomainError: the lattice has fewer nodes; too many nodes, see `bending_lattice`; too many modes, see
@@ -128,31 +126,20 @@ def lowest_frequencies_hz(plate: Plate, resolution: int, n_modes: int) -> NDArra
         raise ModelDomainError(
             f"n_modes is {n_modes}; a lattice of resolution {resolution} has {n_nodes} modes. Raise the resolution."
         )
-    wanted = _k_of_mode(plate, 1.2 * n_modes + 2) ** 4
+    wanted = wavenumber_of_mode(plate, 1.2 * n_modes + 2) ** 4
     lattice, factors, shift = _factorised(plate, resolution, wanted)
     while True:
         k4, _ = _all_below(lattice, factors, shift, wanted)
         if len(k4) >= n_modes:
             break
         wanted *= 2
-    frequencies: NDArray[np.float64] = np.sqrt(k4[:n_modes]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi)
+    frequencies: Floats = np.sqrt(k4[:n_modes]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi)
     return frequencies
 
 
 def n_modes_up_to(plate: Plate, frequency_hz: float) -> float:
     """Approximate number of modes of a plate with free edges up to a frequency [Hz] (Weyl)."""
-    return _n_modes_to(plate, float(plate.wavenumber_rad_m(frequency_hz)))
-
-
-def _n_modes_to(plate: Plate, k: float) -> float:
-    """Approximate number of modes of a plate with free edges up to a wavenumber [rad/m] (Weyl)."""
-    return (plate.area_m2 * k**2 + 2 * sum(plate.extent_m) * k) / (4 * math.pi)
-
-
-def _k_of_mode(plate: Plate, n_modes: float) -> float:
-    """The wavenumber [rad/m] at which `_n_modes_to` is `n_modes`."""
-    area, edge = plate.area_m2, 2 * sum(plate.extent_m)
-    return edge / (2 * area) * (math.sqrt(1 + 16 * math.pi * area * n_modes / edge**2) - 1)
+    return n_modes_to(plate, float(plate.wavenumber_rad_m(frequency_hz)))
 
 
 def is_too_much(plate: Plate, resolution: int, top_frequency_hz: float) -> bool:
@@ -199,20 +186,12 @@ def _factorised(plate: Plate, resolution: int, top_k4: float) -> tuple[Lattice, 
     lattice = bending_lattice(plate, resolution)
     # Large compared with the rounding of K, for refinement to converge; small compared with the modes of interest.
     shift = max(1e-2 * top_k4, _ABOVE_ROUNDING * lattice.rounding_k4)
-    return lattice, positive_factors(_shifted(lattice, shift)), shift
+    return lattice, positive_factors(lattice.stiffness + shift * lattice.masses), shift
 
 
-def _shifted(lattice: Lattice, shift_k4: float) -> csr_array:
-    """K + s A."""
-    shifted: csr_array = lattice.stiffness + shift_k4 * lattice.masses
-    return shifted
-
-
-def solve_shifted(
-    lattice: Lattice, factors: Factors, shift_k4: float, forces: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def solve_shifted(lattice: Lattice, factors: Factors, shift_k4: float, forces: Floats) -> Floats:
     """Solve (K + s A) u = p for deflections u, (n_nodes, ...) each, refined where rounding would show."""
-    found: NDArray[np.float64] = factors.solve(forces)
+    found: Floats = factors.solve(forces)
     if lattice.is_clear:
         return found
     # Each pass divides the error by the ratio of the shift to the rounding of K.
@@ -221,28 +200,23 @@ def solve_shifted(
     return found
 
 
-def _all_below(
-    lattice: Lattice, factors: Factors, shift_k4: float, wanted_k4: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _all_below(lattice: Lattice, factors: Factors, shift_k4: float, wanted_k4: float) -> tuple[Floats, Floats]:
     """k^4 (n_modes,) [m^-4], rising, and shapes (n_nodes, n_modes) [1/m] of all modes below a value, and some more."""
     from scipy.linalg import eigh
 
     n, masses = lattice.n_nodes, lattice.masses
-
-    def compliance(force: NDArray[np.float64]) -> NDArray[np.float64]:
-        return solve_shifted(lattice, factors, shift_k4, force)
-
-    expected = _n_modes_to(lattice.plate, wanted_k4**0.25)
+    expected = n_modes_to(lattice.plate, wanted_k4**0.25)
     if expected > DENSE_SHARE * n and np.finfo(float).eps * lattice.stiffest_k4 < _BURIED * wanted_k4:
         k4, shapes = eigh(lattice.stiffness.toarray(), masses.toarray(), driver="gvd", check_finite=False)
         # Some more than wanted, since `_ritz` removes the rounding error of an eigenvalue.
         shapes = shapes[:, k4 <= (1 + _BURIED) * wanted_k4]
     else:
+        compliance = partial(solve_shifted, lattice, factors, shift_k4)
         shapes = largest(compliance, masses, 1 / (wanted_k4 + shift_k4), expected)
     return _ritz(lattice, shapes)
 
 
-def _ritz(lattice: Lattice, shapes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _ritz(lattice: Lattice, shapes: Floats) -> tuple[Floats, Floats]:
     """Modes within the span of shapes (Ritz); their error is the square of the error of the shapes."""
     from scipy.linalg import eigh
 

@@ -35,6 +35,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation.lattice.factors import diagonal_factors
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -152,7 +153,7 @@ class NewmarkStepper:
         self._mass, self._damping, self._stiffness = matrices
         self._times: Callable[[Any, NDArray[np.float64]], Any] = np.multiply if diagonal else lambda a, x: a @ x
         effective = self._mass + dt / 2 * self._damping + dt**2 / 4 * self._stiffness
-        self._solve = (lambda x: x / effective) if diagonal else _factorised(effective)
+        self._solve = (lambda x: x / effective) if diagonal else diagonal_factors(effective).solve
 
     def step(self, state: State, force: ArrayLike = 0.0, next_force: ArrayLike | None = None) -> State:
         """Return the state one step later, see `Stepper`."""
@@ -218,13 +219,6 @@ def _matrix(name: str, given: Any) -> Any:
     if not np.isfinite(array.tocsr().data if sparse else array).all():
         raise ModelDomainError(f"{name} holds a value that is not finite; every one must be a number.")
     return array
-
-
-def _factorised(matrix: Any) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-    from scipy.sparse.linalg import splu
-
-    factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    return lambda x: factors.solve(x)
 
 
 def _check_rounding(mass: Any, stiffness: Any, dt: float) -> None:

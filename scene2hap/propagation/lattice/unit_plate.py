@@ -19,18 +19,12 @@ def of_size_one(plate: Plate) -> tuple[Plate, float]:
         outline = outline_of(
             tuple(tuple((round(x / size_m, 9), round(y / size_m, 9)) for x, y in ring) for ring in outline.rings_m)
         )
-    material = _material_of(plate.material.poisson_ratio)
-    return Plate(
-        plate.length_m / size_m, plate.width_m / size_m, 1e-3, material, plate.boundary, outline=outline
-    ), size_m
+    material = Material("any", 1e3, 1e9, plate.material.poisson_ratio, 0.0)
+    length_m, width_m = plate.length_m / size_m, plate.width_m / size_m
+    return Plate(length_m, width_m, 1e-3, material, plate.boundary, outline=outline), size_m
 
 
 @lru_cache(maxsize=32)
 def outline_of(rings_m: tuple[Ring, ...]) -> Outline:
     """Outline shared by all plates of a shape, so that it is checked and measured once."""
     return Outline(rings_m)
-
-
-@lru_cache(maxsize=32)
-def _material_of(poisson_ratio: float) -> Material:
-    return Material("any", 1e3, 1e9, poisson_ratio, 0.0)

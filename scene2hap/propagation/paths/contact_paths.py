@@ -20,6 +20,8 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import reduce
+from operator import add
 from typing import TYPE_CHECKING
 
 from scene2hap.compiled import compiled
@@ -194,7 +196,8 @@ class ContactPaths:
         found = self._balls.get(source_id)
         if found is None:
             points_m = [edge.point_m for across in self._edges[source_id].values() for edge in across]
-            x, y, z = (sum(axis) / len(points_m) for axis in zip(*points_m, strict=True))
+            # Not `sum`, which rounds otherwise from Python 3.12 on.
+            x, y, z = (reduce(add, axis) / len(points_m) for axis in zip(*points_m, strict=True))
             found = self._balls[source_id] = ((x, y, z), max([math.dist((x, y, z), point) for point in points_m]))
         return found
 

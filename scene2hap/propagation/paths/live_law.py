@@ -81,10 +81,6 @@ class LivePaths:
             self._paths.update(changed, self._beside)
             self._version = version
 
-    def costs(self, object_id: str, point_m: Triple, limits: Sequence[float] | None = None) -> list[float]:
-        """Cost of the cheapest path from each source to one point; otherwise see `least_costs`."""
-        return self.least_costs([(object_id, point_m)], limits)
-
     def least_costs(
         self,
         touched: Iterable[tuple[str, Triple]],

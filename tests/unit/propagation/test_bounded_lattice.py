@@ -1,18 +1,21 @@
 """The mass-spring-damper model bounds its work on any plate by a budget of nodes and modes, not by a clock."""
 
 import dataclasses
+import gc
 import math
+import weakref
 
 import numpy as np
 import pytest
 
 from scene2hap import materials
 from scene2hap.errors import ModelDomainError
+from scene2hap.propagation import mass_spring_damper
 from scene2hap.propagation.coupled.split_body import SplitBody
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.lattice import lattice_modes
 from scene2hap.propagation.lattice.lattice_body import LatticeBody
-from scene2hap.propagation.mass_spring_damper import _WARNED_OF, CoarsenedWarning, MassSpringDamper
+from scene2hap.propagation.mass_spring_damper import CoarsenedWarning, MassSpringDamper
 from scene2hap.propagation.plate import Plate
 
 # Values typical of felt, chosen for its softness; 1.5 m x 1 m x 10 mm.
@@ -23,7 +26,7 @@ RUG = Plate(1.5, 1.0, 0.01, FELT)
 @pytest.fixture
 def small_budget(monkeypatch: pytest.MonkeyPatch) -> float:
     monkeypatch.setattr(lattice_modes, "MOST_WORK", 3e6)
-    _WARNED_OF.clear()
+    mass_spring_damper._times_coarsened.cache_clear()
     return 3e6
 
 
@@ -39,6 +42,19 @@ def test_rug_is_coarsened_within_the_budget_with_a_warning(small_budget: float) 
     found = body.receptance(at, at, np.array([0.5 * body.limit_hz, 2 * body.limit_hz, 900.0]))
     assert np.isfinite(found).all()
     assert (found[:, [0, 1], [0, 1]].imag < 0).all()
+
+
+@pytest.mark.filterwarnings("ignore::scene2hap.propagation.mass_spring_damper.CoarsenedWarning")
+def test_plates_that_were_warned_of_do_not_add_up() -> None:
+    first = Plate(1.0, 1.0, 0.01, FELT)
+    forgotten = weakref.ref(first)
+    mass_spring_damper._warn_coarsened(first, 1000.0, 100.0)
+    del first
+    assert forgotten() is not None  # kept, so that it is not warned of again
+    for k in range(4096):
+        mass_spring_damper._warn_coarsened(Plate(2.0 + k, 1.0, 0.01, FELT), 1000.0, 100.0)
+    gc.collect()
+    assert forgotten() is None
 
 
 def test_a_coarsened_plate_is_mentioned_once_for_all_frequencies(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from scene2hap import Bands, Contact, ContactNetwork, Excitation, ExponentialPlate, Plate, materials
+from scene2hap import Bands, Contact, ContactNetwork, Excitation, ExponentialPlate, FullPropagation, Plate, materials
 from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.propagation.domain import ThinPlateWarning
 
@@ -56,3 +56,10 @@ def test_thick_plates_on_request() -> None:
 def test_settings_out_of_bounds(settings: dict) -> None:
     with pytest.raises(ConfigError, match=next(iter(settings))):
         ExponentialPlate(**settings)
+
+
+@pytest.mark.parametrize("model", [ExponentialPlate, FullPropagation])
+@pytest.mark.parametrize("max_hops", [0, -3, 2.5, "2", 2**31])
+def test_the_number_of_contacts_is_whole_and_at_least_one(model: type, max_hops: object) -> None:
+    with pytest.raises(ConfigError, match="max_hops"):
+        model(max_hops=max_hops)
