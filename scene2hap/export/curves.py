@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -57,10 +57,12 @@ def curves_of(
 ) -> HapticClip:
     """Return the clip of a channel: its own if a person drew one, otherwise curves that follow its envelope.
 
-    Parameters: power : of the curves; 2 for formats that store roots (`Curve`).
+    Parameters: power : of the curves; 2 for formats that store roots (`Curve`). The points of a drawn clip stay, with
+        the lines of the format between them.
     """
     if channel.clip is not None:
-        return channel.clip
+        lines = {name: getattr(channel.clip, name) for name in ("amplitude", "frequency")}
+        return replace(channel.clip, **{name: curve and replace(curve, power=power) for name, curve in lines.items()})
     plain = _clip(channel.envelope, settings, power, about or About(), with_pulses=False)
     if not settings.transients or not channel.envelope.pulses:
         return plain

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,13 @@ import pytest
 import soundfile
 
 import haptic_file_checker as checker
+from scene2hap.clips.haptic_clip import Curve, HapticClip
+from scene2hap.clips.reading import read_haptic_clip
+from scene2hap.clips.synthesis import synthesize
 from scene2hap.errors import ConfigError, ExportError
 from scene2hap.export import EXPORTS, Channel, Exported, Track
 from scene2hap.export.curves import CurveSettings, curves_of
+from scene2hap.export.fidelity import fidelity
 
 RATE = 8000
 
@@ -143,6 +148,21 @@ def test_parts_of_a_long_export_join_without_a_gap(long: Track) -> None:
         found = np.interp(middle, [row["time_ns"] / 1e9 for row in rows], [row["value"] for row in rows])
         assert clip.frequency is not None
         assert found == pytest.approx(clip.frequency.at([middle])[0], abs=1e-5)
+
+
+@pytest.mark.parametrize(("kind", "power"), [("haptic", 2.0), ("ahap", 1.0)])
+def test_a_drawn_curve_has_the_reported_error_in_a_format_with_other_lines(
+    kind: str, power: float, tmp_path: Path
+) -> None:
+    """Between two points, AHAP is linear in the root of the amplitude, and .haptic in the amplitude itself."""
+    clip = HapticClip(Curve(np.array([0.0, 2.0]), np.array([0.0, 1.0]), power))
+    channel = Channel(synthesize(clip), RATE, clip=clip)
+    exported = made(kind, Track("drawn", {"": channel}))
+    (path,) = (tmp_path / name for name in exported.files)
+    path.write_bytes(*exported.files.values())
+    found = fidelity(channel, read_haptic_clip(path))
+    assert found.median_db > 5.0
+    assert fidelity(channel, exported.played[""]).median_db == pytest.approx(found.median_db, abs=0.01)
 
 
 def test_stream_frames_have_the_duration_requested_by_the_runtime(tour: Track) -> None:
