@@ -13,7 +13,7 @@ import pytest
 import soundfile
 
 import haptic_file_checker as checker
-from scene2hap.clips.haptic_clip import Curve, HapticClip
+from scene2hap.clips.haptic_clip import Curve, HapticClip, Transient
 from scene2hap.clips.reading import read_haptic_clip
 from scene2hap.clips.synthesis import synthesize
 from scene2hap.errors import ConfigError, ExportError
@@ -163,6 +163,18 @@ def test_a_drawn_curve_has_the_reported_error_in_a_format_with_other_lines(
     found = fidelity(channel, read_haptic_clip(path))
     assert found.median_db > 5.0
     assert fidelity(channel, exported.played[""]).median_db == pytest.approx(found.median_db, abs=0.01)
+
+
+def test_transients_before_the_amplitude_curve_are_kept(tmp_path: Path) -> None:
+    """In AHAP, taps may come before the first continuous event."""
+    taps = Transient(0.25, 0.8, 0.5), Transient(0.5, 0.4, 0.5)
+    clip = HapticClip(Curve(np.array([1.0, 2.0]), np.array([0.25, 0.25])), transients=taps)
+    path = tmp_path / "tap.haptic"
+    path.write_bytes(*made("haptic", Track("tap", {"": Channel(synthesize(clip), RATE, clip=clip)})).files.values())
+    assert checker.check_haptic(json.loads(path.read_bytes())) == []
+    again = read_haptic_clip(path)
+    assert again.transients == taps
+    np.testing.assert_array_equal(synthesize(again), synthesize(clip))
 
 
 def test_stream_frames_have_the_duration_requested_by_the_runtime(tour: Track) -> None:
