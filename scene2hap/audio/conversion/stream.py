@@ -11,7 +11,7 @@ import math
 import time
 from collections.abc import Collection, Iterator
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO
@@ -28,7 +28,7 @@ from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import Mixdown, opened_sound, require_finite, written_whole
 from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
-from scene2hap.audio.levels import TACTILE_HEADROOM_DB, is_noise, sensation_level_db
+from scene2hap.audio.levels import NOTHING_DB, TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
@@ -58,8 +58,6 @@ BLOCK_FRAMES = 65_536
 _FULL_SCALE = 2.0**23
 _NEARLY_FULL = 1.0 - 1.0 / _FULL_SCALE
 _PICTURE_COLUMNS = 900
-_NOTHING_DB = -120.0
-"""Level below which there are only rounding errors [dB]."""
 _OFFSET_FRAMES = 65_536
 _END_S = 0.01
 """Length of the fade-out at the end of a file [s]; a sound that breaks off would end with a knock."""
@@ -190,16 +188,7 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
     if len(heard) < 2 or not np.isfinite(heard).all():  # the conversion raises an error for this
         return context
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
-    if anchor is None:
-        return context
-    return replace(
-        context,
-        own_hz=anchor.frequency_hz,
-        target_hz=anchor.carrier_hz,
-        rough_hz=anchor.rough_hz,
-        band_q=anchor.band_q,
-        band_db=anchor.band_db,
-    )
+    return context if anchor is None else anchor.within(context, anchor.carrier_hz)
 
 
 def _strongest_of_cancelled(file: soundfile.SoundFile) -> int | None:
@@ -347,7 +336,7 @@ def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, 
         heard.hear(block)
         held.write(np.ascontiguousarray(block).data)
     now_db, gain = heard.level_db(), 1.0
-    if now_db > _NOTHING_DB and not is_noise(felt.before.peak, heard.peak, is_chosen=felt.follows_anchor):
+    if now_db > NOTHING_DB and not is_noise(felt.before.peak, heard.peak, is_chosen=felt.follows_anchor):
         asked_db = sensation_level_db(context.intensity)
         gain = min(10 ** ((asked_db - now_db) / 20), 10 ** (-TACTILE_HEADROOM_DB / 20) / heard.peak)
         felt.level_db = now_db + 20 * math.log10(gain)
