@@ -60,8 +60,8 @@ FORGET = float(np.exp(-STEP_S / LATE_S))
 APART, SPARED = round(APART_S / STEP_S), round(SPARED_S / STEP_S)
 
 
-class WithOnsets:
-    """A `Stage`: the bed of the sound without its onsets, plus a burst of `carrier_hz` for each onset.
+class WithOnsets(Stage):
+    """The bed of the sound without its onsets, plus a burst of `carrier_hz` for each onset.
 
     A bed that follows the level of the sound renders sustained onsets by itself. If the level of the bed relative to
     the sound is known (`bed_db`), a burst has the energy of its onset times that ratio.
