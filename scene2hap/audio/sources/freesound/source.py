@@ -27,17 +27,8 @@ from scene2hap.web import checked_base
 if TYPE_CHECKING:
     from scene2hap.web import Transport
 
-SORTS = tuple(
-    f"{what}{way}"
-    for what, ways in {
-        "score": ("",),
-        "duration": ("_desc", "_asc"),
-        "created": ("_desc", "_asc"),
-        "downloads": ("_desc", "_asc"),
-        "rating": ("_desc", "_asc"),
-    }.items()
-    for way in ways
-)
+_SORTED = ("duration", "created", "downloads", "rating")
+SORTS = ("score", *(f"{what}_{way}" for what in _SORTED for way in ("desc", "asc")))
 
 _PATIENCE = 2
 """Failed downloads of previews in a row after which their host counts as unavailable."""
