@@ -71,9 +71,8 @@ class OpenXrParametricExport:
     def _calls(self, clip: HapticClip) -> list[dict[str, Any]]:
         amplitude, frequency, transients = _rows(clip)
         counts = max(len(amplitude), len(frequency), len(transients))
-        low, high = clip.range_hz
         if counts <= MAX_POINTS and not self.stream:
-            return [_call("none", (low, high), amplitude, frequency, transients)]
+            return [_call("none", clip.range_hz, amplitude, frequency, transients)]
         calls: list[dict[str, Any]] = []
         end = nanoseconds(clip.duration_s)
         edges = self._edges(end, (amplitude, frequency, transients))
@@ -88,7 +87,7 @@ class OpenXrParametricExport:
                     value = float(curve.at(np.array([edge / 1e9]))[0])
                     points.append({"time_ns": edge, "value": round(value, 6)})
             kind = "first" if not calls else "last" if edge == end else "intermediate"
-            calls.append(_call(kind, (low, high) if not calls else (0.0, 0.0), *now))
+            calls.append(_call(kind, clip.range_hz if not calls else (0.0, 0.0), *now))
             start = edge
         if len(calls) == 1:
             calls[0]["stream_frame_type"] = "none"
