@@ -40,17 +40,13 @@ def synthesize(clip: HapticClip, sample_rate_hz: float = RATE_HZ) -> NDArray[np.
     pulses = np.zeros_like(t)
     for i, pulse in enumerate(clip.transients):
         first = int(np.ceil(pulse.time_s * sample_rate_hz - 1e-6))
-        end = min(len(t), first + pulse_samples(pulse, sample_rate_hz))
+        pulse_s = _PULSE_S[0] + pulse.frequency * (_PULSE_S[1] - _PULSE_S[0])
+        end = min(len(t), first + int(pulse_s * sample_rate_hz))
         if i + 1 < len(clip.transients):  # the next transient ends this one
             end = min(end, max(first, int(np.ceil(clip.transients[i + 1].time_s * sample_rate_hz - 1e-6))))
         pulses[first:end] = _pulse(pulse, end - first, sample_rate_hz)
         amplitude[first:end] *= DUCKING
     return amplitude * np.sin(2.0 * np.pi * phase) + pulses
-
-
-def pulse_samples(pulse: Transient, sample_rate_hz: float) -> int:
-    """Return the number of samples of a transient."""
-    return int((_PULSE_S[0] + pulse.frequency * (_PULSE_S[1] - _PULSE_S[0])) * sample_rate_hz)
 
 
 def _pulse(pulse: Transient, n: int, sample_rate_hz: float) -> NDArray[np.float64]:

@@ -9,10 +9,10 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.calls import clear_construction
-from scene2hap.clips.haptic_clip import RANGE_HZ, About, Curve, HapticClip, Transient
+from scene2hap.clips.haptic_clip import RANGE_HZ, Curve, HapticClip, Transient
 from scene2hap.errors import ConfigError
 from scene2hap.export.envelope import FLOOR_DB, Envelope, Pulse, Signal, decibels
-from scene2hap.export.fidelity import Fidelity, fidelity
+from scene2hap.export.fidelity import fidelity
 from scene2hap.export.simplify import simplified
 from scene2hap.export.track import Channel
 
@@ -52,9 +52,7 @@ class CurveSettings:
         checks.flag("transients", self.transients, error=ConfigError)
 
 
-def curves_of(
-    channel: Channel, settings: CurveSettings, *, power: float = 1.0, about: About | None = None
-) -> HapticClip:
+def curves_of(channel: Channel, settings: CurveSettings, *, power: float = 1.0) -> HapticClip:
     """Return the clip of a channel: its own if a person drew one, otherwise curves that follow its envelope.
 
     Parameters: power : of the curves; 2 for formats that store roots (`Curve`). The points of a drawn clip stay, with
@@ -63,18 +61,16 @@ def curves_of(
     if channel.clip is not None:
         lines = {name: getattr(channel.clip, name) for name in ("amplitude", "frequency")}
         return replace(channel.clip, **{name: curve and replace(curve, power=power) for name, curve in lines.items()})
-    plain = _clip(channel.envelope, settings, power, about or About(), with_pulses=False)
+    plain = _clip(channel.envelope, settings, power, with_pulses=False)
     if not settings.transients or not channel.envelope.pulses:
         return plain
-    pulsed = _clip(channel.envelope, settings, power, about or About(), with_pulses=True)
-    return min(plain, pulsed, key=lambda clip: _missed(fidelity(channel, clip)))
+    pulsed = _clip(channel.envelope, settings, power, with_pulses=True)
+    errors = [fidelity(channel, clip) for clip in (plain, pulsed)]
+    missed_db = [one.median_db + one.p95_db for one in errors]
+    return plain if missed_db[0] <= missed_db[1] else pulsed
 
 
-def _missed(found: Fidelity) -> float:
-    return found.median_db + found.p95_db
-
-
-def _clip(envelope: Envelope, settings: CurveSettings, power: float, about: About, *, with_pulses: bool) -> HapticClip:
+def _clip(envelope: Envelope, settings: CurveSettings, power: float, *, with_pulses: bool) -> HapticClip:
     times = envelope.times_s
     amplitude = np.minimum(envelope.without_pulses() if with_pulses else envelope.sharpened(), 1.0)
     peak = float(envelope.amplitude.max())
@@ -99,7 +95,6 @@ def _clip(envelope: Envelope, settings: CurveSettings, power: float, about: Abou
         Curve(_rounded(times[bends]), _rounded(pitches[bends] ** power), power),
         transients,
         settings.range_hz,
-        about,
     )
 
 
