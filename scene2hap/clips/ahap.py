@@ -323,8 +323,6 @@ def _frequency(pattern: _Pattern) -> Curve | None:
         values = list(dict.fromkeys(value for value in (earlier, later) if value is not None))
         if time in bends or not points or len(values) > 1:
             points += [(time, value) for value in values]
-    if len(points) > 1 and start not in bends and points[0][1] == points[1][1]:
-        points = points[1:]  # the curve begins later, and keeps its first value before
     return _squared(points)
 
 

@@ -18,8 +18,6 @@ RATE_HZ = 8000
 DUCKING = 0.5
 _PULSE_HZ = (55.0, 165.0)
 _PULSE_S = (0.0364, 0.0121)
-_MIDDLE = 0.5
-"""Frequency before the first point of its curve, 0..1."""
 _TAIL_S = 0.1
 """Extra duration of a clip whose last point has a transient [s]."""
 
@@ -30,10 +28,7 @@ def synthesize(clip: HapticClip, sample_rate_hz: float = RATE_HZ) -> NDArray[np.
     if clip.transients and clip.transients[-1].time_s >= end_s:
         end_s += _TAIL_S
     t = np.arange(max(1, int(end_s * sample_rate_hz + 1e-6))) / sample_rate_hz
-    low, high = clip.range_hz
     frequency = clip.frequency_hz(t)
-    if clip.frequency is not None:
-        frequency[t < clip.frequency.times_s[0]] = low + _MIDDLE * (high - low)
     phase = np.concatenate([[0.0], np.cumsum(frequency[:-1])]) / sample_rate_hz
     amplitude = clip.amplitude.at(t)
     amplitude[t < clip.amplitude.times_s[0]] = 0.0

@@ -7,6 +7,7 @@ frequency range; in the others it is unspecified, 0.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -60,6 +61,7 @@ class OpenXrParametricExport:
         files, played = {}, {}
         for name, channel in track.channels.items():
             clip = curves_of(channel, self.settings)
+            clip = replace(clip, frequency=_from_start(clip.frequency))
             document = {
                 "extension": "XR_EXT_haptic_parametric",
                 "loop": channel.is_loop,
@@ -114,16 +116,22 @@ class OpenXrParametricExport:
         return edges
 
 
+def _from_start(frequency: Curve | None) -> Curve | None:
+    """Return a curve of frequency that begins at time 0; before its own first point it is the middle."""
+    if frequency is None or frequency.times_s[0] == 0.0:
+        return frequency
+    times, values = np.append([0.0, frequency.times_s[0]], frequency.times_s), np.append([0.5, 0.5], frequency.values)
+    return replace(frequency, times_s=times, values=values)
+
+
 def _rows(clip: HapticClip) -> tuple[Rows, Rows, Rows]:
-    """Return all points and transients. Amplitude and frequency begin at time 0, as the first frame requires."""
+    """Return all points and transients. The amplitude begins at time 0, as the first frame requires."""
     end = nanoseconds(clip.duration_s)
     amplitude = _points(clip.amplitude)
     if amplitude[0]["time_ns"] > 0:
         first = amplitude[0]["time_ns"]
         amplitude = [{"time_ns": 0, "value": 0.0}, {"time_ns": first, "value": 0.0}, *amplitude]
     frequency = _points(clip.frequency) if clip.frequency is not None else []
-    if frequency and frequency[0]["time_ns"] > 0:
-        frequency = [{"time_ns": 0, "value": frequency[0]["value"]}, *frequency]
     for row in frequency:
         row["time_ns"] = min(row["time_ns"], end)
     transients: Rows = []

@@ -177,6 +177,17 @@ def test_transients_before_the_amplitude_curve_are_kept(tmp_path: Path) -> None:
     np.testing.assert_array_equal(synthesize(again), synthesize(clip))
 
 
+@pytest.mark.parametrize("stream", [False, True])
+def test_openxr_plays_the_middle_before_a_frequency_curve_that_begins_later(stream: bool) -> None:
+    clip = HapticClip(Curve(np.array([0.0, 2.0]), np.ones(2)), Curve(np.array([1.0, 2.0]), np.array([0.2, 0.8])))
+    track = Track("late", {"": Channel(synthesize(clip), RATE, clip=clip)})
+    document = json.loads(made({"kind": "openxr_parametric", "stream": stream}, track).files["late.json"])
+    assert checker.check_openxr_parametric(document) == []
+    points = [point for call in document["calls"] for point in call["frequency_points"]]
+    assert {point["value"] for point in points if point["time_ns"] < 1e9} == {0.5}
+    assert points[-1] == {"time_ns": 2_000_000_000, "value": 0.8}
+
+
 def test_stream_frames_have_the_duration_requested_by_the_runtime(tour: Track) -> None:
     spec = {"kind": "openxr_parametric", "stream": True, "first_frame_s": 0.1, "frame_s": 0.02}
     document = json.loads(made(spec, tour).files["tour.left.json"])
