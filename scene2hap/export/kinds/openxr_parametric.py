@@ -15,7 +15,7 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.clips.haptic_clip import Curve, HapticClip
 from scene2hap.errors import ConfigError
-from scene2hap.export.curves import CurveSettings, curves_of
+from scene2hap.export.curves import CurveSettings, curves_of, from_start
 from scene2hap.export.protocol import Exported, file_name, json_bytes, nanoseconds
 from scene2hap.export.track import Track
 
@@ -61,7 +61,7 @@ class OpenXrParametricExport:
         files, played = {}, {}
         for name, channel in track.channels.items():
             clip = curves_of(channel, self.settings)
-            clip = replace(clip, frequency=_from_start(clip.frequency))
+            clip = replace(clip, frequency=from_start(clip.frequency))
             document = {
                 "extension": "XR_EXT_haptic_parametric",
                 "loop": channel.is_loop,
@@ -114,14 +114,6 @@ class OpenXrParametricExport:
                     "Shorten frame_s."
                 )
         return edges
-
-
-def _from_start(frequency: Curve | None) -> Curve | None:
-    """Return a curve of frequency that begins at time 0; before its own first point it is the middle."""
-    if frequency is None or frequency.times_s[0] == 0.0:
-        return frequency
-    times, values = np.append([0.0, frequency.times_s[0]], frequency.times_s), np.append([0.5, 0.5], frequency.values)
-    return replace(frequency, times_s=times, values=values)
 
 
 def _rows(clip: HapticClip) -> tuple[Rows, Rows, Rows]:

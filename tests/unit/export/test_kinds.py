@@ -177,6 +177,17 @@ def test_transients_before_the_amplitude_curve_are_kept(tmp_path: Path) -> None:
     np.testing.assert_array_equal(synthesize(again), synthesize(clip))
 
 
+def test_hjif_plays_the_middle_before_a_frequency_curve_that_begins_later() -> None:
+    late = Curve(np.array([1.0, 2.0]), np.array([0.2, 0.8]))
+    clip = HapticClip(Curve(np.array([0.0, 2.0]), np.ones(2)), late, range_hz=(50.0, 150.0))
+    track = Track("late", {"": Channel(synthesize(clip), RATE, clip=clip)})
+    document = json.loads(made("hjif", track).files["late.hjif"])
+    (band,) = document["perceptions"][0]["channels"][0]["bands"]
+    frames = band["effects"][0]["keyframes"]
+    found = [(one["relative_position"], one["frequency_modulation"]) for one in frames]
+    assert found == [(0, 100), (1000, 100), (1000, 70), (2000, 130)]
+
+
 @pytest.mark.parametrize("stream", [False, True])
 def test_openxr_plays_the_middle_before_a_frequency_curve_that_begins_later(stream: bool) -> None:
     clip = HapticClip(Curve(np.array([0.0, 2.0]), np.ones(2)), Curve(np.array([1.0, 2.0]), np.array([0.2, 0.8])))
