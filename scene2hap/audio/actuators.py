@@ -115,19 +115,14 @@ def is_flat(profile: ActuatorProfile) -> bool:
     return not profile.response_db and (profile.resonance_hz is None or profile.q is None)
 
 
-def inverse_db(
-    profile: ActuatorProfile, frequencies_hz: ArrayLike, max_boost_db: float = MAX_BOOST_DB
-) -> NDArray[np.float64]:
-    """Return the gain that compensates the response, 0..`max_boost_db` [dB]; 0 outside the actuator's band."""
-    limit = checks.number("max_boost_db", max_boost_db, "dB", at_least=0.0, error=ConfigError)
+def inverse_db(profile: ActuatorProfile, frequencies_hz: ArrayLike) -> NDArray[np.float64]:
+    """Return the gain that compensates the response, 0..`MAX_BOOST_DB` [dB]; 0 outside the actuator's band."""
     f = np.asarray(frequencies_hz, dtype=np.float64)
     usable = (f >= profile.min_frequency_hz) & (f <= profile.max_frequency_hz)
-    return np.where(usable, np.minimum(-response_db(profile, f), limit), 0.0)
+    return np.where(usable, np.minimum(-response_db(profile, f), MAX_BOOST_DB), 0.0)
 
 
-def equalize_loop(
-    loop_samples: Samples, sample_rate_hz: float, profile: ActuatorProfile, max_boost_db: float = MAX_BOOST_DB
-) -> Samples:
+def equalize_loop(loop_samples: Samples, sample_rate_hz: float, profile: ActuatorProfile) -> Samples:
     """Filter a loop (n_samples,) by the inverse of the actuator, without delay or transient, and without scaling.
 
     A loop is periodic, so that weighting its Fourier coefficients is exact.
@@ -136,7 +131,7 @@ def equalize_loop(
         return loop_samples
     spectrum = np.fft.rfft(loop_samples.astype(np.float64))
     f = np.fft.rfftfreq(len(loop_samples), 1.0 / sample_rate_hz)
-    gain = 10 ** (inverse_db(profile, f, max_boost_db) / 20)
+    gain = 10 ** (inverse_db(profile, f) / 20)
     return np.fft.irfft(spectrum * gain, len(loop_samples)).astype(np.float32)
 
 

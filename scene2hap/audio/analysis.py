@@ -17,7 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.audio.clip import Samples
+from scene2hap.audio.components import peak_offset
 from scene2hap.audio.heard import heard
+from scene2hap.audio.levels import TACTILE_RANGE_HZ
 from scene2hap.audio.windows import hann
 from scene2hap.errors import AudioError
 
@@ -41,8 +43,8 @@ FLATNESS_FRAME_S = 0.125
 FLATNESS_FLOOR_DB = -60.0
 """Floor of bins relative to the mean of their frame [dB]: weaker ones are masked, and codecs replace them by zeros."""
 
-TACTILE_RANGE_HZ = (10.0, 1000.0)
-"""Range that touch perceives as vibration, and that the bands cover."""
+HEARD_RANGE_HZ = (10.0, 20_000.0)
+"""Range in which the strongest component of a sound is looked for, including what is only felt."""
 
 
 def trim_silence(samples: ArrayLike, sample_rate_hz: float) -> Samples:
@@ -170,10 +172,7 @@ def peak_frequency_hz(magnitude: ArrayLike, bin_hz: float, range_hz: tuple[float
     left, centre, right = m[bins - 1], m[bins], m[bins + 1]
     is_peak = (centre >= left) & (centre >= right)
     k = int(bins[np.argmax(np.where(is_peak, centre, 0.0) if is_peak.any() else centre)])
-    a, b, c = np.log(np.maximum(m[k - 1 : k + 2], np.finfo(float).tiny))
-    curvature = a - 2 * b + c
-    offset = float(np.clip(0.5 * (a - c) / curvature, -0.5, 0.5)) if curvature < 0 else 0.0
-    return float((k + offset) * bin_hz)
+    return float((k + peak_offset(m[k - 1 : k + 2])) * bin_hz)
 
 
 def _checked(samples: ArrayLike, sample_rate_hz: float) -> tuple[Signal, float]:

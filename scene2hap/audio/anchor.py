@@ -34,6 +34,7 @@ from scene2hap.audio.components import LINE_DB, Component, Signal, components, m
 from scene2hap.audio.heard import heard
 from scene2hap.audio.levels import TACTILE_RANGE_HZ, drive_db, felt_level_of_spectrum_db, threshold_db
 from scene2hap.audio.moving_pitch import GROWN_DB, MovingPitch, growth_db, moving_pitch
+from scene2hap.audio.protocol import ConversionContext
 from scene2hap.haptics import ActuatorProfile
 
 BAND_Q = 2.0
@@ -62,8 +63,8 @@ ROUGH_HZ = (20.0, 60.0)
 """Modulation rates that are felt as roughness, not as single pulses and not as another tone."""
 RANGE_HZ = (20.0, 1000.0)
 _HIGHEST_HZ = 10_000.0
-_CARRIERS_HZ = np.geomspace(100.0, 300.0, 65)
-"""Possible carriers [Hz], at which a burst of 8 ms still has a frequency, and touch is sensitive."""
+CARRIER_RANGE_HZ = (100.0, 300.0)
+"""Range of carriers [Hz], in which a burst of 8 ms still has a frequency, and touch is sensitive."""
 _OTHER_RATIO = 1.25
 _BEEP_RATIO = 1.5
 """Least ratio of own to felt frequency of a beep; moving sources apart gives at most 1.26, a third of an octave."""
@@ -93,6 +94,17 @@ class Anchor:
     def felt_hz(self) -> float:
         """The frequency at which the source is felt, before sources are moved apart [Hz]."""
         return self.carrier_hz or self.frequency_hz
+
+    def within(self, context: ConversionContext, target_hz: float | None) -> ConversionContext:
+        """Return a context for this source, to be felt at `target_hz` [Hz]."""
+        return replace(
+            context,
+            own_hz=self.frequency_hz,
+            target_hz=target_hz,
+            rough_hz=self.rough_hz,
+            band_q=self.band_q,
+            band_db=self.band_db,
+        )
 
 
 def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuator: ActuatorProfile) -> Anchor | None:
@@ -150,7 +162,7 @@ def band_of(clip: AudioClip, anchor: Anchor) -> NDArray[np.float64]:
     x = clip.samples.astype(np.float64)
     spectrum = scipy.fft.rfft(x - x.mean())
     f = scipy.fft.rfftfreq(len(x), 1.0 / clip.sample_rate_hz)
-    spectrum *= _band(f, anchor.frequency_hz, anchor.band_q or BAND_Q)
+    spectrum *= band_gain(f, anchor.frequency_hz, anchor.band_q or BAND_Q)
     return np.asarray(scipy.fft.irfft(spectrum, len(x)), dtype=np.float64)
 
 
@@ -162,7 +174,7 @@ def rendered_hz(sample_rate_hz: float, actuator: ActuatorProfile) -> tuple[float
 
 def best_carrier_hz(actuator: ActuatorProfile) -> float:
     """Return the frequency at which the actuator is felt best, among those that suit short bursts [Hz]."""
-    f = _CARRIERS_HZ
+    f = np.geomspace(*CARRIER_RANGE_HZ, 65)
     inside = f[(f >= actuator.min_frequency_hz) & (f <= actuator.max_frequency_hz)]
     among = inside if inside.size else f
     return float(among[int(np.argmax(response_db(actuator, among) - threshold_db(among)))])
@@ -271,15 +283,17 @@ class _Needs:
         It is rounded: the last digits of a sum depend on the machine, and would change each sample of a loop.
         """
         own_hz, q = anchor.frequency_hz, anchor.band_q or BAND_Q
-        beep = is_beep(own_hz, anchor.felt_hz)
-        kept = 1.0 / (1.0 + (0.5 * own_hz / np.maximum(self._f, 1e-3)) ** 4) if beep else _band(self._f, own_hz, q) ** 2
+        if is_beep(own_hz, anchor.felt_hz):
+            kept = 1.0 / (1.0 + (0.5 * own_hz / np.maximum(self._f, 1e-3)) ** 4)
+        else:
+            kept = band_gain(self._f, own_hz, q) ** 2
         return round(10.0 * float(np.log10(max(self._power @ kept, 1e-300) / max(self._power.sum(), 1e-300))), 2)
 
     def _band(self, own_hz: float, q: float | None = None) -> tuple[NDArray[np.complex128], Signal]:
         """Return the spectrum of a band and the band itself (n,), both divided by n. The latest one is kept."""
         if self._latest is None or self._latest[0] != (own_hz, q):
             n = min(scipy.fft.next_fast_len(2 * self._n_bins(own_hz, q or BAND_Q), real=True), self._n)
-            band = self._spectrum[: n // 2 + 1] * _band(self._f[: n // 2 + 1], own_hz, q or BAND_Q)
+            band = self._spectrum[: n // 2 + 1] * band_gain(self._f[: n // 2 + 1], own_hz, q or BAND_Q)
             self._latest = (own_hz, q), band, scipy.fft.irfft(band, n)
         return self._latest[1:]
 
@@ -289,7 +303,7 @@ class _Needs:
             min(round(f * self._n / self._rate_hz), len(self._f) - 1)
             for f in (own_hz / 2**0.5, own_hz * 2**0.5, max(_OVERSAMPLED * own_hz, TACTILE_RANGE_HZ[1]))
         )
-        within = float(self._power[low : high + 1] @ _band(self._f[low : high + 1], own_hz, q) ** 2)
+        within = float(self._power[low : high + 1] @ band_gain(self._f[low : high + 1], own_hz, q) ** 2)
         while end < len(self._f) - 1 and (own_hz / q) ** 4 * self._above[end] > 1e-5 * within:
             end = min(2 * end, len(self._f) - 1)
         return end
@@ -312,6 +326,7 @@ def _peak(x: Signal) -> float:
     return len(x) * float(max(x.max(), -x.min()))
 
 
-def _band(f: NDArray[np.float64], own_hz: float, q: float) -> NDArray[np.float64]:
+def band_gain(f: NDArray[np.float64], own_hz: float, q: float) -> NDArray[np.float64]:
+    """Return the gain B(f) of two band-passes in series at frequencies (n,) [Hz], 0..1 [-]."""
     r = np.maximum(f, 1e-3) / own_hz
     return np.asarray(1.0 / (1.0 + (q * (r - 1.0 / r)) ** 2))

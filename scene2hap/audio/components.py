@@ -73,7 +73,7 @@ def peaks(
         kept.append(k)
         heights[np.searchsorted(bins, k / _APART) : np.searchsorted(bins, k * _APART, side="right")] = 0.0
     return [
-        (k, (k + _peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n, 20.0 * float(np.log10(magnitude[k])))
+        (k, (k + peak_offset(magnitude[k - 1 : k + 2])) * sample_rate_hz / n, 20.0 * float(np.log10(magnitude[k])))
         for k in kept
     ]
 
@@ -103,7 +103,8 @@ def _above_noise_db(magnitude: Signal, k: int) -> float:
     return float(20.0 * np.log10(magnitude[k] / max(float(np.median(around)), 1e-300)))
 
 
-def _peak_offset(three: Signal) -> float:
+def peak_offset(three: Signal) -> float:
+    """Return where a parabola through the logarithms of three bins is highest, -0.5..0.5 bins from the middle one."""
     a, b, c = np.log(np.maximum(three, np.finfo(float).tiny))
     curvature = a - 2 * b + c
     return float(np.clip(0.5 * (a - c) / curvature, -0.5, 0.5)) if curvature < 0 else 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from scene2hap.audio.actuators import MAX_BOOST_DB, equalize_loop
+from scene2hap.audio.actuators import equalize_loop
 from scene2hap.audio.anchor import Anchor, anchor_of, band_of
 from scene2hap.audio.clip import AudioClip, Samples
 from scene2hap.audio.distinctness import rhythm_hz
@@ -78,22 +78,15 @@ def plan_scene(
         placed = {i: Placement(voice.own_hz, voice.level_db) for i, voice in zip(known, voices, strict=True)}
     others = [(place.target_hz, sources[i].group) for i, place in placed.items()]
     others += [(voice.own_hz, voice.group) for voice in fixed]
-    return tuple(
-        Plan(
-            ConversionContext(
-                actuator,
-                source.intensity,
-                tuple(dict.fromkeys(frequency for frequency, group in others if group != source.group)),
-                anchor.frequency_hz if anchor is not None else None,
-                placed[i].target_hz if i in placed else None,
-                anchor.rough_hz if anchor is not None else None,
-                anchor.band_q if anchor is not None else None,
-                anchor.band_db if anchor is not None else None,
-            ),
-            placed[i].level_db if i in placed else levels[i],
-        )
-        for i, (source, anchor) in enumerate(zip(sources, anchors, strict=True))
-    )
+    plans = []
+    for i, (source, anchor) in enumerate(zip(sources, anchors, strict=True)):
+        neighbours_hz = tuple(dict.fromkeys(frequency for frequency, group in others if group != source.group))
+        context = ConversionContext(actuator, source.intensity, neighbours_hz)
+        if anchor is None:
+            plans.append(Plan(context, levels[i]))
+        else:
+            plans.append(Plan(anchor.within(context, placed[i].target_hz), placed[i].level_db))
+    return tuple(plans)
 
 
 def _anchors(sources: Sequence[SourceClip], levels: Sequence[float], actuator: ActuatorProfile) -> list[Anchor | None]:
@@ -113,9 +106,7 @@ def _standing_voice(loop: HapticLoop, group: str, actuator: ActuatorProfile) -> 
     return Voice(loop.frequency_tactile_hz, level_db, group, is_placed=True, rhythm_hz=rhythm)
 
 
-def felt_loop(
-    clip: AudioClip, converter: TactileConverter, plan: Plan, max_boost_db: float = MAX_BOOST_DB
-) -> HapticLoop:
+def felt_loop(clip: AudioClip, converter: TactileConverter, plan: Plan) -> HapticLoop:
     """Make the loops of a source; the tactile one is equalized for the actuator and has the planned level.
 
     The level is lower if a peak would exceed full scale less `TACTILE_HEADROOM_DB`.
@@ -124,7 +115,7 @@ def felt_loop(
     actuator, rate = plan.context.actuator, clip.sample_rate_hz
 
     def at_planned_level(samples: Samples) -> Samples:
-        return at_level(equalize_loop(samples, rate, actuator, max_boost_db), rate, plan.level_db, actuator, _PEAK)
+        return at_level(equalize_loop(samples, rate, actuator), rate, plan.level_db, actuator, _PEAK)
 
     loop = loop_pair(clip, converter, plan.context, at_planned_level)
     level_db = felt_level_db(loop.tactile.samples, loop.tactile.sample_rate_hz, actuator)

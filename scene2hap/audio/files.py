@@ -213,10 +213,19 @@ def _write(path: Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubt
     rate = int(checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1, error=AudioError))
     if subtype not in _BITS:
         raise AudioError(f"subtype is {subtype!r}; it must be one of {', '.join(_BITS)}.")
-    encoded = io.BytesIO()
-    soundfile.write(encoded, _quantised(path, samples, _BITS[subtype]), rate, subtype=subtype, format=container)
+    content = encoded(samples, rate, subtype, container, path)
     with written_whole(path) as beside:
-        beside.write_bytes(encoded.getbuffer())
+        beside.write_bytes(content)
+
+
+def encoded(
+    samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype, container: str = "WAV", path: Path = Path("samples")
+) -> bytes:
+    """Return the content of a sound file, see `write_wav`; `path` is named in errors. Raises: AudioError."""
+    content = io.BytesIO()
+    steps = _quantised(path, samples, _BITS[subtype])
+    soundfile.write(content, steps, sample_rate_hz, subtype=subtype, format=container)
+    return content.getvalue()
 
 
 def as_stored(clip: AudioClip) -> AudioClip:

@@ -37,6 +37,7 @@ TACTILE_HEADROOM_DB = 6.0
 """Peak of the tactile loop of a source of full intensity, below full scale [dB]: two such sources add up to full scale
 (within 0.02 dB)."""
 TACTILE_RANGE_HZ = (10.0, 1000.0)
+"""Range that touch perceives as vibration, and that the bands cover."""
 FAINTEST_PEAK_DB = -60.0
 """Peak below which a sound counts as the noise of a recording, which must not be felt [dB re full scale]."""
 
@@ -44,7 +45,7 @@ LEFT_PEAK_DB = -40.0
 """Peak of a vibration relative to its sound [dB]. If it is below this, and below `FAINTEST_PEAK_DB`, the converter has
 left only the noise of the recording (assumed)."""
 
-_NOTHING_DB = -120.0
+NOTHING_DB = -120.0
 """Level below which there are only rounding errors [dB]."""
 
 
@@ -120,7 +121,7 @@ def at_level(
     Raises: AudioError: no component of the loop can be felt.
     """
     now_db = felt_level_db(samples, sample_rate_hz, actuator)
-    if now_db < _NOTHING_DB:
+    if now_db < NOTHING_DB:
         raise AudioError("the tactile signal is silent between 10 and 1000 Hz. Choose another sound or converter.")
     gain = min(10 ** ((level_db - now_db) / 20), peak / float(np.abs(samples).max()))
     return np.asarray(samples * gain, dtype=np.float32)

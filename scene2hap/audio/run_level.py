@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.signal import butter, sosfiltfilt
 
+from scene2hap.audio.levels import TACTILE_RANGE_HZ
 from scene2hap.audio.speed_track import SpeedTrack
 from scene2hap.audio.windows import hann
 
 Signal = NDArray[np.float64]
 
-FELT_HZ = (10.0, 1000.0)
 BIN_S = 0.010
 LEAST_RISE_DB = 12.0
 """Least rise from the room's level to steady running [dB]: a sound that was turned up a little is no start."""
@@ -82,11 +82,11 @@ class Rise(NamedTuple):
 def felt_power(samples: Signal, sample_rate_hz: float) -> Signal:
     """Return the power (n_bins,) [-] of a recording (n,) in the felt band, in whole bins of `BIN_S`; empty if it is too
     short, or its sample rate too low."""
-    size, high = round(BIN_S * sample_rate_hz), min(FELT_HZ[1], 0.45 * sample_rate_hz)
+    size, high = round(BIN_S * sample_rate_hz), min(TACTILE_RANGE_HZ[1], 0.45 * sample_rate_hz)
     n_bins = len(samples) // max(1, size)
-    if size < 1 or high < 2 * FELT_HZ[0] or n_bins * BIN_S < MIN_STEADY_S + SHORTEST_S:
+    if size < 1 or high < 2 * TACTILE_RANGE_HZ[0] or n_bins * BIN_S < MIN_STEADY_S + SHORTEST_S:
         return np.zeros(0)
-    sos = butter(2, (FELT_HZ[0], high), "bandpass", fs=sample_rate_hz, output="sos")
+    sos = butter(2, (TACTILE_RANGE_HZ[0], high), "bandpass", fs=sample_rate_hz, output="sos")
     felt = sosfiltfilt(sos, samples - np.median(samples))
     return np.asarray((felt[: n_bins * size].reshape(n_bins, size) ** 2).mean(axis=1))
 
@@ -127,7 +127,7 @@ def find_rise(power: Signal, steady: Steady, track: SpeedTrack | None = None) ->
     if not is_within or not SHORTEST_S <= length * BIN_S <= LONGEST_S:
         return None
     residual_db = fit.residual_db(found)
-    if _rms(residual_db[max(0, math.floor(t0)) : math.ceil(t0 + length)]) > MOST_RESIDUAL_DB:
+    if np.sqrt(np.mean(residual_db[max(0, math.floor(t0)) : math.ceil(t0 + length)] ** 2)) > MOST_RESIDUAL_DB:
         return None
     x = np.linspace(0.0, 1.0, max(_FEWEST_POINTS, round(length * BIN_S * _POINTS_PER_S) + 1))
     at = t0 + x * length
@@ -196,10 +196,6 @@ def _pinned(values: Signal) -> Signal:
     rising = np.clip(np.maximum.accumulate(values), 0.0, 1.0)
     rising[0], rising[-1] = 0.0, 1.0
     return np.asarray(rising)
-
-
-def _rms(values: Signal) -> float:
-    return float(np.sqrt(np.mean(values**2)))
 
 
 def _smoothed(values: Signal, n: int) -> Signal:

@@ -13,12 +13,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap import checks
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
+from scene2hap.audio.levels import TACTILE_RANGE_HZ
 from scene2hap.audio.recorded_runs import RecordedRuns, recorded_runs
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.errors import AudioError
@@ -27,7 +29,6 @@ MIN_DURATION_S = 2.5
 DYNAMIC_RANGE_STEP_DB = 5.0
 FADE_S = 0.005
 """Length of the fade at a cut [s]. A cut may be in the middle of noise that is 40 dB below the peak."""
-HEARD_RANGE_HZ = (10.0, 20_000.0)
 
 _NYQUIST_MARGIN = 0.45
 """Share of the lowest rate among the candidates below which flatness is compared, to avoid resamplers' slopes."""
@@ -141,10 +142,7 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
             title=credit.title,
             origin=credit.origin or credit.address or credit.author,
             duration_s=durations[i],
-            dynamic_range_db=score.dynamic_range_db if score else None,
-            flatness=score.flatness if score else None,
-            frequency_raw_hz=score.frequency_raw_hz if score else None,
-            frequency_tactile_hz=score.frequency_tactile_hz if score else None,
+            **(score._asdict() if score else dict.fromkeys(_Scores._fields)),
             is_chosen=i == best,
             verdict=_verdict(durations[i], score, limit_db, scores[best], runs[i] if i == best else None),
         )
@@ -153,8 +151,7 @@ def explain_choice(clips: Sequence[AudioClip]) -> Choice:
     return Choice(winner, tuple(map(row, range(len(clips)))), limit_db, band, found.start_up, found.wind_down)
 
 
-@dataclass(frozen=True)
-class _Scores:
+class _Scores(NamedTuple):
     dynamic_range_db: float
     flatness: float
     frequency_raw_hz: float
@@ -162,7 +159,7 @@ class _Scores:
 
     @classmethod
     def of(cls, samples: Samples, rate: int, band_hz: tuple[float, float]) -> _Scores:
-        raw_hz, tactile_hz = analysis.dominant_frequencies_hz(samples, rate, HEARD_RANGE_HZ, analysis.TACTILE_RANGE_HZ)
+        raw_hz, tactile_hz = analysis.dominant_frequencies_hz(samples, rate, analysis.HEARD_RANGE_HZ, TACTILE_RANGE_HZ)
         return cls(
             analysis.dynamic_range_db(samples, rate, dominant_hz=tactile_hz),
             analysis.spectral_flatness(samples, rate, band_hz=band_hz),

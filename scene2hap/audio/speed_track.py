@@ -91,11 +91,11 @@ def track_speed(
     unclear = np.flatnonzero(
         (clear_db < CLEAR_DB + BY_CHANCE_DB / len(lines_hz)) | (path * lines_hz.min() < _LOBE * sample_rate_hz / size)
     )
-    told = slice(int(unclear[-1]) + 1 if unclear.size else 0, None)
-    track = SpeedTrack((at + _centres(samples, at, size))[told] / sample_rate_hz, path[told])
-    told_s = np.count_nonzero(track.at_s < rise_s[1]) * hop / sample_rate_hz
-    is_told = told_s >= LEAST_SHARE * length_s and (track.is_constant or length_s >= SHORTEST_S)
-    return track if is_told else None
+    clear = slice(int(unclear[-1]) + 1 if unclear.size else 0, None)
+    track = SpeedTrack((at + _centres(samples, at, size))[clear] / sample_rate_hz, path[clear])
+    clear_s = np.count_nonzero(track.at_s < rise_s[1]) * hop / sample_rate_hz
+    is_shown = clear_s >= LEAST_SHARE * length_s and (track.is_constant or length_s >= SHORTEST_S)
+    return track if is_shown else None
 
 
 def _centres(x: Signal, at: NDArray[np.intp], size: int) -> Signal:

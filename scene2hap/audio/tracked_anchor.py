@@ -69,8 +69,8 @@ class TrackedAnchor:
         return _NEW_SHARE * power + (1.0 - _NEW_SHARE) * before
 
     def share(self, passes: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> float:
-        """Return the averaged power [-] that a filter with this gain over frequency [Hz] passes."""
+        """Return the averaged power [-] that a filter with this gain of power over frequency [Hz] passes."""
         if self._power is None:
             return 0.0
         f = np.arange(len(self._power)) * self._rate_hz / (2 * (len(self._power) - 1))
-        return float(self._power @ passes(f) ** 2)
+        return float(self._power @ passes(f))

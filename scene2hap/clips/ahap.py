@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from scene2hap.clips.fields import Fields, read_fields
+from scene2hap.clips.fields import Fields, read_fields, rising_times
 from scene2hap.clips.haptic_clip import (
     MAX_CLIP_S,
     MAX_POINTS,
@@ -228,12 +228,8 @@ def _read_event(event: Fields, pattern: _Pattern) -> None:
 
 def _read_curve(curve: Fields, pattern: _Pattern) -> None:
     start = _time(curve)
-    points: Points = []
-    for one in curve.items("ParameterCurveControlPoints", MAX_POINTS):
-        time = _time(one)
-        if points and time < points[-1][0]:
-            raise one.error("Time", f"is {time:g} s; it must not be before the point above it at {points[-1][0]:g} s")
-        points.append((time, _value(one)))
+    rows = curve.items("ParameterCurveControlPoints", MAX_POINTS)
+    points = [*zip(rising_times(rows, "Time", default=0.0), map(_value, rows), strict=True)]
     is_absolute = start > 0.0 and bool(points) and abs(points[0][0] - start) < 1e-9
     if not is_absolute:
         points = [(round(start + time, _DECIMALS), value) for time, value in points]
@@ -327,8 +323,6 @@ def _frequency(pattern: _Pattern) -> Curve | None:
         values = list(dict.fromkeys(value for value in (earlier, later) if value is not None))
         if time in bends or not points or len(values) > 1:
             points += [(time, value) for value in values]
-    if len(points) > 1 and start not in bends and points[0][1] == points[1][1]:
-        points = points[1:]  # the curve begins later, and keeps its first value before
     return _squared(points)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
+from scene2hap.clips.haptic_clip import MAX_CLIP_S
 from scene2hap.errors import ClipError
 from scene2hap.printable import parse_json
 from scene2hap.text_files import read_small
@@ -85,6 +86,17 @@ class Fields:
 
     def _at(self, name: str) -> str:
         return f"{self.place}.{name}" if self.place else name
+
+
+def rising_times(rows: tuple[Fields, ...], name: str, default: float | None = None) -> list[float]:
+    """Return the times [s] in a field of each row. Raises: ClipError: a time is out of bounds, or before another."""
+    times: list[float] = []
+    for row in rows:
+        time = row.number(name, at_most=MAX_CLIP_S, unit="s", default=default)
+        if times and time < times[-1]:
+            raise row.error(name, f"is {time:g} s; it must not be before the point above it at {times[-1]:g} s")
+        times.append(time)
+    return times
 
 
 def read_fields(path: Path, *, needed: str, kind: str) -> Fields:

@@ -137,7 +137,10 @@ class HapticClip:
         return float(self.amplitude.times_s[-1])
 
     def frequency_hz(self, times_s: ArrayLike) -> Values:
-        """Return the frequency (n,) [Hz] at times (n,) [s]."""
+        """Return the frequency (n,) [Hz] at times (n,) [s]; before the first point of its curve it is the middle."""
         low, high = self.range_hz
         t = np.asarray(times_s, dtype=np.float64)
-        return low + (high - low) * (self.frequency.at(t) if self.frequency is not None else np.full(t.shape, 0.5))
+        pitch = np.full(t.shape, 0.5)
+        if self.frequency is not None:
+            pitch = np.where(t < self.frequency.times_s[0], pitch, self.frequency.at(t))
+        return np.asarray(low + (high - low) * pitch)

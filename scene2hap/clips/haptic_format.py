@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from scene2hap.clips.fields import Fields, read_fields
-from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS, RANGE_HZ, About, Curve, HapticClip, Transient
+from scene2hap.clips.fields import Fields, read_fields, rising_times
+from scene2hap.clips.haptic_clip import MAX_POINTS, RANGE_HZ, About, Curve, HapticClip, Transient
 from scene2hap.errors import ClipError
 
 SUFFIX = ".haptic"
@@ -36,7 +36,7 @@ def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, floa
     rows = envelopes.items("amplitude", MAX_POINTS)
     if len(rows) < 2:
         raise envelopes.error("amplitude", f"has {len(rows)} points; it must have at least 2")
-    times = _times(rows)
+    times = rising_times(rows, "time")
     amplitude = [row.number("amplitude") for row in rows]
     if times[-1] <= times[0]:
         raise envelopes.error("amplitude", f"lasts {times[-1] - times[0]:g} s; it must be longer than 0 s")
@@ -47,11 +47,12 @@ def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, floa
     )
     frequency = None
     if "frequency" in envelopes and (points := envelopes.items("frequency", MAX_POINTS)):
-        frequency = Curve(np.array(_times(points)), np.array([point.number("frequency") for point in points]))
-        outside = [point for point in points if not times[0] <= point.number("time", at_most=MAX_CLIP_S) <= times[-1]]
+        bends = rising_times(points, "time")
+        frequency = Curve(np.array(bends), np.array([point.number("frequency") for point in points]))
+        outside = [(at, point) for at, point in zip(bends, points, strict=True) if not times[0] <= at <= times[-1]]
         if outside and not legacy:
-            at = outside[0].number("time", at_most=MAX_CLIP_S)
-            raise outside[0].error(
+            at, point = outside[0]
+            raise point.error(
                 "time",
                 f"is {at:g} s, which {_SPAN_RULE}, {times[0]:g} to {times[-1]:g} s. Read it with legacy=True, or "
                 "export it with a newer program",
@@ -68,13 +69,18 @@ def compose_haptic(clip: HapticClip) -> dict[str, Any]:
     """Return the .haptic document of a clip.
 
     A transient becomes the emphasis of the amplitude point at its time; a missing point is added. The emphasis is at
-    least as strong as the curve there. Frequency points outside the amplitude curve are moved to its ends.
+    least as strong as the curve there. Before a curve that begins after the first transient, the amplitude is 0.
+    Frequency points outside the amplitude curve are moved to its ends.
     """
-    times, values = clip.amplitude.times_s, clip.amplitude.values
+    curve = clip.amplitude
+    if clip.transients and clip.transients[0].time_s < curve.times_s[0]:
+        silence_s = [clip.transients[0].time_s, curve.times_s[0]]
+        curve = Curve(np.append(silence_s, curve.times_s), np.append([0.0, 0.0], curve.values), curve.power)
+    times, values = curve.times_s, curve.values
     pulses = {one.time_s: one for one in clip.transients if times[0] <= one.time_s <= times[-1]}
     missing = sorted(set(pulses) - set(times.tolist()))
     at = np.searchsorted(times, missing, side="right")
-    values = np.insert(values, at, clip.amplitude.at(np.array(missing)))
+    values = np.insert(values, at, curve.at(np.array(missing)))
     times = np.insert(times, at, missing)
     rows = []
     for time, value in zip(times.tolist(), values.tolist(), strict=True):
@@ -101,16 +107,6 @@ def compose_haptic(clip: HapticClip) -> dict[str, Any]:
         },
         "signals": {"continuous": {"envelopes": envelopes}},
     }
-
-
-def _times(rows: tuple[Fields, ...]) -> list[float]:
-    times: list[float] = []
-    for row in rows:
-        time = row.number("time", at_most=MAX_CLIP_S, unit="s")
-        if times and time < times[-1]:
-            raise row.error("time", f"is {time:g} s; it must not be before the point above it at {times[-1]:g} s")
-        times.append(time)
-    return times
 
 
 def _emphasis(fields: Fields, time_s: float, level: float) -> Transient:

@@ -18,8 +18,6 @@ RATE_HZ = 8000
 DUCKING = 0.5
 _PULSE_HZ = (55.0, 165.0)
 _PULSE_S = (0.0364, 0.0121)
-_MIDDLE = 0.5
-"""Frequency before the first point of its curve, 0..1."""
 _TAIL_S = 0.1
 """Extra duration of a clip whose last point has a transient [s]."""
 
@@ -30,27 +28,20 @@ def synthesize(clip: HapticClip, sample_rate_hz: float = RATE_HZ) -> NDArray[np.
     if clip.transients and clip.transients[-1].time_s >= end_s:
         end_s += _TAIL_S
     t = np.arange(max(1, int(end_s * sample_rate_hz + 1e-6))) / sample_rate_hz
-    low, high = clip.range_hz
     frequency = clip.frequency_hz(t)
-    if clip.frequency is not None:
-        frequency[t < clip.frequency.times_s[0]] = low + _MIDDLE * (high - low)
     phase = np.concatenate([[0.0], np.cumsum(frequency[:-1])]) / sample_rate_hz
     amplitude = clip.amplitude.at(t)
     amplitude[t < clip.amplitude.times_s[0]] = 0.0
     pulses = np.zeros_like(t)
     for i, pulse in enumerate(clip.transients):
         first = int(np.ceil(pulse.time_s * sample_rate_hz - 1e-6))
-        end = min(len(t), first + pulse_samples(pulse, sample_rate_hz))
+        pulse_s = _PULSE_S[0] + pulse.frequency * (_PULSE_S[1] - _PULSE_S[0])
+        end = min(len(t), first + int(pulse_s * sample_rate_hz))
         if i + 1 < len(clip.transients):  # the next transient ends this one
             end = min(end, max(first, int(np.ceil(clip.transients[i + 1].time_s * sample_rate_hz - 1e-6))))
         pulses[first:end] = _pulse(pulse, end - first, sample_rate_hz)
         amplitude[first:end] *= DUCKING
     return amplitude * np.sin(2.0 * np.pi * phase) + pulses
-
-
-def pulse_samples(pulse: Transient, sample_rate_hz: float) -> int:
-    """Return the number of samples of a transient."""
-    return int((_PULSE_S[0] + pulse.frequency * (_PULSE_S[1] - _PULSE_S[0])) * sample_rate_hz)
 
 
 def _pulse(pulse: Transient, n: int, sample_rate_hz: float) -> NDArray[np.float64]:

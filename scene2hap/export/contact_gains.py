@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.contact.graph import ContactGraph
@@ -19,25 +18,21 @@ LEAST_GAIN = 1e-3
 """Least gain that is exported [-]: 60 dB below the source nothing is felt."""
 
 
-@dataclass(frozen=True)
-class ContactPath:
-    """The vibration of a source that enters an object at one contact.
+class PathEntry(BaseModel):
+    """The gain of a source at a contact through which it enters an object (scene at rest, first states)."""
 
-    Parameters: source, object_id, by : the source, the object, and the object on the other side of the contact;
-        point_m : the contact [m], world; gain : amplitude there relative to the source [-]; decay_per_m : decay on the
-        object with the distance from the contact, exp(-decay_per_m * distance_m), by the paper's law [1/m]; None for
-        other models and for objects without a plate.
-    """
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
     source: str
     object_id: str
-    by: str
+    by: str  # the object on the other side of the contact
     point_m: tuple[float, float, float]
     gain: float
-    decay_per_m: float | None
+    # By the paper's law; None for other models, and for objects without a plate.
+    decay_per_m: float | None = Field(description="gain(d) = gain * exp(-decay_per_m * d), d metres on the object")
 
 
-def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -> tuple[ContactPath, ...]:
+def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -> tuple[PathEntry, ...]:
     """Return the gain of each source, in its first state, on both sides of every contact, strongest first by source.
 
     Parameters: model : of propagation; the paper's law if None.
@@ -68,5 +63,8 @@ def contact_paths(bundle: HapticBundle, model: PropagationModel | None = None) -
                     continue
                 body = known.get(here)
                 decay = float(body.wavenumber_rad_m(hertz[source])) if hertz and isinstance(body, Plate) else None
-                found.append(ContactPath(source, here, there, contact.point_m, gain, decay))
+                point_m = contact.point_m
+                found.append(
+                    PathEntry(source=source, object_id=here, by=there, point_m=point_m, gain=gain, decay_per_m=decay)
+                )
     return tuple(sorted(found, key=lambda path: (path.source, -path.gain)))

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from scene2hap import checks
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.calls import clear_construction
-from scene2hap.clips.haptic_clip import RANGE_HZ, About, Curve, HapticClip, Transient
+from scene2hap.clips.haptic_clip import RANGE_HZ, Curve, HapticClip, Transient
 from scene2hap.errors import ConfigError
 from scene2hap.export.envelope import FLOOR_DB, Envelope, Pulse, Signal, decibels
-from scene2hap.export.fidelity import Fidelity, fidelity
+from scene2hap.export.fidelity import fidelity
 from scene2hap.export.simplify import simplified
 from scene2hap.export.track import Channel
 
@@ -52,27 +52,33 @@ class CurveSettings:
         checks.flag("transients", self.transients, error=ConfigError)
 
 
-def curves_of(
-    channel: Channel, settings: CurveSettings, *, power: float = 1.0, about: About | None = None
-) -> HapticClip:
+def curves_of(channel: Channel, settings: CurveSettings, *, power: float = 1.0) -> HapticClip:
     """Return the clip of a channel: its own if a person drew one, otherwise curves that follow its envelope.
 
-    Parameters: power : of the curves; 2 for formats that store roots (`Curve`).
+    Parameters: power : of the curves; 2 for formats that store roots (`Curve`). The points of a drawn clip stay, with
+        the lines of the format between them.
     """
     if channel.clip is not None:
-        return channel.clip
-    plain = _clip(channel.envelope, settings, power, about or About(), with_pulses=False)
+        lines = {name: getattr(channel.clip, name) for name in ("amplitude", "frequency")}
+        return replace(channel.clip, **{name: curve and replace(curve, power=power) for name, curve in lines.items()})
+    plain = _clip(channel.envelope, settings, power, with_pulses=False)
     if not settings.transients or not channel.envelope.pulses:
         return plain
-    pulsed = _clip(channel.envelope, settings, power, about or About(), with_pulses=True)
-    return min(plain, pulsed, key=lambda clip: _missed(fidelity(channel, clip)))
+    pulsed = _clip(channel.envelope, settings, power, with_pulses=True)
+    errors = [fidelity(channel, clip) for clip in (plain, pulsed)]
+    missed_db = [one.median_db + one.p95_db for one in errors]
+    return plain if missed_db[0] <= missed_db[1] else pulsed
 
 
-def _missed(found: Fidelity) -> float:
-    return found.median_db + found.p95_db
+def from_start(frequency: Curve | None) -> Curve | None:
+    """Return a curve of frequency that begins at time 0; before its own first point it is the middle."""
+    if frequency is None or frequency.times_s[0] == 0.0:
+        return frequency
+    times, values = np.append([0.0, frequency.times_s[0]], frequency.times_s), np.append([0.5, 0.5], frequency.values)
+    return replace(frequency, times_s=times, values=values)
 
 
-def _clip(envelope: Envelope, settings: CurveSettings, power: float, about: About, *, with_pulses: bool) -> HapticClip:
+def _clip(envelope: Envelope, settings: CurveSettings, power: float, *, with_pulses: bool) -> HapticClip:
     times = envelope.times_s
     amplitude = np.minimum(envelope.without_pulses() if with_pulses else envelope.sharpened(), 1.0)
     peak = float(envelope.amplitude.max())
@@ -97,7 +103,6 @@ def _clip(envelope: Envelope, settings: CurveSettings, power: float, about: Abou
         Curve(_rounded(times[bends]), _rounded(pitches[bends] ** power), power),
         transients,
         settings.range_hz,
-        about,
     )
 
 

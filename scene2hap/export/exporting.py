@@ -162,7 +162,7 @@ def _write(
                 progress("exporting", f"{track.name} to {kind}", done, total)
     report = ExportReport(str(folder), tuple(rows))
     _put(folder, "report.json", json_bytes(report.to_data()))
-    _put(folder, "report.txt", f"{report.text}\n".encode())
+    _put(folder, "report.txt", f"{report}\n".encode())
     if manifest is not None:
         _put(folder, NAME, manifest(report))
     return report

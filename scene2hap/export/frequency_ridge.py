@@ -28,8 +28,8 @@ _FLOOR_DB = -60.0
 def ridge_hz(samples: Signal, sample_rate_hz: float, times_s: Signal, *, is_loop: bool) -> Signal:
     """Return the frequency (n,) [Hz] of a signal (n_samples,) at times (n,) [s], within `RANGE_HZ`."""
     starts, levels, grid = _levels(samples, sample_rate_hz, is_loop=is_loop)
-    way = _best_way(levels, grid)
-    return np.exp(np.interp(times_s, starts, np.log(_refined(levels, grid, way))))
+    path = _best_path(levels, grid)
+    return np.exp(np.interp(times_s, starts, np.log(_refined(levels, grid, path))))
 
 
 def _levels(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> tuple[Signal, Signal, Signal]:
@@ -53,7 +53,7 @@ def _levels(samples: Signal, sample_rate_hz: float, *, is_loop: bool) -> tuple[S
     return firsts / sample_rate_hz, levels, grid
 
 
-def _best_way(levels: Signal, grid: Signal) -> NDArray[np.intp]:
+def _best_path(levels: Signal, grid: Signal) -> NDArray[np.intp]:
     k = np.arange(len(grid))
     cost = JUMP_DB / PER_OCTAVE * np.abs(k[:, None] - k[None, :])
     total = levels[0].copy()
@@ -63,17 +63,17 @@ def _best_way(levels: Signal, grid: Signal) -> NDArray[np.intp]:
             reached = total[None, :] - cost
             before[row] = reached.argmax(axis=1)
             total = level + reached[k, before[row]]
-    way = np.empty(len(levels), dtype=np.intp)
-    way[-1] = total.argmax()
+    path = np.empty(len(levels), dtype=np.intp)
+    path[-1] = total.argmax()
     for row in range(len(levels) - 1, 0, -1):
-        way[row - 1] = before[row, way[row]]
-    return way
+        path[row - 1] = before[row, path[row]]
+    return path
 
 
-def _refined(levels: Signal, grid: Signal, way: NDArray[np.intp]) -> Signal:
+def _refined(levels: Signal, grid: Signal, path: NDArray[np.intp]) -> Signal:
     """Return frequencies between those of the grid, by a parabola through three levels."""
-    inner = np.clip(way, 1, len(grid) - 2)
-    rows = np.arange(len(way))
+    inner = np.clip(path, 1, len(grid) - 2)
+    rows = np.arange(len(path))
     a, b, c = levels[rows, inner - 1], levels[rows, inner], levels[rows, inner + 1]
     bend = a - 2.0 * b + c
     offset = np.where(bend < -1e-9, 0.5 * (a - c) / np.where(bend < -1e-9, bend, -1.0), 0.0)

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from scene2hap.bundle import HapticBundle
-from scene2hap.export.contact_gains import contact_paths
+from scene2hap.export.contact_gains import PathEntry, contact_paths
 from scene2hap.export.report import ExportReport
 from scene2hap.propagation.protocol import PropagationModel
 
@@ -70,17 +70,6 @@ class ObjectEntry(_Part):
     mass_kg: float | None
 
 
-class PathEntry(_Part):
-    """The gain of a source at a contact through which it enters an object (scene at rest, first states)."""
-
-    source: str
-    object_id: str
-    by: str
-    point_m: Triple
-    gain: float
-    decay_per_m: float | None = Field(description="gain(d) = gain * exp(-decay_per_m * d), d metres on the object")
-
-
 class TourEntry(_Part):
     """The vibration of all hands over time, from a file of touches."""
 
@@ -135,7 +124,7 @@ def manifest_of(
             )
             for source, found in states.items()
         ),
-        paths=tuple(PathEntry(**vars(path)) for path in contact_paths(bundle, model)),
+        paths=contact_paths(bundle, model),
         tours=tuple(TourEntry(name=name, duration_s=s, files=tuple(files.get(name, ()))) for name, s in tours.items()),
         credits=tuple(f"{one.title}, by {one.author}, {one.licence}" for one in bundle.credits),
     )

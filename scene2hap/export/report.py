@@ -49,14 +49,9 @@ class ExportReport:
         """Names of the files, relative to the folder."""
         return tuple(dict.fromkeys(name for row in self.rows for name in row.files))
 
-    @property
-    def text(self) -> str:
-        """Text with a line for each file."""
-        return "\n".join(map(str, self.rows))
-
     def to_data(self) -> dict[str, Any]:
         """Return the report as plain data, for JSON."""
         return {"folder": self.folder, "files": [asdict(row) for row in self.rows]}
 
     def __str__(self) -> str:
-        return self.text
+        return "\n".join(map(str, self.rows))

@@ -107,6 +107,12 @@ class Track:
     name: str
     channels: Mapping[str, Channel] = field(default_factory=dict)
 
+    def frames(self, sample_rate_hz: float) -> Signal:
+        """Return all channels at another rate, (n_samples, n_channels); shorter ones end in silence."""
+        channels = [one.at_rate(sample_rate_hz) for one in self.channels.values()]
+        n = max(map(len, channels))
+        return np.stack([np.pad(one, (0, n - len(one))) for one in channels], axis=1)
+
     @property
     def is_loop(self) -> bool:
         """True if all channels are loops."""

@@ -12,7 +12,6 @@ from scene2hap.audio.windows import hann
 Block = NDArray[np.float32]
 """Samples (n, channels)."""
 
-HEARD_RANGE_HZ = (10.0, 20_000.0)
 SEGMENT_S = 2.5
 """Length of the pieces whose power spectra are averaged [s]; peaks are then accurate to 0.02 Hz."""
 MOST_SEGMENTS = 4
@@ -73,9 +72,9 @@ class Meter:
             self._add(np.pad(rest, ((0, 0), (0, self._segment.shape[1] - self._filled))))
         if not self._power[1:].any():
             return None
-        high = min(HEARD_RANGE_HZ[1], 0.5 * self._rate)
+        low, high = analysis.HEARD_RANGE_HZ
         bin_hz = self._rate / self._segment.shape[1]
-        return analysis.peak_frequency_hz(np.sqrt(self._power), bin_hz, (HEARD_RANGE_HZ[0], high))
+        return analysis.peak_frequency_hz(np.sqrt(self._power), bin_hz, (low, min(high, 0.5 * self._rate)))
 
     def _skip(self, at: int, end: int) -> int:
         """Return the index in the block at which the next segment begins or continues; `end` if none does."""

@@ -20,7 +20,7 @@ from scene2hap.haptics import ActuatorProfile
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
 
-WIDTH, LANE, ENVELOPE, MARGIN, TOP = 900, 240, 110, 80, 44
+WIDTH, SPECTROGRAM, ENVELOPE, MARGIN, TOP = 900, 240, 110, 80, 44
 LOWEST_HZ, HIGHEST_HZ = 10.0, 20_000.0
 DEPTH_DB = 80.0
 """Dynamic range of the picture [dB], below the loudest point of both sounds and below full scale."""
@@ -48,7 +48,7 @@ def draw_conversion(
     `felt` is the converted file; `meters` have measured both and hold their envelopes (n_columns,). Each of the `WIDTH`
     columns of a spectrogram is one window of the file, so that memory does not grow with its length.
     """
-    height = TOP + 2 * (LANE + ENVELOPE + 46) + 30
+    height = TOP + 2 * (SPECTROGRAM + ENVELOPE + 46) + 30
     image = Image.new("RGB", (MARGIN + WIDTH + 20, height), "white")
     draw = ImageDraw.Draw(image)
     font = ImageFont.load_default(14)
@@ -62,10 +62,10 @@ def draw_conversion(
         draw.text((MARGIN, top), f"{name}: {DEPTH_DB:g} dB down from the loudest of both{says}", fill=_INK, font=font)
         image.paste(_coloured(powers, loudest), (MARGIN, top + 18))
         _frequency_axis(draw, top + 18, min(HIGHEST_HZ, 0.5 * rate), font)
-        _draw_envelope(draw, meter, top + 18 + LANE + 6, font)
+        _draw_envelope(draw, meter, top + 18 + SPECTROGRAM + 6, font)
         if name == "after" and felt_hz is not None:
             _draw_felt(draw, felt_hz, actuator, top + 18, min(HIGHEST_HZ, 0.5 * rate), font)
-        top += LANE + ENVELOPE + 46
+        top += SPECTROGRAM + ENVELOPE + 46
     duration_s = meters[0].n_frames / rate
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
         label = f"{share * duration_s:.3g} s"
@@ -76,14 +76,14 @@ def draw_conversion(
 
 
 def _spectrogram(path: Path, n_frames: int) -> tuple[NDArray[np.float64], int]:
-    """Return the power of the channels' mean (LANE, WIDTH) and the rate; rows are logarithmic, from high to low."""
+    """Return the power of the channels' mean (SPECTROGRAM, WIDTH) and the rate; rows fall logarithmically."""
     with opened_sound(path) as file:
         rate = int(file.samplerate)
         size = max(2, round(WINDOW_S * rate))
         window = hann(size)
-        f = np.geomspace(min(HIGHEST_HZ, 0.5 * rate), LOWEST_HZ, LANE)
+        f = np.geomspace(min(HIGHEST_HZ, 0.5 * rate), LOWEST_HZ, SPECTROGRAM)
         bins = np.clip(np.round(f * size / rate).astype(int), 0, size // 2)
-        powers = np.zeros((LANE, WIDTH))
+        powers = np.zeros((SPECTROGRAM, WIDTH))
         for column, samples in enumerate(_windows(file, n_frames, size)):
             powers[:, column] = np.abs(np.fft.rfft(samples * window))[bins] ** 2
     return powers, rate
@@ -120,7 +120,7 @@ def _frequency_axis(draw: ImageDraw.ImageDraw, top: int, highest_hz: float, font
 
 def _row(hz: float, highest_hz: float) -> float:
     """Return the row of a frequency in a spectrogram, from its top."""
-    return float((LANE - 1) * np.log(highest_hz / hz) / np.log(highest_hz / LOWEST_HZ))
+    return float((SPECTROGRAM - 1) * np.log(highest_hz / hz) / np.log(highest_hz / LOWEST_HZ))
 
 
 def _depth(level_db: float) -> float:
@@ -147,6 +147,6 @@ def _draw_felt(
     draw.line([(MARGIN + WIDTH - 12, y), (MARGIN + WIDTH, y)], fill=_FELT, width=2)
     draw.text((MARGIN + 16, y - 9), f"{felt_hz:.0f} Hz", fill="white", font=font)
     least_db = float(drive_db(felt_hz, 0.0, actuator))
-    y = top + LANE + 6 + _depth(least_db)
+    y = top + SPECTROGRAM + 6 + _depth(least_db)
     draw.line([(MARGIN, y), (MARGIN + WIDTH, y)], fill=_FELT, width=2)
     draw.text((MARGIN + 4, y - 18), f"felt from here on at {felt_hz:.0f} Hz", fill="white", font=font)

@@ -11,7 +11,7 @@ import math
 import time
 from collections.abc import Collection, Iterator
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO
@@ -28,7 +28,7 @@ from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
 from scene2hap.audio.files import Mixdown, opened_sound, require_finite, written_whole
 from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
-from scene2hap.audio.levels import TACTILE_HEADROOM_DB, is_noise, sensation_level_db
+from scene2hap.audio.levels import NOTHING_DB, TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import (
     ConversionContext,
     TactileConverter,
@@ -58,8 +58,6 @@ BLOCK_FRAMES = 65_536
 _FULL_SCALE = 2.0**23
 _NEARLY_FULL = 1.0 - 1.0 / _FULL_SCALE
 _PICTURE_COLUMNS = 900
-_NOTHING_DB = -120.0
-"""Level below which there are only rounding errors [dB]."""
 _OFFSET_FRAMES = 65_536
 _END_S = 0.01
 """Length of the fade-out at the end of a file [s]; a sound that breaks off would end with a knock."""
@@ -144,7 +142,7 @@ def convert(
         if not raw and getattr(built, "follows_target", False):
             context = _looked_at(file, context)
         only = _strongest_of_cancelled(file) if mono else None
-        felt = _Felt(built, context, file, mono=mono, only=only, raw=raw, n_columns=_PICTURE_COLUMNS if drawn else 0)
+        felt = _Running(built, context, file, mono=mono, only=only, raw=raw, n_columns=_PICTURE_COLUMNS if drawn else 0)
         blocks = felt.blocks(source, file)
         with _opened_for_writing(output, beside, felt) as target, ExitStack() as held:
             if not raw:
@@ -190,16 +188,7 @@ def _looked_at(file: soundfile.SoundFile, context: ConversionContext) -> Convers
     if len(heard) < 2 or not np.isfinite(heard).all():  # the conversion raises an error for this
         return context
     anchor = anchor_of(heard, file.samplerate, sensation_level_db(context.intensity), context.actuator)
-    if anchor is None:
-        return context
-    return replace(
-        context,
-        own_hz=anchor.frequency_hz,
-        target_hz=anchor.carrier_hz,
-        rough_hz=anchor.rough_hz,
-        band_q=anchor.band_q,
-        band_db=anchor.band_db,
-    )
+    return context if anchor is None else anchor.within(context, anchor.carrier_hz)
 
 
 def _strongest_of_cancelled(file: soundfile.SoundFile) -> int | None:
@@ -227,7 +216,7 @@ def settled(converter: object, actuator: object, intensity: float) -> tuple[Tact
     return built, ConversionContext(actuator_profile(actuator), intensity)
 
 
-class _Felt:
+class _Running:
     """A running conversion: a stream for each channel, a meter for the sound and one for the vibration."""
 
     def __init__(
@@ -259,7 +248,7 @@ class _Felt:
     def blocks(self, source: Path, file: soundfile.SoundFile) -> Iterator[Block]:
         """Yield the output of the converter in blocks (n, channels)."""
         stated, n_read = int(file.frames), 0
-        rest = None if self._raw else _Rest(self.rate, self._offsets(file))
+        offset = None if self._raw else _OffsetFilter(self.rate, self._offsets(file))
         while len(block := file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
             if self._mono and block.shape[1] > 1:
                 block = self._mixed(block)
@@ -267,7 +256,7 @@ class _Felt:
             if not math.isfinite(self.before.peak):
                 require_finite(source, block, n_read)
             n_read += len(block)
-            rows = block.T if rest is None else rest.taken_out(block)
+            rows = block.T if offset is None else offset.filtered_rows(block)
             yield self._felt([stream.process(x) for stream, x in zip(self._streams, rows, strict=True)])
         if n_read == 0:
             raise AudioError(f"{source} has no samples. Use a sound that is longer than 0 s.")
@@ -321,7 +310,7 @@ class _Felt:
         return self._n_clipped + sum(getattr(stream, "n_clipped", 0) for stream in self._streams)
 
 
-class _Rest:
+class _OffsetFilter:
     """Removes the offset of a recording: a high-pass that starts at the offset of each channel's beginning."""
 
     def __init__(self, sample_rate_hz: int, at_first: list[float]) -> None:
@@ -330,13 +319,13 @@ class _Rest:
         self._state = np.zeros((1, len(at_first), 2))
         self._state[0, :, 0] = -share * np.array(at_first)
 
-    def taken_out(self, block: Block) -> NDArray[np.float32]:
+    def filtered_rows(self, block: Block) -> NDArray[np.float32]:
         """Return the next frames (n, channels) without the offset, as rows (channels, n)."""
         rows = np.ascontiguousarray(block.T, dtype=np.float64)
         return through_sections(self._section, rows, self._state).astype(np.float32)
 
 
-def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, held: IO[bytes]) -> Iterator[Block]:
+def _at_level(blocks: Iterator[Block], felt: _Running, context: ConversionContext, held: IO[bytes]) -> Iterator[Block]:
     """Yield the blocks, equalized and scaled to the level of their source, or to the peak limit if that is lower.
 
     All blocks go through the temporary file `held`, since the gain follows from the whole sound.
@@ -347,7 +336,7 @@ def _at_level(blocks: Iterator[Block], felt: _Felt, context: ConversionContext, 
         heard.hear(block)
         held.write(np.ascontiguousarray(block).data)
     now_db, gain = heard.level_db(), 1.0
-    if now_db > _NOTHING_DB and not is_noise(felt.before.peak, heard.peak, is_chosen=felt.follows_anchor):
+    if now_db > NOTHING_DB and not is_noise(felt.before.peak, heard.peak, is_chosen=felt.follows_anchor):
         asked_db = sensation_level_db(context.intensity)
         gain = min(10 ** ((asked_db - now_db) / 20), 10 ** (-TACTILE_HEADROOM_DB / 20) / heard.peak)
         felt.level_db = now_db + 20 * math.log10(gain)
@@ -371,7 +360,7 @@ def _faded_out(blocks: Iterator[Block], n_frames: int) -> Iterator[Block]:
     yield end * (0.5 + 0.5 * np.cos(np.pi * np.arange(1, len(end) + 1) / len(end))).astype(np.float32)[:, None]
 
 
-def _equalized(blocks: Iterator[Block], felt: _Felt, context: ConversionContext) -> Iterator[Block]:
+def _equalized(blocks: Iterator[Block], felt: _Running, context: ConversionContext) -> Iterator[Block]:
     equalizers = [Equalizer(context.actuator, felt.rate) for _ in range(felt.channels)]
     for block in blocks:
         yield np.stack([one.process(block[:, i]) for i, one in enumerate(equalizers)], axis=1)
@@ -388,7 +377,7 @@ def _steps(block: Block, *, is_beyond: bool) -> NDArray[np.int32]:
     return np.left_shift(steps, 8, out=steps)
 
 
-def _opened_for_writing(output: Path, beside: Path, felt: _Felt) -> soundfile.SoundFile:
+def _opened_for_writing(output: Path, beside: Path, felt: _Running) -> soundfile.SoundFile:
     container, subtype = FORMATS[output.suffix.lower()]
     n_bytes = 3 * felt.channels * felt.before.n_expected
     if container == "WAV" and n_bytes > _LARGEST_WAV_BYTES:

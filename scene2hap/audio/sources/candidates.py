@@ -11,7 +11,4 @@ MAX_CANDIDATES = 5
 
 def how_many(name: str, value: object) -> int:
     """Return the setting as a whole number within 1..5. Raises: ConfigError: it is not."""
-    number = checks.number(name, value, "-", at_least=1, at_most=MAX_CANDIDATES, error=ConfigError)
-    if number != int(number):
-        raise ConfigError(f"{name} is {number:g}; it must be a whole number.")
-    return int(number)
+    return checks.whole(name, value, "-", at_least=1, at_most=MAX_CANDIDATES, error=ConfigError)

@@ -76,7 +76,6 @@ class FolderLibrary:
 
     def _listed(self, index: Path) -> Iterator[tuple[Path, set[str], Credit]]:
         try:
-            # utf-8-sig: spreadsheets put a byte-order mark in front.
             text = read_small_text(index)
         except (OSError, ValueError) as cause:
             raise ConfigError(

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from scene2hap.audio.distinctness import FREQUENCY_WEBER, WIDEST_WEBER
-from scene2hap.audio.spreading.best_response import give_way
+from scene2hap.audio.spreading.best_response import iterated_best_response
 from scene2hap.audio.spreading.linear_programme import Programme
-from scene2hap.audio.spreading.placements import Room, SpreadLimits, Voice
+from scene2hap.audio.spreading.placements import Problem, SpreadLimits, Voice
 from scene2hap.haptics import ActuatorProfile
 
 __all__ = ["Placement", "SpreadLimits", "Voice", "spread"]
@@ -44,13 +44,13 @@ def spread(
     if len(stay) < 2 or limits.octaves == limits.level_db == 0.0:
         return tuple(stay[voice] for voice in voices)
     for weber, counts_rhythm in ((WIDEST_WEBER, False), (FREQUENCY_WEBER, False), (FREQUENCY_WEBER, True)):
-        room = Room.of(tuple(stay), actuator or ActuatorProfile(), limits, weber, counts_rhythm=counts_rhythm)
-        outcome = Programme(room).solve() if len(room.pairs) <= _EXACT_PAIRS else give_way(room)
+        problem = Problem.of(tuple(stay), actuator or ActuatorProfile(), limits, weber, counts_rhythm=counts_rhythm)
+        outcome = Programme(problem).solve() if len(problem.pairs) <= _EXACT_PAIRS else iterated_best_response(problem)
         if outcome.shortage_oct < _ENOUGH_OCT:
             break
     placed = {
         voice: stay[voice] if voice.is_placed else _placement(voice, float(2.0**x), float(level_db))
-        for voice, x, level_db in zip(room.voices, outcome.x, outcome.level_db, strict=True)
+        for voice, x, level_db in zip(problem.voices, outcome.x, outcome.level_db, strict=True)
     }
     return tuple(placed[voice] for voice in voices)
 

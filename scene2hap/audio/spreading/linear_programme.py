@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import csr_array
 
-from scene2hap.audio.spreading.placements import LEVEL_STEP_DB, Array, Outcome, Room
+from scene2hap.audio.spreading.placements import LEVEL_STEP_DB, Array, Outcome, Problem
 
 _SLACK_WEIGHT = 1000.0
 _NODES = 1000
@@ -32,31 +32,31 @@ _NODES = 1000
 class Programme:
     """The programme. Its variables in order: x, moves of x, l, moves of l (n each), then s, o, m, m' (one per pair)."""
 
-    def __init__(self, room: Room) -> None:
-        self._room = room
-        self._n = len(room.x0)
-        self._pairs = room.pairs
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        self._n = len(problem.x0)
+        self._pairs = problem.pairs
         self._rows: list[dict[int, float]] = []
         self._least: list[float] = []
 
     def solve(self) -> Outcome:
         """Return the best placement found."""
-        room, n, p = self._room, self._n, len(self._pairs)
+        problem, n, p = self._problem, self._n, len(self._pairs)
         for i in range(n):
-            for value, move, at in ((i, n + i, room.x0[i]), (2 * n + i, 3 * n + i, room.l0[i])):
+            for value, move, at in ((i, n + i, problem.x0[i]), (2 * n + i, 3 * n + i, problem.l0[i])):
                 self._row({move: 1.0, value: -1.0}, -at)
                 self._row({move: 1.0, value: 1.0}, at)
         for number, pair in enumerate(self._pairs):
             self._keep_apart(number, *pair)
-        for strong, weak, gap in room.order:
+        for strong, weak, gap in problem.order:
             self._row({2 * n + strong: 1.0, 2 * n + weak: -1.0}, gap)
-        move_x, move_l, slack = 1.0 / room.octaves, 1.0 / room.level_db, _SLACK_WEIGHT
+        move_x, move_l, slack = 1.0 / problem.octaves, 1.0 / problem.level_db, _SLACK_WEIGHT
         never = np.full(n, np.inf)
         first, second = np.array(self._pairs, dtype=np.int64).reshape(-1, 2).T
-        stronger, weaker = room.l0[first] >= room.l0[second], room.l0[first] <= room.l0[second]
+        stronger, weaker = problem.l0[first] >= problem.l0[second], problem.l0[first] <= problem.l0[second]
         cost = _joined(n * [0.0], n * [move_x], n * [0.0], n * [move_l], p * [slack], 3 * p * [0.0])
-        low = _joined(room.x_low, n * [0.0], room.l_low, n * [0.0], 4 * p * [0.0])
-        high = _joined(room.x_high, never, room.l_high, never, np.full(p, np.inf), p * [1.0], stronger, weaker)
+        low = _joined(problem.x_low, n * [0.0], problem.l_low, n * [0.0], 4 * p * [0.0])
+        high = _joined(problem.x_high, never, problem.l_high, never, np.full(p, np.inf), p * [1.0], stronger, weaker)
         answer = milp(
             cost,
             integrality=np.repeat([0, 1], [4 * n + p, 3 * p]),
@@ -65,20 +65,20 @@ class Programme:
             options={"node_limit": _NODES},
         )
         if answer.x is None:  # the search was cut off before it had any answer
-            return Outcome(room, room.x0, room.l0)
-        return Outcome(room, answer.x[:n], answer.x[2 * n : 3 * n])
+            return Outcome(problem, problem.x0, problem.l0)
+        return Outcome(problem, answer.x[:n], answer.x[2 * n : 3 * n])
 
     def _keep_apart(self, number: int, i: int, j: int) -> None:
-        room, n, p = self._room, self._n, len(self._pairs)
-        jnd = room.jnd_oct
+        problem, n, p = self._problem, self._n, len(self._pairs)
+        jnd = problem.jnd_oct
         slack, order, stronger, weaker = (4 * n + k * p + number for k in range(4))
         # M: the ranges of the pair allow no larger violation.
-        most = 2.0 * jnd + max(room.x_high[i] - room.x_low[j], room.x_high[j] - room.x_low[i])
+        most = 2.0 * jnd + max(problem.x_high[i] - problem.x_low[j], problem.x_high[j] - problem.x_low[i])
         modes = {stronger: jnd, weaker: jnd}
         self._row({j: 1.0, i: -1.0, **modes, slack: 1.0, order: -most}, 2.0 * jnd - most)
         self._row({i: 1.0, j: -1.0, **modes, slack: 1.0, order: most}, 2.0 * jnd)
         for mode, strong, weak in ((stronger, i, j), (weaker, j, i)):
-            reach = 2.0 * LEVEL_STEP_DB + float(room.l_high[weak] - room.l_low[strong])
+            reach = 2.0 * LEVEL_STEP_DB + float(problem.l_high[weak] - problem.l_low[strong])
             self._row({2 * n + strong: 1.0, 2 * n + weak: -1.0, mode: -reach}, 2.0 * LEVEL_STEP_DB - reach)
 
     def _row(self, coefficients: dict[int, float], least: float) -> None:

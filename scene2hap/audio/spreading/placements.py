@@ -57,7 +57,7 @@ class Voice:
 
 
 @dataclass(frozen=True)
-class Room:
+class Problem:
     """Bounds of frequency x (n,) [oct, re 1 Hz] and level l (n,) [dB] around their present values, x0 and l0.
 
     `jnd_oct` is one JND of frequency [oct]; `octaves` and `level_db` are the limits, which also weigh the two kinds of
@@ -85,7 +85,7 @@ class Room:
         weber: float,
         *,
         counts_rhythm: bool = False,
-    ) -> Room:
+    ) -> Problem:
         """Build the bounds from actuator, levels and limits, for a Weber fraction of frequency."""
         octaves = limits.octaves / _MARGIN
         reach = [reachable_hz(Anchor(v.own_hz, v.crest_db), v.level_db, actuator, octaves) for v in voices]
@@ -139,22 +139,22 @@ def _differ_in_rhythm(one: Voice, other: Voice) -> bool:
 class Outcome:
     """The placed voices: frequency x (n,) [oct, re 1 Hz] and level (n,) [dB]."""
 
-    room: Room
+    problem: Problem
     x: Array
     level_db: Array
 
     @property
     def shortage_oct(self) -> float:
         """The missing distance of all pairs together [oct]."""
-        one, other = np.array(self.room.pairs, dtype=np.int64).reshape(-1, 2).T
+        one, other = np.array(self.problem.pairs, dtype=np.int64).reshape(-1, 2).T
         octaves, levels = np.abs(self.x[one] - self.x[other]), np.abs(self.level_db[one] - self.level_db[other])
-        return float(shortage_oct(octaves, levels, self.room.jnd_oct).sum())
+        return float(shortage_oct(octaves, levels, self.problem.jnd_oct).sum())
 
     @property
     def moves(self) -> float:
         """The sum of all moves, each as a share of its limit [-]."""
-        by_x = np.abs(self.x - self.room.x0) / self.room.octaves
-        return float((by_x + np.abs(self.level_db - self.room.l0) / self.room.level_db).sum())
+        by_x = np.abs(self.x - self.problem.x0) / self.problem.octaves
+        return float((by_x + np.abs(self.level_db - self.problem.l0) / self.problem.level_db).sum())
 
 
 def shortage_oct(octaves: Array, level_db: Array, jnd_oct: float) -> Array:

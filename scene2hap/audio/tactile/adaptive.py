@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from scene2hap import checks
-from scene2hap.audio.anchor import BAND_Q, Anchor, reachable_hz
+from scene2hap.audio.anchor import BAND_Q, Anchor, band_gain, reachable_hz
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
@@ -117,7 +117,7 @@ def clear_of(own_hz: float, neighbours_hz: tuple[float, ...], low_hz: float, hig
     return own_hz if moves[best] == 0.0 else float(np.exp(x[best]))
 
 
-class _Tracking:
+class _Tracking(Stage):
     """Analyses the sound in stretches of fixed length, for any block size, and moves the band with the own frequency.
 
     Until the end of the first stretch, the band is the paper's, around 250 Hz. A narrower band passes less of the sound
@@ -158,9 +158,6 @@ class _Tracking:
             return parts[0]
         return np.concatenate(parts) if parts else x
 
-    def rest(self) -> Signal:
-        return np.empty(0)
-
     def _filtered(self, x: Signal) -> Signal:
         y = self._gain * through(self._band, x)
         if not self._retiring:
@@ -183,15 +180,9 @@ class _Tracking:
         own_hz = self._anchor.look(thinned)
         if own_hz is None or (self._own_hz is not None and abs(np.log(own_hz / self._own_hz)) < np.log1p(_MOVED)):
             return
-        wide = self._anchor.share(lambda f: _bandpass(f, 250.0, _WIDE_Q))
-        narrow = self._anchor.share(lambda f: _bandpass(f, own_hz, self._design.q) ** 2)
+        wide = self._anchor.share(lambda f: band_gain(f, 250.0, _WIDE_Q))
+        narrow = self._anchor.share(lambda f: band_gain(f, own_hz, self._design.q) ** 2)
         self._retiring_gain, self._gain = self._gain, float(np.clip((wide / narrow) ** 0.5, 1 / _MOST_GAIN, _MOST_GAIN))
         self._own_hz, self._n_unchanged = own_hz, 0
         self._retiring, self._n_faded = self._band, 0
         self._band = self._design.band(self._rate_hz, self._context, own_hz)
-
-
-def _bandpass(f_hz: Signal, centre_hz: float, q: float) -> Signal:
-    """Return the gain of a band-pass at these frequencies [-]."""
-    r = np.maximum(f_hz, 1e-3) / centre_hz
-    return np.asarray(1.0 / np.sqrt(1.0 + (q * (r - 1.0 / r)) ** 2))

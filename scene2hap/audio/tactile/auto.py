@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 from scipy.signal import butter
 
-from scene2hap.audio.anchor import BAND_Q, best_carrier_hz, is_beep
+from scene2hap.audio.anchor import BAND_Q, CARRIER_RANGE_HZ, best_carrier_hz, is_beep
 from scene2hap.audio.heard import heard_sections
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.adaptive import Adaptive, band_around
@@ -30,9 +30,6 @@ from scene2hap.audio.tactile.roughness import Roughened
 from scene2hap.audio.tactile.stages import Chain, Scaled, SosStage, Stage, StageStream, WholeSteps
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.haptics import ActuatorProfile
-
-_CARRIERS_HZ = (100.0, 300.0)
-"""Range of carriers [Hz], in which a burst of 8 ms still has a frequency, and touch is sensitive."""
 
 _ROOM = 0.5
 """Gain if the bed has a given level relative to the whole sound. It leaves room for bursts, and for the first harmonic
@@ -82,7 +79,7 @@ def _beep_hz(context: ConversionContext) -> float | None:
 def carrier_hz(context: ConversionContext) -> float:
     """Return the frequency of bursts [Hz]: the source's target if that is in range, else the actuator's best."""
     wanted = context.target_hz or context.own_hz
-    if wanted is not None and _CARRIERS_HZ[0] <= wanted <= _CARRIERS_HZ[-1]:
+    if wanted is not None and CARRIER_RANGE_HZ[0] <= wanted <= CARRIER_RANGE_HZ[1]:
         return wanted
     return best_carrier_hz(context.actuator)
 

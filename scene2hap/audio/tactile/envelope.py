@@ -19,7 +19,7 @@ from scipy.signal import butter
 from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.oscillator import Oscillator
-from scene2hap.audio.tactile.stages import Signal, SosStage, StageStream
+from scene2hap.audio.tactile.stages import Signal, SosStage, Stage, StageStream
 from scene2hap.errors import ConfigError
 
 BEST_FELT_HZ = 250.0
@@ -49,7 +49,7 @@ class EnvelopeCarrier:
         return StageStream(_EnvelopeStage(wanted, self.envelope_hz, sample_rate_hz))
 
 
-class _EnvelopeStage:
+class _EnvelopeStage(Stage):
     def __init__(self, carrier_hz: float, envelope_hz: float, sample_rate_hz: float) -> None:
         self._smooth = SosStage(butter(2, envelope_hz, fs=sample_rate_hz, output="sos"))
         self._carrier = Oscillator(carrier_hz, sample_rate_hz)
@@ -61,6 +61,3 @@ class _EnvelopeStage:
         y: Signal = self._carrier.times(envelope, self._position)[1]
         self._position += len(x)
         return y
-
-    def rest(self) -> Signal:
-        return np.empty(0)

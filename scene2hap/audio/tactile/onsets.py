@@ -60,8 +60,8 @@ FORGET = float(np.exp(-STEP_S / LATE_S))
 APART, SPARED = round(APART_S / STEP_S), round(SPARED_S / STEP_S)
 
 
-class WithOnsets:
-    """A `Stage`: the bed of the sound without its onsets, plus a burst of `carrier_hz` for each onset.
+class WithOnsets(Stage):
+    """The bed of the sound without its onsets, plus a burst of `carrier_hz` for each onset.
 
     A bed that follows the level of the sound renders sustained onsets by itself. If the level of the bed relative to
     the sound is known (`bed_db`), a burst has the energy of its onset times that ratio.
@@ -82,26 +82,26 @@ class WithOnsets:
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
         self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
         self._waiting = np.empty(0)  # samples whose onsets are not decided
-        self._watch, self._n_made = _Watch(spares_sustained=bed_follows), 0
+        self._detector, self._n_made = _OnsetDetector(spares_sustained=bed_follows), 0
         self._n_around = max(1, round(AROUND_S * sample_rate_hz))
         self._past = deque([np.zeros(self._n_around)])  # of the bed, in parts
         longest = max(1, round(DULL_S * sample_rate_hz))
         self._carrier = np.sin(2.0 * np.pi * carrier_hz / sample_rate_hz * np.arange(longest))
-        self._due: list[_Due] = []
+        self._due: list[_PendingOnset] = []
         self._bursts: list[tuple[int, Signal]] = []
 
     def run(self, x: Signal) -> Signal:
         """Return the samples for which onsets are decided."""
         self._waiting = np.concatenate([self._waiting, x])
         n_whole = len(self._waiting) // self.step
-        new = self._waiting[self._watch.n_waiting * self.step : n_whole * self.step]
+        new = self._waiting[self._detector.n_waiting * self.step : n_whole * self.step]
         if new.size == 0:
             return new
-        first = self._watch.n_decided
+        first = self._detector.n_decided
         energies = np.array([mean_squares(new, self.step), mean_squares(self._high.run(new), self.step)])
-        onsets, shares = self._watch.decided(energies)
+        onsets, shares = self._detector.decided(energies)
         self._due += [one._replace(begin=(first + one.begin) * self.step) for one in onsets]
-        n = (n_whole - self._watch.n_waiting) * self.step
+        n = (n_whole - self._detector.n_waiting) * self.step
         spared, self._waiting = self._waiting[:n], self._waiting[n:]
         if shares is not None:
             lowered = np.flatnonzero(shares < 1.0)
@@ -111,7 +111,7 @@ class WithOnsets:
     def rest(self) -> Signal:
         """Return the last samples, as if silence followed."""
         n_left = len(self._waiting) % self.step
-        parts = [self.run(np.zeros(self._watch.look * self.step))]
+        parts = [self.run(np.zeros(self._detector.look * self.step))]
         parts.append(self._mixed(self._bed.run(self._waiting[:n_left])))
         return np.concatenate([*parts, self._mixed(self._bed.rest())])
 
@@ -136,7 +136,7 @@ class WithOnsets:
         self._bursts = [one for one in self._bursts if one[0] + len(one[1]) > end]
         return out
 
-    def _burst(self, due: _Due, bed_before: Signal) -> Signal:
+    def _burst(self, due: _PendingOnset, bed_before: Signal) -> Signal:
         n = round((SHARP_S + (DULL_S - SHARP_S) * due.left) * self._rate_hz)
         bed = float(max(bed_before.max(), -bed_before.min()))
         amplitude = math.sqrt(2.0 * due.height)
@@ -159,7 +159,7 @@ def _limited(amplitude: float, bed: float) -> float:
     return ABOVE_BED * bed * math.exp(excess**2 / -math.log(NO_BED * ABOVE_BED))
 
 
-class _Due(NamedTuple):
+class _PendingOnset(NamedTuple):
     """An onset whose burst is not made yet: begin [samples or steps], energy of its highest step, share of this energy
     after `LOOK` steps, sum of the energies of its steps, and True if the energy of the whole sound hardly rises."""
 
@@ -244,7 +244,7 @@ def _highest(bands: Signal, k: int) -> tuple[float, float, bool]:
     return found
 
 
-class _Watch:
+class _OnsetDetector:
     """Finds onsets in the energies of the sound and of its ticks, block by block."""
 
     def __init__(self, *, spares_sustained: bool) -> None:
@@ -260,7 +260,7 @@ class _Watch:
         """The number of steps that are not decided."""
         return self._steps.shape[2]
 
-    def decided(self, energies: Signal) -> tuple[list[_Due], Signal | None]:
+    def decided(self, energies: Signal) -> tuple[list[_PendingOnset], Signal | None]:
         """Return the result of `onsets_among` for the steps that these energies (2, n) of sound and ticks decide."""
         found = followed(energies, self._means, self.n_decided + self.n_waiting)
         steps = np.concatenate([self._steps, found], axis=2)
@@ -272,11 +272,11 @@ class _Watch:
         return due, shares
 
 
-def _measured(sound: Signal, k: int, height: float, left: float) -> _Due:
+def _measured(sound: Signal, k: int, height: float, left: float) -> _PendingOnset:
     """Return an onset at step k of the sound (3, m). It lasts until the energy rises again, at most `SPARED` steps."""
     before = float(sound[1, k])
     steps = sound[0, k : k + SPARED]
     top = int(np.argmax(steps[: LOOK + 1]))
     again = np.flatnonzero(steps[top:] > RISE * np.minimum.accumulate(steps[top:]))
     energy = float(np.maximum(steps[: top + int(again[0]) if again.size else None] - before, 0.0).sum())
-    return _Due(k, height, left, energy, is_hidden=float(steps[top]) <= RISE * before)
+    return _PendingOnset(k, height, left, energy, is_hidden=float(steps[top]) <= RISE * before)

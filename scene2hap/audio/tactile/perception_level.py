@@ -26,7 +26,7 @@ from scipy.signal import find_peaks
 from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile.oscillator import Oscillator
-from scene2hap.audio.tactile.stages import Signal, StageStream
+from scene2hap.audio.tactile.stages import Signal, Stage, StageStream
 from scene2hap.errors import ConfigError
 
 _FRAME_S = 4096 / 44_100
@@ -70,7 +70,7 @@ class PerceptionLevel:
         return StageStream(_Translation(rate, self.full_scale))
 
 
-class _Translation:
+class _Translation(Stage):
     """Delays samples until a frame is full, so that the vibration of a frame plays with its sound."""
 
     def __init__(self, sample_rate_hz: float, full_scale: float) -> None:

@@ -20,8 +20,8 @@ _SLOWER = 4.0
 """Frequency of a rough component over the cut-off of its envelope [-]."""
 
 
-class Roughened:
-    """A `Stage`: a bed of stages in series without latency, modulated by the output of a band-pass at `rough_hz`.
+class Roughened(Stage):
+    """A bed of stages in series without latency, modulated by the output of a band-pass at `rough_hz`.
 
     If the bed's first stage is this band-pass, it runs once for both.
     """
@@ -35,10 +35,6 @@ class Roughened:
         """Return the modulated bed."""
         low = self._band.run(x)
         return modulated(self._bed.run(low if self._is_shared else x), low, self._envelope.run(np.abs(low)))
-
-    def rest(self) -> Signal:
-        """Return no samples: the stages of the bed hold none back."""
-        return np.empty(0)
 
 
 @compiled

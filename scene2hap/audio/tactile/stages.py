@@ -7,8 +7,8 @@ looked up by sample number in tables of a fixed size, and sums have a fixed orde
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,16 +27,16 @@ _CACHED = 65_536
 """Samples per pass: passes that fit the processor's cache are twice as fast as one pass over a long sound."""
 
 
-class Stage(Protocol):
+class Stage(ABC):
     """One step of a conversion."""
 
+    @abstractmethod
     def run(self, x: Signal) -> Signal:
         """Return the next samples (n,); a stage with latency holds some back."""
-        ...
 
     def rest(self) -> Signal:
-        """Return the samples that were held back."""
-        ...
+        """Return the samples that were held back; none without latency."""
+        return np.empty(0)
 
 
 class StageStream:
@@ -47,6 +47,7 @@ class StageStream:
 
     def __init__(self, *stages: Stage) -> None:
         self.stages = stages
+        self._chain = Chain(stages)
         self.n_clipped = 0
 
     def process(self, block: Samples) -> Samples:
@@ -58,24 +59,21 @@ class StageStream:
         if not math.isfinite(float(x @ x)) and not np.isfinite(x).all():
             first = int(np.argmin(np.isfinite(x)))
             raise AudioError(f"sample {first} of the block is {x[first]}; every sample must be finite. Mend the sound.")
-        return _joined([self._through(x[at : at + _CACHED].astype(np.float64), 0) for at in range(0, len(x), _CACHED)])
+        passes = (x[at : at + _CACHED].astype(np.float64) for at in range(0, len(x), _CACHED))
+        parts = [self._clipped(self._chain.run(one)) for one in passes]
+        if not parts:
+            return np.empty(0, dtype=np.float32)
+        return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
     def finish(self) -> Samples:
         """Return the samples that are still held back."""
-        return _joined([self._through(stage.rest(), i + 1) for i, stage in enumerate(self.stages)])
+        return self._clipped(self._chain.rest())
 
-    def _through(self, x: Signal, first: int) -> Samples:
-        x = through(self.stages[first:], x)
+    def _clipped(self, x: Signal) -> Samples:
         if x.size and (size := np.abs(x)).max() > 1.0:
             self.n_clipped += int(np.count_nonzero(size > 1.0))
             x = np.clip(x, -1.0, 1.0)
         return x.astype(np.float32)
-
-
-def _joined(parts: list[Samples]) -> Samples:
-    if not parts:
-        return np.empty(0, dtype=np.float32)
-    return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
 def through(stages: Sequence[Stage], x: Signal) -> Signal:
@@ -87,7 +85,7 @@ def through(stages: Sequence[Stage], x: Signal) -> Signal:
     return x
 
 
-class Chain:
+class Chain(Stage):
     """Stages in series, as one stage."""
 
     def __init__(self, stages: Sequence[Stage]) -> None:
@@ -105,8 +103,8 @@ class Chain:
         return left
 
 
-class WholeSteps:
-    """A `Stage` that holds samples back until a step of them is complete, and returns whole steps.
+class WholeSteps(Stage):
+    """Holds samples back until a step of them is complete, and returns whole steps.
 
     Stages that decide by steps make nothing of less. Small blocks then cost them no calls.
     """
@@ -133,7 +131,7 @@ class WholeSteps:
         return np.concatenate([np.empty(0), *self._held])
 
 
-class SosStage:
+class SosStage(Stage):
     """A filter of second-order sections (n_sections, 6) with carried state."""
 
     def __init__(self, sections: Signal) -> None:
@@ -148,13 +146,9 @@ class SosStage:
         y: Signal = through_sections(self.sections, x[None], self._rows)[0]
         return y
 
-    def rest(self) -> Signal:
-        """Return no samples: none are held back."""
-        return np.empty(0)
 
-
-class Scaled:
-    """A `Stage`: a constant gain [-]."""
+class Scaled(Stage):
+    """A constant gain [-]."""
 
     def __init__(self, gain: float) -> None:
         self._gain = gain
@@ -163,12 +157,8 @@ class Scaled:
         """Return as many samples as given."""
         return self._gain * x
 
-    def rest(self) -> Signal:
-        """Return no samples: none are held back."""
-        return np.empty(0)
 
-
-class ShiftStage:
+class ShiftStage(Stage):
     """Single-sideband modulation: moves a band by a number of hertz and keeps its envelope.
 
     With c the middle of the band, w half its width and h a low-pass with cut-off w:
@@ -206,7 +196,3 @@ class ShiftStage:
         y = self._up.joined(z, self._position)
         self._position += len(x)
         return np.asarray(2.0 * y)
-
-    def rest(self) -> Signal:
-        """Return no samples: none are held back."""
-        return np.empty(0)

@@ -7,11 +7,6 @@ Pacinian corpuscles detect best near 250 Hz; frequencies far from it are dropped
 
 This is the trapezoidal (TPT) state-variable filter. Its band-pass output is multiplied by k, for 0 dB at f_c. It is
 written as one biquad, since a biquad runs in compiled code. While centre and Q are constant, both are the same filter.
-When they change, the biquad's state (z1, z2) is converted by way of the state (s1, s2) of the integrators. So the
-filter remains stable under modulation of any speed. Each state follows from the other through the next two samples of
-the filter's ringing:
-
-    y0 = z1 = k (a1 s1 - a2 s2)        y1 = z2 - A1 y0        a1 = 1 / (1 + g (g + k)),  a2 = g a1,  a3 = g a2
 
 Source: A. Simper, "Linear trapezoidal state variable filter" (Cytomic, 2013); R. Bristow-Johnson, "Audio EQ cookbook",
 band-pass with constant 0 dB peak gain. Differs: the paper used Max/MSP's svf~ (Chamberlin's form, which becomes
@@ -55,9 +50,9 @@ class SvfBandpass:
         object.__setattr__(self, "center_hz", center)
         object.__setattr__(self, "q", q)
 
-    def stream(self, sample_rate_hz: int, context: ConversionContext) -> SvfStream:
+    def stream(self, sample_rate_hz: int, context: ConversionContext) -> StageStream:
         """Start a filter at a sample rate; the context has no effect."""
-        return SvfStream(self, sample_rate_hz)
+        return StageStream(SosStage(self.section(sample_rate_hz)))
 
     def section(self, sample_rate_hz: float) -> NDArray[np.float64]:
         """Return the filter as one second-order section (1, 6): b0 b1 b2 a0 a1 a2."""
@@ -74,42 +69,3 @@ class SvfBandpass:
         k = 1.0 / self.q
         a0 = 1.0 + g * k + g * g
         return np.array([[g * k, 0.0, -g * k, a0, 2.0 * (g * g - 1.0), 1.0 - g * k + g * g]]) / a0
-
-
-class SvfStage(SosStage):
-    """One filter in float64 whose centre and Q may change between calls."""
-
-    def __init__(self, design: SvfBandpass, sample_rate_hz: float) -> None:
-        super().__init__(design.section(sample_rate_hz))
-        self._rate_hz = sample_rate_hz
-        self._design = design
-
-    def retune(self, design: SvfBandpass) -> None:
-        """Continue with another centre and Q, as the state-variable filter would."""
-        sections = design.section(self._rate_hz)
-        integrators = np.linalg.solve(self._memory(self._design, self.sections), self.state[0])
-        self.state[0] = self._memory(design, sections) @ integrators
-        self.sections, self._design = sections, design
-
-    def _memory(self, design: SvfBandpass, sections: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the matrix (2, 2) that gives the biquad's state from that of the integrators."""
-        g = math.tan(math.pi * design.center_hz / self._rate_hz)
-        k = 1.0 / design.q
-        a1 = 1.0 / (1.0 + g * (g + k))
-        a2 = g * a1
-        a3 = g * a2
-        ringing = k * np.array([a1, -a2])
-        step = np.array([[2.0 * a1 - 1.0, -2.0 * a2], [2.0 * a2, 1.0 - 2.0 * a3]])
-        return np.stack([ringing, ringing @ step + sections[0, 4] * ringing])
-
-
-class SvfStream(StageStream):
-    """One run of the filter over a sound, in blocks of any size."""
-
-    def __init__(self, design: SvfBandpass, sample_rate_hz: float) -> None:
-        self._filter = SvfStage(design, sample_rate_hz)
-        super().__init__(self._filter)
-
-    def retune(self, *, center_hz: float, q: float) -> None:
-        """Set another centre [Hz] and Q from the next block on. Raises: ConfigError: see `SvfBandpass`."""
-        self._filter.retune(SvfBandpass(center_hz, q))

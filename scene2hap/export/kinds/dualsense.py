@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.export.kinds.wav import wav_bytes
+from scene2hap.audio.files import encoded
 from scene2hap.export.protocol import Exported
 from scene2hap.export.track import Track
 
 SAMPLE_RATE_HZ = 48_000
-_BITS, _N_CHANNELS = 16, 4
+_N_CHANNELS = 4
 _ACTUATOR = {"left": 2, "right": 3}
 
 
@@ -34,4 +34,4 @@ class DualSenseExport:
             for name, one in track.channels.items()
             if name in hands or len(at_rate) == 1
         }
-        return Exported({f"{track.name}.wav": wav_bytes(frames, SAMPLE_RATE_HZ, _BITS)}, played)
+        return Exported({f"{track.name}.wav": encoded(frames, SAMPLE_RATE_HZ, "PCM_16")}, played)

@@ -13,7 +13,7 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.clips.haptic_clip import Curve, HapticClip, Transient
 from scene2hap.errors import ConfigError
-from scene2hap.export.curves import CurveSettings, curves_of
+from scene2hap.export.curves import CurveSettings, curves_of, from_start
 from scene2hap.export.protocol import Exported, json_bytes
 from scene2hap.export.track import Track
 
@@ -80,12 +80,11 @@ def _on_ticks(clip: HapticClip, ticks: int) -> HapticClip:
     times = np.round(clip.amplitude.times_s * ticks) / ticks
     times[-1] = max(times[-1], 1 / ticks)  # a clip must not have length 0
     amplitude = Curve(times, clip.amplitude.values)
-    frequency = None
-    if clip.frequency is not None:
-        whole_hz = np.round(low + (high - low) * clip.frequency.values)
-        frequency = Curve(
-            np.round(clip.frequency.times_s * ticks) / ticks, np.clip((whole_hz - low) / (high - low), 0, 1)
-        )
+    frequency = from_start(clip.frequency)
+    if frequency is not None:
+        whole_hz = np.round(low + (high - low) * frequency.values)
+        values = np.clip((whole_hz - low) / (high - low), 0, 1)
+        frequency = Curve(np.round(frequency.times_s * ticks) / ticks, values)
     transients = tuple(
         Transient(round(one.time_s * ticks) / ticks, one.amplitude, one.frequency) for one in clip.transients
     )

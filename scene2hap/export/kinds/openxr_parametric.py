@@ -7,6 +7,7 @@ frequency range; in the others it is unspecified, 0.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.clips.haptic_clip import Curve, HapticClip
 from scene2hap.errors import ConfigError
-from scene2hap.export.curves import CurveSettings, curves_of
+from scene2hap.export.curves import CurveSettings, curves_of, from_start
 from scene2hap.export.protocol import Exported, file_name, json_bytes, nanoseconds
 from scene2hap.export.track import Track
 
@@ -60,6 +61,7 @@ class OpenXrParametricExport:
         files, played = {}, {}
         for name, channel in track.channels.items():
             clip = curves_of(channel, self.settings)
+            clip = replace(clip, frequency=from_start(clip.frequency))
             document = {
                 "extension": "XR_EXT_haptic_parametric",
                 "loop": channel.is_loop,
@@ -71,9 +73,8 @@ class OpenXrParametricExport:
     def _calls(self, clip: HapticClip) -> list[dict[str, Any]]:
         amplitude, frequency, transients = _rows(clip)
         counts = max(len(amplitude), len(frequency), len(transients))
-        low, high = clip.range_hz
         if counts <= MAX_POINTS and not self.stream:
-            return [_call("none", (low, high), amplitude, frequency, transients)]
+            return [_call("none", clip.range_hz, amplitude, frequency, transients)]
         calls: list[dict[str, Any]] = []
         end = nanoseconds(clip.duration_s)
         edges = self._edges(end, (amplitude, frequency, transients))
@@ -88,7 +89,7 @@ class OpenXrParametricExport:
                     value = float(curve.at(np.array([edge / 1e9]))[0])
                     points.append({"time_ns": edge, "value": round(value, 6)})
             kind = "first" if not calls else "last" if edge == end else "intermediate"
-            calls.append(_call(kind, (low, high) if not calls else (0.0, 0.0), *now))
+            calls.append(_call(kind, clip.range_hz if not calls else (0.0, 0.0), *now))
             start = edge
         if len(calls) == 1:
             calls[0]["stream_frame_type"] = "none"
@@ -116,15 +117,13 @@ class OpenXrParametricExport:
 
 
 def _rows(clip: HapticClip) -> tuple[Rows, Rows, Rows]:
-    """Return all points and transients. Amplitude and frequency begin at time 0, as the first frame requires."""
+    """Return all points and transients. The amplitude begins at time 0, as the first frame requires."""
     end = nanoseconds(clip.duration_s)
     amplitude = _points(clip.amplitude)
     if amplitude[0]["time_ns"] > 0:
         first = amplitude[0]["time_ns"]
         amplitude = [{"time_ns": 0, "value": 0.0}, {"time_ns": first, "value": 0.0}, *amplitude]
     frequency = _points(clip.frequency) if clip.frequency is not None else []
-    if frequency and frequency[0]["time_ns"] > 0:
-        frequency = [{"time_ns": 0, "value": frequency[0]["value"]}, *frequency]
     for row in frequency:
         row["time_ns"] = min(row["time_ns"], end)
     transients: Rows = []

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from scene2hap import checks
 from scene2hap.errors import ConfigError
 from scene2hap.export.protocol import Exported, file_name, json_bytes
@@ -41,5 +39,5 @@ class OpenXrPcmExport:
                 "samples": raw,
             }
             files[file_name(track, name, ".json")], files[raw] = json_bytes(header), samples.tobytes()
-            played[name] = Channel(samples.astype(np.float64), self.sample_rate_hz, channel.is_loop)
+            played[name] = Channel(samples, self.sample_rate_hz, channel.is_loop)
         return Exported(files, played)

@@ -20,10 +20,7 @@ class PcmExport:
 
     def export(self, track: Track) -> Exported:
         """Return a JSON file and a file of samples."""
-        channels = [one.at_rate(self.sample_rate_hz) for one in track.channels.values()]
-        frames = np.zeros((max(map(len, channels)), len(channels)), dtype="<f4")
-        for i, samples in enumerate(channels):
-            frames[: len(samples), i] = samples
+        frames = track.frames(self.sample_rate_hz).astype("<f4")
         header = {
             "encoding": "float32, little-endian, channels interleaved",
             "sample_rate_hz": self.sample_rate_hz,
@@ -33,7 +30,7 @@ class PcmExport:
             "samples": f"{track.name}.f32",
         }
         played = {
-            name: Channel(frames[: len(channels[i]), i].astype(np.float64), self.sample_rate_hz, one.is_loop)
-            for i, (name, one) in enumerate(track.channels.items())
+            name: Channel(one.at_rate(self.sample_rate_hz).astype(np.float32), self.sample_rate_hz, one.is_loop)
+            for name, one in track.channels.items()
         }
         return Exported({f"{track.name}.json": json_bytes(header), f"{track.name}.f32": frames.tobytes()}, played)

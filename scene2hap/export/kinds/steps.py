@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.clips.haptic_clip import Curve, HapticClip
-from scene2hap.clips.synthesis import synthesize
 from scene2hap.export.envelope import amplitude_of
+from scene2hap.export.fidelity import played_samples
 from scene2hap.export.track import ANALYSIS_HZ, Channel
 
 
@@ -16,7 +16,7 @@ def amplitudes_at_steps(channel: Channel, step_s: float) -> NDArray[np.float64]:
 
     Power is smoothed over one step, which keeps the attacks that the format can hold.
     """
-    samples = channel.at_rate(ANALYSIS_HZ) if channel.clip is None else synthesize(channel.clip, ANALYSIS_HZ)
+    samples = played_samples(channel.clip or channel)
     n = max(1, int(np.ceil(channel.duration_s / step_s - 1e-6)))
     amplitude, times = amplitude_of(samples, ANALYSIS_HZ, is_loop=channel.is_loop, smoothed_s=step_s)
     middles = (np.arange(n) + 0.5) * step_s

@@ -15,6 +15,7 @@ from scene2hap.clips.ahap import ClipWarning, compose_ahap, read_ahap
 from scene2hap.clips.haptic_clip import Curve, HapticClip, Transient
 from scene2hap.clips.haptic_format import read_haptic
 from scene2hap.clips.reading import read_haptic_clip
+from scene2hap.clips.synthesis import synthesize
 from scene2hap.errors import ClipError
 
 SAMPLES = SHARED / "formats" / "haptic"
@@ -146,6 +147,14 @@ def test_times_from_the_beginning_of_the_file_are_recognised(tmp_path: Path) -> 
     relative = clip_of(tmp_path, event, curve("Intensity", 1.0, (0.0, 1.0), (1.0, 0.0)))
     t = np.linspace(0.0, 3.0, 301)
     np.testing.assert_allclose(absolute.amplitude.at(t), relative.amplitude.at(t))
+
+
+def test_a_curve_that_begins_later_leaves_the_sharpness_of_the_event_before(tmp_path: Path) -> None:
+    event = item("Continuous", 0.0, 2.0, Intensity=1.0, Sharpness=0.0)
+    clip = clip_of(tmp_path, event, curve("Sharpness", 1.0, (0.0, 0.0), (0.5, 1.0)))
+    np.testing.assert_allclose(clip.frequency_hz([0.0, 0.9, 1.0, 1.6]), [55.0, 55.0, 55.0, 200.0])
+    t = np.arange(8000) / 8000
+    np.testing.assert_allclose(synthesize(clip)[:8000], np.sin(2 * np.pi * 55.0 * t), atol=1e-6)
 
 
 def test_missing_and_out_of_range_values_follow_the_phone(tmp_path: Path) -> None:

@@ -37,6 +37,14 @@ def test_a_steady_clip_is_a_sine_wave() -> None:
     np.testing.assert_allclose(middle, 0.5 * np.sin(2 * np.pi * 100.0 * t), atol=1e-9)
 
 
+def test_the_frequency_before_its_curve_is_the_middle() -> None:
+    late = Curve(np.array([0.5, 1.0]), np.array([0.2, 0.2]))
+    clip = HapticClip(flat(0.5), late, range_hz=(50.0, 150.0))
+    np.testing.assert_allclose(clip.frequency_hz([0.0, 0.4, 0.5, 0.9]), [100.0, 100.0, 70.0, 70.0])
+    t = np.arange(3999) / 8000
+    np.testing.assert_allclose(synthesize(clip)[:3999], 0.5 * np.sin(2 * np.pi * 100.0 * t), atol=1e-9)
+
+
 @pytest.mark.parametrize(("pitch", "duration_s", "hertz"), [(0.0, 0.0364, 55.0), (1.0, 0.0121, 165.0)])
 def test_a_transient_is_a_pulse_that_halves_the_rest(pitch: float, duration_s: float, hertz: float) -> None:
     found = synthesize(HapticClip(flat(0.4), None, (Transient(0.5, 0.9, pitch),)))

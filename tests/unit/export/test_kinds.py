@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,13 @@ import pytest
 import soundfile
 
 import haptic_file_checker as checker
+from scene2hap.clips.haptic_clip import Curve, HapticClip, Transient
+from scene2hap.clips.reading import read_haptic_clip
+from scene2hap.clips.synthesis import synthesize
 from scene2hap.errors import ConfigError, ExportError
 from scene2hap.export import EXPORTS, Channel, Exported, Track
 from scene2hap.export.curves import CurveSettings, curves_of
+from scene2hap.export.fidelity import fidelity
 
 RATE = 8000
 
@@ -143,6 +148,55 @@ def test_parts_of_a_long_export_join_without_a_gap(long: Track) -> None:
         found = np.interp(middle, [row["time_ns"] / 1e9 for row in rows], [row["value"] for row in rows])
         assert clip.frequency is not None
         assert found == pytest.approx(clip.frequency.at([middle])[0], abs=1e-5)
+
+
+@pytest.mark.parametrize(("kind", "power"), [("haptic", 2.0), ("ahap", 1.0)])
+def test_a_drawn_curve_has_the_reported_error_in_a_format_with_other_lines(
+    kind: str, power: float, tmp_path: Path
+) -> None:
+    """Between two points, AHAP is linear in the root of the amplitude, and .haptic in the amplitude itself."""
+    clip = HapticClip(Curve(np.array([0.0, 2.0]), np.array([0.0, 1.0]), power))
+    channel = Channel(synthesize(clip), RATE, clip=clip)
+    exported = made(kind, Track("drawn", {"": channel}))
+    (path,) = (tmp_path / name for name in exported.files)
+    path.write_bytes(*exported.files.values())
+    found = fidelity(channel, read_haptic_clip(path))
+    assert found.median_db > 5.0
+    assert fidelity(channel, exported.played[""]).median_db == pytest.approx(found.median_db, abs=0.01)
+
+
+def test_transients_before_the_amplitude_curve_are_kept(tmp_path: Path) -> None:
+    """In AHAP, taps may come before the first continuous event."""
+    taps = Transient(0.25, 0.8, 0.5), Transient(0.5, 0.4, 0.5)
+    clip = HapticClip(Curve(np.array([1.0, 2.0]), np.array([0.25, 0.25])), transients=taps)
+    path = tmp_path / "tap.haptic"
+    path.write_bytes(*made("haptic", Track("tap", {"": Channel(synthesize(clip), RATE, clip=clip)})).files.values())
+    assert checker.check_haptic(json.loads(path.read_bytes())) == []
+    again = read_haptic_clip(path)
+    assert again.transients == taps
+    np.testing.assert_array_equal(synthesize(again), synthesize(clip))
+
+
+def test_hjif_plays_the_middle_before_a_frequency_curve_that_begins_later() -> None:
+    late = Curve(np.array([1.0, 2.0]), np.array([0.2, 0.8]))
+    clip = HapticClip(Curve(np.array([0.0, 2.0]), np.ones(2)), late, range_hz=(50.0, 150.0))
+    track = Track("late", {"": Channel(synthesize(clip), RATE, clip=clip)})
+    document = json.loads(made("hjif", track).files["late.hjif"])
+    (band,) = document["perceptions"][0]["channels"][0]["bands"]
+    frames = band["effects"][0]["keyframes"]
+    found = [(one["relative_position"], one["frequency_modulation"]) for one in frames]
+    assert found == [(0, 100), (1000, 100), (1000, 70), (2000, 130)]
+
+
+@pytest.mark.parametrize("stream", [False, True])
+def test_openxr_plays_the_middle_before_a_frequency_curve_that_begins_later(stream: bool) -> None:
+    clip = HapticClip(Curve(np.array([0.0, 2.0]), np.ones(2)), Curve(np.array([1.0, 2.0]), np.array([0.2, 0.8])))
+    track = Track("late", {"": Channel(synthesize(clip), RATE, clip=clip)})
+    document = json.loads(made({"kind": "openxr_parametric", "stream": stream}, track).files["late.json"])
+    assert checker.check_openxr_parametric(document) == []
+    points = [point for call in document["calls"] for point in call["frequency_points"]]
+    assert {point["value"] for point in points if point["time_ns"] < 1e9} == {0.5}
+    assert points[-1] == {"time_ns": 2_000_000_000, "value": 0.8}
 
 
 def test_stream_frames_have_the_duration_requested_by_the_runtime(tour: Track) -> None:

@@ -19,14 +19,14 @@ _SAYS_NOTHING = frozenset(
 )
 
 
-def ladder(description: VibrationDescription) -> tuple[str, ...]:
+def queries_for(description: VibrationDescription) -> tuple[str, ...]:
     """Return queries in the order to try: all key words; category; head noun with verb; head noun. It may be empty."""
     keywords = _words(description.keywords)
     name, head = spelled_phrase(description.object_category)
     spoken = tuple(word for word in keywords if word not in name)
-    rungs = [keywords, name, (*head, *spoken), head]
-    kept = [rung for rung in rungs if rung and not (len(rung) == 1 and rung[0] in _SAYS_NOTHING)]
-    return tuple(dict.fromkeys(" ".join(rung)[:LONGEST_QUERY].strip() for rung in kept))
+    wordings = [keywords, name, (*head, *spoken), head]
+    kept = [words for words in wordings if words and not (len(words) == 1 and words[0] in _SAYS_NOTHING)]
+    return tuple(dict.fromkeys(" ".join(words)[:LONGEST_QUERY].strip() for words in kept))
 
 
 def _words(text: str) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ import json
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from scene2hap import web
 from scene2hap.audio.sources.disk_cache import plain_line
@@ -17,9 +17,6 @@ from scene2hap.audio.sources.freesound.rate_limit import MINUTE_S, RateLimit
 from scene2hap.audio.sources.freesound.sounds import FIELDS, Sound, read_sounds
 from scene2hap.errors import BackendError, BackendUnavailable, BadAnswer
 from scene2hap.secret import Secret
-
-if TYPE_CHECKING:
-    from scene2hap.web import Transport
 
 RESULTS_ASKED = 15
 """Results per search: three times the candidates, since some previews are too short or broken; the API's default."""
@@ -53,7 +50,7 @@ class Service:
     base_url: str
     token: Secret
     timeout_s: float
-    transport: Transport | None = None
+    transport: web.Transport | None = None
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], object] = time.sleep
     _failure: tuple[float, BackendError] | None = field(default=None, init=False)

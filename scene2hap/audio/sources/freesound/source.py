@@ -13,7 +13,7 @@ from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES, how_many
 from scene2hap.audio.sources.disk_cache import MAX_CLIP_S, Store, digest, is_long_enough
 from scene2hap.audio.sources.freesound import licences as cc
-from scene2hap.audio.sources.freesound.queries import ladder
+from scene2hap.audio.sources.freesound.queries import queries_for
 from scene2hap.audio.sources.freesound.service import Service
 from scene2hap.audio.sources.freesound.sounds import Sound, read_sounds
 from scene2hap.calls import not_pickled
@@ -27,17 +27,8 @@ from scene2hap.web import checked_base
 if TYPE_CHECKING:
     from scene2hap.web import Transport
 
-SORTS = tuple(
-    f"{what}{way}"
-    for what, ways in {
-        "score": ("",),
-        "duration": ("_desc", "_asc"),
-        "created": ("_desc", "_asc"),
-        "downloads": ("_desc", "_asc"),
-        "rating": ("_desc", "_asc"),
-    }.items()
-    for way in ways
-)
+_SORTED = ("duration", "created", "downloads", "rating")
+SORTS = ("score", *(f"{what}_{way}" for what in _SORTED for way in ("desc", "asc")))
 
 _PATIENCE = 2
 """Failed downloads of previews in a row after which their host counts as unavailable."""
@@ -102,7 +93,7 @@ class Freesound:
         Raises: BackendUnavailable: no answer, or no token; BadAnswer: an answer without sounds; ConfigError: the cache
         cannot be written.
         """
-        for query in ladder(description):
+        for query in queries_for(description):
             clips = self._clips(query)
             if clips:
                 return clips

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from scene2hap.audio.sources.synth.events import blows, bubbles, buzzer, music
 from scene2hap.audio.sources.synth.oscillating import (
@@ -31,57 +32,40 @@ def _fan(
     return Patch(voice, (0.96 * order * shaft_hz, 1.04 * order * shaft_hz), size_m)
 
 
-def _engine(
-    firing_hz: float, loud_order: int, size_m: float, *, revs: float = 0.0, rev_s: float = 2.5, roar: float = 0.0
-) -> Patch:
+# In the functions below, `levels` are further settings of the voice.
+
+
+def _engine(firing_hz: float, loud_order: int, size_m: float, *, revs: float = 0.0, **levels: Any) -> Patch:
     loud_hz = loud_order * firing_hz
-    voice = partial(combustion, firing_hz=firing_hz, loud_order=loud_order, revs=revs, rev_s=rev_s, roar=roar)
+    voice = partial(combustion, firing_hz=firing_hz, loud_order=loud_order, revs=revs, **levels)
     reach = 0.05 + revs
     return Patch(voice, ((1.0 - reach) * loud_hz, (1.0 + reach) * loud_hz), size_m, is_steady=revs < 0.1)
 
 
-def _to_and_fro(stroke_hz: float, *, rattle: float = 0.1) -> Patch:
-    return Patch(partial(reciprocating, stroke_hz=stroke_hz, rattle=rattle), (0.96 * stroke_hz, 1.04 * stroke_hz))
+def _to_and_fro(stroke_hz: float, **levels: Any) -> Patch:
+    return Patch(partial(reciprocating, stroke_hz=stroke_hz, **levels), (0.96 * stroke_hz, 1.04 * stroke_hz))
 
 
 def _shaker(motor_hz: float, size_m: float | None = None) -> Patch:
     return Patch(partial(vibration_motor, motor_hz=motor_hz), (0.95 * motor_hz, 1.05 * motor_hz), size_m)
 
 
-def _geared(
-    motor_hz: float,
-    output_hz: float,
-    size_m: float | None,
-    *,
-    load: float = 0.2,
-    rumble: float = 0.2,
-    thump_hz: float = 0.0,
-) -> Patch:
+def _geared(motor_hz: float, output_hz: float, size_m: float | None, **levels: Any) -> Patch:
     """Return a geared motor; without a size an induction motor, whose speed depends on the mains and not on size."""
-    voice = partial(
-        geared,
-        motor_hz=motor_hz,
-        output_hz=output_hz,
-        load=load,
-        rumble=rumble,
-        thump_hz=thump_hz,
-        on_mains=size_m is None,
-    )
+    voice = partial(geared, motor_hz=motor_hz, output_hz=output_hz, on_mains=size_m is None, **levels)
     return Patch(voice, (0.96 * motor_hz, 1.04 * motor_hz), size_m)
 
 
-def _strokes(per_second: float, body_hz: float, decay_s: float, *, click: float = 0.2) -> Patch:
+def _strokes(per_second: float, body_hz: float, decay_s: float, **levels: Any) -> Patch:
     """Return blows on a ringing body. They are steady if too fast to be felt one by one; slower ones do not loop."""
-    voice = partial(blows, per_second=per_second, body_hz=body_hz, decay_s=decay_s, click=click)
+    voice = partial(blows, per_second=per_second, body_hz=body_hz, decay_s=decay_s, **levels)
     # The strongest line of a fast pulse train is the multiple of its rate nearest to the body's pitch.
     spread = max(0.06 * body_hz, 0.6 * per_second)
     return Patch(voice, (body_hz - spread, body_hz + spread), is_steady=per_second > 10.0)
 
 
-def _tool(
-    motor_hz: float, spindle_hz: float, size_m: float, *, spindle: float = 0.4, loud_hz: float | None = None
-) -> Patch:
-    voice = partial(power_tool, motor_hz=motor_hz, spindle_hz=spindle_hz, spindle=spindle)
+def _tool(motor_hz: float, spindle_hz: float, size_m: float, *, loud_hz: float | None = None, **levels: Any) -> Patch:
+    voice = partial(power_tool, motor_hz=motor_hz, spindle_hz=spindle_hz, **levels)
     loud_hz = loud_hz or motor_hz
     return Patch(voice, (0.96 * loud_hz, 1.04 * loud_hz), size_m)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cache
 
 from scene2hap.audio.sources.synth.patch import Patch
@@ -38,11 +37,9 @@ def patches() -> tuple[Patch, ...]:
 
 @cache
 def _rows() -> tuple[tuple[frozenset[str], frozenset[str], Patch], ...]:
-    return tuple(_expanded())
-
-
-def _expanded() -> Iterator[tuple[frozenset[str], frozenset[str], Patch]]:
-    """Yield one row for each name, in stems."""
-    for names, verbs, patch in TABLE:
-        for name in names.split(","):
-            yield frozenset(stems(name)), frozenset(stems(verbs)), patch
+    """Return one row for each name, in stems."""
+    return tuple(
+        (frozenset(stems(name)), frozenset(stems(verbs)), patch)
+        for names, verbs, patch in TABLE
+        for name in names.split(",")
+    )

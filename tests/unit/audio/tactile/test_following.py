@@ -11,6 +11,7 @@ from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.following import MOST_LIFTED_DB, Following
+from scene2hap.audio.tactile.stages import Stage
 from scene2hap.haptics import ActuatorProfile
 from sound_draws import band_noise, coloured_noise
 
@@ -55,7 +56,7 @@ def test_level_changes_outside_the_band_are_felt() -> None:
     assert np.corrcoef(felt, sound)[0, 1] > 0.8
 
 
-class _Bed:
+class _Bed(Stage):
     """A bed that applies a given gain to each sample."""
 
     def __init__(self, gain: np.ndarray) -> None:
@@ -64,9 +65,6 @@ class _Bed:
     def run(self, x: np.ndarray) -> np.ndarray:
         self._n += len(x)
         return x * self._gain[self._n - len(x) : self._n]
-
-    def rest(self) -> np.ndarray:
-        return np.empty(0)
 
 
 def followed(gain: np.ndarray, cuts: list[int]) -> np.ndarray:

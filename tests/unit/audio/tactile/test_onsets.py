@@ -12,7 +12,7 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.auto import carrier_hz
 from scene2hap.audio.tactile.onsets import WithOnsets
-from scene2hap.audio.tactile.stages import Signal
+from scene2hap.audio.tactile.stages import Signal, Stage
 from scene2hap.haptics import ActuatorProfile
 from sound_draws import recordings
 
@@ -26,14 +26,11 @@ def recording(name: str) -> tuple[Signal, int]:
     return found[name]
 
 
-class Silence:
+class Silence(Stage):
     """A silent bed, so that only bursts are left."""
 
     def run(self, x: Signal) -> Signal:
         return np.zeros_like(x)
-
-    def rest(self) -> Signal:
-        return np.empty(0)
 
 
 def bursts(sound: Signal, rate: int = RATE, *, bed_follows: bool = False) -> Signal:
@@ -155,7 +152,7 @@ def test_strokes_keep_their_strengths_and_their_relation_to_the_bed() -> None:
     assert np.corrcoef(*envelopes)[0, 1] > 0.95
 
 
-class Murmur:
+class Murmur(Stage):
     """A weak bed that is 8 dB stronger in every other second."""
 
     def __init__(self, weakest: float) -> None:
@@ -165,9 +162,6 @@ class Murmur:
         t = (self._n + np.arange(len(x))) / RATE
         self._n += len(x)
         return self._weakest * np.where(t % 2 < 1, 1.0, 2.5) * np.sin(2 * np.pi * 150 * t)
-
-    def rest(self) -> Signal:
-        return np.empty(0)
 
 
 def test_equal_strokes_over_a_weak_bed_are_about_equally_strong() -> None:

@@ -2,12 +2,12 @@ from __future__ import annotations
 
 import pytest
 
-from scene2hap.audio.sources.freesound.queries import LONGEST_QUERY, ladder
+from scene2hap.audio.sources.freesound.queries import LONGEST_QUERY, queries_for
 from scene2hap.haptics import VibrationDescription
 
 
-def rungs(category: str, keywords: str) -> tuple[str, ...]:
-    return ladder(VibrationDescription(category, "on", "", keywords, 0.5, (0.0, 0.0, 0.0)))
+def queries(category: str, keywords: str) -> tuple[str, ...]:
+    return queries_for(VibrationDescription(category, "on", "", keywords, 0.5, (0.0, 0.0, 0.0)))
 
 
 @pytest.mark.parametrize(
@@ -37,9 +37,9 @@ def rungs(category: str, keywords: str) -> tuple[str, ...]:
         ("", "boiling water", ("boiling water",)),
     ],
 )
-def test_each_query_of_the_ladder_has_fewer_words(category: str, keywords: str, expected: tuple[str, ...]) -> None:
-    assert rungs(category, keywords) == expected
+def test_each_query_has_fewer_words(category: str, keywords: str, expected: tuple[str, ...]) -> None:
+    assert queries(category, keywords) == expected
 
 
-def test_queries_of_the_ladder_stay_within_the_length_limit() -> None:
-    assert all(0 < len(rung) <= LONGEST_QUERY for rung in rungs("pneumatic " * 30 + "drill", "drill " * 50))
+def test_queries_stay_within_the_length_limit() -> None:
+    assert all(0 < len(query) <= LONGEST_QUERY for query in queries("pneumatic " * 30 + "drill", "drill " * 50))
