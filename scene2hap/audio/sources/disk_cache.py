@@ -22,7 +22,7 @@ from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.select import MIN_DURATION_S
 from scene2hap.errors import AudioError, ConfigError, reason_of
-from scene2hap.text_files import draft_of
+from scene2hap.text_files import draft_of, read_small
 
 MAX_CLIP_S = 60.0
 """Longest sound from a service [s] (assumed: a loop needs 10 s)."""
@@ -78,7 +78,7 @@ class Store:
         """Return the JSON document of that name; None if it is missing or cannot be read."""
         path = self.folder / name
         try:
-            return json.loads(path.read_bytes()) if path.stat().st_size <= _MAX_JSON_BYTES else None
+            return json.loads(read_small(path, _MAX_JSON_BYTES))
         except (OSError, ValueError, RecursionError):
             return None
 
