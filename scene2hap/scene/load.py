@@ -88,6 +88,8 @@ def load_scene(
             f"names is for Habitat scenes (NAME{HABITAT_SUFFIX}), and {path.name!r} is none. Leave it out; nodes of "
             "other files get names by group={node: name}."
         )
+    if assets_root is not None:
+        assets_root = checks.path("assets_root", assets_root, error=SceneError)
     return _loaded(path, up_axis, unit_m, group, assets_root, names)
 
 
@@ -111,12 +113,12 @@ def _loaded(
     up_axis: UpAxis | None,
     unit_m: float | None,
     group: Grouping,
-    assets_root: str | os.PathLike[str] | None,
+    assets_root: Path | None,
     names: Mapping[str, str] | str | os.PathLike[str] | None,
 ) -> SceneSnapshot:
     if path.suffix.lower() == ".json" and not is_habitat(path):
         return _from_json(path, up_axis, unit_m, group)
-    root = path.parent if assets_root is None else checks.path("assets_root", assets_root, error=SceneError)
+    root = path.parent if assets_root is None else assets_root
     if path.suffix.lower() == ".xml":
         unit = unit_m or 1.0
         snapshot = _from_mjcf(path, up_axis, unit, group, root)
