@@ -100,7 +100,7 @@ def _naming_file(read: Callable[Concatenate[Path, _Rest], _Found]) -> Callable[C
         try:
             return read(path, *rest, **named)
         except SceneError as error:
-            if path.name not in str(error):
+            if path.name not in str(error) and repr(path.name)[1:-1] not in str(error):
                 error.args = (f"{path.name!r}: {error}",)
             raise
 

@@ -100,6 +100,19 @@ def test_a_long_name_in_a_ply_file_is_shown_shortened(tmp_path: Path) -> None:
     assert "box.ply" in message_of(SceneError, lambda: load_scene(path))
 
 
+@pytest.mark.parametrize("number", ["nan", "inf", "-1e999"])
+def test_a_texture_coordinate_that_is_not_finite_becomes_0(number: str, tmp_path: Path) -> None:
+    (tmp_path / "room.mtl").write_text("newmtl oak\nmap_Kd oak.png\n")
+    Image.new("RGB", (20, 20)).save(tmp_path / "oak.png")
+    path = tmp_path / "room.obj"
+    square = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\n"
+    path.write_text(f"mtllib room.mtl\n{square}vt {number} 0.5\nusemtl oak\nf 1/1 2/2 3/1\n")
+    (item,) = load_scene(path).objects
+    assert item.appearance is not None
+    assert item.appearance.uv is not None
+    assert np.isfinite(item.appearance.uv).all()
+
+
 def test_a_damaged_picture_is_named_with_its_file(tmp_path: Path) -> None:
     Image.new("RGB", (20, 20)).save(tmp_path / "a.png")
     whole = (tmp_path / "a.png").read_bytes()

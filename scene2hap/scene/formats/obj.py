@@ -8,6 +8,7 @@ Source: Wavefront, Advanced Visualizer manual (1990s), appendix B1, "Object file
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
@@ -133,7 +134,7 @@ def _coordinates(rest: str) -> tuple[float, float]:
         u, v = map(float, [*rest.split(), "0"][:2])
     except ValueError:
         return 0.0, 0.0
-    return u, v
+    return (u, v) if math.isfinite(u) and math.isfinite(v) else (0.0, 0.0)
 
 
 def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
