@@ -66,8 +66,8 @@ def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None 
 def _fields(text: str) -> dict[str, Any]:
     """Return the fields of an answer; an empty dict if it is no JSON object."""
     try:
-        fields = json.loads(text)
-    except (ValueError, RecursionError):  # json raises ValueError also for a number with thousands of digits
+        fields = json.loads(text, parse_int=float)  # an integer of 400 digits would have no float later
+    except (ValueError, RecursionError):
         return {}
     return fields if isinstance(fields, dict) else {}
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import os
 import sys
+import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -18,7 +20,7 @@ from PIL import Image
 
 from gltf_builder import one_cube
 from llm_server import GOOD, request
-from scene2hap import FunctionBackend, load_scene
+from scene2hap import FunctionBackend, LLMRequest, load_scene
 from scene2hap.audio.actuators import read_response_csv
 from scene2hap.audio.conversion import convert
 from scene2hap.audio.files import read_clip
@@ -32,10 +34,13 @@ from scene2hap.llm.backends.chat import counts
 from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.batch.folder import BatchFolder, BatchRow
 from scene2hap.llm.batch.service import BatchService
-from scene2hap.llm.wrappers import CacheBackend
+from scene2hap.llm.chain import infer_scene
+from scene2hap.llm.validation import find_fault
+from scene2hap.llm.wrappers import CacheBackend, RepairBackend
 from scene2hap.report.account import account_table
 from scene2hap.scene.capture.given_pictures import GivenPictures
 from scene2hap.touch_track import TouchTrack
+from scenes import table_with_two_phones
 
 LONGEST = 1500
 DIGITS = "9" * 5000
@@ -59,6 +64,20 @@ def test_an_error_of_a_scene_names_its_file(tmp_path: Path) -> None:
     gltf.header["accessors"][0]["count"] = 4
     path = gltf.write(tmp_path / "room.glb")
     assert message_of(SceneError, lambda: load_scene(path)).startswith("'room.glb': node 'cube', meshes[0]")
+
+
+def test_a_signalling_nan_is_refused_without_a_warning_of_numpy(tmp_path: Path) -> None:
+    gltf = one_cube()
+    gltf.buffer[:4] = bytes.fromhex("0100807f")
+    path = gltf.write(tmp_path / "room.glb")
+    assert "every coordinate must be finite" in message_of(SceneError, lambda: load_scene(path))
+
+
+def test_a_long_value_in_the_place_of_a_number_is_shown_shortened(tmp_path: Path) -> None:
+    gltf = one_cube()
+    gltf.header["accessors"][0]["bufferView"] = [0] * 5000
+    path = gltf.write(tmp_path / "room.glb")
+    assert "refers to bufferViews" in message_of(SceneError, lambda: load_scene(path))
 
 
 def test_an_error_of_a_mesh_within_a_scene_names_both_files(tmp_path: Path) -> None:
@@ -173,6 +192,18 @@ def test_a_long_heading_of_a_sound_library_is_shown_shortened(tmp_path: Path) ->
 def test_long_names_in_settings_are_shown_shortened(field: str) -> None:
     message_of(ConfigError, lambda: BakeConfig.parse({"audio": [{"kind": "synth", field: "a" * 100_000}]}))
     message_of(ConfigError, lambda: BakeConfig.parse({"llm": {"kind": "openai", field: "a" * 100_000}}))
+
+
+def test_a_key_of_many_parts_in_a_toml_file_is_refused_at_once(tmp_path: Path) -> None:
+    path = tmp_path / "settings.toml"
+    path.write_text(f"[bake]\n{'a.' * 100_000}a = 1\n")
+    begin = time.process_time()
+    assert "settings.toml cannot be read: a key has more than 32 parts" in message_of(
+        ConfigError, lambda: BakeConfig.parse(path)
+    )
+    assert time.process_time() - begin < 5.0
+    path.write_text('[bake]\nprices = {"gpt-4.1" = [2.5, 10.0]}\n[user]\ncurve_db = [[50.0, 1.5], [200.0, -3.5]]\n')
+    assert BakeConfig.parse(path).prices == {"gpt-4.1": (2.5, 10.0)}
 
 
 @pytest.mark.parametrize("field", ["point_m", "to_m", "by_m", "rotation_xyzw"])
@@ -293,6 +324,24 @@ def test_a_huge_file_in_the_cache_counts_as_missing(tmp_path: Path) -> None:
     os.truncate(entry, 1 << 40)
     assert asyncio.run(backend().complete(request())).text == first.text
     assert entry.stat().st_size < 10_000
+
+
+@pytest.mark.parametrize(
+    ("component", "field"),
+    [("material_estimator", name) for name in GOOD["material_estimator"]]
+    + [("object_analyzer", name) for name in ("estimated_length_m", "estimated_mass_kg", "confidence")]
+    + [("vibration_describer", name) for name in ("start_up_s", "on_s")],
+)
+def test_an_answer_with_a_number_of_400_digits_is_one_invalid_answer(component: Any, field: str) -> None:
+    def answer(asked: LLMRequest) -> str:
+        return json.dumps({**GOOD[asked.component], **({field: 10**400} if asked.component == component else {})})
+
+    scene = table_with_two_phones()[0]
+    problem = find_fault(component, json.dumps({**GOOD[component], field: 10**400}), {"material_category": "steel"})
+    assert problem is not None
+    assert field in problem.reason
+    with contextlib.suppress(BadAnswer):  # no object has an answer
+        asyncio.run(infer_scene(scene, RepairBackend(FunctionBackend(answer))))
 
 
 # -- records ----------------------------------------------------------------------------------------------------------

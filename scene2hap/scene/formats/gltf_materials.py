@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
+from scene2hap.checks import represented
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.formats.gltf_accessors import view
 from scene2hap.scene.formats.gltf_container import GltfFile, Json, data_uri, natural
@@ -106,7 +107,9 @@ class GltfMaterials:
         rows = self.file.header.get(table)
         n = len(rows) if isinstance(rows, list) else 0
         if not isinstance(rows, list) or not isinstance(number, int) or not 0 <= number < n:
-            raise SceneFormatError(f"{place} refers to {table}[{number!r}]; the file has {n} {table} (from 0).")
+            raise SceneFormatError(
+                f"{place} refers to {table}[{represented(number)}]; the file has {n} {table} (from 0)."
+            )
         return _object(rows[number])
 
 
