@@ -232,8 +232,9 @@ def _problem(taken: list[inspect.Parameter], args: Sequence[object], kwargs: Map
     known = [one.name for one in taken]
     for unknown in kwargs:
         if unknown not in known:
-            setting = f"A setting goes into config={{{unknown!r}: ...}}." if "config" in known else ""
-            return f"there is no argument {unknown!r}. {checks.did_you_mean(unknown, known, setting)}".strip()
+            name = checks.represented(unknown)
+            setting = f"A setting goes into config={{{name}: ...}}." if "config" in known else ""
+            return f"there is no argument {name}. {checks.did_you_mean(unknown, known, setting)}".strip()
     positional = [one for one in taken if one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)]
     if len(args) <= len(positional):
         return ""

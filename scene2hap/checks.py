@@ -32,13 +32,18 @@ def shown(value: object, name: object = "") -> str:
     if isinstance(name, str) and _SECRET_NAME.search(name):
         return "'***'"
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key!r}: {shown(item, key)}" for key, item in value.items()) + "}"
+        return _cut("{" + ", ".join(f"{represented(key)}: {shown(item, key)}" for key, item in value.items()) + "}")
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(shown, value)) + "]"
+        return _cut("[" + ", ".join(map(shown, value)) + "]")
     return represented(value)
 
 
 _LONGEST_SHOWN = 200
+_LONGEST_CONTAINER_SHOWN = 1000
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _LONGEST_CONTAINER_SHOWN else f"{text[:_LONGEST_CONTAINER_SHOWN]}..."
 
 
 def represented(value: object) -> str:

@@ -69,8 +69,8 @@ class PluginGroup:
                 return self._resolve(guest)
         near = self._near(kind)
         raise UnknownPlugin(
-            f"{self.name} has no kind {kind!r}. {near}{' ' if near else ''}Known: {', '.join(self.kinds())}. "
-            f"A package adds one by an entry point in the group {self.name!r}."
+            f"{self.name} has no kind {represented(kind)}. {near}{' ' if near else ''}"
+            f"Known: {', '.join(self.kinds())}. A package adds one by an entry point in the group {self.name!r}."
         )
 
     def _near(self, kind: str) -> str:

@@ -8,6 +8,7 @@ import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO
 
 MAX_BYTES = 1 << 24
 """Most bytes of one file; assumed: a hundred times the largest handwritten one, and parsed in seconds."""
@@ -18,16 +19,27 @@ def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> byte
 
     Raises: OSError, ValueError: there is no such file, it is no regular file, or it is larger than `max_bytes`.
     """
+    with opened_regular(path) as file:
+        # A read of `max_bytes` would allocate as many, however small the file is.
+        size = os.fstat(file.fileno()).st_size
+        content = file.read(min(size, max_bytes) + 1)
+        if size < len(content) <= max_bytes:  # it is being written, or the system does not know its size
+            content += file.read(max_bytes + 1 - len(content))
+        size = max(size, len(content))
+    if len(content) > max_bytes:
+        raise ValueError(f"it has {size} bytes; it must have at most {max_bytes}")
+    return content
+
+
+@contextmanager
+def opened_regular(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Open a regular file for reading. Raises: OSError, ValueError: there is no such file, or it is no regular file."""
     # O_NONBLOCK: opening a pipe would block. The open file is checked, since its path may have been replaced meanwhile.
     descriptor = os.open(Path(path), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(descriptor, "rb") as file:
-        found = os.fstat(descriptor)
-        if not stat.S_ISREG(found.st_mode):
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
             raise ValueError("it is a folder, a pipe or a device; give a file")
-        content = file.read(max_bytes + 1)
-    if len(content) > max_bytes:
-        raise ValueError(f"it has {max(found.st_size, len(content))} bytes; it must have at most {max_bytes}")
-    return content
+        yield file
 
 
 def read_small_text(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> str:

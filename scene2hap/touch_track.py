@@ -17,6 +17,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_attributes
 from scene2hap.errors import SessionError, reason_of
 from scene2hap.printable import parse_json
+from scene2hap.scene.limits import MAX_COORDINATE_M
 from scene2hap.text_files import read_small_text
 
 FORMAT: Literal["scene2hap/touches"] = "scene2hap/touches"
@@ -29,7 +30,8 @@ MAX_DURATION_S = 600.0
 MAX_STEPS = 100_000
 """Assumed: more than two hands need that move in each of 60 frames a second for `MAX_DURATION_S`."""
 
-_Point = tuple[float, float, float]
+_Coordinate = Annotated[float, Field(ge=-MAX_COORDINATE_M, le=MAX_COORDINATE_M)]
+_Point = tuple[_Coordinate, _Coordinate, _Coordinate]
 _TOUCHES = "touches"
 _ACTIONS = ("touch", "lift", "move", "source")
 
@@ -65,7 +67,7 @@ class MoveStep(_Step):
     move: str
     to_m: _Point | None = None
     by_m: _Point | None = None
-    rotation_xyzw: tuple[float, float, float, float] | None = None
+    rotation_xyzw: tuple[_Coordinate, _Coordinate, _Coordinate, _Coordinate] | None = None
     glide_s: float = Field(default=0.0, ge=0.0)
 
     @model_validator(mode="after")
@@ -179,9 +181,9 @@ def _sentence(problem: checks.Problem) -> str:
 def _place(location: tuple[int | str, ...]) -> str:
     """Return the place of an error in a file, in the user's terms: "step 3, point_m.1"."""
     if location[:1] == ("steps",) and len(location) > 1:
-        field = ".".join(str(part) for part in location[2:] if part not in _ACTIONS)
+        field = ".".join(str(part) for part in location[2:] if part not in _ACTIONS)[:200]
         return f"step {int(location[1]) + 1}{', ' + field if field else ''}"
-    return ".".join(map(str, location)) or "whole file"
+    return ".".join(map(str, location))[:200] or "whole file"
 
 
 def _from_csv(text: str) -> dict[str, Any]:
@@ -194,12 +196,16 @@ def _from_csv(text: str) -> dict[str, Any]:
     rows = csv.reader(lines, delimiter=max(",;\t", key=lines[0].count) if lines else ",")
     named = [name.strip() for name in next(rows, [])]
     if "time_s" not in named:
-        near = [f"; name {name!r} time_s, and give seconds" for name in named if checks.did_you_mean(name, ["time_s"])]
-        has = f"it names {', '.join(map(repr, named))}" if named else "the file is empty"
+        near = [
+            f"; name {checks.represented(name)} time_s, and give seconds"
+            for name in named
+            if checks.did_you_mean(name, ["time_s"])
+        ]
+        has = f"it names {checks.represented(named)[1:-1]}" if named else "the file is empty"
         raise ValueError(f"the first row must name the columns, time_s among them; {has}{''.join(near[:1])}")
     twice = [name for place, name in enumerate(named) if name and name in named[:place]]
     if twice:
-        raise ValueError(f"two columns are named {twice[0]!r}; remove one")
+        raise ValueError(f"two columns are named {checks.represented(twice[0])}; remove one")
     for row in rows:
         if any(cell.strip() for cell in row[len(named) :]):
             raise ValueError(

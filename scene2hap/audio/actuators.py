@@ -92,8 +92,8 @@ def _point(path: Path, row: list[str]) -> tuple[float, float]:
         return float(row[0]), float(row[1])
     except (ValueError, IndexError) as cause:
         raise ConfigError(
-            f"{path} has a row {','.join(row)!r}; every row must be a frequency [Hz] and a level [dB], with a comma "
-            "between them and decimals after a point."
+            f"{path} has a row {checks.represented(','.join(row))}; every row must be a frequency [Hz] and a level "
+            "[dB], with a comma between them and decimals after a point."
         ) from cause
 
 

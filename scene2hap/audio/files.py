@@ -29,6 +29,9 @@ MAX_FILE_SAMPLES, SAMPLES_PER_BYTE = 1 << 26, 16
 """Most samples of all channels together (assumed: ten minutes of stereo at 48 kHz, decoded in a second or two), and
 further samples for each byte of the file (assumed: Ogg at 48 kbit/s has 7). A megabyte of FLAC may hold hours of
 silence at 655 kHz."""
+MAX_SAMPLE = 1e9
+"""Largest sample of a file of floats, re full scale. Larger ones are damage, and their powers exceed float32; assumed:
+twice the scale of programs that write integers of 30 bits as floats."""
 SUFFIXES = frozenset(
     {".wav", ".flac", ".ogg", ".mp3", ".aif", ".aiff", ".au", ".caf", ".oga", ".opus", ".rf64", ".w64"}
 )
@@ -78,7 +81,10 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
             ]
     if not blocks:
         raise AudioError(f"{path} has no samples. Use a sound that is longer than 0 s.")
-    return AudioClip(np.concatenate(blocks), rate, credit or Credit(path.stem, "unknown", "unknown"))
+    try:
+        return AudioClip(np.concatenate(blocks), rate, credit or Credit(path.stem, "unknown", "unknown"))
+    except AudioError as cause:
+        raise AudioError(f"{path}: {cause}") from cause
 
 
 class Mixdown:
@@ -151,12 +157,16 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
 
 
 def require_finite(path: Path, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]], start: int = 0) -> None:
-    """Check samples (n, channels) that begin at `start` in the file. Raises: AudioError: one of them is not finite."""
-    finite = np.isfinite(channels).all(axis=1)
-    if not finite.all():
-        at = int(np.argmin(finite))
+    """Check samples (n, channels) that begin at `start` in the file.
+
+    Raises: AudioError: one of them is not finite, or exceeds `MAX_SAMPLE`.
+    """
+    good = (np.abs(channels) <= MAX_SAMPLE).all(axis=1)
+    if not good.all():
+        at = int(np.argmin(good))
         raise AudioError(
-            f"{path}: sample {start + at} is {channels[at]}; every sample must be finite. Export it again."
+            f"{path}: sample {start + at} is {channels[at]}; every sample must be finite, and within {MAX_SAMPLE:g} "
+            "[-], where full scale is 1. Export it again."
         )
 
 

@@ -77,7 +77,7 @@ def _closing(text: str, start: int) -> int | None:
 def fields_of(text: str) -> dict[str, Any] | None:
     """Return the fields of a text that is one JSON object; None for any other text."""
     try:
-        found = json.loads(text)
+        found = json.loads(text, parse_int=float)  # an integer of 400 digits would have no float later
     except (ValueError, RecursionError):  # ValueError: also a number with thousands of digits
         return None
     return found if isinstance(found, dict) else None

@@ -26,7 +26,7 @@ def account_table(account: Mapping[str, Any]) -> dict[str, Any]:
     """
     try:
         return {"rows": _rows(account), "problems": _problems(account)}
-    except (AttributeError, KeyError, TypeError, ValueError) as cause:
+    except (ArithmeticError, AttributeError, KeyError, TypeError, ValueError) as cause:
         raise ConfigError(
             f"the account of the bake has another shape: {cause!r}. Give what InferenceReport.as_json returns, or "
             "remove the file beside the bundle."

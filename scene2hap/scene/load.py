@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -30,6 +31,8 @@ __all__ = ["TextureWarning", "UnitWarning", "load_scene"]
 
 _USD_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 SUFFIXES = (".glb", ".gltf", *_USD_SUFFIXES, ".obj", ".dae", ".stl", ".ply", ".urdf", ".xml", ".json")
+_Rest = ParamSpec("_Rest")
+_Found = TypeVar("_Found")
 # Textures that a warning lists one by one (assumed: five examples show the cause).
 _LISTED = 5
 
@@ -85,9 +88,37 @@ def load_scene(
             f"names is for Habitat scenes (NAME{HABITAT_SUFFIX}), and {path.name!r} is none. Leave it out; nodes of "
             "other files get names by group={node: name}."
         )
+    if assets_root is not None:
+        assets_root = checks.path("assets_root", assets_root, error=SceneError)
+    return _loaded(path, up_axis, unit_m, group, assets_root, names)
+
+
+def _naming_file(read: Callable[Concatenate[Path, _Rest], _Found]) -> Callable[Concatenate[Path, _Rest], _Found]:
+    """Let a function that reads a file put the file's name before the message of an error that does not name it."""
+
+    def reading(path: Path, /, *rest: _Rest.args, **named: _Rest.kwargs) -> _Found:
+        try:
+            return read(path, *rest, **named)
+        except SceneError as error:
+            if path.name not in str(error) and repr(path.name)[1:-1] not in str(error):
+                error.args = (f"{path.name!r}: {error}",)
+            raise
+
+    return reading
+
+
+@_naming_file
+def _loaded(
+    path: Path,
+    up_axis: UpAxis | None,
+    unit_m: float | None,
+    group: Grouping,
+    assets_root: Path | None,
+    names: Mapping[str, str] | str | os.PathLike[str] | None,
+) -> SceneSnapshot:
     if path.suffix.lower() == ".json" and not is_habitat(path):
         return _from_json(path, up_axis, unit_m, group)
-    root = path.parent if assets_root is None else checks.path("assets_root", assets_root, error=SceneError)
+    root = path.parent if assets_root is None else assets_root
     if path.suffix.lower() == ".xml":
         unit = unit_m or 1.0
         snapshot = _from_mjcf(path, up_axis, unit, group, root)
@@ -111,6 +142,7 @@ def load_scene(
     return snapshot
 
 
+@_naming_file
 def _read(path: Path, assets_root: Path) -> AuthoredScene:
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES and path.is_file():

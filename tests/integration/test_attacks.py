@@ -1,4 +1,4 @@
-"""A part of the attack table; `python stress/attack.py` runs any number of cases."""
+"""A part of the attack table, and of the damaged files; the scripts in `stress/` run any number of cases."""
 
 import subprocess
 import sys
@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs fork")
-ATTACK = Path(__file__).parents[2] / "stress" / "attack.py"
+STRESS = Path(__file__).parents[2] / "stress"
+ATTACK = STRESS / "attack.py"
 
 
 @pytest.mark.parametrize("family", ["scene_files", "servers", "names"])
@@ -16,3 +17,12 @@ def test_a_slice_of_the_attack_table(family: str) -> None:
     done = subprocess.run(command, capture_output=True, text=True, timeout=240)
     assert done.returncode == 0, done.stdout + done.stderr
     assert f"| {family} | 9 |" in done.stdout
+
+
+@pytest.mark.parametrize("case", [1, 2])
+def test_a_slice_of_the_damaged_files(case: int) -> None:
+    readers = ["glTF", "bundle", "AHAP", "WAV FLOAT", "touches JSON", "settings TOML", "answers", "batches"]
+    command = [sys.executable, str(STRESS / "hostile_files.py"), "--case", str(case), "--readers", *readers]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=240)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert f"{len(readers)} cases, 0 failed" in done.stdout

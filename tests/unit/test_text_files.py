@@ -1,11 +1,22 @@
 """Reading small user files, limited in size and without waiting for pipes; writing files whole or not at all."""
 
 import os
+import tracemalloc
 from pathlib import Path
 
 import pytest
 
 from scene2hap.text_files import draft_of, read_small, read_small_text, write_whole
+
+
+def test_the_memory_of_a_read_is_that_of_the_file_and_not_of_the_limit(tmp_path: Path) -> None:
+    (tmp_path / "a").write_bytes(b"small")
+    tracemalloc.start()
+    try:
+        assert read_small(tmp_path / "a", 1 << 28) == b"small"
+        assert tracemalloc.get_traced_memory()[1] < 1 << 20
+    finally:
+        tracemalloc.stop()
 
 
 def test_file_size_limit_is_exact(tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
 from scene2hap.audio.conversion.meter import Meter
-from scene2hap.audio.files import Mixdown, opened_sound, require_finite, written_whole
+from scene2hap.audio.files import MAX_SAMPLE, Mixdown, opened_sound, require_finite, written_whole
 from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.levels import NOTHING_DB, TACTILE_HEADROOM_DB, is_noise, sensation_level_db
 from scene2hap.audio.protocol import (
@@ -142,7 +142,11 @@ def convert(
         if not raw and getattr(built, "follows_target", False):
             context = _looked_at(file, context)
         only = _strongest_of_cancelled(file) if mono else None
-        felt = _Running(built, context, file, mono=mono, only=only, raw=raw, n_columns=_PICTURE_COLUMNS if drawn else 0)
+        n_columns = _PICTURE_COLUMNS if drawn else 0
+        try:
+            felt = _Running(built, context, file, mono=mono, only=only, raw=raw, n_columns=n_columns)
+        except ConfigError as cause:  # a sample rate that no converter takes
+            raise ConfigError(f"{source}: {cause}") from cause
         blocks = felt.blocks(source, file)
         with _opened_for_writing(output, beside, felt) as target, ExitStack() as held:
             if not raw:
@@ -250,10 +254,11 @@ class _Running:
         stated, n_read = int(file.frames), 0
         offset = None if self._raw else _OffsetFilter(self.rate, self._offsets(file))
         while len(block := file.read(BLOCK_FRAMES, dtype="float32", always_2d=True)):
-            if self._mono and block.shape[1] > 1:
-                block = self._mixed(block)
-            self.before.hear(block)
-            if not math.isfinite(self.before.peak):
+            with np.errstate(over="ignore"):  # of samples that are refused below
+                if self._mono and block.shape[1] > 1:
+                    block = self._mixed(block)
+                self.before.hear(block)
+            if not self.before.peak <= MAX_SAMPLE:
                 require_finite(source, block, n_read)
             n_read += len(block)
             rows = block.T if offset is None else offset.filtered_rows(block)

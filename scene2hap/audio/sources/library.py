@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import SUFFIXES, read_clip
 from scene2hap.audio.sources.candidates import MAX_CANDIDATES
@@ -88,8 +89,8 @@ class FolderLibrary:
             raise ConfigError(f"{index}: cannot be read as CSV ({cause}). Shorten that field.") from cause
         if "file" not in (table.fieldnames or ()):
             raise ConfigError(
-                f"{index}: the first line is {table.fieldnames}; it must name the columns, at least 'file', "
-                "separated by commas."
+                f"{index}: the first line is {checks.represented(table.fieldnames)}; it must name the columns, "
+                "at least 'file', separated by commas."
             )
         for row in rows:
             # In a short row, the missing cells are None.

@@ -183,7 +183,7 @@ class _Work:
         for row in self.batches.rows():
             if row.stage == "written":
                 name = self.batches.input_path(row).name
-                content = self.batches.input_path(row).read_bytes()
+                content = self.batches.requests(row)
                 row = self.batches.save(
                     replace(row, stage="uploaded", input_file=await self.service.upload(name, content))
                 )

@@ -19,7 +19,7 @@ from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
 from scene2hap.scene.files import is_habitat, read_bytes
 from scene2hap.scene.formats.habitat import referenced_files
-from scene2hap.text_files import write_whole
+from scene2hap.text_files import read_small_text, write_whole
 
 WORK, REPORT = ".bake-many", "report.json"
 """The folder beside the bundles for records and drafts, and the file with the report of the last run."""
@@ -93,9 +93,9 @@ def settings_digest(config: BakeConfig, user_prompt: str, options: Mapping[str, 
 
 def read_record(path: Path) -> Record:
     """Read a record; empty if it is missing or damaged, so that its scene is baked again."""
-    with suppress(OSError, ValueError):
-        found = json.loads(path.read_text(encoding="utf-8"))
-        if isinstance(found, dict):
+    with suppress(OSError, ValueError, RecursionError):
+        found = json.loads(read_small_text(path))
+        if isinstance(found, dict) and isinstance(found.get("stage"), str):
             return found
     return {}
 

@@ -209,7 +209,11 @@ def _usage(usage: object) -> dict[str, int]:
     return {**counts(usage), **({"cached_tokens": cached} if cached else {})}
 
 
+_MOST_TOKENS = 2**53
+"""Larger counts are no counts, and their cost may exceed any number."""
+
+
 def counts(usage: object) -> dict[str, int]:
     """Return the valid token counts in a server's usage report."""
     items = usage.items() if isinstance(usage, dict) else ()
-    return {name: n for name, n in items if isinstance(n, int) and not isinstance(n, bool) and n >= 0}
+    return {name: n for name, n in items if isinstance(n, int) and not isinstance(n, bool) and 0 <= n < _MOST_TOKENS}

@@ -90,8 +90,10 @@ class ReplayBackend:
             return f"{missing} It has none for this component at all. Record it with RecordingBackend."
         fields, nearest = min(differences, key=lambda pair: (len(pair[0]), pair[1].subject != request.subject))
         return (
-            f"{missing} Nearest is the answer about {nearest.subject or 'the scene'!r} (key {nearest.key}), where "
-            f"{', '.join(fields) or 'something that it does not keep'} differ. Record it again with RecordingBackend."
+            f"{missing} Nearest is the answer about "
+            f"{checks.represented(nearest.subject or 'the scene')} (key {nearest.key[:200]}), where "
+            f"{', '.join(fields)[:500] or 'something that it does not keep'} differ. Record it again with "
+            "RecordingBackend."
         )
 
 

@@ -15,12 +15,17 @@ import json
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO, Literal
+from typing import Annotated, Any, BinaryIO, ClassVar, Literal
 
+from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
+
+from scene2hap import checks
 from scene2hap.errors import ConfigError, reason_of
+from scene2hap.llm.backends.http_client import MAX_REPLY_BYTES
 from scene2hap.llm.batch.service import COMPLETIONS, MOST_BYTES, MOST_REQUESTS
-from scene2hap.text_files import write_whole
+from scene2hap.text_files import opened_regular, read_small, write_whole
 
 Stage = Literal["written", "uploaded", "begun", "collected"]
 
@@ -37,16 +42,21 @@ class BatchRow:
     status : last status from the server; faults : errors of the batch as a whole.
     """
 
-    number: int
+    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+    number: Annotated[int, Field(ge=1)]
     requests: tuple[str, ...]
     stage: Stage = "written"
-    estimate_usd: float | None = None
+    estimate_usd: Annotated[float, Field(ge=0.0)] | None = None
     input_file: str = ""
     batch: str = ""
     status: str = ""
     completed: int = 0
     failed: int = 0
     faults: tuple[str, ...] = ()
+
+
+_row: TypeAdapter[BatchRow] = TypeAdapter(BatchRow)
 
 
 @dataclass(frozen=True)
@@ -76,13 +86,11 @@ class BatchFolder:
         found = []
         for path in sorted(self.path.glob("[0-9]*.json")):
             try:
-                fields = json.loads(path.read_text(encoding="utf-8"))
-                row = BatchRow(**{**fields, "requests": tuple(fields["requests"]), "faults": tuple(fields["faults"])})
-            except (OSError, ValueError, TypeError, KeyError) as cause:
-                raise ConfigError(
-                    f"{path} cannot be read: {reason_of(cause)}. It lists the questions that are paid for; restore "
-                    "it from a backup, or move the folder away to send all questions again."
-                ) from cause
+                row = _row.validate_json(read_small(path))
+                if path.name != f"{row.number:04d}.json":
+                    raise ValueError(f"its number is {row.number}, and its name is that of another batch")
+            except (OSError, ValueError) as cause:
+                raise _unreadable(path, cause, "lists questions") from cause
             found.append(row)
         return found
 
@@ -97,6 +105,17 @@ class BatchFolder:
         """Return the path of the file of requests."""
         return self.path / f"{row.number:04d}.input.jsonl"
 
+    def requests(self, row: BatchRow) -> bytes:
+        """Return the content of the file of requests. Raises: ConfigError: it cannot be read."""
+        path = self.input_path(row)
+        try:
+            return read_small(path, MOST_BYTES)
+        except (OSError, ValueError) as cause:
+            raise ConfigError(
+                f"{path} cannot be read: {reason_of(cause)}. Nothing of it was sent; restore it, or remove "
+                f"{row.number:04d}.json beside it, and submit again."
+            ) from cause
+
     def keep(self, row: BatchRow, output: str, error: str) -> BatchRow:
         """Store the results, and mark the row as collected."""
         for name, text in (("output", output), ("error", error)):
@@ -110,8 +129,11 @@ class BatchFolder:
         """Yield the key and result of each request, in the order of the batches. Damaged lines are skipped."""
         for path in sorted(self.path.glob("[0-9]*.jsonl")):
             if not path.name.endswith(".input.jsonl"):
-                with path.open("rb") as lines:
-                    yield from filter(None, map(_outcome, lines))
+                try:
+                    with opened_regular(path) as file:
+                        yield from filter(None, map(_outcome, iter(partial(file.readline, MAX_REPLY_BYTES), b"")))
+                except (OSError, ValueError) as cause:
+                    raise _unreadable(path, cause, "holds answers") from cause
 
     # -- requests -----------------------------------------------------------------------------------------------------
 
@@ -180,10 +202,19 @@ class RequestWriter:
         self._file, self._keys, self._n_bytes, self._estimate_usd = None, [], 0, 0.0
 
 
+def _unreadable(path: Path, cause: Exception, content: str) -> ConfigError:
+    problem = checks.first_problem(cause) if isinstance(cause, ValidationError) else None
+    reason = f"{problem.place or 'whole file'}: {problem.reason}" if problem else reason_of(cause)
+    return ConfigError(
+        f"{path} cannot be read: {reason[:300]}. It {content} that are paid for; restore it from a backup, or move the "
+        "folder away to send all questions again."
+    )
+
+
 def _outcome(line: bytes) -> tuple[str, Outcome] | None:
     try:
         row = json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
     key = row.get("custom_id") if isinstance(row, dict) else None
     if not isinstance(key, str):

@@ -21,6 +21,8 @@ MOST_BYTES = 200 * 10**6
 _ENDED = frozenset({"completed", "failed", "expired", "cancelled"})
 _WAITS_S = (1.0, 4.0, 16.0)
 _PAGE = 100
+_MOST_PAGES = 1000
+"""Assumed: more batches than an account keeps. A broken server may list one page without end."""
 
 
 @dataclass(frozen=True)
@@ -69,15 +71,17 @@ class BatchService:
     async def begun_with(self, input_file: str) -> BatchStatus | None:
         """Return the batch that uses a file of requests, in case the server's reply was lost; None if there is none."""
         after = ""
-        while True:
+        for _ in range(_MOST_PAGES):
             page = chat.json_object(await self._get(f"batches?limit={_PAGE}{after}"))
-            rows = [row for row in page.get("data") or () if isinstance(row, dict)]
+            listed = page.get("data")
+            rows = [row for row in listed if isinstance(row, dict)] if isinstance(listed, list) else []
             for row in rows:
                 if row.get("input_file_id") == input_file:
                     return _status(row)
             if not rows or not page.get("has_more"):
                 return None
             after = f"&after={chat.text_of(rows[-1].get('id'))}"
+        raise BadAnswer(f"the server lists more than {_MOST_PAGES * _PAGE:,} batches. Does it repeat a page?")
 
     async def cancel(self, batch: str) -> BatchStatus:
         """End a batch early. Answers received until then are kept and billed."""
@@ -122,7 +126,8 @@ def _status(body: Mapping[str, Any]) -> BatchStatus:
     counts = chat.counts(body.get("request_counts"))
     errors = body.get("errors")
     faults = errors.get("data") if isinstance(errors, dict) else None
-    messages = [chat.text_of(fault.get("message")) for fault in faults or () if isinstance(fault, dict)]
+    listed = faults if isinstance(faults, list) else []
+    messages = [chat.text_of(fault.get("message")) for fault in listed if isinstance(fault, dict)]
     return BatchStatus(
         batch,
         status,

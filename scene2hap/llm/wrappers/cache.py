@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from filelock import AsyncFileLock
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, reason_of
@@ -25,7 +25,7 @@ from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
 from scene2hap.llm.validation import find_fault
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
-from scene2hap.text_files import write_whole
+from scene2hap.text_files import read_small, write_whole
 
 
 class _Entry(BaseModel):
@@ -152,10 +152,10 @@ class CacheBackend(Wrapper):
 
     def _load(self, path: Path, key: str) -> LLMReply | None:
         try:
-            entry = _Entry.model_validate_json(path.read_bytes())
+            entry = _Entry.model_validate_json(read_small(path))
         except FileNotFoundError:
             return None
-        except (OSError, ValidationError):
+        except (OSError, ValueError):  # ValueError: a pydantic.ValidationError, or no small regular file
             entry = None
         if entry is None or entry.key != key or find_fault(entry.component, entry.text) is not None:
             self._unreadable.add(key)

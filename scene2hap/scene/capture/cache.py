@@ -8,7 +8,7 @@ from threading import Lock
 
 from scene2hap.errors import ConfigError, reason_of
 from scene2hap.scene.capture.png import PNG_END
-from scene2hap.text_files import write_whole
+from scene2hap.text_files import read_small, write_whole
 
 MEMORY_BYTES = 256 * 2**20
 """Bound of this process's LRU cache [bytes]: about 2000 pictures of 512 pixels (assumed)."""
@@ -62,8 +62,8 @@ class FolderCache:
     def get(self, key: str) -> bytes | None:
         """Return the picture, or None. A file that was cut short is ignored."""
         try:
-            png = self._path(key).read_bytes()
-        except OSError:
+            png = read_small(self._path(key))
+        except (OSError, ValueError):
             return None
         return png if png.endswith(PNG_END) else None
 

@@ -29,7 +29,7 @@ from scene2hap.scene.capture.colour_table import BACKGROUND_RGB
 from scene2hap.scene.capture.png import PNG_END, PNG_SIGNATURE, png
 from scene2hap.scene.files import inside
 from scene2hap.scene.images import ImageSet, ObjectImages, Shot
-from scene2hap.scene.looks.textures import eight_bits, opened
+from scene2hap.scene.looks.textures import eight_bits, opened, pillow_reason
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.text_files import read_small, read_small_text
 
@@ -101,7 +101,10 @@ class GivenPictures:
                 raise SceneFormatError(
                     f"{place} is {checks.represented(row)}; it must be an object with object, kind, view and file."
                 )
-            shot = _shot((row.get("object"), row.get("kind"), row.get("view")))
+            try:
+                shot = _shot((row.get("object"), row.get("kind"), row.get("view")))
+            except SceneError as cause:
+                raise SceneError(f"{place}: {cause}") from cause
             if shot in found._files:
                 raise SceneError(f"{place} is the second {_label(shot)}; give each view of a thing its own name.")
             found._add(shot, inside(root, root, row["file"], place))
@@ -119,12 +122,13 @@ class GivenPictures:
         """
         if shot not in self._files:
             raise SceneError(f"there is no {_label(shot)} among the {len(self._files)} pictures that were given.")
-        file = _content(self._files[shot], _label(shot))
+        given = self._files[shot]
+        file = _content(given, _label(shot))
         key = f"{_FORM} {hashlib.sha256(file).hexdigest()}"
         shown = MEMORY.get(key)
         if shown is None:
-            check_picture(file, _label(shot))  # a file on the disk may have changed since it was given
-            shown = _as_shown(file, _label(shot))
+            check_picture(file, _place(shot, given))  # a file on the disk may have changed since it was given
+            shown = _as_shown(file, _place(shot, given))
             MEMORY.put(key, shown)
         return shown
 
@@ -158,7 +162,7 @@ class GivenPictures:
     def _add(self, shot: Shot, file: bytes | Path) -> None:
         if len(self._files) >= MAX_PICTURES:
             raise SceneError(f"there are more than {MAX_PICTURES:,} pictures; give fewer views of each object.")
-        check_picture(_content(file, _label(shot)), _label(shot))
+        check_picture(_content(file, _label(shot)), _place(shot, file))
         self._files[shot] = file
 
     def __len__(self) -> int:
@@ -189,7 +193,8 @@ def check_picture(file: object, name: str = "the picture") -> tuple[int, int]:
             with opened(file) as image:
                 width, height = image.size
     except Exception as cause:  # broken bytes may raise any error in Pillow
-        raise SceneFormatError(f"{name} is no picture that can be read: {cause}.") from cause
+        reason = pillow_reason(cause)
+        raise SceneFormatError(f"{name} is no picture that can be read: {reason}. Write or send it again.") from cause
     if not LEAST_PX <= min(width, height) <= max(width, height) <= MAX_PX:
         raise SceneError(f"{name} has {width:,} x {height:,} pixels; each must be {LEAST_PX} to {MAX_PX:,}. Resize it.")
     return width, height
@@ -224,6 +229,11 @@ def _label(shot: Shot) -> str:
     """Describe a picture for a message."""
     whose = "" if shot.subject is None else f" of object {checks.represented(shot.subject)}"
     return f"{shot.kind} picture {checks.represented(shot.label)}{whose}"
+
+
+def _place(shot: Shot, file: bytes | Path) -> str:
+    """Describe a picture for a message, with its file if it has one."""
+    return f"{_label(shot)} in {str(file)!r}" if isinstance(file, Path) else _label(shot)
 
 
 def _rows(index: Path) -> list[Any]:
@@ -265,4 +275,4 @@ def _as_shown(file: bytes, name: str) -> bytes:
             image.thumbnail((SHOWN_PX, SHOWN_PX), Image.Resampling.BOX)
             return png(np.asarray(image))
     except Exception as cause:  # broken bytes may raise any error in Pillow
-        raise SceneFormatError(f"{name} cannot be decoded: {cause}. Write or send it again.") from cause
+        raise SceneFormatError(f"{name} cannot be decoded: {pillow_reason(cause)}. Write or send it again.") from cause

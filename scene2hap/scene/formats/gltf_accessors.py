@@ -26,15 +26,21 @@ def vectors(file: GltfFile, number: object, types: tuple[str, ...], what: str) -
     # Primitives share accessors, so each is read once.
     if id(row) not in file.vectors:
         values = _values(file, number, what)[0]
-        file.vectors[id(row)] = unpacked(values) if row.get("normalized") is True else values.astype(np.float64)
+        file.vectors[id(row)] = unpacked(values) if row.get("normalized") is True else _as_float64(values)
     if row.get("type") not in types:
         raise SceneFormatError(f"{what} are {row.get('type')!r}; they must be {' or '.join(map(repr, types))}.")
     return file.vectors[id(row)]
 
 
+def _as_float64(values: NDArray[np.generic]) -> NDArray[np.float64]:
+    # A signalling NaN of damaged data warns in the cast; numbers that are not finite are refused later.
+    with np.errstate(invalid="ignore"):
+        return values.astype(np.float64)
+
+
 def unpacked(values: NDArray[np.generic]) -> NDArray[np.float64]:
     """Divide whole numbers by the largest number of their type. Other numbers are unchanged."""
-    result = values.astype(np.float64)
+    result = _as_float64(values)
     if values.dtype.kind not in "iu":
         return result
     # A signed type has one value below -1; glTF reads it as -1.

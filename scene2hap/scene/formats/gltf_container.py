@@ -17,6 +17,7 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.checks import represented
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import read_json
 from scene2hap.scene import limits
@@ -69,7 +70,9 @@ class GltfFile:
         """
         rows = self.table(name)
         if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(rows):
-            raise SceneFormatError(f"{place} refers to {name}[{number!r}]; the file has {len(rows)} {name} (from 0).")
+            raise SceneFormatError(
+                f"{place} refers to {name}[{represented(number)}]; the file has {len(rows)} {name} (from 0)."
+            )
         return rows[number]
 
     def buffer(self, number: int) -> bytes:

@@ -8,6 +8,7 @@ Source: Wavefront, Advanced Visualizer manual (1990s), appendix B1, "Object file
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
@@ -15,6 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.checks import represented
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene import limits
 from scene2hap.scene.formats.mtl import MtlLibraries
@@ -117,7 +119,9 @@ def _vertex(rest: str, number: int) -> tuple[float, float, float]:
     try:
         x, y, z = map(float, rest.split()[:3])
     except ValueError as cause:
-        raise SceneFormatError(f"line {number}: 'v {rest}' is no vertex; it must be three numbers.") from cause
+        raise SceneFormatError(
+            f"line {number}: {represented(f'v {rest}')} is no vertex; it must be three numbers."
+        ) from cause
     return x, y, z
 
 
@@ -127,7 +131,7 @@ def _coordinates(rest: str) -> tuple[float, float]:
         u, v = map(float, [*rest.split(), "0"][:2])
     except ValueError:
         return 0.0, 0.0
-    return u, v
+    return (u, v) if math.isfinite(u) and math.isfinite(v) else (0.0, 0.0)
 
 
 def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
@@ -136,11 +140,13 @@ def _fan(rest: str, n_vertices: int, n_coordinates: int, number: int) -> _Faces:
     try:
         vertices = [int(word.partition("/")[0]) for word in words]
     except ValueError as cause:
-        raise SceneFormatError(f"line {number}: 'f {rest}' is no face; it must be vertex numbers.") from cause
+        raise SceneFormatError(
+            f"line {number}: {represented(f'f {rest}')} is no face; it must be vertex numbers."
+        ) from cause
     vertices = [vertex - 1 if vertex > 0 else n_vertices + vertex for vertex in vertices]
     if not vertices or not all(0 <= vertex < n_vertices for vertex in vertices):
         raise SceneFormatError(
-            f"line {number}: 'f {rest}' must name some of the {n_vertices} vertices before it (from 1)."
+            f"line {number}: {represented(f'f {rest}')} must name some of the {n_vertices} vertices before it (from 1)."
         )
     corners = [vertex << _SHIFT for vertex in vertices]
     if n_coordinates:

@@ -43,7 +43,7 @@ def read_stl_ply(data: bytes, file_type: str, name: str) -> AuthoredScene:
             tables = [(np.asarray(mesh.vertices), np.asarray(mesh.faces), _appearance(mesh)) for mesh in meshes]
     # Broken bytes may raise any error in trimesh's readers.
     except Exception as cause:
-        raise SceneFormatError(f"{name!r} cannot be read as {file_type.upper()}: {cause}.") from cause
+        raise SceneFormatError(f"{name!r} cannot be read as {file_type.upper()}: {str(cause)[:200]}.") from cause
     # trimesh ignores the number of faces in a text PLY. It checks the numbers in binary PLY and in STL.
     promised = re.search(rb"^element face (\d+)", data[:_HEADER_BYTES], re.MULTILINE) if file_type == "ply" else None
     n_faces = sum(len(faces) for _, faces, _ in tables)

@@ -63,7 +63,7 @@ class EncodedTexture:
         # Broken bytes may raise any error in Pillow's plugins.
         except Exception as cause:
             known = ", ".join(dict.fromkeys(kind for _, kind, _ in _FORMATS))
-            raise SceneFormatError(f"{name} is no image that is read ({known}): {cause}.") from cause
+            raise SceneFormatError(f"{name} is no image that is read ({known}): {pillow_reason(cause)}.") from cause
         if edge > limits.MAX_TEXTURE_PX:
             raise SceneError(
                 f"{name} is {edge:,} pixels wide or high; at most {limits.MAX_TEXTURE_PX:,} are read "
@@ -93,7 +93,9 @@ class EncodedTexture:
                 texels = self._decoded(image)
         # Broken bytes may raise any error in Pillow.
         except Exception as cause:
-            message = f"{self.name} is left out, its colour stays: its pixels cannot be decoded: {cause}."
+            message = (
+                f"{self.name} is left out, its colour stays: its pixels cannot be decoded: {pillow_reason(cause)}."
+            )
             warn_of(message, TextureWarning)
             return None
         texels.flags.writeable = False
@@ -110,6 +112,11 @@ class EncodedTexture:
         image = image.convert("RGBA" if self.has_alpha else "RGB")
         image.thumbnail((DECODED_PX, DECODED_PX), Image.Resampling.BOX)
         return np.array(image)
+
+
+def pillow_reason(cause: Exception) -> str:
+    """Return the reason of an error of Pillow, which for an unknown header is only the address of its bytes."""
+    return "its header is damaged" if type(cause).__name__ == "UnidentifiedImageError" else str(cause)[:200]
 
 
 def opened(encoded: bytes) -> Image.Image:
