@@ -130,12 +130,12 @@ class Holders:
 
         Candidates are skipped if they are more than `TOUCH_M` deeper than the nearest one or than `least_m`.
         """
-        bodies, body_pairs, needs_each = self.bodies, self.body_pairs[body.id], body.id in self.on_several
+        bodies, body_pairs, up = self.bodies, self.body_pairs[body.id], self._up_axis
         found: dict[str, float] = {}
-        for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
-            if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
+        for y in sorted(onto, key=lambda y: (-bodies[y].high[up], y)):
+            if body.low[up] - bodies[y].high[up] > least_m + TOUCH_M:
                 break
-            fall_m = found[y] = body_pairs[y].first_fall_m(body.id, by_each=needs_each)
+            fall_m = found[y] = body_pairs[y].first_fall_m(body.id, by_each=body.id in self.on_several)
             least_m = min(least_m, fall_m)
         return {y: fall_m for y, fall_m in found.items() if fall_m < math.inf and fall_m <= least_m + TOUCH_M}
 

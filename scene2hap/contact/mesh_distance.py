@@ -73,10 +73,10 @@ class MeshPair:
     def __init__(self, a: Body, b: Body) -> None:
         self.guest_is_a = a.size_m < b.size_m
         self.guest, self.host = (a, b) if self.guest_is_a else (b, a)
-        self._rows = self.host.rows
+        self._rows = self.host.stance.rows
         back = self._back = transposed(self._rows)
         (x, y, z), (u, v, w) = self.guest.position_m, self.host.position_m
-        self._turn = _product(back, self.guest.rows)
+        self._turn = _product(back, self.guest.stance.rows)
         self._shift = rotated(back, (x - u, y - v, z - w))
 
     def gap(self, within_m: float) -> Gap | None:
@@ -122,7 +122,7 @@ class MeshPair:
         self, faller: Body, reach_m: float, touch_m: float
     ) -> tuple[Shape, Shape, Rows, Triple, Rows, Triple, bool]:
         up = faller.up_axis
-        limits = (faller.lowest_m - self.host.position_m[up], reach_m, touch_m)
+        limits = (faller.low[up] - self.host.position_m[up], reach_m, touch_m)
         frame = upright_frame(self._rows[up])
         return self.host.shape, self.guest.shape, self._turn, self._shift, frame, limits, faller is self.guest
 
