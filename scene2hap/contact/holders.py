@@ -197,7 +197,7 @@ class Holders:
                 if share > bond.weight:
                     bond, within_m = Bond(share, NO_WAY, direction(gap), False, a), slack + gap.distance_m
         if bond.weight < 1:
-            share, play_m = body_pair.enclosed()
+            share, play_m = body_pair.enclosed
             if share > bond.weight:
                 bond, within_m = Bond(share, NO_WAY, None, False, a), slack + play_m
         if bond.weight <= 0:

@@ -23,6 +23,7 @@ from scene2hap.contact.shape import Shape
 # engine below 0.003 degrees, then changes nothing.
 _DIGITS = 4
 _MOST_LEAN = 1e-3  # [rad]; a larger tilt is no rounding error.
+_MOST_TILT_M = 1e-4  # Largest lean of a host over its whole size: the error of a ledge's height.
 _UPRIGHT = 1 - 1e-12  # Cosine above which an axis of the shape is vertical, so that its box has the true height.
 
 
@@ -56,7 +57,10 @@ class Lean(NamedTuple):
 
 
 class Stance:
-    """A shape with a rotation. `low` and `high` are the corners of its AABB, relative to its position [m]."""
+    """A shape with a rotation.
+
+    `middle` is that of its oriented box, `low` and `high` are the corners of its AABB, relative to its position [m].
+    """
 
     def __init__(self, shape: Shape, rotation_xyzw: tuple[float, float, float, float], up_axis: int) -> None:
         x, y, z, w = self.rotation_xyzw = rotation_xyzw
@@ -74,23 +78,24 @@ class Stance:
             round(up[1], _DIGITS) + 0.0,
             round(up[2], _DIGITS) + 0.0,
         )
-        self.low, self.high = self._bounds(up)
+        self.middle, self.low, self.high = self._bounds(up)
 
-    def _bounds(self, up: Triple) -> tuple[Triple, Triple]:
-        (mx, my, mz), (hx, hy, hz) = self.shape.middle, self.shape.half
+    def _bounds(self, up: Triple) -> tuple[Triple, Triple, Triple]:
+        """Return the middle of the oriented box, and the corners of the AABB."""
+        hx, hy, hz = self.shape.half
         (a, b, c), (d, e, f), (g, h, i) = self.rows
-        u, v, w = a * mx + b * my + c * mz, d * mx + e * my + f * mz, g * mx + h * my + i * mz
+        u, v, w = middle = rotated(self.rows, self.shape.middle)
         x = abs(a) * hx + abs(b) * hy + abs(c) * hz
         y = abs(d) * hx + abs(e) * hy + abs(f) * hz
         z = abs(g) * hx + abs(h) * hy + abs(i) * hz
         low, high = (u - x, v - y, w - z), (u + x, v + y, w + z)
         if abs(up[0]) > _UPRIGHT or abs(up[1]) > _UPRIGHT or abs(up[2]) > _UPRIGHT:
-            return low, high
+            return middle, low, high
         heights = self.shape.corners @ np.array(up)
         least, most = float(heights.min()), float(heights.max())
         if self.up_axis == 1:
-            return (low[0], least, low[2]), (high[0], most, high[2])
-        return (low[0], low[1], least), (high[0], high[1], most)
+            return middle, (low[0], least, low[2]), (high[0], most, high[2])
+        return middle, (low[0], low[1], least), (high[0], high[1], most)
 
     def turned(self, rotation_xyzw: tuple[float, float, float, float]) -> Stance:
         """Return the shape with another rotation."""
@@ -134,6 +139,12 @@ class Stance:
         u, v = (k for k in range(3) if k != axis)
         tilt = math.hypot(up[u], up[v])
         return Lean(Upright(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
+
+    @cached_property
+    def upright(self) -> Upright | None:
+        """The vertical axis of the shape's frame, None if it leans so much that its level faces have no one height."""
+        lean = self.lean
+        return lean.own if lean is not None and lean.tilt * self.shape.size_m <= _MOST_TILT_M else None
 
     @cached_property
     def footprint(self) -> Footprint:
