@@ -18,19 +18,17 @@ corner of the guest's box.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap.compiled import compiled
 from scene2hap.contact.body import Body
-from scene2hap.contact.geometry.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.boxes import Boxes, box_pairs, boxes_of
 from scene2hap.contact.geometry.spread import spread
-from scene2hap.contact.geometry.triangles import clearances, heights, meetings
+from scene2hap.contact.geometry.triangles import heights, meetings
 from scene2hap.contact.geometry.vectors import (
     Floats,
-    Indices,
     Rows,
     Triple,
     cross,
@@ -39,12 +37,10 @@ from scene2hap.contact.geometry.vectors import (
     transposed,
     upright_frame,
 )
-from scene2hap.contact.shape import Shape, boxes_of
+from scene2hap.contact.shape import Shape
 
 ROUNDING_M = 1e-9
 """Distances below this are rounding errors."""
-
-_BATCH = 4096  # Pairs of triangles that a plain kernel compares at once: some 10 MB.
 
 
 class Gap(NamedTuple):
@@ -143,7 +139,7 @@ def closest_points(
     best: tuple[float, int, int] | None = None
     ends = None
     posed = _posed(guest.triangles, turn, shift)
-    for i, j in _near(posed, boxes_of(posed), host, within):
+    for i, j in box_pairs(boxes_of(posed).grown(within + ROUNDING_M), host.boxes):
         p, q = posed.take(i, axis=2), host.triangles.take(j, axis=2)
         every = meetings(p, q, guest.features[i], host.features[j])
         row = every.distance.argmin(axis=0)
@@ -178,7 +174,7 @@ def contact_points(
 def _ends_within(host: Shape, guest: Shape, posed: Floats, way: Triple, within: float, loose: float) -> Floats:
     """Return the ends (6, n) of contact points without crossings between ends within `loose`."""
     found = [np.empty((6, 0))]
-    for i, j in _near(posed, boxes_of(posed), host, within):
+    for i, j in box_pairs(boxes_of(posed).grown(within + ROUNDING_M), host.boxes):
         p, q = posed.take(i, axis=2), host.triangles.take(j, axis=2)
         every = meetings(p, q, guest.features[i], host.features[j], loose)
         near = every.distance <= within
@@ -209,12 +205,10 @@ def drops(
     swept = Boxes(low - margin, high + touch + ROUNDING_M)
     p = _inset(p)
     for i, j in box_pairs(swept, boxes_of(q)):
-        for start in range(0, len(i), _BATCH):
-            some = slice(start, start + _BATCH)
-            least, most = heights(p.take(i[some], axis=2), q.take(j[some], axis=2))
-            meets = (least >= -reach) & (least <= reach) & (most >= -touch)
-            fall = np.where(least >= -touch, least, 0.0)
-            np.minimum.at(each, fallers[i[some][meets]], fall[meets])
+        least, most = heights(p.take(i, axis=2), q.take(j, axis=2))
+        meets = (least >= -reach) & (least <= reach) & (most >= -touch)
+        fall = np.where(least >= -touch, least, 0.0)
+        np.minimum.at(each, fallers[i[meets]], fall[meets])
     first = each.min(initial=np.inf)
     each[each > first + touch] = np.inf
     return each if first < np.inf else None
@@ -227,16 +221,6 @@ def first_drop(
     """Return the least of `drops` [m], inf if there is none."""
     each = drops(host, guest, turn, shift, frame, limits, guest_falls)
     return math.inf if each is None else float(each.min())
-
-
-def _near(posed: Floats, boxes: Boxes, host: Shape, within: float) -> Iterator[tuple[Indices, Indices]]:
-    """Yield the columns (n,) of pairs of the posed guest's and the host's triangles that may be within reach."""
-    for i, j in box_pairs(boxes.grown(within + ROUNDING_M), host.boxes):
-        for start in range(0, len(i), _BATCH):
-            some = slice(start, start + _BATCH)
-            p, q = posed.take(i[some], axis=2), host.triangles.take(j[some], axis=2)
-            close = clearances(p, q) <= within + ROUNDING_M
-            yield i[some][close], j[some][close]
 
 
 # Least cosine of a slope that holds an object (assumed). A wall's triangles hold nothing.
