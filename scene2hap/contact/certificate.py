@@ -16,10 +16,10 @@ from typing import NamedTuple
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.planes import Plane, floor_at, reach_along, roof_at, separation, wall_at
-from scene2hap.contact.geometry.vectors import AABB, Triple
+from scene2hap.contact.geometry.vectors import AABB
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.level import Rest, rest_points
-from scene2hap.contact.pair import rest_of
+from scene2hap.contact.level import Rest
+from scene2hap.contact.pair import rest_of, support_normal
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m
 from scene2hap.contact.track import Standing, Track
 from scene2hap.scene.pose import Pose
@@ -60,11 +60,11 @@ class Certificate:
     """The contacts of one body within bounds. `step` moves `body` in place.
 
     Parameters: planes : separating planes, by the id of the body on their other side; pins : ids of the bodies whose
-    movement ends the certificate; resting, normal : support and contact normal, None without a support. `has_held` is
-    True once a step has stayed within the bounds.
+    movement ends the certificate; resting : how the body rests on its support, None without one.
+    `n_steps` counts the steps within the bounds.
     """
 
-    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "extent", "has_held", "pins")
+    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "extent", "n_steps", "pins")
 
     def __init__(
         self,
@@ -72,17 +72,16 @@ class Certificate:
         planes: dict[str, tuple[Plane, ...]],
         pins: Collection[str],
         resting: Resting | None,
-        normal: Triple | None,
     ) -> None:
         self.extent, self._planes, self.pins = extent, planes, pins
         body = self.body = extent.body
         standing, self._pair = None, None
         if resting is not None:
             self._pair = pair_of(body.id, resting.support.id)
-            self._normals = (normal,) * 4
+            self._normals = (support_normal(body, resting.support),) * 4
             standing = _standing(body, resting)
         self._track = Track(body.stance, standing)
-        self.has_held = False
+        self.n_steps = 0
         self._set_bounds()
 
     def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:
@@ -114,11 +113,6 @@ class Certificate:
         u, v = (other.low[0] + other.high[0]) / 2, (other.low[flat] + other.high[flat]) / 2
         return n_u * u + n_v * v - reach_along(other.stance.footprint, n_u, n_v) - most_m > _SPARE * reach_m
 
-    @property
-    def holds(self) -> bool:
-        """True if the body is within the bounds at its current pose."""
-        return self._track.moved(self.body.pose.position_m, self.body.pose.rotation_xyzw) is not None
-
     def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:
         """Move the body and add its junction to `found`. Returns False, and does nothing, if the bounds are left."""
         moved = self._track.moved(pose.position_m, pose.rotation_xyzw)
@@ -126,7 +120,7 @@ class Certificate:
             return False
         low, high, points = moved
         self.body.put(pose, low, high)
-        self.has_held = True
+        self.n_steps += 1
         if self._pair is not None:
             found[self._pair] = Junction(points, _ONES[: len(points)], self._normals[: len(points)])
         return True
@@ -142,12 +136,6 @@ def resting_on(body: Body, support: Body) -> Resting | None:
     if rest.on_ledge and top_face is not None and bottom_m >= support.position_m[up] + top_face.height - TOUCH_M:
         return None  # The body may slide from the ledge onto a top face that is about as high.
     return Resting(support, rest, space)
-
-
-def junction_of(body: Body, resting: Resting, normal: Triple | None) -> Junction:
-    """Return the contact points of a resting body and its support, with weight 1."""
-    points = rest_points(body, resting.support, resting.rest, 0.0)  # the whole base face bears
-    return Junction(points, _ONES[: len(points)], (normal,) * len(points))
 
 
 def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:

@@ -95,6 +95,33 @@ class BodyPair:
         return MeshPair(self.a, self.b)
 
 
+class BodyPairs:
+    """All bodies by id, and the pairs of near ones: `of[x][y]` and `of[y][x]` are the same pair."""
+
+    def __init__(self) -> None:
+        self.bodies: dict[str, Body] = {}
+        self.of: dict[str, dict[str, BodyPair]] = {}
+
+    def add(self, body_pair: BodyPair) -> BodyPair:
+        """Add a pair, in the place of one of the same bodies. Returns the pair."""
+        a, b = body_pair.a.id, body_pair.b.id
+        self.of.setdefault(a, {})[b] = self.of.setdefault(b, {})[a] = body_pair
+        return body_pair
+
+    def drop(self, x: str, y: str) -> BodyPair | None:
+        """Drop the pair of two bodies. Returns it, None if there was none."""
+        body_pair = self.of.get(x, {}).pop(y, None)
+        if body_pair is not None:
+            del self.of[y][x]
+        return body_pair
+
+
+def support_normal(x: Body, y: Body) -> Triple:
+    """Return the normal of a contact by which y supports x, from the body with the lower id to the other."""
+    way = -1.0 if x.id < y.id else 1.0
+    return (0.0, way, 0.0) if x.up_axis == 1 else (0.0, 0.0, way)
+
+
 def rest_of(x: Body, y: Body, space: FreeSpace) -> Rest | None:
     """Return how x may rest on y: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell.
 
