@@ -20,14 +20,32 @@ class Body:
     wide. The world's axes 0 and `v_axis` are level.
     """
 
+    __slots__ = (
+        "_stance",
+        "free_regions",
+        "high",
+        "id",
+        "low",
+        "pose",
+        "position_m",
+        "shape",
+        "size_m",
+        "up_axis",
+        "v_axis",
+    )
+
     def __init__(self, object_id: str, shape: Shape, pose: Pose, up_axis: int) -> None:
         self.id = object_id
         self.shape = shape
         self.size_m = shape.size_m
+        self.pose = pose
         self.up_axis, self.v_axis = up_axis, 3 - up_axis
         self.free_regions = FreeRegions()  # see `contact.free_space`
-        self._stance = Stance(shape, pose.rotation_xyzw, up_axis)
-        self._place(pose)
+        stance = self._stance = Stance(shape, pose.rotation_xyzw, up_axis)
+        x, y, z = self.position_m = pose.position_m
+        low, high = stance.low, stance.high
+        self.low = (x + low[0], y + low[1], z + low[2])
+        self.high = (x + high[0], y + high[1], z + high[2])
 
     @classmethod
     def of(cls, item: SceneObject, up_axis: int) -> Body:
@@ -36,16 +54,16 @@ class Body:
 
     def at(self, pose: Pose) -> Body:
         """Return a body of the same shape at another pose."""
+        # Attributes are copied one by one, since this runs for every moved object in every frame.
         body = Body.__new__(Body)
-        body.__dict__.update(self.__dict__)
-        body._place(pose)
-        return body
-
-    def _place(self, pose: Pose) -> None:
-        self.pose = pose
-        (x, y, z), stance = pose.position_m, self.stance
+        body.id, body.shape, body.size_m = self.id, self.shape, self.size_m
+        body.up_axis, body.v_axis = self.up_axis, self.v_axis
+        body.pose, body._stance, body.free_regions = pose, self._stance, self.free_regions
+        stance = body.stance
+        x, y, z = body.position_m = pose.position_m
         (a, b, c), (d, e, f) = stance.low, stance.high
-        self.put(pose, (x + a, y + b, z + c), (x + d, y + e, z + f))
+        body.low, body.high = (x + a, y + b, z + c), (x + d, y + e, z + f)
+        return body
 
     def put(self, pose: Pose, low: Triple, high: Triple) -> None:
         """Move in place to a pose whose AABB is already known."""

@@ -11,7 +11,6 @@ depends on poses alone.
 from __future__ import annotations
 
 import math
-from functools import cached_property
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from scene2hap.contact.body import Body, box_in_frame
 from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.geometry.triangle_tree import meeting
 from scene2hap.contact.geometry.vectors import AABB, Indices, Marks
+from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Flat, FreeRegion, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, is_over, play_reach_m
@@ -37,7 +37,7 @@ class FreeSpace:
     def __init__(self, guest: Body, host: Body) -> None:
         self.guest, self.host, self._own = guest, host, host.stance.upright
 
-    @cached_property
+    @lazy
     def region_below(self) -> FreeRegion | None:
         """The free region around the guest and the path of its fall, or of the host's fall onto it.
 
@@ -56,7 +56,7 @@ class FreeSpace:
 
         return host.free_regions.find(guest.id, serves, lambda: _computed_region(host, own, taken, foot))
 
-    @cached_property
+    @lazy
     def empty_region(self) -> FreeRegion | None:
         """A region in which the host has nothing within the distance at which the two could touch or hang, if any."""
         guest, host, own, reach_m = self.guest, self.host, self._own, _reach_m(self.guest)
@@ -82,7 +82,7 @@ class FreeSpace:
         corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
         return TopFace(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
 
-    @cached_property
+    @lazy
     def _column(self) -> AABB:
         """A box (u, v, h) around the guest and the path of its fall, or of the host's onto it, in the host's frame."""
         guest, host, own, up = self.guest, self.host, self._own, self.guest.up_axis

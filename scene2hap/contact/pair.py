@@ -7,12 +7,12 @@ computed on first use and kept until one of the two moves.
 from __future__ import annotations
 
 import math
-from functools import cached_property
 
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.lazy import lazy
 from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over
@@ -78,7 +78,7 @@ class BodyPair:
         gap = self._gap
         return gap if gap is not None and gap.distance_m <= within_m else None
 
-    @cached_property
+    @lazy
     def enclosed(self) -> tuple[float, float]:
         """The weight and play of a contact by enclosure; see `enclosure.enclosed`."""
         return enclosed(self.a, self.b)
@@ -90,7 +90,7 @@ class BodyPair:
             self._points[key] = tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
         return self._points[key]
 
-    @cached_property
+    @lazy
     def _mesh_pair(self) -> MeshPair:
         return MeshPair(self.a, self.b)
 
