@@ -5,7 +5,7 @@ Written in plain Python, since it runs often for one body at a time, where numpy
 
 from __future__ import annotations
 
-from scene2hap.contact.geometry.vectors import Rows, Triple, rotated
+from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.ledge import FreeRegions
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.stance import Stance
@@ -80,23 +80,8 @@ class Body:
     @property
     def middle_m(self) -> Triple:
         """The middle of the oriented box in the world."""
-        (x, y, z), (u, v, w) = rotated(self.stance.rows, self.shape.middle), self.position_m
+        (x, y, z), (u, v, w) = self.stance.middle, self.position_m
         return (u + x, v + y, w + z)
-
-    @property
-    def lowest_m(self) -> float:
-        """Height of the lowest point."""
-        return self.low[self.up_axis]
-
-    @property
-    def highest_m(self) -> float:
-        """Height of the highest point."""
-        return self.high[self.up_axis]
-
-    @property
-    def rows(self) -> Rows:
-        """The rotation matrix, as rows."""
-        return self.stance.rows
 
 
 def roles(x: Body, y: Body) -> tuple[Body, Body]:

@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from scene2hap.contact.body import Body
-from scene2hap.contact.geometry.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.boxes import Boxes, box_pairs
 from scene2hap.contact.geometry.vectors import AABB
 
 SKIN_M = 0.06
@@ -42,11 +42,10 @@ class BroadPhase:
         self._up_axis, self._margins_m = up_axis, margins_m
         self.neighbours: dict[str, set[str]] = {}
         self._inner_boxes: dict[str, AABB] = {}
-        # Fat boxes in columns; the box of a free column overlaps nothing.
-        self._fat_boxes = _empty_boxes(64)
-        self._ids = [""] * 64
+        # Fat boxes in columns, in the order of `_ids`.
+        self._fat_boxes = Boxes(np.empty((3, 0)), np.empty((3, 0)))
+        self._ids: list[str] = []
         self._columns: dict[str, int] = {}
-        self._free = list(range(64))
 
     def inner_box(self, object_id: str) -> AABB:
         """Return the box in which a body may move without a new neighbour list [m]."""
@@ -54,9 +53,11 @@ class BroadPhase:
 
     def remove(self, object_id: str) -> set[str]:
         """Remove a body. Returns its neighbours."""
-        column = self._columns.pop(object_id)
-        self._fat_boxes.low[:, column], self._fat_boxes.high[:, column] = np.inf, -np.inf
-        self._free.append(column)
+        column, last, (low, high) = self._columns.pop(object_id), self._ids.pop(), self._fat_boxes
+        if last != object_id:
+            self._ids[column], self._columns[last] = last, column
+            low[:, column], high[:, column] = low[:, -1], high[:, -1]
+        self._fat_boxes = Boxes(low[:, :-1], high[:, :-1])
         del self._inner_boxes[object_id]
         neighbours = self.neighbours.pop(object_id)
         for other in neighbours:
@@ -70,6 +71,8 @@ class BroadPhase:
         """
         left: dict[str, set[str]] = {}
         moved = [body for body in bodies if not self._is_in_inner_box(body)]
+        if new := [body.id for body in moved if body.id not in self._columns]:
+            self._add_columns(new)
         for body in moved:
             self._place(body)
         found = self._found_neighbours([body.id for body in moved])
@@ -94,13 +97,7 @@ class BroadPhase:
         """Compute the boxes of a body. The inner box of a new body has no margin."""
         before = self._inner_boxes.get(body.id)
         low, high = self._inner_boxes[body.id] = (body.low, body.high) if before is None else self._wider(body, before)
-        if before is None:
-            if not self._free:
-                self._grow()
-            self._columns[body.id] = self._free.pop()
-        column = self._columns[body.id]
-        self._ids[column] = body.id
-        side_m, down_m = self._margins_m(body)
+        column, (side_m, down_m) = self._columns[body.id], self._margins_m(body)
         self._fat_boxes.low[:, column] = [x - side_m for x in low]
         self._fat_boxes.high[:, column] = [x + side_m for x in high]
         self._fat_boxes.low[self._up_axis, column] -= down_m
@@ -114,12 +111,10 @@ class BroadPhase:
             highs[k] = min(max(body.high[k] + SKIN_M, before[1][k]), body.high[k] + far_m)
         return (lows[0], lows[1], lows[2]), (highs[0], highs[1], highs[2])
 
-    def _grow(self) -> None:
-        """Double the number of columns."""
-        n, (low, high), more = len(self._ids), self._fat_boxes, _empty_boxes(len(self._ids))
-        self._fat_boxes = Boxes(np.concatenate([low, more.low], axis=1), np.concatenate([high, more.high], axis=1))
-        self._ids += [""] * n
-        self._free += range(n, 2 * n)
+    def _add_columns(self, ids: Sequence[str]) -> None:
+        self._columns.update(zip(ids, range(len(self._ids), len(self._ids) + len(ids)), strict=True))
+        self._ids += ids
+        self._fat_boxes = Boxes(*(np.pad(ends, ((0, 0), (0, len(ids)))) for ends in self._fat_boxes))
 
     def _found_neighbours(self, ids: Sequence[str]) -> dict[str, set[str]]:
         """Return the ids of the bodies whose fat boxes overlap those of some bodies, touching included."""
@@ -130,15 +125,9 @@ class BroadPhase:
                 others = self._fat_boxes.meeting(self._fat_boxes.some(column[None]))
                 found[x] = {self._ids[k] for k in others.tolist()}
         else:
-            every = np.array(list(self._columns.values()))
-            for i, j in box_pairs(self._fat_boxes.some(columns), self._fat_boxes.some(every)):
-                for x, y in zip(i.tolist(), every[j].tolist(), strict=True):
+            for i, j in box_pairs(self._fat_boxes.some(columns), self._fat_boxes):
+                for x, y in zip(i.tolist(), j.tolist(), strict=True):
                     found[ids[x]].add(self._ids[y])
         for x in ids:
             found[x].discard(x)
         return found
-
-
-def _empty_boxes(n: int) -> Boxes:
-    """Return n boxes that overlap nothing."""
-    return Boxes(np.full((3, n), np.inf), np.full((3, n), -np.inf))

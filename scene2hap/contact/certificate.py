@@ -14,13 +14,13 @@ from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body, roles
-from scene2hap.contact.free_space import FreeSpace, top_face as ledge_face
+from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.planes import Plane, floor_at, reach_along, roof_at, separation, wall_at
-from scene2hap.contact.geometry.vectors import AABB, Triple
+from scene2hap.contact.geometry.vectors import AABB
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.level import Rest, rest_on, rest_points
-from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over
-from scene2hap.contact.stance import TopFace
+from scene2hap.contact.level import Rest
+from scene2hap.contact.pair import rest_of, support_normal
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m
 from scene2hap.contact.track import Standing, Track
 from scene2hap.scene.pose import Pose
 
@@ -32,15 +32,11 @@ _ONES = (1.0,) * 4
 
 
 class Resting(NamedTuple):
-    """The support that carries a body's whole base face, the fall distance to it, and the face that bears the body.
-
-    `ledge` is the free space in which a ledge of the support bears it, None if the support's top face does.
-    """
+    """The support that carries a body's whole base face, how the body rests on it, and the pair's free space."""
 
     support: Body
     rest: Rest
-    face: TopFace
-    ledge: FreeSpace | None
+    space: FreeSpace
 
 
 class Extent(NamedTuple):
@@ -64,11 +60,11 @@ class Certificate:
     """The contacts of one body within bounds. `step` moves `body` in place.
 
     Parameters: planes : separating planes, by the id of the body on their other side; pins : ids of the bodies whose
-    movement ends the certificate; resting, normal : support and contact normal, None without a support. `has_held` is
-    True once a step has stayed within the bounds.
+    movement ends the certificate; resting : how the body rests on its support, None without one.
+    `n_steps` counts the steps within the bounds.
     """
 
-    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "extent", "has_held", "pins")
+    __slots__ = ("_normals", "_pair", "_planes", "_track", "body", "extent", "n_steps", "pins")
 
     def __init__(
         self,
@@ -76,17 +72,16 @@ class Certificate:
         planes: dict[str, tuple[Plane, ...]],
         pins: Collection[str],
         resting: Resting | None,
-        normal: Triple | None,
     ) -> None:
         self.extent, self._planes, self.pins = extent, planes, pins
         body = self.body = extent.body
         standing, self._pair = None, None
         if resting is not None:
             self._pair = pair_of(body.id, resting.support.id)
-            self._normals = (normal,) * 4
+            self._normals = (support_normal(body, resting.support),) * 4
             standing = _standing(body, resting)
         self._track = Track(body.stance, standing)
-        self.has_held = False
+        self.n_steps = 0
         self._set_bounds()
 
     def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:
@@ -118,11 +113,6 @@ class Certificate:
         u, v = (other.low[0] + other.high[0]) / 2, (other.low[flat] + other.high[flat]) / 2
         return n_u * u + n_v * v - reach_along(other.stance.footprint, n_u, n_v) - most_m > _SPARE * reach_m
 
-    @property
-    def holds(self) -> bool:
-        """True if the body is within the bounds at its current pose."""
-        return self._track.moved(self.body.pose.position_m, self.body.pose.rotation_xyzw) is not None
-
     def step(self, pose: Pose, found: dict[Pair, Junction | None]) -> bool:
         """Move the body and add its junction to `found`. Returns False, and does nothing, if the bounds are left."""
         moved = self._track.moved(pose.position_m, pose.rotation_xyzw)
@@ -130,7 +120,7 @@ class Certificate:
             return False
         low, high, points = moved
         self.body.put(pose, low, high)
-        self.has_held = True
+        self.n_steps += 1
         if self._pair is not None:
             found[self._pair] = Junction(points, _ONES[: len(points)], self._normals[: len(points)])
         return True
@@ -138,41 +128,21 @@ class Certificate:
 
 def resting_on(body: Body, support: Body) -> Resting | None:
     """Return how a body rests on `support` with its whole base face and weight 1; None where that is not certain."""
-    up, base_face, face, ledge = body.up_axis, body.stance.posed_base_face, support.stance.top_face, None
-    reach_m = fall_reach_m(body.size_m)
-    if body.low[up] - support.high[up] > reach_m:
+    space, up, top_face = FreeSpace(*roles(body, support)), body.up_axis, support.stance.top_face
+    rest = rest_of(body, support, space)
+    if rest is None or not rest.wholly or not _SURE_M < rest.fall_m < 2 / 3 * fall_reach_m(body.size_m):
         return None
-    bottom_m = body.position_m[up] + base_face.height
-    if face is None or bottom_m - (support.position_m[up] + face.height) < -TOUCH_M:
-        if roles(body, support)[0] is not body:
-            return None
-        ledge = FreeSpace(body, support)
-        known = ledge.region_below
-        if known is None or known.top_m is None:
-            return None
-        face = ledge_face(support, known)
-    top_m = support.position_m[up] + face.height
-    fall_m = bottom_m - top_m
-    if not _SURE_M < fall_m < 2 / 3 * reach_m or not is_over(body, support):
-        return None
-    if ledge is None:
-        rest = rest_on(body, support)
-        if rest is None or not rest.wholly:
-            return None
-    return Resting(support, Rest(fall_m, True, top_m), face, ledge)
-
-
-def junction_of(body: Body, resting: Resting, normal: Triple | None) -> Junction:
-    """Return the contact points of a resting body and its support, with weight 1."""
-    points = rest_points(body, resting.support, resting.rest, 0.0)  # the whole base face bears
-    return Junction(points, _ONES[: len(points)], (normal,) * len(points))
+    bottom_m = rest.top_m + rest.fall_m
+    if rest.on_ledge and top_face is not None and bottom_m >= support.position_m[up] + top_face.height - TOUCH_M:
+        return None  # The body may slide from the ledge onto a top face that is about as high.
+    return Resting(support, rest, space)
 
 
 def standing_planes(body: Body, resting: Resting) -> tuple[Plane, ...] | None:
     """Return the planes that bound a resting body, besides the edges of the face; None if they are not known."""
     support, up, planes = resting.support, body.up_axis, tuple[Plane, ...]()
-    if resting.ledge is not None:
-        free = resting.ledge.planes(stands=True)
+    if resting.rest.on_ledge:
+        free = resting.space.planes(stands=True)
         if free is None:
             return None
         planes += free
@@ -199,12 +169,14 @@ def _all_in(support: Body, floor_m: float) -> tuple[Plane, ...]:
 
 def _standing(body: Body, resting: Resting) -> Standing:
     """Return the face of a support in world coordinates, and the bounds of a body's rest on it."""
-    support, face, up = resting.support, resting.face, body.up_axis
+    support, up, is_on_ledge = resting.support, body.up_axis, resting.rest.on_ledge
+    face = resting.space.ledge_face if is_on_ledge else support.stance.top_face
+    assert face is not None
     u, v = support.position_m[0], support.position_m[body.v_axis]
     least_m = resting.rest.top_m + _SURE_M
     # `is_over` is sure if the bottom is clearly higher or the body inside the support (`_all_in`); else middles decide.
     is_beyond = least_m > support.low[up] + TOUCH_M or least_m < support.high[up] - TOUCH_M
-    is_sure = resting.ledge is not None and is_beyond
+    is_sure = is_on_ledge and is_beyond
     return Standing(
         [(nu, nv, offset + nu * u + nv * v) for nu, nv, offset in face.edges],
         support.position_m[up] + face.height,

@@ -10,7 +10,7 @@ from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate, Extent, Resting, resting_on, separated, standing_planes
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.planes import Plane
-from scene2hap.contact.geometry.vectors import Triple
+from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
 
 _MOST_REFUSALS = 5
@@ -37,20 +37,28 @@ class Certificates:
         # By id: refusals minus certificates issued since, and moves that are left until the next attempt.
         self._refusals: dict[str, tuple[int, int]] = {}
 
-    def issue(self, body: Body, resting: Resting | None, normal: Triple | None, moving: Container[str]) -> bool:
+    def issue(self, body: Body, resting: Resting | None, moving: Container[str]) -> dict[Pair, Junction | None] | None:
         """Issue a certificate to a body that rests as given, or touches nothing, if planes separate it from all others.
 
         The certificates of its neighbours get the same planes. A certificate that a body of `moving` pins would end
         with the next move of that body, as on a tray or in a vehicle. If the proof fails, or for such a certificate,
-        count a refusal and return False.
+        count a refusal and return None. Otherwise return the body's junction with its support, if it has one.
         """
+        junctions = self._issue(body, resting, moving)
+        if junctions is None:
+            self._refuse(body.id)
+        elif body.id in self._refusals:
+            self._refusals[body.id] = (max(self._refusals[body.id][0] - 1, 0), 0)
+        return junctions
+
+    def _issue(self, body: Body, resting: Resting | None, moving: Container[str]) -> dict[Pair, Junction | None] | None:
         x, on, top_m, pins = body.id, "", -math.inf, set[str]()
         planes: dict[str, tuple[Plane, ...]] = {}
         if resting is not None:
             on, top_m = resting.support.id, resting.rest.top_m
             known = None if on in moving else self._planes_on(body, resting)
             if known is None:
-                return self._refuse(x)
+                return None
             planes[on] = known
             pins.add(on)
         own, theirs = Extent(body, self._broad_phase.inner_box(x), top_m, False), []
@@ -68,20 +76,18 @@ class Certificates:
                 continue
             free = None if its_own is not None or z in moving else _free_around(body, other)
             if free is None:
-                return self._refuse(x)
+                return None
             planes[z] = free
             pins.add(z)
-        certificate = Certificate(own, planes, pins, resting, normal)
-        if not certificate.holds:
-            return self._refuse(x)
+        certificate, junctions = Certificate(own, planes, pins, resting), dict[Pair, Junction | None]()
+        if not certificate.step(body.pose, junctions):
+            return None
         for its_own, its_planes in theirs:
             its_own.keep_behind({x: its_planes})
         for pin in pins:
             self._pinned.setdefault(pin, set()).add(x)
         self.of[x] = certificate
-        if x in self._refusals:
-            self._refusals[x] = (max(self._refusals[x][0] - 1, 0), 0)
-        return True
+        return junctions
 
     def may_be_issued(self, x: str) -> bool:
         """Return True if a moving body has waited long enough since its last refusal. Counts the wait down."""
@@ -137,7 +143,7 @@ class Certificates:
     def end(self, x: str) -> bool:
         """End the certificate of a body. Returns True if it had one."""
         certificate = self.of.pop(x, None)
-        if certificate is not None and not certificate.has_held:
+        if certificate is not None and certificate.n_steps < 2:  # `issue` took the first step
             self._refuse(x)
         return certificate is not None
 
@@ -156,11 +162,10 @@ class Certificates:
         self.of.pop(x, None)
         self._refusals.pop(x, None)
 
-    def _refuse(self, x: str) -> bool:
-        """Count a refusal, also for a certificate that ended before its first step. Always returns False."""
+    def _refuse(self, x: str) -> None:
+        """Count a refusal, also for a certificate that ended before its first move."""
         n = min(self._refusals.get(x, (0, 0))[0] + 1, _MOST_REFUSALS)
         self._refusals[x] = (n, 2 ** (n - 1) - 1)
-        return False
 
     def _planes_on(self, body: Body, resting: Resting) -> tuple[Plane, ...] | None:
         support = resting.support

@@ -11,12 +11,12 @@ from collections.abc import Collection, Container, Mapping, Sequence
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad_phase import BroadPhase
-from scene2hap.contact.certificate import Certificate, junction_of
+from scene2hap.contact.certificate import Certificate
 from scene2hap.contact.certificates import Certificates
 from scene2hap.contact.holders import Holders
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.pair import BodyPair, apart_by, beside_by
-from scene2hap.contact.rule import TOUCH_M, Support, margins_m
+from scene2hap.contact.pair import BodyPair, BodyPairs, apart_by, beside_by
+from scene2hap.contact.rule import TOUCH_M, margins_m
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 
@@ -33,13 +33,10 @@ class ContactFinder:
         self._up_axis = up_axis
         self._broad_phase = BroadPhase(up_axis, margins_m)
         certified: dict[str, Certificate] = {}
-        holders = self._holders = Holders(up_axis, self._broad_phase.neighbours, certified)
-        self._bodies, self._body_pairs, self._held, self._unsupported = (
-            holders.bodies,
-            holders.body_pairs,
-            holders.held,
-            holders.unsupported,
-        )
+        self._pairs = BodyPairs()
+        self._bodies = self._pairs.bodies
+        self._holders = Holders(self._pairs, self._broad_phase.neighbours, certified)
+        self._unsupported = self._holders.unsupported
         self._certificates = Certificates(self._bodies, self._unsupported, self._broad_phase, certified)
 
     def replace(
@@ -111,12 +108,8 @@ class ContactFinder:
         self._certificates.forget(x)
         for y in self._broad_phase.remove(x):
             self._drop_pair(x, y, found, recheck)
-        self._body_pairs.pop(x, None)
-        held = self._held.pop(x, None)
-        for y in held or ():
-            found[pair_of(x, y)] = None
-        self._unsupported.discard(x)
-        self._holders.on_several.discard(x)
+        self._pairs.of.pop(x, None)
+        found |= dict.fromkeys(pair_of(x, y) for y in self._holders.forget(x))
 
     def _certify(
         self, body: Body, moving: Container[str], dirty: set[Pair], recheck: set[str]
@@ -125,41 +118,32 @@ class ContactFinder:
 
         Its stored pairs are dropped. Pairs and bodies that this may change go into `dirty` and `recheck`.
         """
-        x, bond = body.id, None
-        resting = self._certificates.resting(body, self._held.get(x, ()))
-        if resting is not None:
-            bond = self._holders.support(x, resting.support.id, Support(1.0, resting.rest.fall_m), lies=True)
-        if not self._certificates.issue(body, resting, None if bond is None else bond.normal, moving):
+        x, holders = body.id, self._holders
+        resting = self._certificates.resting(body, holders.held.get(x, ()))
+        junctions = self._certificates.issue(body, resting, moving)
+        if junctions is None:
             return None
-        body_pairs = self._body_pairs.get(x, {})
-        for y, body_pair in body_pairs.items():
-            del self._body_pairs[y][x]
-            if body_pair.rest(y) is not None or (y in self._unsupported and body.size_m > self._bodies[y].size_m):
+        for y in list(self._pairs.of.setdefault(x, {})):
+            body_pair = self._pairs.drop(x, y)
+            if _may_rest(y, body_pair) or (y in self._unsupported and body.size_m > self._bodies[y].size_m):
                 recheck.add(y)
             dirty.add(pair_of(x, y))
-        self._body_pairs[x] = {}
-        dirty.update(pair_of(x, y) for y in self._held.pop(x, ()))
-        if resting is None or bond is None:
-            self._unsupported.add(x)
-            return {}
-        self._unsupported.discard(x)
-        self._held[x] = {resting.support.id: bond}
-        return {pair_of(x, resting.support.id): junction_of(body, resting, bond.normal)}
+        on, fall_m = (None, 0.0) if resting is None else (resting.support.id, resting.rest.fall_m)
+        dirty.update(pair_of(x, y) for y in holders.rest_alone(body, on, fall_m))
+        return junctions
 
     def _drop_pair(self, x: str, y: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
         """Drop the pair of two bodies that are no longer neighbours."""
-        mine = self._body_pairs.get(x)
-        body_pair = mine.pop(y, None) if mine else None
+        body_pair = self._pairs.drop(x, y)
         if body_pair is not None:
-            self._body_pairs[y].pop(x, None)
             found[body_pair.a.id, body_pair.b.id] = None
-            if body_pair.rest(y) is not None or y in self._unsupported:
+            if _may_rest(y, body_pair) or y in self._unsupported:
                 recheck.add(y)
 
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
         """Pair a body that moved with the bodies now near enough to touch it."""
         x, bodies, certificates, unsupported = body.id, self._bodies, self._certificates.of, self._unsupported
-        body_pairs = self._body_pairs.setdefault(x, {})
+        body_pairs = self._pairs.of.setdefault(x, {})
         for y in self._broad_phase.neighbours[x]:
             if y in certificates:
                 continue
@@ -176,14 +160,12 @@ class ContactFinder:
             if body_pair.rests == _NEITHER and (
                 apart_by(body, other, TOUCH_M) or body_pair.space.empty_region is not None
             ):
-                if old is not None:
-                    del body_pairs[y], self._body_pairs[y][x]
+                if self._pairs.drop(x, y) is not None:
                     dirty.add(pair_of(x, y))
             else:
-                body_pairs[y] = body_pair
-                self._body_pairs.setdefault(y, {})[x] = body_pair
+                self._pairs.add(body_pair)
                 dirty.add(pair_of(x, y))
-            if may_hang or body_pair.rest(y) is not None or (old is not None and old.rest(y) is not None):
+            if may_hang or _may_rest(y, body_pair) or _may_rest(y, old):
                 recheck.add(y)
 
     def _update_holders(self, x: str, dirty: set[Pair]) -> bool:
@@ -192,11 +174,10 @@ class ContactFinder:
         Returns True if the body has lost its full support.
         """
         was_unsupported = x in self._unsupported
-        before, now = self._held.get(x), self._holders.of(x)
-        if now:
-            self._held[x] = now
-        elif before:
-            del self._held[x]
-        for y in (before or {}).keys() | now.keys():
-            dirty.add(pair_of(x, y))
+        dirty.update(pair_of(x, y) for y in self._holders.update(x))
         return x in self._unsupported and not was_unsupported
+
+
+def _may_rest(y: str, body_pair: BodyPair | None) -> bool:
+    """Return True if y, one body of a pair, may rest on the other."""
+    return body_pair is not None and body_pair.rest(y) is not None

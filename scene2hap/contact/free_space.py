@@ -11,7 +11,6 @@ depends on poses alone.
 from __future__ import annotations
 
 import math
-from typing import Literal
 
 import numpy as np
 
@@ -19,12 +18,12 @@ from scene2hap.contact.body import Body, box_in_frame
 from scene2hap.contact.geometry.planes import Plane, floor_at, roof_at, wall_at
 from scene2hap.contact.geometry.triangle_tree import meeting
 from scene2hap.contact.geometry.vectors import AABB, Indices, Marks
+from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Flat, FreeRegion, Upright
 from scene2hap.contact.mesh_distance import INSET, INSET_M
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m, is_over, play_reach_m
 from scene2hap.contact.stance import TopFace
 
-_MOST_TILT_M = 1e-4  # Largest lean of a host over its whole size: the error of a ledge's height.
 _AROUND_M = 0.8  # The host is searched this far beyond a guest, so that later guests can use the region.
 _MANY_CORNERS = 8  # An outline with more corners is replaced by its circle.
 _ROUNDING_M = 2e-6
@@ -35,34 +34,20 @@ _NO_LEDGE: Flat = (math.inf, math.inf, -math.inf, -math.inf)
 class FreeSpace:
     """The free space of a host around a guest, at their present poses. Each result is computed on first use."""
 
-    __slots__ = ("_column", "_empty", "_ledge", "_own", "guest", "host")
-
     def __init__(self, guest: Body, host: Body) -> None:
-        self.guest, self.host, self._own = guest, host, _upright(host)
-        self._column: AABB | None = None
-        self._ledge: FreeRegion | Literal[False] | None = False
-        self._empty: FreeRegion | Literal[False] | None = False
+        self.guest, self.host, self._own = guest, host, host.stance.upright
 
-    @property
+    @lazy
     def region_below(self) -> FreeRegion | None:
         """The free region around the guest and the path of its fall, or of the host's fall onto it.
 
         The region is empty, or has a ledge under the guest's whole base face. None where neither is certain.
         """
-        if self._ledge is False:
-            self._ledge = None if self._own is None else self._region_below(self._own)
-        return self._ledge
-
-    @property
-    def empty_region(self) -> FreeRegion | None:
-        """A region in which the host has nothing within the distance at which the two could touch or hang, if any."""
-        if self._empty is False:
-            self._empty = None if self._own is None else self._empty_region(self._own)
-        return self._empty
-
-    def _region_below(self, own: Upright) -> FreeRegion | None:
-        guest, host, taken = self.guest, self.host, self._taken(own)
-        low, high, foot = taken[0][2], taken[1][2], _foot(guest, host, own)
+        guest, host, own = self.guest, self.host, self._own
+        if own is None:
+            return None
+        taken, foot = self._column, _foot(guest, host, own)
+        low, high = taken[0][2], taken[1][2]
 
         def serves(known: FreeRegion) -> bool:
             if known.own != own or not known.holds(taken):
@@ -71,9 +56,13 @@ class FreeSpace:
 
         return host.free_regions.find(guest.id, serves, lambda: _computed_region(host, own, taken, foot))
 
-    def _empty_region(self, own: Upright) -> FreeRegion | None:
-        guest, host, reach_m = self.guest, self.host, _reach_m(self.guest)
-        (u0, v0, h0), (u1, v1, h1) = self._taken(own)
+    @lazy
+    def empty_region(self) -> FreeRegion | None:
+        """A region in which the host has nothing within the distance at which the two could touch or hang, if any."""
+        guest, host, own, reach_m = self.guest, self.host, self._own, _reach_m(self.guest)
+        if own is None:
+            return None
+        (u0, v0, h0), (u1, v1, h1) = self._column
         taken = (u0 - reach_m, v0 - reach_m, h0 - reach_m), (u1 + reach_m, v1 + reach_m, h1 + reach_m)
 
         def serves(known: FreeRegion) -> bool:
@@ -81,10 +70,31 @@ class FreeSpace:
 
         return host.free_regions.find(guest.id, serves, lambda: _empty_region(host, own, taken))
 
-    def _taken(self, own: Upright) -> AABB:
-        if self._column is None:
-            self._column = _column(self.guest, self.host, own)
-        return self._column
+    @property
+    def ledge_face(self) -> TopFace:
+        """The rectangle of the ledge of `region_below` as a top face of the host, turned as the host is."""
+        known, own = self.region_below, self._own
+        assert known is not None
+        assert known.top_m is not None
+        assert own is not None
+        a, b, c, d = _turn(self.host, own)
+        u0, v0, u1, v1 = known.ledge
+        corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
+        return TopFace(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
+
+    @lazy
+    def _column(self) -> AABB:
+        """A box (u, v, h) around the guest and the path of its fall, or of the host's onto it, in the host's frame."""
+        guest, host, own, up = self.guest, self.host, self._own, self.guest.up_axis
+        assert own is not None
+        h, (middle, half) = host.position_m[up], box_in_frame(guest, host)
+        mu, mv, hu, hv = middle[own.u], middle[own.v], half[own.u], half[own.v]
+        inset_m = min(INSET * guest.size_m, INSET_M)
+        hu, hv = max(hu - inset_m, 0.0), max(hv - inset_m, 0.0)
+        low = guest.low[up] - h - fall_reach_m(guest.size_m) - TOUCH_M
+        # The upper surface of a host into which the guest is sunk a little may be above the guest.
+        high = guest.high[up] - h + TOUCH_M + (fall_reach_m(host.size_m) if is_over(host, guest) else 0.0)
+        return (mu - hu, mv - hv, low), (mu + hu, mv + hv, high)
 
     def planes(self, *, stands: bool) -> tuple[Plane, ...] | None:
         """Return the planes of the guest's free region in world coordinates; None where no region is certain.
@@ -115,22 +125,6 @@ class FreeSpace:
         )
 
 
-def top_face(host: Body, known: FreeRegion) -> TopFace:
-    """Return the rectangle of a region's ledge as the top face of its host, turned as the host is."""
-    lean = host.stance.lean
-    assert known.top_m is not None
-    assert lean is not None
-    a, b, c, d = _turn(host, lean.own)
-    u0, v0, u1, v1 = known.ledge
-    corners = tuple([(a * u + c * v, b * u + d * v) for u, v in ((u0, v0), (u1, v0), (u1, v1), (u0, v1))])
-    return TopFace(corners, known.top_m, ((a, b, u0), (c, d, v0), (-a, -b, -u1), (-c, -d, -v1)))
-
-
-def _upright(host: Body) -> Upright | None:
-    lean = host.stance.lean
-    return lean.own if lean is not None and lean.tilt * host.size_m <= _MOST_TILT_M else None
-
-
 def _turn(host: Body, own: Upright) -> tuple[float, float, float, float]:
     """Return the components of u (a, b) and of v (c, d) along the world's two level axes."""
     first, second = host.stance.rows[0], host.stance.rows[3 - host.up_axis]
@@ -140,19 +134,6 @@ def _turn(host: Body, own: Upright) -> tuple[float, float, float, float]:
 def _reach_m(guest: Body) -> float:
     """Return the distance [m] within which a host must have nothing for the guest to be clear of it."""
     return max(TOUCH_M, play_reach_m(guest.size_m), hang_reach_m(guest.size_m))
-
-
-def _column(guest: Body, host: Body, own: Upright) -> AABB:
-    """Return a box (u, v, h) around a guest and the path of its fall, or of the host's onto it, in the host's frame."""
-    up, h = guest.up_axis, host.position_m[guest.up_axis]
-    middle, half = box_in_frame(guest, host)
-    mu, mv, hu, hv = middle[own.u], middle[own.v], half[own.u], half[own.v]
-    inset_m = min(INSET * guest.size_m, INSET_M)
-    hu, hv = max(hu - inset_m, 0.0), max(hv - inset_m, 0.0)
-    low = guest.low[up] - h - fall_reach_m(guest.size_m) - TOUCH_M
-    # The upper surface of a host into which the guest is sunk a little may be above the guest.
-    high = guest.high[up] - h + TOUCH_M + (fall_reach_m(host.size_m) if is_over(host, guest) else 0.0)
-    return (mu - hu, mv - hv, low), (mu + hu, mv + hv, high)
 
 
 def _foot(guest: Body, host: Body, own: Upright) -> Flat:

@@ -145,7 +145,10 @@ class ContactGraph:
 
     def changed_since(self, version: int) -> list[Pair] | None:
         """Return the pairs that appeared, vanished or shifted since a `version`, None if the log is too short."""
-        return _last_entries(self._change_log, self._version - version)
+        log, n = self._change_log, self._version - version
+        if not 0 <= n <= len(log):
+            return None
+        return log[-1] if n == 1 else [pair for entry in islice(reversed(log), n) for pair in entry]
 
     @property
     def poses(self) -> Mapping[str, Pose]:
@@ -229,8 +232,6 @@ class ContactGraph:
         if self._poses_shared:
             self._poses, self._poses_shared = dict(poses), False
         self._poses.update(stale)
-        if self._finder is None:
-            return self._store({pair: None for x in stale for pair in self._pairs_of(x)})
         return self._replace(stale)
 
     def _rebuild(
@@ -262,8 +263,6 @@ class ContactGraph:
             self._finder = None
             return self._store({**dict.fromkeys(self._junctions), **junctions_of(contacts)})
         stale = {x for x in moved if x in before and poses[x] != before[x]} | {*removed, *(item.id for item in added)}
-        if self._finder is None:
-            return self._store({pair: None for x in stale for pair in self._pairs_of(x)})
         new = {item.id for item in added}
         elsewhere = {x: poses[x] for x in stale & poses.keys() if x not in new}
         items = [replace(item, pose=moved[item.id]) if item.id in moved else item for item in added]
@@ -272,19 +271,13 @@ class ContactGraph:
     def _replace(
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
     ) -> ContactChange:
-        """Let the finder update the contacts of these objects. Returns the change."""
-        assert self._finder is not None
-        return self._store(self._finder.replace(moved, added, gone))
-
-    def _pairs_of(self, object_id: str) -> list[Pair]:
-        return [pair_of(object_id, other) for other in self._beside.get(object_id, ())]
+        """Let the finder update the contacts of these objects, or drop those that were given. Returns the change."""
+        if self._finder is not None:
+            return self._store(self._finder.replace(moved, added, gone))
+        return self._store({pair_of(x, y): None for x in (*moved, *gone) for y in self._beside.get(x, ())})
 
     def _store(self, found: Mapping[Pair, Junction | None]) -> ContactChange:
-        """Store the junctions of these pairs, None for no contact. Returns the change."""
-        return self._record(*self._apply(found))
-
-    def _apply(self, found: Mapping[Pair, Junction | None]) -> tuple[list[Pair], list[Pair], list[Pair]]:
-        """Store junctions by pair. Returns the pairs that appeared, vanished and shifted."""
+        """Store the junctions of these pairs, None for no contact, and log the change. Returns the change."""
         appeared: list[Pair] = []
         vanished: list[Pair] = []
         shifted: list[Pair] = []
@@ -308,10 +301,6 @@ class ContactGraph:
                 beside.setdefault(a, {})[b] = beside.setdefault(b, {})[a] = junction
             else:
                 beside[a][b] = beside[b][a] = junction
-        return appeared, vanished, shifted
-
-    def _record(self, appeared: list[Pair], vanished: list[Pair], shifted: list[Pair]) -> ContactChange:
-        """Advance the versions, and log the change."""
         if self._views:
             self._views.clear()
         if not (appeared or vanished or shifted):
@@ -321,13 +310,6 @@ class ContactGraph:
         if appeared or vanished:
             self._topology += 1
         return ContactChange(frozenset(appeared), frozenset(vanished), frozenset(shifted))
-
-
-def _last_entries(log: deque[list[Pair]], n: int) -> list[Pair] | None:
-    """Return the pairs of the last n entries of a log, None if it is shorter."""
-    if not 0 <= n <= len(log):
-        return None
-    return log[-1] if n == 1 else [pair for entry in islice(reversed(log), n) for pair in entry]
 
 
 def _require_known(object_id: str, known: Mapping[str, object]) -> None:

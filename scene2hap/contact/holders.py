@@ -15,7 +15,7 @@ from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.level import rest_points
 from scene2hap.contact.mesh_distance import Gap
-from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, apart_by, box_distance_m
+from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, BodyPairs, apart_by, box_distance_m, support_normal
 from scene2hap.contact.rule import (
     CLEAR_M,
     TOUCH_M,
@@ -64,48 +64,64 @@ def direction(gap: Gap) -> Triple | None:
 
 
 class Holders:
-    """Bodies, their pairs and their holders, all by id; the finder reads and changes these mappings.
+    """The holders of all bodies: `held` has the bonds of each body that is held, by its id and by the holder's.
 
-    Parameters: near : the neighbours of each body; certified : the bodies with a certificate, which neither hang from
-    others nor hold hanging ones.
+    Parameters: pairs : all bodies and their pairs; a pair is added where a body hangs. near : the neighbours of each
+    body; certified : the bodies with a certificate, which neither hang from others nor hold hanging ones.
     """
 
-    def __init__(self, up_axis: int, near: Mapping[str, Collection[str]], certified: Container[str]) -> None:
-        self._up_axis, self._near, self._certified = up_axis, near, certified
-        self.bodies: dict[str, Body] = {}
-        self.body_pairs: dict[str, dict[str, BodyPair]] = {}
+    def __init__(self, pairs: BodyPairs, near: Mapping[str, Collection[str]], certified: Container[str]) -> None:
+        self._pairs, self._bodies, self._near, self._certified = pairs, pairs.bodies, near, certified
         self.held: dict[str, dict[str, Bond]] = {}
         # Bodies without full support: larger bodies near them may hold them by hanging.
         self.unsupported: set[str] = set()
         # Bodies with a support that hid parts of another in the last search: they need the falls of all triangles.
-        self.on_several: set[str] = set()
+        self._on_several: set[str] = set()
 
-    def of(self, x: str) -> dict[str, Bond]:
-        """Return the bonds by which other bodies hold a body: by support and, where that is below 1, by hanging."""
-        body = self.bodies[x]
-        below, lies_on = self._below(body) if self.body_pairs[x] else ({}, ())
-        bonds = {}
-        for y, support in below.items():
-            bonds[y] = self.support(x, y, support, lies=y in lies_on)
+    def update(self, x: str) -> Collection[str]:
+        """Find the holders of a body: by support and, where that is below 1, by hanging.
+
+        Returns its present holders and those before.
+        """
+        body = self._bodies[x]
+        below, lies_on = self._below(body) if self._pairs.of[x] else ({}, ())
+        bonds = {y: self._support(body, y, support, lies=y in lies_on) for y, support in below.items()}
         supported = max((bond.weight for bond in bonds.values()), default=0.0)
         if supported < 1:
-            self.unsupported.add(x)
             for y, bond in self._hanging(body, supported).items():
                 bonds[y] = max(bonds.get(y, NO_BOND), bond, key=priority)
-        else:
-            self.unsupported.discard(x)
-        return bonds
+        return self._hold(x, bonds, is_supported=supported >= 1)
 
-    def support(self, x: str, y: str, support: Support, *, lies: bool) -> Bond:
-        """Return the bond by which y supports x."""
-        sign = 1.0 if x < y else -1.0
-        normal = (0.0, -sign, 0.0) if self._up_axis == 1 else (0.0, 0.0, -sign)
-        way = (normal[0] * support.fall_m, normal[1] * support.fall_m, normal[2] * support.fall_m)
-        return Bond(support.weight, way, normal, lies, x)
+    def rest_alone(self, body: Body, on: str | None, fall_m: float) -> Collection[str]:
+        """Let a body lie on one support and touch nothing else, or touch nothing. Returns its present holders and those
+        before."""
+        bonds = {} if on is None else {on: self._support(body, on, Support(1.0, fall_m), lies=True)}
+        return self._hold(body.id, bonds, is_supported=on is not None)
+
+    def forget(self, x: str) -> Collection[str]:
+        """Forget a removed body. Returns the holders it had."""
+        self._on_several.discard(x)
+        return self._hold(x, {}, is_supported=True)
+
+    def _hold(self, x: str, bonds: dict[str, Bond], *, is_supported: bool) -> Collection[str]:
+        before = self.held.pop(x, {})
+        if bonds:
+            self.held[x] = bonds
+        if is_supported:
+            self.unsupported.discard(x)
+        else:
+            self.unsupported.add(x)
+        return before.keys() | bonds.keys()
+
+    def _support(self, body: Body, y: str, support: Support, *, lies: bool) -> Bond:
+        """Return the bond by which y supports a body."""
+        u, v, w = normal = support_normal(body, self._bodies[y])
+        fall_m = support.fall_m
+        return Bond(support.weight, (u * fall_m, v * fall_m, w * fall_m), normal, lies, body.id)
 
     def _below(self, body: Body) -> tuple[Mapping[str, Support], Collection[str]]:
         """Return the supports of a body, and the ids of those on which it rests with a level base face."""
-        body_pairs, reach_m = self.body_pairs[body.id], fall_reach_m(body.size_m)
+        body_pairs, reach_m = self._pairs.of[body.id], fall_reach_m(body.size_m)
         rests = {y: rest for y, body_pair in body_pairs.items() if (rest := body_pair.rest(body.id)) is not None}
         unclear = [y for y, rest in rests.items() if rest is NEEDS_TRIANGLES]
         rests = {y: rest for y, rest in rests.items() if rest is not NEEDS_TRIANGLES}
@@ -118,10 +134,10 @@ class Holders:
         falls_m |= self._first_falls(body, rests, min(falls_m.values(), default=math.inf))
         falls_m = dict(sorted(falls_m.items()))
         below = supports_of_faces(falls_m, reach_m)
-        self.on_several.discard(body.id)
+        self._on_several.discard(body.id)
         if below is None:
-            self.on_several.add(body.id)
-            each_m = {y: self.body_pairs[body.id][y].falls(body.id) for y in falls_m}
+            self._on_several.add(body.id)
+            each_m = {y: self._pairs.of[body.id][y].falls(body.id) for y in falls_m}
             below = supports({y: falls for y, falls in each_m.items() if falls is not None}, reach_m)
         return below, ()
 
@@ -130,12 +146,12 @@ class Holders:
 
         Candidates are skipped if they are more than `TOUCH_M` deeper than the nearest one or than `least_m`.
         """
-        bodies, body_pairs, needs_each = self.bodies, self.body_pairs[body.id], body.id in self.on_several
+        bodies, body_pairs, up = self._bodies, self._pairs.of[body.id], body.up_axis
         found: dict[str, float] = {}
-        for y in sorted(onto, key=lambda y: (-bodies[y].highest_m, y)):
-            if body.lowest_m - bodies[y].highest_m > least_m + TOUCH_M:
+        for y in sorted(onto, key=lambda y: (-bodies[y].high[up], y)):
+            if body.low[up] - bodies[y].high[up] > least_m + TOUCH_M:
                 break
-            fall_m = found[y] = body_pairs[y].first_fall_m(body.id, by_each=needs_each)
+            fall_m = found[y] = body_pairs[y].first_fall_m(body.id, by_each=body.id in self._on_several)
             least_m = min(least_m, fall_m)
         return {y: fall_m for y, fall_m in found.items() if fall_m < math.inf and fall_m <= least_m + TOUCH_M}
 
@@ -143,7 +159,7 @@ class Holders:
         """Return the bonds by which larger bodies hold a hanging body, scaled by 1 - `supported`."""
         x, reach_m = body.id, hang_reach_m(body.size_m)
         gaps: dict[str, Gap] = {}
-        bodies, size_m = self.bodies, body.size_m
+        bodies, size_m = self._bodies, body.size_m
         larger = [
             y
             for y in self._near[x]
@@ -168,15 +184,12 @@ class Holders:
 
     def _space(self, guest: Body, host: Body) -> FreeSpace:
         """Return the free space of a larger body around a smaller one, that of their pair if they have one."""
-        body_pair = self.body_pairs[guest.id].get(host.id)
+        body_pair = self._pairs.of[guest.id].get(host.id)
         return FreeSpace(guest, host) if body_pair is None else body_pair.space
 
     def _body_pair(self, x: str, y: str) -> BodyPair:
-        body_pair = self.body_pairs[x].get(y)
-        if body_pair is None:
-            body_pair = BodyPair.of(self.bodies[x], self.bodies[y])
-            self.body_pairs[x][y] = self.body_pairs.setdefault(y, {})[x] = body_pair
-        return body_pair
+        body_pair = self._pairs.of[x].get(y)
+        return self._pairs.add(BodyPair.of(self._bodies[x], self._bodies[y])) if body_pair is None else body_pair
 
     def junction(self, pair: Pair) -> Junction | None:
         """Return the junction of a pair, None where it does not touch.
@@ -184,7 +197,7 @@ class Holders:
         The strongest bond decides: a held by b, b held by a, touch, or one enclosed by the other.
         """
         a, b = pair
-        body_pair = self.body_pairs.get(a, {}).get(b)
+        body_pair = self._pairs.of.get(a, {}).get(b)
         if body_pair is None:
             return None
         held = (self.held.get(a, {}).get(b, NO_BOND), self.held.get(b, {}).get(a, NO_BOND))
@@ -197,7 +210,7 @@ class Holders:
                 if share > bond.weight:
                     bond, within_m = Bond(share, NO_WAY, direction(gap), False, a), slack + gap.distance_m
         if bond.weight < 1:
-            share, play_m = body_pair.enclosed()
+            share, play_m = body_pair.enclosed
             if share > bond.weight:
                 bond, within_m = Bond(share, NO_WAY, None, False, a), slack + play_m
         if bond.weight <= 0:

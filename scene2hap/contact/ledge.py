@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.contact.geometry.broad import Boxes
+from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.geometry.vectors import AABB, Floats
 
 Flat = tuple[float, float, float, float]

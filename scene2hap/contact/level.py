@@ -7,7 +7,7 @@ The bodies are compared by their convex outlines. The results equal those of the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from scene2hap.contact.body import Body
@@ -22,12 +22,13 @@ _ROUNDING_M = 1e-9
 
 
 class Rest(NamedTuple):
-    """How a body may rest on a face at height `top_m` [m]: its fall distance [m], and whether the face is under its
-    whole base face."""
+    """How a body may rest on a face at height `top_m` [m]: its fall distance [m], whether the face is under its whole
+    base face, and whether the face is a ledge of a concave host."""
 
     fall_m: float
     wholly: bool
     top_m: float
+    on_ledge: bool = False
 
 
 def rest_on(x: Body, y: Body) -> Rest | None:
@@ -77,18 +78,20 @@ def rest_points(x: Body, y: Body, rest: Rest, slack_m: float) -> tuple[Triple, .
     px, py = x.position_m, y.position_m
     height = (px[a] + base_face.height + rest.top_m) / 2
     u, v = px[0], px[v_axis]
-    if rest.wholly:
-        if a == 1:
-            return tuple([(u + pu, height, v + pv) for pu, pv in base_face.points])
-        level: Sequence[Point] = [(u + pu, v + pv) for pu, pv in base_face.points]
-    else:
+    level: Sequence[Point] = base_face.points
+    if not rest.wholly:
         top_face = y.stance.top_face
         assert top_face is not None
         ring = clipped(x.stance.base_outline, u - py[0], v - py[v_axis], top_face.edges, slack_m)
         # Chosen in coordinates that rotate with y, so that a rotation of the whole scene does not change the result.
         c, s = y.stance.heading
-        chosen = spread([(c * pu + s * pv, c * pv - s * pu) for pu, pv in ring])
-        level = [(ring[k][0] + py[0], ring[k][1] + py[v_axis]) for k in chosen]
-    if a == 1:
-        return tuple([(pu, height, pv) for pu, pv in level])
-    return tuple([(pu, pv, height) for pu, pv in level])
+        level = [ring[k] for k in spread([(c * pu + s * pv, c * pv - s * pu) for pu, pv in ring])]
+        u, v = py[0], py[v_axis]
+    return points_at(level, u, v, height, a)
+
+
+def points_at(level: Iterable[Point], u: float, v: float, height: float, up_axis: int) -> tuple[Triple, ...]:
+    """Return points of the level plane, moved by (u, v), as points in the world at a height."""
+    if up_axis == 1:
+        return tuple([(u + pu, height, v + pv) for pu, pv in level])
+    return tuple([(u + pu, v + pv, height) for pu, pv in level])

@@ -18,19 +18,17 @@ corner of the guest's box.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap.compiled import compiled
 from scene2hap.contact.body import Body
-from scene2hap.contact.geometry.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.boxes import Boxes, box_pairs, boxes_of
 from scene2hap.contact.geometry.spread import spread
-from scene2hap.contact.geometry.triangles import clearances, heights, meetings
+from scene2hap.contact.geometry.triangles import heights, meetings
 from scene2hap.contact.geometry.vectors import (
     Floats,
-    Indices,
     Rows,
     Triple,
     cross,
@@ -39,12 +37,10 @@ from scene2hap.contact.geometry.vectors import (
     transposed,
     upright_frame,
 )
-from scene2hap.contact.shape import Shape, boxes_of
+from scene2hap.contact.shape import Shape
 
 ROUNDING_M = 1e-9
 """Distances below this are rounding errors."""
-
-_BATCH = 4096  # Pairs of triangles that a plain kernel compares at once: some 10 MB.
 
 
 class Gap(NamedTuple):
@@ -73,10 +69,10 @@ class MeshPair:
     def __init__(self, a: Body, b: Body) -> None:
         self.guest_is_a = a.size_m < b.size_m
         self.guest, self.host = (a, b) if self.guest_is_a else (b, a)
-        self._rows = self.host.rows
+        self._rows = self.host.stance.rows
         back = self._back = transposed(self._rows)
         (x, y, z), (u, v, w) = self.guest.position_m, self.host.position_m
-        self._turn = _product(back, self.guest.rows)
+        self._turn = _product(back, self.guest.stance.rows)
         self._shift = rotated(back, (x - u, y - v, z - w))
 
     def gap(self, within_m: float) -> Gap | None:
@@ -122,7 +118,7 @@ class MeshPair:
         self, faller: Body, reach_m: float, touch_m: float
     ) -> tuple[Shape, Shape, Rows, Triple, Rows, Triple, bool]:
         up = faller.up_axis
-        limits = (faller.lowest_m - self.host.position_m[up], reach_m, touch_m)
+        limits = (faller.low[up] - self.host.position_m[up], reach_m, touch_m)
         frame = upright_frame(self._rows[up])
         return self.host.shape, self.guest.shape, self._turn, self._shift, frame, limits, faller is self.guest
 
@@ -143,7 +139,7 @@ def closest_points(
     best: tuple[float, int, int] | None = None
     ends = None
     posed = _posed(guest.triangles, turn, shift)
-    for i, j in _near(posed, boxes_of(posed), host, within):
+    for i, j in box_pairs(boxes_of(posed).grown(within + ROUNDING_M), host.boxes):
         p, q = posed.take(i, axis=2), host.triangles.take(j, axis=2)
         every = meetings(p, q, guest.features[i], host.features[j])
         row = every.distance.argmin(axis=0)
@@ -178,7 +174,7 @@ def contact_points(
 def _ends_within(host: Shape, guest: Shape, posed: Floats, way: Triple, within: float, loose: float) -> Floats:
     """Return the ends (6, n) of contact points without crossings between ends within `loose`."""
     found = [np.empty((6, 0))]
-    for i, j in _near(posed, boxes_of(posed), host, within):
+    for i, j in box_pairs(boxes_of(posed).grown(within + ROUNDING_M), host.boxes):
         p, q = posed.take(i, axis=2), host.triangles.take(j, axis=2)
         every = meetings(p, q, guest.features[i], host.features[j], loose)
         near = every.distance <= within
@@ -209,12 +205,10 @@ def drops(
     swept = Boxes(low - margin, high + touch + ROUNDING_M)
     p = _inset(p)
     for i, j in box_pairs(swept, boxes_of(q)):
-        for start in range(0, len(i), _BATCH):
-            some = slice(start, start + _BATCH)
-            least, most = heights(p.take(i[some], axis=2), q.take(j[some], axis=2))
-            meets = (least >= -reach) & (least <= reach) & (most >= -touch)
-            fall = np.where(least >= -touch, least, 0.0)
-            np.minimum.at(each, fallers[i[some][meets]], fall[meets])
+        least, most = heights(p.take(i, axis=2), q.take(j, axis=2))
+        meets = (least >= -reach) & (least <= reach) & (most >= -touch)
+        fall = np.where(least >= -touch, least, 0.0)
+        np.minimum.at(each, fallers[i[meets]], fall[meets])
     first = each.min(initial=np.inf)
     each[each > first + touch] = np.inf
     return each if first < np.inf else None
@@ -227,16 +221,6 @@ def first_drop(
     """Return the least of `drops` [m], inf if there is none."""
     each = drops(host, guest, turn, shift, frame, limits, guest_falls)
     return math.inf if each is None else float(each.min())
-
-
-def _near(posed: Floats, boxes: Boxes, host: Shape, within: float) -> Iterator[tuple[Indices, Indices]]:
-    """Yield the columns (n,) of pairs of the posed guest's and the host's triangles that may be within reach."""
-    for i, j in box_pairs(boxes.grown(within + ROUNDING_M), host.boxes):
-        for start in range(0, len(i), _BATCH):
-            some = slice(start, start + _BATCH)
-            p, q = posed.take(i[some], axis=2), host.triangles.take(j[some], axis=2)
-            close = clearances(p, q) <= within + ROUNDING_M
-            yield i[some][close], j[some][close]
 
 
 # Least cosine of a slope that holds an object (assumed). A wall's triangles hold nothing.

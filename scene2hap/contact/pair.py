@@ -12,6 +12,7 @@ from scene2hap.contact.body import Body, roles
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.lazy import lazy
 from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over
@@ -26,11 +27,9 @@ class BodyPair:
     def __init__(self, a: Body, b: Body) -> None:
         self.a, self.b = a, b
         self.space = FreeSpace(*roles(a, b))
-        rest = self._rest(a, b)
+        rest = rest_of(a, b, self.space)
         # At least one of the two cannot rest on the other.
-        self.rests = (rest, self._rest(b, a) if rest is None else None)
-        self._mesh_pair_made: MeshPair | None = None
-        self._enclosed: tuple[float, float] | None = None
+        self.rests = (rest, rest_of(b, a, self.space) if rest is None else None)
         self._falls: dict[str, Floats | None] = {}
         self._first_falls_m: dict[str, float] = {}
         self._points: dict[tuple[Triple, float], tuple[Triple, ...]] = {}
@@ -43,39 +42,8 @@ class BodyPair:
         """Build the pair of two bodies, given in any order."""
         return cls(x, y) if x.id < y.id else cls(y, x)
 
-    def _rest(self, x: Body, y: Body) -> Rest | None:
-        """Return how x may rest on y: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell."""
-        reach_m = fall_reach_m(x.size_m)
-        up, v_axis = x.up_axis, x.v_axis
-        if (
-            x.low[up] - y.high[up] > reach_m
-            or x.low[0] >= y.high[0]
-            or y.low[0] >= x.high[0]
-            or x.low[v_axis] >= y.high[v_axis]
-            or y.low[v_axis] >= x.high[v_axis]
-            or not is_over(x, y)
-        ):
-            return None
-        rest = rest_on(x, y)
-        if rest is None or rest.fall_m < -TOUCH_M:
-            return self._rest_in_free_space(x, y, reach_m)
-        return rest if rest.fall_m <= reach_m else None
-
-    def _rest_in_free_space(self, x: Body, y: Body, reach_m: float) -> Rest | None:
-        """Return the result of `_rest` from the free space of the larger body around the smaller one."""
-        known = self.space.region_below
-        if known is None:
-            return NEEDS_TRIANGLES
-        if known.top_m is None:
-            return None
-        top_m = y.position_m[y.up_axis] + known.top_m
-        fall_m = x.position_m[x.up_axis] + x.stance.posed_base_face.height - top_m
-        if self.space.guest is not x or fall_m < -TOUCH_M:
-            return NEEDS_TRIANGLES
-        return Rest(fall_m, True, top_m) if fall_m <= reach_m else None
-
     def rest(self, x: str) -> Rest | None:
-        """Return how x, one of the two ids, may rest on the other; see `_rest`."""
+        """Return how x, one of the two ids, may rest on the other; see `rest_of`."""
         return self.rests[x != self.a.id]
 
     def first_fall_m(self, x: str, *, by_each: bool = False) -> float:
@@ -110,11 +78,10 @@ class BodyPair:
         gap = self._gap
         return gap if gap is not None and gap.distance_m <= within_m else None
 
+    @lazy
     def enclosed(self) -> tuple[float, float]:
-        """Return the weight and play of a contact by enclosure; see `enclosure.enclosed`."""
-        if self._enclosed is None:
-            self._enclosed = enclosed(self.a, self.b)
-        return self._enclosed
+        """The weight and play of a contact by enclosure; see `enclosure.enclosed`."""
+        return enclosed(self.a, self.b)
 
     def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
         """Return points half way between the surfaces where they are within `within_m` once a has moved by `way_m`."""
@@ -123,11 +90,66 @@ class BodyPair:
             self._points[key] = tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
         return self._points[key]
 
-    @property
+    @lazy
     def _mesh_pair(self) -> MeshPair:
-        if self._mesh_pair_made is None:
-            self._mesh_pair_made = MeshPair(self.a, self.b)
-        return self._mesh_pair_made
+        return MeshPair(self.a, self.b)
+
+
+class BodyPairs:
+    """All bodies by id, and the pairs of near ones: `of[x][y]` and `of[y][x]` are the same pair."""
+
+    def __init__(self) -> None:
+        self.bodies: dict[str, Body] = {}
+        self.of: dict[str, dict[str, BodyPair]] = {}
+
+    def add(self, body_pair: BodyPair) -> BodyPair:
+        """Add a pair, in the place of one of the same bodies. Returns the pair."""
+        a, b = body_pair.a.id, body_pair.b.id
+        self.of.setdefault(a, {})[b] = self.of.setdefault(b, {})[a] = body_pair
+        return body_pair
+
+    def drop(self, x: str, y: str) -> BodyPair | None:
+        """Drop the pair of two bodies. Returns it, None if there was none."""
+        body_pair = self.of.get(x, {}).pop(y, None)
+        if body_pair is not None:
+            del self.of[y][x]
+        return body_pair
+
+
+def support_normal(x: Body, y: Body) -> Triple:
+    """Return the normal of a contact by which y supports x, from the body with the lower id to the other."""
+    way = -1.0 if x.id < y.id else 1.0
+    return (0.0, way, 0.0) if x.up_axis == 1 else (0.0, 0.0, way)
+
+
+def rest_of(x: Body, y: Body, space: FreeSpace) -> Rest | None:
+    """Return how x may rest on y: None if it cannot, `NEEDS_TRIANGLES` if only triangles can tell.
+
+    Parameters: space : the free space of the larger body around the smaller one.
+    """
+    reach_m = fall_reach_m(x.size_m)
+    up, v_axis = x.up_axis, x.v_axis
+    if (
+        x.low[up] - y.high[up] > reach_m
+        or x.low[0] >= y.high[0]
+        or y.low[0] >= x.high[0]
+        or x.low[v_axis] >= y.high[v_axis]
+        or y.low[v_axis] >= x.high[v_axis]
+        or not is_over(x, y)
+    ):
+        return None
+    rest = rest_on(x, y)
+    if rest is None or rest.fall_m < -TOUCH_M:
+        known = space.region_below
+        if known is None:
+            return NEEDS_TRIANGLES
+        if known.top_m is None:
+            return None
+        top_m = y.position_m[up] + known.top_m
+        rest = Rest(x.position_m[up] + x.stance.posed_base_face.height - top_m, True, top_m, True)
+        if space.guest is not x or rest.fall_m < -TOUCH_M:
+            return NEEDS_TRIANGLES
+    return rest if rest.fall_m <= reach_m else None
 
 
 def box_distance_m(x: Body, y: Body) -> float:

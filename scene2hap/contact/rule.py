@@ -21,8 +21,6 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-import numpy as np
-
 from scene2hap.compiled import compiled
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.vectors import Floats
@@ -82,18 +80,6 @@ def weight(gap_m: float, tolerance_m: float) -> float:
         return 1.0 if gap_m <= 0.0 else 0.0
     x = 3 * gap_m / tolerance_m - 2
     return 1.0 if x <= 0 else 0.0 if x >= 1 else 0.5 * (1 + math.cos(math.pi * x))
-
-
-def weights(gaps_m: Floats, tolerance_m: float) -> Floats:
-    """Return the weight of each gap (...), as `weight` does."""
-    if tolerance_m == 0.0:
-        return np.where(gaps_m <= 0.0, 1.0, 0.0)
-    x = 3 * gaps_m / tolerance_m - 2
-    found = np.where(x < 1, 1.0, 0.0)
-    # Few gaps are in between, and numpy's cosine may differ in the last bit from that of `weight`.
-    between = (x > 0) & (x < 1)
-    found[between] = [0.5 * (1 + math.cos(math.pi * one)) for one in x[between].tolist()]
-    return found
 
 
 @lru_cache(_SIZES)
@@ -171,15 +157,19 @@ def support_weights(
 
     Parameters: falls_m : for each support, the fall distance of each triangle (m,) [m], inf where it meets nothing.
     """
-    table = np.stack(falls_m)
-    table = table[:, np.isfinite(table).any(axis=0)]
-    first = table.min(axis=0)
-    least = first.min(initial=math.inf)
-    seen = weights(table, reach_m) * weights(table - least, touch_m) * weights(table - first, hidden_m)
-    return [
-        (float(share.max(initial=0.0)), float(falls[share > 0].min(initial=math.inf)))
-        for falls, share in zip(table, seen, strict=True)
-    ]
+    rows = [falls.tolist() for falls in falls_m]
+    firsts = [min(column) for column in zip(*rows, strict=True)]
+    least, found = min(firsts, default=math.inf), []
+    for row in rows:
+        most, nearest = 0.0, math.inf
+        for fall, first in zip(row, firsts, strict=True):
+            if fall == math.inf:
+                continue
+            share = weight(fall, reach_m) * weight(fall - least, touch_m) * weight(fall - first, hidden_m)
+            if share > 0:
+                most, nearest = max(most, share), min(nearest, fall)
+        found.append((most, nearest))
+    return found
 
 
 def hang_later_m(reach_m: float) -> float:

@@ -11,11 +11,11 @@ from weakref import WeakValueDictionary
 import numpy as np
 
 from scene2hap.contact.base_face import BaseFace, base_face_of, feet_m, top_of, triples, uneven_m
-from scene2hap.contact.geometry.broad import Boxes
+from scene2hap.contact.geometry.boxes import Boxes, boxes_of
 from scene2hap.contact.geometry.features import Features, features_of
 from scene2hap.contact.geometry.rays import first_hits
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
-from scene2hap.contact.geometry.vectors import Floats, Triple, highest, lowest
+from scene2hap.contact.geometry.vectors import Floats, Triple
 from scene2hap.contact.ledge import Ledges, Upright
 from scene2hap.scene.shapes import TriMesh
 
@@ -131,9 +131,3 @@ def shape_of(mesh: TriMesh) -> Shape:
         shape = Shape(triangles, mesh.corners_m)
         _shapes[mesh.digest] = shape
     return shape
-
-
-def boxes_of(triangles: Floats) -> Boxes:
-    """Return the bounding boxes of triangles (3, 3, m)."""
-    corners = triangles.transpose(1, 0, 2)
-    return Boxes(lowest(corners), highest(corners))

@@ -7,22 +7,23 @@ plane has coordinates (u, v), along the two world axes that are not up.
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from scene2hap.contact.base_face import across
 from scene2hap.contact.geometry.planes import Footprint
 from scene2hap.contact.geometry.polygons import Point, edges_of, turned_outline
-from scene2hap.contact.geometry.vectors import Triple
+from scene2hap.contact.geometry.vectors import Rows, Triple, rotated
+from scene2hap.contact.lazy import lazy
 from scene2hap.contact.ledge import Upright
 from scene2hap.contact.shape import Shape
 
 # Digits to which the upward direction is rounded before level faces are searched. Rounding in a game, or jitter of an
 # engine below 0.003 degrees, then changes nothing.
 _DIGITS = 4
-_UP = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _MOST_LEAN = 1e-3  # [rad]; a larger tilt is no rounding error.
+_MOST_TILT_M = 1e-4  # Largest lean of a host over its whole size: the error of a ledge's height.
 _UPRIGHT = 1 - 1e-12  # Cosine above which an axis of the shape is vertical, so that its box has the true height.
 
 
@@ -56,173 +57,111 @@ class Lean(NamedTuple):
 
 
 class Stance:
-    """A shape with a rotation. `low` and `high` are the corners of its AABB, relative to its position [m]."""
+    """A shape with a rotation.
 
-    __slots__ = (
-        "_base_edges",
-        "_footprint",
-        "_heading",
-        "_lean",
-        "_outline",
-        "_posed_base_face",
-        "_top_face",
-        "high",
-        "low",
-        "rotation_xyzw",
-        "rows",
-        "shape",
-        "up_axis",
-        "v_axis",
-        "way_up",
-    )
+    `middle` is that of its oriented box, `low` and `high` are the corners of its AABB, relative to its position [m].
+    """
 
     def __init__(self, shape: Shape, rotation_xyzw: tuple[float, float, float, float], up_axis: int) -> None:
         x, y, z, w = self.rotation_xyzw = rotation_xyzw
         self.shape = shape
         xx, yy, zz, xy, xz, yz, wx, wy, wz = x * x, y * y, z * z, x * y, x * z, y * z, x * w, y * w, z * w
-        self.rows: tuple[Triple, Triple, Triple] = (
+        self.rows: Rows = (
             (1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (xz + wy)),
             (2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)),
             (2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)),
         )
         self.up_axis, self.v_axis = up_axis, 3 - up_axis
         up = self.rows[up_axis]
-        if x == 0.0 and (z if up_axis == 1 else y) == 0.0:
-            key = _UP[up_axis]
-        else:
-            key = (round(up[0], _DIGITS) + 0.0, round(up[1], _DIGITS) + 0.0, round(up[2], _DIGITS) + 0.0)
-        self.way_up: Triple = key
-        self.low, self.high = self._bounds(up)
-        self._posed_base_face: PosedBaseFace | None = None
-        self._top_face: TopFace | None = None
-        self._outline: tuple[Point, ...] = ()
-        self._base_edges: tuple[Triple, ...] | None = None
-        self._heading: Point | None = None
-        self._footprint: Footprint | None = None
-        self._lean: Lean | Literal[False] | None = False
+        self.way_up: Triple = (
+            round(up[0], _DIGITS) + 0.0,
+            round(up[1], _DIGITS) + 0.0,
+            round(up[2], _DIGITS) + 0.0,
+        )
+        self.middle, self.low, self.high = self._bounds(up)
 
-    def _bounds(self, up: Triple) -> tuple[Triple, Triple]:
-        (mx, my, mz), (hx, hy, hz) = self.shape.middle, self.shape.half
+    def _bounds(self, up: Triple) -> tuple[Triple, Triple, Triple]:
+        """Return the middle of the oriented box, and the corners of the AABB."""
+        hx, hy, hz = self.shape.half
         (a, b, c), (d, e, f), (g, h, i) = self.rows
-        u, v, w = a * mx + b * my + c * mz, d * mx + e * my + f * mz, g * mx + h * my + i * mz
+        u, v, w = middle = rotated(self.rows, self.shape.middle)
         x = abs(a) * hx + abs(b) * hy + abs(c) * hz
         y = abs(d) * hx + abs(e) * hy + abs(f) * hz
         z = abs(g) * hx + abs(h) * hy + abs(i) * hz
         low, high = (u - x, v - y, w - z), (u + x, v + y, w + z)
         if abs(up[0]) > _UPRIGHT or abs(up[1]) > _UPRIGHT or abs(up[2]) > _UPRIGHT:
-            return low, high
+            return middle, low, high
         heights = self.shape.corners @ np.array(up)
         least, most = float(heights.min()), float(heights.max())
         if self.up_axis == 1:
-            return (low[0], least, low[2]), (high[0], most, high[2])
-        return (low[0], low[1], least), (high[0], high[1], most)
+            return middle, (low[0], least, low[2]), (high[0], most, high[2])
+        return middle, (low[0], low[1], least), (high[0], high[1], most)
 
     def turned(self, rotation_xyzw: tuple[float, float, float, float]) -> Stance:
-        """Return the shape with another rotation; bit-identical to a new `Stance`."""
-        x, y, z, w = rotation_xyzw
-        before = self.rotation_xyzw
-        if self.up_axis != 1 or x != 0.0 or z != 0.0 or before[0] != 0.0 or before[2] != 0.0:
-            return Stance(self.shape, rotation_xyzw, self.up_axis)
-        # A rotation about the vertical changes no height, and half of its products are 0.
-        turned = Stance.__new__(Stance)
-        turned.rotation_xyzw, turned.shape, turned.way_up = rotation_xyzw, self.shape, self.way_up
-        turned.up_axis, turned.v_axis, turned._top_face, turned._outline, turned._heading = 1, 2, None, (), None
-        turned._lean, turned._base_edges, turned._footprint = self._lean, None, None
-        a, c = 1 - 2 * (y * y), 2 * (y * w)
-        turned.rows = ((a, 0.0, c), self.rows[1], (-c, 0.0, a))
-        (mx, _, mz), (hx, _, hz) = self.shape.middle, self.shape.half
-        u, v, over, across = a * mx + c * mz, a * mz - c * mx, abs(a), abs(c)
-        x, z = over * hx + across * hz, across * hx + over * hz
-        turned.low, turned.high = (u - x, self.low[1], v - z), (u + x, self.high[1], v + z)
-        base_face = self.shape.base_face(self.way_up)
-        x, _, z = base_face.middle_m
-        points = tuple([(a * x + c * z, a * z - c * x) for x, _, z in base_face.points_m])
-        _, height, _, radius, is_filled = self.posed_base_face
-        turned._posed_base_face = PosedBaseFace(points, height, (a * x + c * z, a * z - c * x), radius, is_filled)
-        return turned
+        """Return the shape with another rotation."""
+        return Stance(self.shape, rotation_xyzw, self.up_axis)
 
-    @property
+    @lazy
     def posed_base_face(self) -> PosedBaseFace:
         """The base face at this rotation."""
-        if self._posed_base_face is None:
-            base_face = self.shape.base_face(self.way_up)
-            (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
-            x, y, z = base_face.middle_m
-            middle = (a * x + b * y + c * z, d * x + e * y + f * z)
-            height = g * x + h * y + i * z if base_face.is_level else self.low[self.up_axis]
-            points = tuple([(a * x + b * y + c * z, d * x + e * y + f * z) for x, y, z in base_face.points_m])
-            self._posed_base_face = PosedBaseFace(points, height, middle, base_face.radius_m, base_face.is_filled)
-        return self._posed_base_face
+        base_face = self.shape.base_face(self.way_up)
+        u, v, height = self._turned(base_face.middle_m)
+        if not base_face.is_level:
+            height = self.low[self.up_axis]
+        points = turned_outline(base_face.points_m, self.rows[0], self.rows[self.v_axis])
+        return PosedBaseFace(points, height, (u, v), base_face.radius_m, base_face.is_filled)
 
-    @property
+    @lazy
     def base_outline(self) -> tuple[Point, ...]:
         """The outline of the base face (support polygon), relative to the position [m]."""
-        if not self._outline:
-            outline_m = self.shape.base_face(self.way_up).outline_m
-            self._outline = turned_outline(outline_m, self.rows[0], self.rows[self.v_axis])
-        return self._outline
+        return turned_outline(self.shape.base_face(self.way_up).outline_m, self.rows[0], self.rows[self.v_axis])
 
-    @property
+    @lazy
     def base_edges(self) -> tuple[Triple, ...]:
         """The edges of `base_outline`, in the form of `TopFace.edges`."""
-        if self._base_edges is None:
-            self._base_edges = edges_of(self.base_outline)
-        return self._base_edges
+        return edges_of(self.base_outline)
 
-    @property
+    @lazy
     def top_face(self) -> TopFace | None:
         """The top face at this rotation, None unless it is level and convex."""
-        if self._top_face is None and (top_m := self.shape.top(self.way_up)) is not None:
-            corners = [self._turned(corner) for corner in top_m]
-            outline = tuple([(u, v) for u, v, _ in corners])
-            height = sum(h for _, _, h in corners) / len(corners)
-            self._top_face = TopFace(outline, height, edges_of(outline))
-        return self._top_face
+        top_m = self.shape.top(self.way_up)
+        if top_m is None:
+            return None
+        corners = [self._turned(corner) for corner in top_m]
+        outline = tuple([(u, v) for u, v, _ in corners])
+        return TopFace(outline, sum(h for _, _, h in corners) / len(corners), edges_of(outline))
 
-    @property
+    @lazy
     def lean(self) -> Lean | None:
         """The tilt of the vertical axis of the shape's frame, None if no axis is near the vertical."""
-        if self._lean is False:
-            self._lean = _lean(self.rows[self.up_axis])
-        return self._lean
+        up = self.rows[self.up_axis]
+        axis = max(range(3), key=lambda k: abs(up[k]))
+        u, v = (k for k in range(3) if k != axis)
+        tilt = math.hypot(up[u], up[v])
+        return Lean(Upright(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
 
-    @property
+    @lazy
+    def upright(self) -> Upright | None:
+        """The vertical axis of the shape's frame, None if it leans so much that its level faces have no one height."""
+        lean = self.lean
+        return lean.own if lean is not None and lean.tilt * self.shape.size_m <= _MOST_TILT_M else None
+
+    @lazy
     def footprint(self) -> Footprint:
         """The projection onto the level plane: of the oriented box if it stands upright, else of the AABB."""
-        if self._footprint is None:
-            lean, (low, high) = self.lean, (self.low, self.high)
-            if lean is None:
-                half_1, half_2 = (high[0] - low[0]) / 2, (high[self.v_axis] - low[self.v_axis]) / 2
-                self._footprint = Footprint(1.0, 0.0, half_1, half_2, math.hypot(half_1, half_2))
-            else:
-                (axis, _, u, v), more_m = lean.own, lean.tilt * self.shape.size_m
-                half = self.shape.half
-                self._footprint = Footprint(
-                    self.rows[0][u],
-                    self.rows[self.v_axis][u],
-                    half[u] + more_m,
-                    half[v] + more_m,
-                    self.shape.radius_m(axis) + more_m,
-                )
-        return self._footprint
+        lean, low, high, half = self.lean, self.low, self.high, self.shape.half
+        if lean is None:
+            half_1, half_2 = (high[0] - low[0]) / 2, (high[self.v_axis] - low[self.v_axis]) / 2
+            return Footprint(1.0, 0.0, half_1, half_2, math.hypot(half_1, half_2))
+        (axis, _, u, v), more_m = lean.own, lean.tilt * self.shape.size_m
+        a_u, a_v = self.rows[0][u], self.rows[self.v_axis][u]
+        return Footprint(a_u, a_v, half[u] + more_m, half[v] + more_m, self.shape.radius_m(axis) + more_m)
 
-    @property
+    @lazy
     def heading(self) -> Point:
         """A unit vector in the level plane that rotates with the shape."""
-        if self._heading is None:
-            u, v, _ = self._turned(across(self.way_up))
-            self._heading = (u, v)
-        return self._heading
+        return self._turned(across(self.way_up))[:2]
 
     def _turned(self, point: Triple) -> Triple:
         """Return (u, v, height) of a point of the shape's frame, relative to the position."""
-        x, y, z = point
-        (a, b, c), (d, e, f), (g, h, i) = self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]
-        return (a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z)
-
-
-def _lean(up: Triple) -> Lean | None:
-    axis = max(range(3), key=lambda k: abs(up[k]))
-    u, v = (k for k in range(3) if k != axis)
-    tilt = math.hypot(up[u], up[v])
-    return Lean(Upright(axis, 1 if up[axis] > 0 else -1, u, v), tilt) if tilt <= _MOST_LEAN else None
+        return rotated((self.rows[0], self.rows[self.v_axis], self.rows[self.up_axis]), point)

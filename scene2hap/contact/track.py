@@ -8,8 +8,10 @@ from typing import NamedTuple
 
 from scene2hap.compiled import compiled
 from scene2hap.contact.geometry.planes import reach_along
+from scene2hap.contact.geometry.polygons import inside_edges
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.ledge import Flat
+from scene2hap.contact.level import points_at
 from scene2hap.contact.stance import Stance
 
 Rotation = tuple[float, float, float, float]
@@ -85,17 +87,8 @@ class Track:
         if low[up] + high[up] <= middle_m or not least_m < fall_m < most_m:
             return None
         cu, cv = cu + u, cv + v
-        if any(nu * cu + nv * cv - offset < radius for nu, nv, offset in edges):
-            # The circle around the base face crosses an edge, but the base face itself may be inside.
-            if len(stance.base_outline) > MOST_CORNERS:
-                return None
-            for pu, pv in stance.base_outline:
-                if any(nu * (u + pu) + nv * (v + pv) - offset < SURELY_M for nu, nv, offset in edges):
-                    return None
-        # The same operations as in `rest_points`, for equal bits.
-        height = (h + base_face + top_m) / 2
-        if up == 1:
-            places = tuple([(u + pu, height, v + pv) for pu, pv in points])
-        else:
-            places = tuple([(u + pu, v + pv, height) for pu, pv in points])
-        return low, high, places
+        is_circle_inside = all(nu * cu + nv * cv - offset >= radius for nu, nv, offset in edges)
+        outline = stance.base_outline
+        if not is_circle_inside and (len(outline) > MOST_CORNERS or inside_edges(outline, u, v, edges)[0] < SURELY_M):
+            return None
+        return low, high, points_at(points, u, v, (h + base_face + top_m) / 2, up)

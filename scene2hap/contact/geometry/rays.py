@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scene2hap.contact.geometry.broad import Boxes, box_pairs
+from scene2hap.contact.geometry.boxes import Boxes, box_pairs
 from scene2hap.contact.geometry.vectors import Floats, cross, dot
 
 # A segment through the shared edge of two triangles must hit at least one of them; a segment along a face hits none.

@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene2hap.contact.geometry.features import Features
-from scene2hap.contact.geometry.vectors import Floats, Marks, cross, dot, highest, lowest
+from scene2hap.contact.geometry.vectors import Floats, Marks, cross, dot
 
 # Squared sine below which edges count as parallel and corners as collinear, since the result would be rounding noise.
 _PARALLEL = 1e-12
@@ -63,14 +63,6 @@ def meetings(p: Floats, q: Floats, of_p: Features, of_q: Features, loose: float 
     present = np.concatenate([of_edges, corners_p, corners_q, edges_p, edges_q])
     every.distance[~present] = np.inf
     return every
-
-
-def clearances(p: Floats, q: Floats) -> Floats:
-    """Return a lower bound (n,) [m] of the distance of each pair (3, 3, n), by the triangles' planes.
-
-    It is 0 if each triangle intersects the other's plane.
-    """
-    return np.maximum(_Faces.of(q, p).clear_of_plane(), _Faces.of(p, q).clear_of_plane())
 
 
 def heights(p: Floats, q: Floats) -> tuple[Floats, Floats]:
@@ -119,12 +111,6 @@ class _Faces(NamedTuple):
         height = dot(corners - origin[:, None], normal[:, None])
         height /= area2
         return cls(origin, u, v, normal, dots, area2, corners, height)
-
-    def clear_of_plane(self) -> Floats:
-        """Return the distance (n,) [m] of the other triangle from the plane, 0 if it intersects the plane."""
-        one_sided = np.maximum(lowest(self.height), -highest(self.height)) * np.sqrt(self.area2)
-        clear: Floats = np.fmax(one_sided, 0.0)
-        return clear
 
     def meet_vertices(self) -> Meetings:
         """Return the meetings of the others' corners with the inside of the faces."""

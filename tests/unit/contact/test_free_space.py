@@ -15,6 +15,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.ledge import FreeRegion, FreeRegions, Upright
 from scene2hap.contact.mesh_distance import MeshPair
 from scene2hap.contact.rule import fall_reach_m, hang_reach_m
+from scene2hap.contact.stance import Stance
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 
@@ -101,7 +102,7 @@ def test_an_object_between_boards_stands_on_the_lower() -> None:
 def alone(*things: SceneObject) -> ContactGraph:
     """The contact graph from triangles only, without free regions."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(free_space, "_upright", lambda host: None)
+        patch.setattr(Stance, "upright", None)
         return ContactGraph(scene(*things))
 
 

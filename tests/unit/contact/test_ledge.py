@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from contact_scenes import house, level, quads
 from scene2hap.contact.body import Body
+from scene2hap.contact.geometry.boxes import boxes_of
 from scene2hap.contact.ledge import Flat, Ledges, Upright
-from scene2hap.contact.shape import boxes_of, shape_of
+from scene2hap.contact.shape import shape_of
 
 UP = Upright(1, 1, 0, 2)
 WIDE = (-5.0, -5.0, 5.0, 5.0)

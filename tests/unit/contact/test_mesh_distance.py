@@ -8,10 +8,11 @@ from hypothesis import given, settings, strategies as st
 
 from contact_scenes import Triple, box, boxes
 from scene2hap.contact.body import Body
+from scene2hap.contact.geometry.boxes import boxes_of
 from scene2hap.contact.geometry.spread import MAX_POINTS
 from scene2hap.contact.geometry.triangle_tree import TriangleTree
 from scene2hap.contact.mesh_distance import MeshPair
-from scene2hap.contact.shape import boxes_of, shape_of
+from scene2hap.contact.shape import shape_of
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh

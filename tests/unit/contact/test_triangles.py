@@ -6,7 +6,7 @@ from hypothesis import assume, example, given, settings, strategies as st
 from numpy.typing import NDArray
 from scipy.optimize import linprog, nnls
 
-from scene2hap.contact.geometry.triangles import Meetings, clearances, heights, meetings
+from scene2hap.contact.geometry.triangles import Meetings, heights, meetings
 from scene2hap.contact.geometry.vectors import upright_frame
 
 Floats = NDArray[np.float64]
@@ -122,19 +122,6 @@ def test_every_corner_of_two_faces_on_each_other_is_found() -> None:
     touching = every.on_p[:, every.distance <= 1e-9].T
     for corner in ([0.5, 0.1, 0.0], [0.9, 0.1, 0.0], [0.5, 0.5, 0.0]):
         assert np.linalg.norm(touching - corner, axis=1).min() < 1e-9
-
-
-@given(SMOOTH)
-@settings(max_examples=60)
-def test_a_clearance_is_a_lower_bound_of_the_distance(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    p, q = rng.integers(-3, 4, size=(2, 50, 3, 3))
-    assert (clearances(axes_first(p), axes_first(q)) <= distances(p, q) + 1e-12).all()
-
-
-def test_parallel_faces_are_separated_by_their_planes() -> None:
-    beside = axes_first([np.add(FLAT, [5.0, 5.0, -0.25])])
-    assert clearances(axes_first([FLAT]), beside)[0] == pytest.approx(0.25)
 
 
 @given(SMOOTH)

@@ -96,7 +96,7 @@ def test_kernels_find_mesh_distances_bit_for_bit(seed: int) -> None:
             assert twin(*args) == plain(*args)
             plain, twin = both("contact.mesh_distance.drops")
             limits = (float(rng.uniform(-0.4, 0.4)), float(rng.choice([0.01, 0.09])), 0.004)
-            args = (*given, upright_frame(pair.host.rows[1]), limits, bool(rng.integers(2)))
+            args = (*given, upright_frame(pair.host.stance.rows[1]), limits, bool(rng.integers(2)))
             told, compiled = plain(*args), twin(*args)
             assert (told is None) == (compiled is None)
             if told is not None:

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from scene2hap.contact.geometry import broad
-from scene2hap.contact.geometry.broad import Boxes, box_pairs
+from scene2hap.contact.geometry import boxes as module
+from scene2hap.contact.geometry.boxes import Boxes, box_pairs
 
 
 def random_boxes(rng: np.random.Generator, n: int) -> Boxes:
@@ -28,8 +28,8 @@ def test_pairs_are_those_of_comparing_all_with_all_each_once(few: int, seed: int
     rng = np.random.default_rng(seed)
     a, b = random_boxes(rng, n), random_boxes(rng, m)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(broad, "_FEW", few)
-        patch.setattr(broad, "_CHUNK", chunk)
+        patch.setattr(module, "_FEW", few)
+        patch.setattr(module, "_CHUNK", chunk)
         rows = [(int(x), int(y)) for i, j in box_pairs(a, b) for x, y in zip(i, j, strict=True)]
     assert len(rows) == len(set(rows))
     assert set(rows) == all_with_all(a, b)
@@ -39,7 +39,7 @@ def test_chunks_are_bounded() -> None:
     rng = np.random.default_rng(3)
     a = random_boxes(rng, 300)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(broad, "_CHUNK", 1000)
+        patch.setattr(module, "_CHUNK", 1000)
         sizes = [len(i) for i, _ in box_pairs(a, a)]
     assert sum(sizes) > 2000
     assert max(sizes) <= 1000

@@ -1,4 +1,4 @@
-"""Overlap of axis-aligned boxes: sort and sweep along the axis with the fewest overlaps.
+"""Axis-aligned boxes, and which overlap: sort and sweep along the axis with the fewest overlaps.
 
 It serves objects and, within a pair of objects, triangles. Pairs are yielded in chunks, which bounds the memory.
 
@@ -8,14 +8,14 @@ Source: C. Ericson, Real-Time Collision Detection (2005), section 7.5 (sort and 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from scene2hap.contact.geometry.vectors import Floats, Indices
+from scene2hap.contact.geometry.vectors import Floats, Indices, highest, lowest
 
-# Pairs that overlap along the sweep axis and are compared at once: some 10 MB.
-_CHUNK = 1 << 17
+# Pairs that overlap along the sweep axis and are compared at once; of triangles: some 20 MB.
+_CHUNK = 1 << 13
 # Up to this many pairs, sorting costs more than comparing all with all.
 _FEW = 1 << 12
 
@@ -46,6 +46,12 @@ class Boxes(NamedTuple):
         return np.flatnonzero(x & y & z)
 
 
+def boxes_of(triangles: Floats) -> Boxes:
+    """Return the bounding boxes of triangles (3, 3, m)."""
+    corners = triangles.transpose(1, 0, 2)
+    return Boxes(lowest(corners), highest(corners))
+
+
 def box_pairs(a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
     """Yield all (i, j) whose boxes a[i] and b[j] overlap, touching included, in chunks; each pair once."""
     if len(a.low[0]) * len(b.low[0]) <= _FEW:
@@ -53,37 +59,37 @@ def box_pairs(a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
         i, j = np.nonzero(meets[0] & meets[1] & meets[2])
         yield i, j
     else:
-        sweeps = [_Sweep(a, b, axis) for axis in range(3)]
-        yield from min(sweeps, key=lambda sweep: sweep.n_pairs).pairs(a, b)
+        sweeps = [(_starts_in(a, b, axis, "right"), _starts_in(b, a, axis, "left")) for axis in range(3)]
+        in_a, in_b = min(sweeps, key=lambda sweep: sum(int((one.stop - one.start).sum()) for one in sweep))
+        for i, place in _expanded(in_a.start, in_a.stop):
+            yield _overlapping(a, b, i, in_a.order[place])
+        for j, place in _expanded(in_b.start, in_b.stop):
+            yield _overlapping(a, b, in_b.order[place], j)
 
 
-class _Sweep:
-    """The pairs that overlap along one axis, as ranges in sorted order.
+class _Starts(NamedTuple):
+    """Boxes in the `order` of their lower ends along an axis, and for each of other boxes the range (start, stop) of
+    those that start within it."""
 
-    Either b starts within a, or a starts within b. Equal starts count as the latter.
-    """
+    order: Indices
+    start: Indices
+    stop: Indices
 
-    def __init__(self, a: Boxes, b: Boxes, axis: int) -> None:
-        low_a, high_a, low_b, high_b = a.low[axis], a.high[axis], b.low[axis], b.high[axis]
-        self.others = [other for other in range(3) if other != axis]
-        self.order_a, self.order_b = np.argsort(low_a, kind="stable"), np.argsort(low_b, kind="stable")
-        sorted_a, sorted_b = low_a[self.order_a], low_b[self.order_b]
-        self.b_in_a = (np.searchsorted(sorted_b, low_a, "right"), np.searchsorted(sorted_b, high_a, "right"))
-        self.a_in_b = (np.searchsorted(sorted_a, low_b, "left"), np.searchsorted(sorted_a, high_b, "right"))
-        self.n_pairs = sum(int((stop - start).sum()) for start, stop in (self.b_in_a, self.a_in_b))
 
-    def pairs(self, a: Boxes, b: Boxes) -> Iterator[tuple[Indices, Indices]]:
-        for i, place in _expanded(*self.b_in_a):
-            yield self._overlapping(a, b, i, self.order_b[place])
-        for j, place in _expanded(*self.a_in_b):
-            yield self._overlapping(a, b, self.order_a[place], j)
+def _starts_in(others: Boxes, boxes: Boxes, axis: int, equal: Literal["left", "right"]) -> _Starts:
+    """Return which boxes start within each of the others; equal starts count if `equal` is "left"."""
+    order = np.argsort(boxes.low[axis], kind="stable")
+    starts = boxes.low[axis][order]
+    start, stop = np.searchsorted(starts, others.low[axis], equal), np.searchsorted(starts, others.high[axis], "right")
+    return _Starts(order, start, stop)
 
-    def _overlapping(self, a: Boxes, b: Boxes, i: Indices, j: Indices) -> tuple[Indices, Indices]:
-        """Return the pairs that also overlap along the other axes."""
-        for axis in self.others:
-            meets = (a.low[axis].take(i) <= b.high[axis].take(j)) & (a.high[axis].take(i) >= b.low[axis].take(j))
-            i, j = i[meets], j[meets]
-        return i, j
+
+def _overlapping(a: Boxes, b: Boxes, i: Indices, j: Indices) -> tuple[Indices, Indices]:
+    """Return those of the pairs that overlap along all axes."""
+    for axis in range(3):
+        meets = (a.low[axis].take(i) <= b.high[axis].take(j)) & (a.high[axis].take(i) >= b.low[axis].take(j))
+        i, j = i[meets], j[meets]
+    return i, j
 
 
 def _expanded(start: Indices, stop: Indices) -> Iterator[tuple[Indices, Indices]]:
