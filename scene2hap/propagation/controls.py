@@ -14,10 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.calls import clear_construction
 from scene2hap.haptics import Bands
-from scene2hap.propagation.domain import check_hops
 from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
 from scene2hap.propagation.points import object_points
-from scene2hap.propagation.protocol import ContactNetwork, Excitation, require_input
+from scene2hap.propagation.protocol import ContactNetwork, Excitation, require_hops, require_input
 
 
 @clear_construction
@@ -46,7 +45,7 @@ class FullPropagation:
     kind: Literal["full_propagation"] = "full_propagation"
 
     def __post_init__(self) -> None:
-        check_hops(self.max_hops)
+        require_hops(self.max_hops)
 
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> ReachField:
         """Prepare the field in which every source reaches all objects connected to it by contacts of weight above 0."""

@@ -1,5 +1,4 @@
-"""The domain of the thin-plate kernels: valid frequencies, plates that are thin compared with the wavelength, and
-settings that models share."""
+"""The domain of the thin-plate kernels: valid frequencies, and plates that are thin compared with the wavelength."""
 
 from __future__ import annotations
 
@@ -100,12 +99,6 @@ def check_choice(outside_domain: str) -> None:
     """Raise a ConfigError unless `outside_domain` is "warn", "raise" or "ignore"."""
     if outside_domain not in get_args(OutsideDomain):
         raise ConfigError(f"outside_domain is {outside_domain!r}; it must be 'warn', 'raise' or 'ignore'.")
-
-
-def check_hops(max_hops: int | None) -> None:
-    """Raise a ConfigError unless `max_hops` is a whole number of contacts, at least 1, or None for any number."""
-    if max_hops is not None:
-        checks.whole("max_hops", max_hops, "contacts", at_least=1, at_most=2**31 - 1, error=ConfigError)
 
 
 def check_thin(object_id: str, plate: Plate, top_hz: float, outside_domain: OutsideDomain) -> None:

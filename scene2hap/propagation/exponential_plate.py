@@ -24,12 +24,12 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.band_rms import BandRms, band_rms
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_hops, check_thin
+from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
 from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
 from scene2hap.propagation.points import arrivals_at, as_points
-from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_input
+from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_hops, require_input
 from scene2hap.scene.objects import Contact
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ class ExponentialPlate:
     def __post_init__(self) -> None:
         if self.frequency not in ("tactile", "raw"):
             raise ConfigError(f"frequency is {self.frequency!r}; it must be 'tactile' or 'raw'.")
-        check_hops(self.max_hops)
+        require_hops(self.max_hops)
         checks.number("interface_loss_db", self.interface_loss_db, "dB", at_least=0.0, error=ConfigError)
         if self.floor_db is not None:
             checks.number("floor_db", self.floor_db, "dB", at_most=0.0, error=ConfigError, hint="None is no floor.")

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
-from scene2hap.errors import ModelDomainError
+from scene2hap.errors import ConfigError, ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.plugins import Members, lacking
 from scene2hap.propagation.plate import Plate, RigidBody
@@ -207,3 +207,9 @@ def require_input(network: object, excitations: object, bands: object) -> None:
     ):
         if not is_right:
             raise ModelDomainError(f"{name} is or has {checks.described(value)}; it must be {wanted}.")
+
+
+def require_hops(max_hops: int | None) -> None:
+    """Raise a ConfigError unless `max_hops` is a whole number of contacts, at least 1, or None for any number."""
+    if max_hops is not None:
+        checks.whole("max_hops", max_hops, "contacts", at_least=1, at_most=2**31 - 1, error=ConfigError)
