@@ -11,9 +11,8 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from scene2hap.errors import ModelDomainError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.protocol import Body, Excitation
 
@@ -26,22 +25,6 @@ TouchedPoint = tuple[str, tuple[float, float, float]]
 
 Prices = list[list[float]]
 """For each hand, the cost of the cheapest path from each source: 0 on the source itself, infinite without a path."""
-
-
-def checked(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.float64]:
-    """Return a field's result as an array.
-
-    Raises: ModelDomainError: complex numbers, or another shape, which kernels do not check.
-    """
-    if np.iscomplexobj(found):
-        raise ModelDomainError("the model's field answered with complex numbers; a gain is their magnitude, np.abs(h).")
-    gains: NDArray[np.float64] = np.asarray(found, dtype=np.float64)
-    if gains.shape != shape:
-        raise ModelDomainError(
-            f"the model's field answered with an array of shape {gains.shape}; it must be {shape}: points or hands, "
-            "sources and bands."
-        )
-    return gains
 
 
 class LiveField(Protocol):

@@ -168,6 +168,22 @@ def checked_field(
 _FIELD: Members = {"source_ids": None, "attenuation": ("object_id", "points_m")}
 
 
+def checked_gains(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.float64]:
+    """Return a field's result as an array.
+
+    Raises: ModelDomainError: complex numbers, or another shape, which kernels do not check.
+    """
+    if np.iscomplexobj(found):
+        raise ModelDomainError("the model's field answered with complex numbers; a gain is their magnitude, np.abs(h).")
+    gains: NDArray[np.float64] = np.asarray(found, dtype=np.float64)
+    if gains.shape != shape:
+        raise ModelDomainError(
+            f"the model's field answered with an array of shape {gains.shape}; it must be {shape}: points or hands, "
+            "sources and bands."
+        )
+    return gains
+
+
 @runtime_checkable
 class PropagationModel(Protocol):
     """Interface of propagation models: `prepare` solves a scene once and returns a field that is queried often."""

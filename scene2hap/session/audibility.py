@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.live import PricedField, Prices, checked
-from scene2hap.propagation.protocol import Excitation
+from scene2hap.propagation.live import PricedField, Prices
+from scene2hap.propagation.protocol import Excitation, checked_gains
 from scene2hap.session.config import SkipConfig
 from scene2hap.session.frame import Counts
 
@@ -97,7 +97,7 @@ class CutoffCost:
         self._column = np.array([firsts.setdefault(key, len(firsts)) for key in keys], dtype=np.intp)
         columns = np.unique(self._column, return_index=True)[1].tolist()
         everything = field.at([[price] * len(columns) for price in _PRICES.tolist()], columns)
-        gains = checked(everything, (len(_PRICES), len(columns), n_bands)).astype(np.float32)
+        gains = checked_gains(everything, (len(_PRICES), len(columns), n_bands)).astype(np.float32)
         self._felt, self._least_felt = _falling(audibility.felt(gains, columns)), audibility.least_felt
         self._arrives = _falling(gains.max(axis=2, initial=0.0))
 

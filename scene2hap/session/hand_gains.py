@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from scene2hap.compiled import compiled
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.live import LiveField, PricedField, Prices, TouchedPoint, checked
+from scene2hap.propagation.live import LiveField, PricedField, Prices, TouchedPoint
+from scene2hap.propagation.protocol import checked_gains
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.session.audibility import SILENT, Audibility, CutoffCost, within
 from scene2hap.session.config import MAX_GAIN_DB, SkipConfig
@@ -96,7 +97,7 @@ class TouchGains:
         if limits is not None and isinstance(self._field, PricedField):
             gains = self.at(self._field, self.prices(self._field, hands, queries, limits))
         else:
-            gains = checked(self._field.strongest([points for points, _ in queries]), (len(hands), *self._shape))
+            gains = checked_gains(self._field.strongest([points for points, _ in queries]), (len(hands), *self._shape))
         for i, touches in enumerate(hands):
             for touch in touches:
                 if touch.object_id in self._own:
@@ -122,7 +123,7 @@ class TouchGains:
         """Gains (n_hands, n_columns, n_bands) at given path costs, see `PricedField`. Raises as `of`."""
         n_sources, n_bands = self._shape
         n_columns = n_sources if columns is None else len(columns)
-        return checked(field.at(prices, columns), (len(prices), n_columns, n_bands))
+        return checked_gains(field.at(prices, columns), (len(prices), n_columns, n_bands))
 
     def query(self, touches: Sequence[Touch]) -> HandQuery:
         """The touches of a hand that some source reaches, and the columns of these sources. Counts the others."""

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
-from scene2hap.propagation.live import LiveField, TouchedPoint, checked
-from scene2hap.propagation.protocol import PropagationField
+from scene2hap.propagation.live import LiveField, TouchedPoint
+from scene2hap.propagation.protocol import PropagationField, checked_gains
 from scene2hap.scene.pose import Pose
 from scene2hap.session.fields.worker import Prepared
 from scene2hap.session.reach import Reach
@@ -70,7 +70,7 @@ class LastField:
         answers, (n_sources, n_bands) = [], (len(self._field.source_ids), self._shape[1])
         for object_id, own in rows.items():
             points = self._points_then(object_id, [touched[row][1] for row in own])
-            answers.append(checked(self._field.attenuation(object_id, points), (len(own), n_sources, n_bands)))
+            answers.append(checked_gains(self._field.attenuation(object_id, points), (len(own), n_sources, n_bands)))
         return answers, list(rows.values())
 
     def _points_then(self, object_id: str, points_m: list[Point]) -> NDArray[np.float64]:
