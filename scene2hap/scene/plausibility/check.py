@@ -1,7 +1,8 @@
 """Find likely mistakes in a scene: units, quaternions, masses, the up axis, floating or sunken objects.
 
 Each finding is a sentence with the value, the bound and the remedy. The checks use AABBs, so a scene takes
-milliseconds; only the ground below objects that seem to be sunk is measured in its mesh. All bounds are wide, since a false alarm costs more than a missed mistake.
+milliseconds; only the ground below objects that seem to be sunk is measured in its mesh. All bounds are wide, since a
+false alarm costs more than a missed mistake.
 """
 
 from __future__ import annotations
