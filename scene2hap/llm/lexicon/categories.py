@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from scene2hap.llm.answers import LONGEST_REASON, ObjectAnswer, StateAnswer
 from scene2hap.llm.lexicon.masses import usual_mass_kg
 from scene2hap.llm.lexicon.materials import make, painted_with
-from scene2hap.llm.lexicon.name_checks import fit, mounted_on, owner_of_part
+from scene2hap.llm.lexicon.name_checks import fit, meant_abroad, mounted_on, owner_of_part
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
 from scene2hap.llm.lexicon.words import SOUNDING
@@ -61,7 +61,8 @@ def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
     if reading.row is None:
         return _unknown(item, reading)
     row, why = reading.row, ""
-    owner = owner_of_part(reading, item.whole_m) or mounted_on(reading, item.whole_m or item.size_m)
+    whole_m = item.whole_m or item.size_m
+    owner = owner_of_part(reading, item.whole_m) or mounted_on(reading, whole_m) or meant_abroad(reading, whole_m)
     if owner is not None and owner[0].row is not None:
         (reading, why), row = owner, owner[0].row
     miniature = _miniature(reading, row, item.size_m)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from scene2hap.llm.lexicon import translations
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow
 
@@ -102,6 +103,23 @@ def mounted_on(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReadi
     why = f"It is {max(size_m):.2g} m long; a {reading.row.noun} of a room is longer, so that word is its place."
     trust = round(_OWNER * min(before.confidence, reading.confidence), 3)
     return replace(before, name=reading.name, words=reading.words, confidence=trust), why
+
+
+def meant_abroad(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReading, str] | None:
+    """Return the reading of an English word in another language if the object is too large for the English meaning.
+
+    An Italian "mobile" of 0.9 m is a cabinet and no phone, a German "Wand" of 4 m a wall and no wand. None if the
+    English meaning fits, or no other does.
+    """
+    row, longest = reading.row, max(size_m)
+    if row is None or row.max_size_m is None or longest <= row.max_size_m:
+        return None
+    for meaning in translations.meanings(reading.head):
+        other = read_name(" ".join(meaning)).row
+        if other is not None and other is not row and longest <= (other.max_size_m or longest):
+            why = f"It is {longest:.2g} m long; a {row.noun} is at most {row.max_size_m:g} m, so the word is foreign."
+            return replace(reading, row=other, confidence=round(_OWNER * reading.confidence, 3)), why
+    return None
 
 
 def _before_head(reading: NameReading) -> NameReading:

@@ -1,7 +1,7 @@
 """Everyday words of other languages, translated into the English words of the table of objects.
 
 Words have the form that `word_split.split_words` returns: lower case, without accents. A word with an English meaning
-in the lexicon is never looked up here.
+in the lexicon is looked up here only if an object of that meaning cannot be so large (`name_checks.meant_abroad`).
 """
 
 from __future__ import annotations
@@ -30,11 +30,13 @@ _PLURALS: dict[str, dict[str, tuple[str, ...]]] = {
     "it": {"i": ("o", "e"), "e": ("a",)},
     "pl": {"y": ("a", ""), "i": ("a", ""), "a": ("o",), "e": ("",)},
     "ru": {"ы": ("а", ""), "и": ("а", "ь", ""), "а": ("о",)},
+    "ja": {},
 }
 """Endings of plurals by language, and the endings of their singulars. An umlaut is an accent, which is removed."""
 
-OF = frozenset({"de", "du", "des", "di", "del", "della", "da", "do"})
-"""Words of Romance languages between an object and its kind: "porte de garage" is a garage door."""
+OF = frozenset({"de", "du", "des", "di", "del", "della", "da", "do", "a", "al", "alla", "au", "aux"})
+"""Words of Romance languages between an object and its kind: "porte de garage" is a garage door, "TV a muro" one for a
+wall."""
 
 ARTICLES = frozenset({"la", "le", "les", "el", "los", "las", "il", "lo", "gli"})
 
@@ -48,6 +50,14 @@ def english() -> dict[str, tuple[str, ...]]:
             if spelled not in _ENGLISH:
                 found.setdefault(spelled, meaning)
     return found
+
+
+def meanings(word: str) -> Iterator[tuple[str, ...]]:
+    """Yield the English words of a singular in each language that has it, even if it is an English word too."""
+    for language, known in _dictionaries().items():
+        meaning = known.get(_folded(language, word))
+        if meaning:
+            yield meaning
 
 
 def plural(word: str) -> tuple[str, ...]:

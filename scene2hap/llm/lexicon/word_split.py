@@ -17,6 +17,13 @@ _SLIP = 0.6
 
 _COUNTED = re.compile(r"(?<!\d)(?:[2-9]|1\d)[\W_]*([^\W\d_]+)")
 
+_HASH = re.compile(
+    r"(?<![^\W_])(?:[0-9a-f]{8}(?:[-_][0-9a-f]{4}){3}[-_][0-9a-f]{12}|(?=\d*[a-f]+\d+[a-f])[0-9a-f]{8,})(?![^\W_])",
+    re.IGNORECASE,
+)
+"""UUIDs, and hexadecimal numbers with digits between letters. Their letters spell nouns by chance ("ac", "bed", "cd").
+"facade01" is a word with a serial."""
+
 _BETWEEN = words.PREPOSITIONS | translations.OF
 
 _SHORTEST_PIECE = 3  # letters; shorter pieces occur inside almost any word
@@ -53,8 +60,8 @@ def split_words(name: str) -> list[str]:
 
 
 def _plain(name: str) -> str:
-    """Return a name without accents. Unicode has no accent for the stroke of the Polish "ł"."""
-    letters = unicodedata.normalize("NFKD", name.replace("ł", "l").replace("Ł", "L"))
+    """Return a name without hashes and accents. Unicode has no accent for the stroke of the Polish "ł"."""
+    letters = unicodedata.normalize("NFKD", _HASH.sub(" ", name).replace("ł", "l").replace("Ł", "L"))
     return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
 
@@ -68,14 +75,15 @@ def _without_shades(tokens: Sequence[str]) -> list[str]:
 
 
 def _joined(tokens: Sequence[str]) -> list[str]:
-    """Join neighbours that are one foreign noun together: "lave", "linge"."""
+    """Join two or three neighbours that are one foreign noun together: "lave", "linge"; "tapis", "de", "course"."""
     joined: list[str] = []
     for word in tokens:
-        pair = joined[-1] + word if joined else ""
-        if pair in translations.english() and not (is_known(joined[-1]) and is_known(word)):
-            joined[-1] = pair
-        else:
-            joined.append(word)
+        joined.append(word)
+        for n in (3, 2):
+            last = joined[-n:]
+            if len(last) == n and "".join(last) in translations.english() and not all(map(is_known, last)):
+                joined[-n:] = ["".join(last)]
+                break
     return joined
 
 
@@ -115,8 +123,8 @@ def _at_capitals(run: str) -> Iterator[str]:
 
 def is_known(word: str) -> bool:
     """Return True if the lexicon has the word, as part of a noun or beside one."""
-    if len(word) < 3:
-        return True  # a serial, a side (L, R) or an exporter's mark
+    if len(word) < 3 and word.isascii():
+        return True  # a serial, a side (L, R) or an exporter's mark; Japanese nouns can be as short
     return any(form in _vocabulary() or form in side_words() for form in words.forms(word))
 
 

@@ -28,6 +28,9 @@ _LIKE_ASCII = re.compile(
     rb"utf-?8|(us-)?ascii|iso-8859-\d+|latin-?1|(windows-|cp)125\d|shift_jis|euc-\w+|gb\w+|big5", re.IGNORECASE
 )
 
+# Exporters on systems with a decimal comma write "0,5". Numbers are divided by spaces, so no comma divides them.
+_DECIMAL_COMMA = re.compile(rb"<(?:float_array|matrix|translate|rotate|scale|float|color)\b[^>]*>[^<]*\d,\d")
+
 
 def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
     """Return the file's scene with its looks; `up_axis` and `unit_m` come from <asset>.
@@ -52,6 +55,8 @@ def read_dae(data: bytes, name: str, textures: TextureFiles) -> AuthoredScene:
         raise SceneFormatError(
             f"{name!r} is not COLLADA: it must be XML without a document type. Save it as UTF-8 if it is."
         )
+    if _DECIMAL_COMMA.search(data):
+        data = re.sub(rb"(?<=\d),(?=\d)", b".", data)
     tolerated = [collada.common.DaeUnsupportedError, collada.common.DaeBrokenRefError]
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):

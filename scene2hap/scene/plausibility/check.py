@@ -1,7 +1,8 @@
 """Find likely mistakes in a scene: units, quaternions, masses, the up axis, floating or sunken objects.
 
 Each finding is a sentence with the value, the bound and the remedy. The checks use AABBs, so a scene takes
-milliseconds. All bounds are wide, since a false alarm costs more than a missed mistake.
+milliseconds; only the ground below objects that seem to be sunk is measured in its mesh. All bounds are wide, since a
+false alarm costs more than a missed mistake.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from scene2hap.counted import first_of
 from scene2hap.scene.copies import name_words
-from scene2hap.scene.geometry import distances
+from scene2hap.scene.geometry import cross_2d, distances
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
 
@@ -90,11 +91,11 @@ def findings(scene: SceneData) -> Iterator[Finding]:
             f"up_axis is probably {letter!r}. Give up_axis={letter!r}.",
         )
         return
-    room = list(_room(boxes, ids, up))
+    room = list(_room(scene, boxes, ids, up))
     yield from room
     if not room:
         yield from _floating(boxes, ids, up)
-        yield from _sunk(boxes, ids, up)
+        yield from _sunk(scene, boxes, ids, up)
 
 
 def too_heavy(item: SceneObject, mass_kg: float) -> str | None:
@@ -195,13 +196,37 @@ def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]]
     return row, among
 
 
-def _room(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+def _ground_below(floor: SceneObject, boxes: NDArray[np.float64], up: int) -> NDArray[np.float64]:
+    """Return the height (n,) of a floor in the middle of each box (n, 2, 3): hills are higher than what stands beside.
+
+    Where the floor has a hole, this is its top.
+    """
+    mesh = floor.geometry.mesh
+    level = [axis for axis in range(3) if axis != up]
+    corners = floor.pose.to_world(mesh.vertices_m)[mesh.faces]
+    low, high = corners[..., level].min(axis=1), corners[..., level].max(axis=1)
+    heights = np.full(len(boxes), floor.bounds_m[1][up])
+    for row, middle in enumerate(boxes[:, :, level].mean(axis=1)):
+        a, b, c = corners[((low <= middle) & (high >= middle)).all(axis=1)].swapaxes(0, 1)
+        p, q, r = b[:, level] - a[:, level], c[:, level] - a[:, level], middle - a[:, level]
+        area = cross_2d(p, q)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            s, t = cross_2d(r, q) / area, cross_2d(p, r) / area
+        on = (s >= -_NONE) & (t >= -_NONE) & (s + t <= 1 + _NONE)
+        if on.any():
+            heights[row] = (a[on, up] + s[on] * (b - a)[on, up] + t[on] * (c - a)[on, up]).max()
+    return heights
+
+
+def _room(scene: SceneData, boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
     """Find a room in which no object is on the floor, or in which most objects are sunk into the floor."""
     found = _floor(boxes, up)
     if found is None or found[1].sum() < _FEW:
         return
     floor, rows = found[0], np.flatnonzero(found[1])
     over = boxes[rows, 0, up] - boxes[floor, 1, up]
+    if np.median(over) < -_SUNK_M:
+        over = boxes[rows, 0, up] - _ground_below(scene.objects[floor], boxes[rows], up)
     names = tuple(ids[k] for k in rows)
     if over.min() > _FLOATS_M:
         yield Finding(
@@ -219,13 +244,16 @@ def _room(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator
         )
 
 
-def _sunk(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
+def _sunk(scene: SceneData, boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iterator[Finding]:
     found = _floor(boxes, up)
     if found is None:
         return
     floor, over = found
     depth = boxes[floor, 1, up] - boxes[:, 1, up]
-    sunk = np.flatnonzero(over & (depth > _SUNK_M))
+    lower = np.flatnonzero(over & (depth > _SUNK_M))
+    if len(lower):
+        depth[lower] = _ground_below(scene.objects[floor], boxes[lower], up) - boxes[lower, 1, up]
+    sunk = lower[depth[lower] > _SUNK_M]
     if len(sunk):
         row = sunk[0]
         yield Finding(

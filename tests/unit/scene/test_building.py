@@ -148,6 +148,21 @@ def test_check_finds_each_kind_of_mistake(
     assert str(found[0]).endswith(".")
 
 
+def test_what_stands_in_a_valley_is_not_sunk() -> None:
+    """The box of hilly ground ends at the highest hill."""
+    x, z = np.meshgrid(np.linspace(-50, 50, 41), np.linspace(-50, 50, 41), indexing="ij")
+    height = 5 * np.clip(np.hypot(x, z) - 20, 0, 20) / 20
+    row, column = np.divmod(np.arange(40 * 40), 40)
+    corner = 41 * row + column
+    faces = np.concatenate(
+        [np.stack([corner, corner + 1, corner + 42], 1), np.stack([corner, corner + 42, corner + 41], 1)]
+    )
+    hills = SceneObject("terrain", geometry=(np.stack([x, height, z], -1).reshape(-1, 3), faces))
+    for up_m, kinds in {0.5: [], 0.2: ["sunk"]}.items():
+        crates = [SceneObject(f"crate {k}", pose=Pose((2.0 * k, up_m, 1)), geometry=Box((1, 1, 1))) for k in range(5)]
+        assert [found.kind for found in SceneSnapshot.build([hills, *crates]).check()] == kinds
+
+
 @pytest.mark.parametrize(
     ("up_m", "kind", "words"),
     [

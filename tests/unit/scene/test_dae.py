@@ -77,6 +77,13 @@ def test_axis_and_unit_come_from_the_file_or_the_arguments(tmp_path: Path) -> No
 
 
 @needs_pycollada
+def test_decimal_commas_are_read(tmp_path: Path) -> None:
+    nodes = f'<node id="n" name="shelf"><translate>0,5 0 0</translate>{FLAT}</node>'
+    (shelf,) = load_scene(write(tmp_path, dae(nodes, unit="0,5"))).objects
+    np.testing.assert_allclose(shelf.bounds_m, [[0.25, 0, 0], [0.75, 1, 0]], atol=1e-6)
+
+
+@needs_pycollada
 def test_x_up_is_refused(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="has X up"):
         load_scene(write(tmp_path, dae(f'<node id="n" name="n">{FLAT}</node>', up="X_UP")))

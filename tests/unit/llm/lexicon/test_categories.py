@@ -101,3 +101,18 @@ def test_unknown_object_is_of_the_material_that_its_name_says(
 )
 def test_name_says_the_material_of_small_things_but_not_of_food_and_animals(name: str, material: str) -> None:
     assert judge(Measured(name, (0.2, 0.1, 0.1))).material_category == material
+
+
+@pytest.mark.parametrize(
+    ("name", "size_m", "category"),
+    [
+        ("Mobile basso", (0.9, 0.6, 0.5), "cabinet"),
+        ("mobile_01", (0.15, 0.07, 0.01), "smartphone"),
+        ("Wand_2", (4.0, 2.5, 0.1), "wall"),
+        ("Magic_Wand", (0.35, 0.02, 0.02), "staff"),
+    ],
+)
+def test_english_word_is_foreign_if_the_object_is_too_large(
+    name: str, size_m: tuple[float, float, float], category: str
+) -> None:
+    assert judge(Measured(name, size_m)).object_category == category
