@@ -1,6 +1,6 @@
 """Study 2 of the Scene2Hap paper: level of a source on the surface on which it stands.
 
-python examples/paper_study2.py -o study2
+python examples/paper_study2.py -o study2      (needs scene2hap[plots])
 
 Three scenes, as in the study: a speaker that plays music on a metal table, a smartphone that buzzes on a wooden table,
 a washing machine on a wooden floor. A hand touches the source (0 m), and the surface 0.4, 0.8 and 1.2 m from it, under

@@ -1,14 +1,11 @@
 """Sensation levels: decibels over the threshold of touch, and the level for a given intensity.
 
-T(f) = A / lg(b)^2 * lg(f / 550 + b)^2 - e      [dB re full scale], b = 6/11, A = 50, e = 45, at most 0
-
-is the least drive that is felt. The level of several components follows from the sum of their energies, each relative
-to its own threshold (Pacinian corpuscles integrate, practically without critical bands):
+The level of several components follows from the sum of their energies, each relative to its own threshold T(f)
+(`audio.threshold`; Pacinian corpuscles integrate, practically without critical bands):
 
 L = 10 lg sum_k (a_k / 10^(T(f_k) / 20))^2      a_k [-] amplitude of the component at f_k, re full scale
 
-Source: the psychohaptic model of the MPEG haptics reference software (ISO/IEC 23090-31). All levels here depend on its
-convention that full scale is 45 dB over the threshold at 250 Hz.
+All levels here depend on the convention of `audio.threshold` that full scale is 45 dB over the threshold at 250 Hz.
 """
 
 from __future__ import annotations

@@ -1,4 +1,10 @@
-"""The threshold of touch; see `audio.levels` for its formula and source."""
+"""The threshold of touch: the least drive that is felt, by frequency.
+
+T(f) = A / lg(b)^2 * lg(f / 550 + b)^2 - e      [dB re full scale], b = 6/11, A = 50, e = 45, at most 0
+
+Source: the psychohaptic model of the MPEG haptics reference software (ISO/IEC 23090-31), whose convention is that full
+scale is 45 dB over the threshold at 250 Hz.
+"""
 
 from __future__ import annotations
 

@@ -31,20 +31,11 @@ from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.bundle.checking import warn_of_unknown_fields
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import FORMAT as CORRECTIONS_FORMAT
+from scene2hap.bundle.files import inside, own_file, read_bytes, read_json
 from scene2hap.bundle.folder_replacement import recover, replaced
 from scene2hap.bundle.made_with import MadeWith
+from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, require_folder
 from scene2hap.bundle.override import Override
-from scene2hap.bundle.own_files import (
-    FORMAT,
-    MANIFEST,
-    VERSION,
-    inside,
-    own_file,
-    read_bytes,
-    read_json,
-    read_manifest,
-    require_folder,
-)
 from scene2hap.bundle.sounds import SoundReader, file_stem, write_loops
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, reason_of
 from scene2hap.file_stamp import Stamp

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from itertools import count
 from pathlib import Path
 
-from scene2hap.bundle.own_files import MANIFEST, our_files
+from scene2hap.bundle.manifest import MANIFEST, our_files
 
 
 def carry_over(old: Path, new: Path) -> None:

@@ -19,7 +19,7 @@ from scene2hap.audio.files import fits_flac, read_clip, sound_digest, write_flac
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.bundle.contents import BundleContents
-from scene2hap.bundle.own_files import own_file
+from scene2hap.bundle.files import own_file
 
 _KINDS = ("audible", "tactile", "source")
 _RUNS = ("start_up", "wind_down")

@@ -21,7 +21,7 @@ from scene2hap.bundle import HapticBundle, differences, read_overrides, require_
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
 from scene2hap.cli.edit import kept_before, wishes
-from scene2hap.cli.specs import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
+from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import bundle_outcome, show_bundle, show_report
 from scene2hap.errors import BundleError, ConfigError
 from scene2hap.llm.dry_run import dry_run

@@ -18,7 +18,7 @@ from scene2hap.audio.actuators import ACTUATORS
 from scene2hap.audio.conversion import FORMATS, Conversion, Failure, convert_files
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.cli.console import Console
-from scene2hap.cli.specs import given_spec
+from scene2hap.cli.shared_options import given_spec
 from scene2hap.errors import AudioError, ConfigError
 
 HELP = "convert sound files into vibration"

@@ -24,7 +24,7 @@ from scene2hap import __version__, checks
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.cli.console import Console
-from scene2hap.cli.specs import given_spec
+from scene2hap.cli.shared_options import given_spec
 from scene2hap.compiled import are_in_use
 from scene2hap.devices import SINKS, loopback_latency
 from scene2hap.devices.clocked_sink import has_clock

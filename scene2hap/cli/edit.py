@@ -42,7 +42,7 @@ from scene2hap.baking import BakeConfig, rebake
 from scene2hap.baking.sound import Remade
 from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable, save_stamp, write_bundle
 from scene2hap.cli.console import Console
-from scene2hap.cli.specs import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
+from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report
 from scene2hap.counted import counted
 from scene2hap.errors import BundleChanged, BundleError, Scene2HapError

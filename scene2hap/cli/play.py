@@ -22,7 +22,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.bundle_watch import BundleWatch
 from scene2hap.cli.console import Console
 from scene2hap.cli.plan import Plan
-from scene2hap.cli.specs import given_spec, session_config
+from scene2hap.cli.shared_options import given_spec, session_config
 from scene2hap.devices import SINKS
 from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent

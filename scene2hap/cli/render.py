@@ -13,7 +13,7 @@ import numpy as np
 
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
-from scene2hap.cli.specs import session_config
+from scene2hap.cli.shared_options import session_config
 from scene2hap.devices.wav import WavSink
 from scene2hap.session import HapticSession, SessionConfig, UserProfile
 from scene2hap.touch_track import TouchTrack

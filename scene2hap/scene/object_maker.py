@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.grouping import Group
@@ -41,8 +40,3 @@ class ObjectMaker:
             mass_kg=group.mass_kg,
             appearance=placed.appearance,
         )
-
-
-def metres_per_unit(unit_m: float | None) -> float:
-    """Return the metres per unit of an engine, 1 if it is None. Raises: SceneError: it is not a number above 0."""
-    return checks.number("unit_m", 1.0 if unit_m is None else unit_m, "m", above=0.0, error=SceneError)

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import asdict, dataclass, replace
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,9 @@ from scene2hap.session.scene_state import SceneState
 
 LEAST_SHARE = 0.01
 """Smallest share of the power that the text mentions."""
+
+FAINTEST_DB = -140.0
+"""Lower bound of the level of a start or stop, whose amplitude may be 0."""
 
 MOST_NAMED = 5
 """Most silent sources that the text names."""
@@ -61,7 +64,8 @@ class FeltSource:
     : the volume of source and user; band : the strongest band; steps : from the source to the touched object, empty if
     the law has no path (over an object of unknown material, say) and for the physical models; carriers : in the
     physical models, the contacts through which it enters the touched object, the strongest first; over_threshold_db :
-    its level over the threshold of touch at this hand, None if the loop has no level.
+    its level over the threshold of touch at this hand, None if the loop has no level; running, running_db : whether the
+    source starts or stops at this moment, and its level re steady running, which `over_threshold_db` includes.
     """
 
     source_id: str
@@ -73,6 +77,15 @@ class FeltSource:
     steps: tuple[PathStep, ...]
     carriers: tuple[Carrier, ...] = ()
     over_threshold_db: float | None = None
+    running: Literal["steady", "starting", "stopping"] = "steady"
+    running_db: float = 0.0
+
+    def while_passing(self, amplitude: float, *, is_start: bool) -> FeltSource:
+        """Return the source during a start or stop with an amplitude re steady running [-]."""
+        running_db = max(decibels(amplitude), FAINTEST_DB)
+        over_db = None if self.over_threshold_db is None else self.over_threshold_db + running_db
+        running: Literal["starting", "stopping"] = "starting" if is_start else "stopping"
+        return replace(self, running=running, running_db=running_db, over_threshold_db=over_db)
 
     @property
     def length_m(self) -> float:
@@ -81,7 +94,8 @@ class FeltSource:
 
     def __str__(self) -> str:
         volume = f", volume {self.level_db:+z.1f} dB" if abs(self.level_db) >= 0.05 else ""
-        total = f"{self.source_id} ({self.state}) {self.gain_db:+z.1f} dB"
+        state = self.state if self.running == "steady" else f"{self.state}, {self.running}: {self.running_db:+z.1f} dB"
+        total = f"{self.source_id} ({state}) {self.gain_db:+z.1f} dB"
         if self.over_threshold_db is not None and self.over_threshold_db < 0:
             volume += ", too weak to be felt"
         if self.carriers:

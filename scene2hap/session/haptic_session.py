@@ -53,7 +53,7 @@ from scene2hap.session.arguments import (
 )
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.explain import Explanation
+from scene2hap.session.explain import Explanation, FeltSource
 from scene2hap.session.frame import GivenTouches, HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.hand_frames import HandFrames
 from scene2hap.session.hand_gains import Felt
@@ -145,6 +145,7 @@ class HapticSession:
         self._shapes.order(item.geometry.mesh for item in scene.objects)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
         self._switching: Switching | None = None
+        self._updated_ids: tuple[str, ...] = ()  # the sources of the last update, which a hand may have felt
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
         self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
@@ -239,6 +240,7 @@ class HapticSession:
         if self._prepares_impacts:
             self._impacts.expect(felt)
         self._progress.n_updates += 1
+        self._updated_ids = self._sources.ids
         self._output.feed(frame)
         if felt:
             self._mistakes.in_sources(self._sources.ids)
@@ -377,6 +379,7 @@ class HapticSession:
     ) -> None:
         """Switch a source on, off or to another state, or set its level; felt from the next update on.
 
+        Before the first update with the source, it is switched without a start or stop: a scene may begin with it off.
         Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
         """
         was_running = self._sources[source_id].is_running
@@ -385,7 +388,8 @@ class HapticSession:
         self._switching = self._switching or self._new_switching()
         # The turn of a state must not outlive it: another one may run all the time.
         by_hand = on is not None or is_other_state
-        self._switching.switched(source_id, was_running, self._now, by_hand=by_hand)
+        at_once = source_id not in self._updated_ids
+        self._switching.switched(source_id, was_running, self._now, by_hand=by_hand, at_once=at_once)
 
     def set_user(
         self,
@@ -425,7 +429,19 @@ class HapticSession:
         """
         self._require_hand(hand)
         explained = self._hand_frames.explain(hand, is_paused=self._playback.is_paused)
-        return replace(explained, impacts=self._impacts.felt_by(hand))
+        felt = sorted(
+            map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
+        )
+        return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand))
+
+    def _with_running(self, felt: FeltSource) -> FeltSource:
+        """Add the amplitude of a start or stop that is under way."""
+        if self._switching is None or self._sources[felt.source_id].passing is None:
+            return felt
+        return felt.while_passing(
+            self._switching.running(felt.source_id, self._now).amplitude,
+            is_start=self._sources[felt.source_id].is_running,
+        )
 
     @property
     def is_current(self) -> bool:

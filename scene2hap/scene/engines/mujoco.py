@@ -36,9 +36,9 @@ from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
 from scene2hap.scene.grouping import Group, group_objects, unique_ids
-from scene2hap.scene.object_maker import ObjectMaker, metres_per_unit
+from scene2hap.scene.object_maker import ObjectMaker
 from scene2hap.scene.objects import Contact, with_relative_heights
-from scene2hap.scene.plausibility.units import warn_if_implausible
+from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose_table import PoseTable
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredNode, Piece

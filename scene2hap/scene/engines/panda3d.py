@@ -22,9 +22,9 @@ from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.panda3d_geoms import GeomReader
 from scene2hap.scene.grouping import Group, Grouping, group_objects, unique_ids
-from scene2hap.scene.object_maker import ObjectMaker, metres_per_unit
+from scene2hap.scene.object_maker import ObjectMaker
 from scene2hap.scene.objects import UpAxis, with_relative_heights
-from scene2hap.scene.plausibility.units import warn_if_implausible
+from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.rigid_meshes import rigid_part
 from scene2hap.scene.snapshot import SceneSnapshot

@@ -1,4 +1,4 @@
-"""Check that a scene's sizes can be metres; otherwise warn with the likely unit.
+"""The unit of a scene: check that its sizes can be metres; otherwise warn with the likely unit.
 
 glTF prescribes metres, but files often use centimetres or toy scale. If names identify objects, their usual sizes
 decide. Otherwise the check warns if scene and objects are both far too large, or if the scene is too small: a park is
@@ -13,6 +13,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap import checks
+from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, usual
@@ -63,6 +65,11 @@ class Doubt(NamedTuple):
     unit_m: str
     name: str
     of_model_m: str = ""
+
+
+def metres_per_unit(unit_m: float | None) -> float:
+    """Return the metres per unit of an engine, 1 if it is None. Raises: SceneError: it is not a number above 0."""
+    return checks.number("unit_m", 1.0 if unit_m is None else unit_m, "m", above=0.0, error=SceneError)
 
 
 def warn_if_implausible(

@@ -168,7 +168,8 @@ class Impacts:
 
         live = self._live()
         if live is not None:
-            sound(struck_live(live, impact.object_id, impact.point_m, [*touched.values()], f), at_frame, touched)
+            objects, hands_on = (impact.object_id, impact.with_object), [*touched.values()]
+            sound(struck_live(live, *objects, impact.point_m, hands_on, f), at_frame, touched)
             return
         left = touched
         if self._ahead is not None:

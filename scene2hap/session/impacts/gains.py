@@ -27,10 +27,22 @@ _STRIKER_KG = 1e-6
 
 
 def struck_live(
-    field: PointField, object_id: str, point_m: Point, hands: Sequence[Sequence[TouchedPoint]], frequencies_hz: Floats
+    field: PointField,
+    object_id: str,
+    striker_id: str | None,
+    point_m: Point,
+    hands: Sequence[Sequence[TouchedPoint]],
+    frequencies_hz: Floats,
 ) -> Floats:
-    """Gains (n_hands, n_frequencies) [-], >= 0, from a live field."""
+    """Gains (n_hands, n_frequencies) [-], >= 0, from a live field, also at hands on the striking object.
+
+    The struck point is on both objects. By the contacts alone, which are at the corners of where two long objects meet,
+    the way to a hand on the striking object would lead to a corner and back.
+    """
     gains = np.array(field.from_point(object_id, point_m, hands, frequencies_hz))
+    on_striker = [[touch for touch in hand if touch[0] == striker_id] for hand in hands]
+    if striker_id is not None and any(on_striker):
+        np.fmax(gains, field.from_point(striker_id, point_m, on_striker, frequencies_hz), out=gains)
     return at_least_itself(gains, object_id, hands)
 
 

@@ -12,11 +12,12 @@ of the step before, in length and in speed. These motions are no landings:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.junction import Junction
@@ -41,6 +42,8 @@ MOST_MOVING = 100
 _SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
 _LEAST_CHANGE = _SUDDEN * (LEAST_TRAVEL_M / MOST_STEPS) ** 2
 """Square of the smallest change of a step at a landing [m2]: the steps of a fall are not shorter."""
+_PLANE_POINTS, _LEAST_WIDTH_M, _FLAT = 3, 0.003, 0.1
+"""Fewest points of a contact that span a plane, their least width, and their largest thickness relative to it."""
 _STILL = (0.0, 0.0, 0.0)
 
 
@@ -220,15 +223,29 @@ class Landings:
         return x, y, z
 
     def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction) -> Vector:
-        """Normal from the object to the other; without one, the direction from the object's middle to the contact."""
+        """Normal from the object to the other: the contact's, else that of its points if they span a plane, else the
+        direction from the object's middle to the contact."""
         for normal in junction.normals:
             if normal is not None:
                 x, y, z = normal
                 return normal if object_id < other else (-x, -y, -z)
         middle = self._graph.pose(object_id).to_world([self._middle_m(object_id)])[0]
-        x, y, z = (np.array(point_m) - middle).tolist()
+        outward = np.array(point_m) - middle
+        across = _normal_of_plane(junction.points_m)
+        if across is not None and (height := float(across @ outward)):
+            outward = across * height
+        x, y, z = outward.tolist()
         length = math.hypot(x, y, z)
         return (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 0.0)
+
+
+def _normal_of_plane(points_m: Sequence[Vector]) -> NDArray[np.float64] | None:
+    """Unit normal, of either sign, of the plane that three or more points span; None if they span none."""
+    if len(points_m) < _PLANE_POINTS:
+        return None
+    points = np.array(points_m)
+    _, (_, width, thickness), axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+    return axes[2] if width > _LEAST_WIDTH_M and thickness < _FLAT * width else None
 
 
 def _difference(one: Vector, other: Vector) -> Vector:

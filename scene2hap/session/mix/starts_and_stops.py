@@ -9,7 +9,7 @@ from __future__ import annotations
 import zlib
 from dataclasses import dataclass
 
-from scene2hap.render.passage import STEADY, STILL, Course, Passage
+from scene2hap.render.passage import STEADY, STILL, Course, Passage, Running
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import LoopRow, Source, Sources
 
@@ -34,16 +34,18 @@ class Switching:
         self._turns: dict[str, tuple[int, Source]] = {}
         self._known: tuple[str, ...] | None = None
 
-    def switched(self, source_id: str, was_running: bool, now: int, *, by_hand: bool = True) -> None:
+    def switched(
+        self, source_id: str, was_running: bool, now: int, *, by_hand: bool = True, at_once: bool = False
+    ) -> None:
         """Start or stop a source if it was switched. A person who switches it on, or to another state, begins a new
-        on-time."""
+        on-time. `at_once` leaves out the start or stop itself."""
         source = self._sources[source_id]
         if by_hand and source.is_on and source.is_resting:
             source.is_resting = False
         if by_hand and source.is_on:
             self._begin_turn(source_id, source, now, 0.0)
         if source.is_running != was_running:
-            self._pass(source_id, source, now)
+            self._pass(source_id, source, now, at_once=at_once)
 
     def advance(self, now: int) -> bool:
         """End finished starts and stops, and switch sources whose on-time or off-time is over. True if any changed."""
@@ -64,6 +66,11 @@ class Switching:
             self._begin_turn(source_id, source, now, 0.0)
             self.switched(source_id, was_running, now, by_hand=False)
         return bool(over or due)
+
+    def running(self, source_id: str, now: int) -> Running:
+        """Speed and amplitude of a source that is on, or that still stops."""
+        passing = self._passing.get(source_id)
+        return STEADY if passing is None else self._playback.running(passing.passage, now)
 
     def _look_around(self, now: int) -> None:
         """Update the stored data after sources were added or removed."""
@@ -86,14 +93,14 @@ class Switching:
         else:
             self._turns[source_id] = (now + round((1 - share) * lasts_s * self._rate_hz), source)
 
-    def _pass(self, source_id: str, source: Source, now: int) -> None:
+    def _pass(self, source_id: str, source: Source, now: int, *, at_once: bool) -> None:
         """Begin a start or a stop."""
         inferred, goes_up = source.inferred.get(source.state), source.is_running
         before = self._passing.pop(source_id, None)
         at_rest = STILL if goes_up else STEADY
         since = at_rest if before is None else self._playback.running(before.passage, now)
         self._sources.let_pass(source_id, None)
-        lasts_s = 0.0 if inferred is None else inferred.start_up_s if goes_up else inferred.wind_down_s
+        lasts_s = 0.0 if inferred is None or at_once else inferred.start_up_s if goes_up else inferred.wind_down_s
         is_there = since.amplitude >= 1.0 if goes_up else since.amplitude <= 0.0
         if inferred is not None and lasts_s > 0.0 and not is_there:
             steady = source.row

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,9 +19,11 @@ from scene2hap import (
     ModalPlate,
     Pose,
     SceneObject,
+    SceneSnapshot,
     SceneWarning,
     Touch,
     UserProfile,
+    bake,
 )
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.propagation.coupled import impact_solution
@@ -491,3 +494,24 @@ def test_strike_on_a_missing_object_is_refused() -> None:
         made.strike("table", STRUCK, with_object="table")
     with pytest.raises(SessionError, match="point_m"):
         made.strike("table", (0.0, 1.0))
+
+
+def test_hand_on_a_long_striking_object_feels_the_impact_near_the_struck_point() -> None:
+    """A beam that falls flat onto a rail touches it at its ends, metres from the middle, where the hand is."""
+    beam, rail = SceneObject("wooden beam", geometry=Box((3.0, 0.04, 0.04))), Box((3.0, 0.03, 0.04))
+    at_m = (0.0, 0.035, 0.0)
+    scene = SceneSnapshot.build(
+        [replace(beam, pose=Pose(at_m)), SceneObject("wooden rail", geometry=rail), phone_apart()],
+    )
+    made = HapticSession(scene, bake(scene))
+    made.update(
+        touches=[Touch("left", "wooden beam", (0.1, 0.05, 0.0)), Touch("right", "wooden beam", (1.4, 0.05, 0.0))]
+    )
+    struck = made.strike("wooden rail", (0.0, 0.015, 0.0), with_object="wooden beam", speed_m_s=1.0)
+    itself = made.strike("wooden beam", (0.0, 0.015, 0.0), with_object="wooden rail", speed_m_s=1.0)
+    assert struck.felt["left"] > 0.3 * itself.felt["left"]
+    assert struck.felt["left"] > 2 * struck.felt.get("right", 0.0)
+
+
+def phone_apart() -> SceneObject:
+    return SceneObject("smartphone", pose=Pose((0.0, 0.0, 2.0)), geometry=Box((0.07, 0.008, 0.15)))

@@ -285,6 +285,30 @@ def test_lid_whose_origin_is_its_hinge_lands() -> None:
     assert [(one.object_id, one.onto) for one in found] == [("lid", "table")]
 
 
+def slammed_door(stop_s: float = 0.5) -> tuple[ContactGraph, list[tuple[float, dict[str, Pose]]]]:
+    """A room door of 0.9 m that turns by 90 degrees about its hinge, against a strip at its other edge."""
+    door = box("door", (0.04, 2.0, 0.9), (0.0, 1.005, 0.45))
+    strip = box("strip", (0.02, 1.95, 0.04), (0.03, 1.0, 0.86))
+    ground = box("floor", (4.0, 0.1, 4.0), (0, -0.05, 0))
+    frames = []
+    for step in range(round(stop_s / PERIOD_S) + 1):
+        pivot = Pose.from_yaw((0.0, 0.0, 0.0), -math.pi / 2 * max(0.0, 1 - step * PERIOD_S / stop_s))
+        frames.append((step * PERIOD_S, {"door": pivot.compose(Pose((0.0, 1.005, 0.45)))}))
+    return ContactGraph(scene(ground, door, strip)), frames
+
+
+def test_door_that_slams_against_a_strip_at_its_edge_lands_on_it() -> None:
+    """The strip is beside the door's edge, so that the way from the door's middle to it runs along the door."""
+    found = landings_in(*slammed_door())
+    assert [(one.object_id, one.onto) for one in found] == [("door", "strip")]
+    assert found[0].speed_m_s == pytest.approx(0.86 * math.pi / 2 / 0.5, rel=0.1)
+
+
+def test_door_that_is_closed_gently_does_not_land() -> None:
+    graph, frames = slammed_door(20.0)
+    assert not landings_in(graph, frames)
+
+
 @pytest.mark.parametrize("speed_m_s", [0.2, 0.8, 2.0])
 def test_rolling_object_that_stops_does_not_land(speed_m_s: float) -> None:
     around = np.linspace(0, 2 * np.pi, 24, endpoint=False)

@@ -235,3 +235,47 @@ def test_repeated_switching_leaks_no_memory() -> None:
 def test_invalid_times_are_refused(given: dict[str, Any], said: str) -> None:
     with pytest.raises(ConfigError, match=said):
         SourceState("on", 0.5, "fan whirring", "fan whirring", **given)
+
+
+def test_source_that_is_off_from_the_start_is_silent_at_once() -> None:
+    """A game that begins with a machine off, or loads a saved game, is not to play its stop."""
+    made = session({"start_up_s": 2.0, "wind_down_s": 2.0, "spins": True})
+    made.set_source("phone", on=False)
+    made.set_source("alarm", on=False)
+    assert envelope(made, 0.5).max() == 0.0
+    made.set_source("phone", on=True)
+    up = envelope(made, 2.5)
+    assert up[5] < 0.3 * up[-1]
+
+
+def test_added_source_that_is_off_before_the_next_update_is_silent_at_once() -> None:
+    made = session({"start_up_s": 2.0, "wind_down_s": 2.0, "spins": True})
+    made.set_source("alarm", on=False)
+    phone = made.snapshot.object("phone")
+    envelope(made, 0.2)
+    made.remove("phone")
+    made.update()
+    made.render_s(0.5)
+    made.add(phone)
+    made.set_source("phone", on=False)
+    assert envelope(made, 0.5).max() == 0.0
+
+
+@pytest.mark.parametrize(("on", "running"), [(False, "stopping"), (True, "starting")])
+def test_explain_reports_starts_and_stops(on: bool, running: str) -> None:
+    made = session({"start_up_s": 2.0, "wind_down_s": 2.0, "spins": True})
+    made.set_source("alarm", on=False)
+    envelope(made, 0.2)
+    made.set_source("phone", on=False)
+    if on:
+        envelope(made, 2.5)
+        made.set_source("phone", on=True)
+    steady = session()
+    steady.set_source("alarm", on=False)
+    ratio_db = 20 * np.log10(envelope(made, 0.5)[-1] / envelope(steady, 0.5)[-1])
+    (felt,) = made.explain("left").felt
+    assert felt.running == running
+    assert felt.running_db == pytest.approx(ratio_db, abs=3.0)
+    assert f"phone (ringing, {running}: {felt.running_db:+.1f} dB)" in made.explain("left").text
+    envelope(made, 2.5)
+    assert "phone (ringing)" in made.explain("left").text if on else not made.explain("left").felt

@@ -1,4 +1,4 @@
-"""Exchangeable parts and settings given on the command line."""
+"""Options that several commands have in common, as settings: model, converter, actuator, file of settings."""
 
 from __future__ import annotations
 
