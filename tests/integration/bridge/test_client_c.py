@@ -186,13 +186,13 @@ def test_c_client_continues_after_a_server_restart(game: Path, tmp_path: Path) -
 def test_random_and_mutated_bytes_do_no_harm(build: Build) -> None:
     program = build(HERE / "fuzz.c", flags=("-O1",))
     environment = {**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=8"}
-    command = [str(program), "20000"]
+    command = [str(program), "50000"]
     run = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=120)
     assert run.returncode == 0, run.stderr
     counts = {name: int(n) for name, n in (line.split() for line in run.stdout.splitlines())}
-    assert counts["inputs"] == 20_000
+    assert counts["inputs"] == 50_000
     # Enough inputs must reach the code of each state.
-    assert min(counts[name] for name in ("playing", "order", "gains", "impact", "answer", "wrong")) > 2000
+    assert min(counts[name] for name in ("playing", "order", "gains", "impact", "answer", "wrong")) > 5000
 
 
 # ---- The driver ----
