@@ -61,9 +61,12 @@ if os.environ.get("PYTEST_XDIST_WORKER", "gw0")[-1] in "13579":
     def pytest_collect_directory(path: Path, parent: pytest.Collector) -> pytest.Collector:
         return BackwardsDir.from_parent(parent, path=path)
 
+
+if "PYTEST_XDIST_WORKER" in os.environ:
+
     @pytest.hookimpl(tryfirst=True)
     def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-        items.sort(key=lambda item: item.path)  # all workers must have one order
+        items.sort(key=lambda item: item.path)  # all workers must have one order, also of files named in another
 
 
 @pytest.fixture(autouse=True, scope="session")
