@@ -11,12 +11,15 @@ STRESS = Path(__file__).parents[2] / "stress"
 ATTACK = STRESS / "attack.py"
 
 
-@pytest.mark.parametrize("family", ["scene_files", "servers", "names"])
-def test_a_slice_of_the_attack_table(family: str) -> None:
-    command = [sys.executable, str(ATTACK), "--families", family, "--cases", "9", "--seed", "1"]
+FAMILIES = ("scene_files", "servers", "names")
+
+
+def test_a_slice_of_the_attack_table() -> None:
+    command = [sys.executable, str(ATTACK), "--families", *FAMILIES, "--cases", "9", "--seed", "1"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=240)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert f"| {family} | 9 |" in done.stdout
+    for family in FAMILIES:
+        assert f"| {family} | 9 |" in done.stdout
 
 
 @pytest.mark.parametrize("case", [1, 2])

@@ -284,9 +284,11 @@ def radios(folder: Path, n: int) -> list[Path]:
 
 
 @pytest.mark.skipif(find_spec("embreex") is None, reason="needs the extra 'pictures'")
-@pytest.mark.parametrize("share", [False, True])
-def test_equal_objects_of_several_scenes_share_a_request_on_demand(share: bool, plain: None, tmp_path: Path) -> None:
-    """Three rooms give three requests about radios, or one if shared; a worker draws the pictures."""
+@pytest.mark.parametrize(("share", "executor"), [(False, None), (True, "processes:1")])
+def test_equal_objects_of_several_scenes_share_a_request_on_demand(
+    share: bool, executor: str | None, plain: None, tmp_path: Path
+) -> None:
+    """Three rooms give three requests about radios, or one if shared; this process or a worker draws the pictures."""
     with serving(by=answered) as server:
         config = {
             "llm": {"kind": "openai", "api_key": KEY, "base_url": f"{server.base_url}/v1"},
@@ -294,7 +296,7 @@ def test_equal_objects_of_several_scenes_share_a_request_on_demand(share: bool, 
             "share_scenes": share,
         }
         report = bake_many(
-            radios(tmp_path / "scenes", 3), tmp_path / "out", config=config, pictures=True, executor="processes:1"
+            radios(tmp_path / "scenes", 3), tmp_path / "out", config=config, pictures=True, executor=executor
         )
         assert not report.failed, report.failed[0].error
         about_objects = [one for one in server.asked if '"vibrates"' in json.dumps(one.body["response_format"])]

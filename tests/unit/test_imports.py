@@ -23,14 +23,10 @@ def test_import_scene2hap_is_lazy() -> None:
 
 
 def test_the_playing_side_loads_no_scene_reader_and_no_network() -> None:
-    loaded = modules_after("from scene2hap import HapticSession")
+    loaded = modules_after("from scene2hap import HapticSession; import scene2hap.session")
     assert not loaded & {"trimesh", "httpx"}
-    assert not {name for name in loaded if name.startswith(("scene2hap.llm", "scene2hap.baking"))}
-
-
-def test_the_session_package_stays_behind_the_wall() -> None:
-    loaded = modules_after("import scene2hap.session")
-    assert not {name for name in loaded if name.startswith(("scene2hap.llm", "scene2hap.audio.sources", "httpx"))}
+    behind_the_wall = ("scene2hap.llm", "scene2hap.baking", "scene2hap.audio.sources")
+    assert not {name for name in loaded if name.startswith(behind_the_wall)}
 
 
 def test_every_public_name_is_there() -> None:

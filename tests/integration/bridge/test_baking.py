@@ -70,10 +70,6 @@ def test_failed_bake_is_reported(bridge: Bridge, desk: HapticBundle) -> None:
         with pytest.raises(Refused, match="version is 9") as refused:
             client.bake(scene={**scene, "version": 9})
         assert refused.value.kind == "SceneError"
-        with pytest.raises(Refused, match="no such file|does not exist|not found|There is no|there is no"):
-            client.bake(path="nothing.glb")
-        with pytest.raises(Refused, match="telepathy"):
-            client.bake(scene=scene, config={"tactile": "telepathy"})
         with pytest.raises(Refused, match="no job 77"):
             client.ask("play", job=77)
 
