@@ -22,6 +22,7 @@ sine, plus the band's peak relative to that sine ("crest"), must fit into the he
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -119,7 +120,7 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
     low = components(magnitude, sample_rate_hz, low_hz, FAINTEST_DB, 1)
     is_heard_low = bool(low) and low[0].level_db >= audible[0].level_db + FAINTEST_BELOW_WHINE_DB
     strongest = low[0] if is_heard_low else audible[0]
-    needs = _Needs(heard(x, sample_rate_hz), sample_rate_hz, level_db, actuator)
+    needs = _Needs(heard(x[: fast_length(len(x))], sample_rate_hz), sample_rate_hz, level_db, actuator)
     candidates: list[float] = []
     if is_heard_low:
         rendered = components(magnitude, sample_rate_hz, rendered_hz(sample_rate_hz, actuator), FAINTEST_DB)
@@ -150,6 +151,18 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
             found, strongest = carried, loudest
     rough_hz = _rough_hz(strongest, found, magnitude, sample_rate_hz)
     return replace(found, rough_hz=rough_hz, band_db=needs.band_db(found))
+
+
+def fast_length(n: int) -> int:
+    """Return the greatest length up to n that has no prime factor above 11, so that its Fourier transform is fast.
+
+    Files have any length, and a transform of 440,989 samples takes 14 times as long as one of 441,000. From 20,000
+    samples on, this shortens a sound by at most 1 %.
+    """
+    if n < 2:
+        return n
+    low = n // 2
+    return low - 1 + bisect_right(range(low, n + 1), n, key=scipy.fft.next_fast_len)
 
 
 def is_beep(own_hz: float, felt_hz: float) -> bool:

@@ -70,11 +70,13 @@ def curves_of(channel: Channel, settings: CurveSettings, *, power: float = 1.0) 
     return plain if missed_db[0] <= missed_db[1] else pulsed
 
 
-def from_start(frequency: Curve | None) -> Curve | None:
-    """Return a curve of frequency that begins at time 0; before its own first point it is the middle."""
+def from_start(frequency: Curve | None, before: float = 0.5) -> Curve | None:
+    """Return a curve of frequency that begins at time 0; before its own first point it is `before`, by default the
+    middle."""
     if frequency is None or frequency.times_s[0] == 0.0:
         return frequency
-    times, values = np.append([0.0, frequency.times_s[0]], frequency.times_s), np.append([0.5, 0.5], frequency.values)
+    times = np.append([0.0, frequency.times_s[0]], frequency.times_s)
+    values = np.append([before, before], frequency.values)
     return replace(frequency, times_s=times, values=values)
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from scene2hap.clips.ahap import SUFFIX, compose_ahap
-from scene2hap.export.curves import CurveSettings, curves_of
+from scene2hap.export.curves import CurveSettings, curves_of, from_start
 from scene2hap.export.protocol import Exported, file_name, json_bytes
 from scene2hap.export.track import Track
 
@@ -24,4 +25,6 @@ class AhapExport:
             for name, clip in clips.items()
             for ending, document in compose_ahap(clip).items()
         }
-        return Exported(files, clips)
+        # Until its sharpness curve begins, an event has its own sharpness, which is 0.
+        played = {name: replace(clip, frequency=from_start(clip.frequency, before=0.0)) for name, clip in clips.items()}
+        return Exported(files, played)

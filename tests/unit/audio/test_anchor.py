@@ -6,9 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+import scipy.fft
 
 from scene2hap.audio.actuators import actuator_profile, response_db
-from scene2hap.audio.anchor import HIGHEST_PEAK_DB, anchor_of, best_carrier_hz
+from scene2hap.audio.anchor import HIGHEST_PEAK_DB, anchor_of, best_carrier_hz, fast_length
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.conversion import convert_clip
 from scene2hap.audio.felt_loop import SourceClip, felt_loop, plan_scene
@@ -229,3 +230,34 @@ def test_the_level_of_what_is_kept_is_known() -> None:
     assert beep is not None
     assert beep.carrier_hz is not None
     assert beep.band_db == pytest.approx(-0.26, abs=0.05)
+
+
+def test_a_file_of_any_length_is_analysed_by_fast_transforms(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A transform of a prime number of samples, such as 39,989, takes ten times as long as one of 40,000."""
+    lengths: list[int] = []
+
+    def counting(name: str) -> Callable[..., np.ndarray]:
+        transform = getattr(scipy.fft, name)
+
+        def transformed(x: np.ndarray, n: int | None = None) -> np.ndarray:
+            lengths.append(n or len(x))
+            return np.asarray(transform(x, n=n))
+
+        return transformed
+
+    for name in ("rfft", "dct", "idct", "irfft"):
+        monkeypatch.setattr(scipy.fft, name, counting(name))
+    x = tones(f150=0.3, f260=0.2)
+    whole, prime = (anchor_of(x[:n], RATE, sensation_level_db(0.5), actuator_profile("flat")) for n in (len(x), 39_989))
+    assert len(lengths) > 6
+    assert [n for n in lengths if scipy.fft.next_fast_len(n) != n] == []
+    assert whole is not None
+    assert prime is not None
+    assert prime.frequency_hz == pytest.approx(whole.frequency_hz, rel=1e-4)
+    assert prime.crest_db == pytest.approx(whole.crest_db, abs=0.05)
+    assert prime.band_db == pytest.approx(whole.band_db, abs=0.05)
+
+
+def test_fast_lengths() -> None:
+    assert [fast_length(n) for n in (0, 1, 2, 13, 440_989, 441_000)] == [0, 1, 2, 12, 440_000, 441_000]
+    assert all(0.99 * n <= fast_length(n) <= n for n in range(20_000, 480_000, 997))

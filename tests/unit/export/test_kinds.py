@@ -188,6 +188,24 @@ def test_hjif_plays_the_middle_before_a_frequency_curve_that_begins_later() -> N
     assert found == [(0, 100), (1000, 100), (1000, 70), (2000, 130)]
 
 
+def test_the_report_of_ahap_counts_a_frequency_curve_that_begins_later(tmp_path: Path) -> None:
+    """An AHAP player plays sharpness 0 until the curve begins, and a `.haptic` player the middle."""
+    late = Curve(np.array([1.0, 2.0]), np.array([0.5, 0.5]))
+    clip = HapticClip(Curve(np.array([0.0, 2.0]), np.ones(2)), late)
+    channel = Channel(synthesize(clip), RATE, clip=clip)
+    exported = made("ahap", Track("late", {"": channel}))
+    path = tmp_path / "late.ahap"
+    path.write_bytes(exported.files["late.ahap"])
+    played = exported.played[""]
+    assert isinstance(played, HapticClip)
+    t = np.array([0.0, 0.5, 0.99, 1.0, 1.5])
+    np.testing.assert_allclose(played.frequency_hz(t), read_haptic_clip(path).frequency_hz(t), atol=1e-4)
+    error = fidelity(channel, played)
+    assert error.p95_jnd == pytest.approx(np.log(127.5 / 55.0) / np.log(1.22), abs=0.1)
+    haptic = fidelity(channel, made("haptic", Track("late", {"": channel})).played[""])
+    assert haptic.p95_jnd == pytest.approx(0.0, abs=0.1)
+
+
 @pytest.mark.parametrize("stream", [False, True])
 def test_openxr_plays_the_middle_before_a_frequency_curve_that_begins_later(stream: bool) -> None:
     clip = HapticClip(Curve(np.array([0.0, 2.0]), np.ones(2)), Curve(np.array([1.0, 2.0]), np.array([0.2, 0.8])))
