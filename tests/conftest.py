@@ -42,10 +42,9 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_collection() -> Iterator[None]:
-    """Keep the garbage collector away from the thousands of tests, which live until the end of the run."""
-    gc.disable()
+    """Keep the garbage collector away while thousands of tests are made, all of which live until the end."""
+    gc.disable()  # not frozen afterwards: Hypothesis would find its examples unreliable
     yield
-    gc.freeze()
     gc.enable()
 
 
