@@ -85,7 +85,7 @@ def table() -> tuple[ObjectRow, ...]:
 @cache
 def version() -> str:
     """Return a short digest of the tables, so that an answer's provenance changes exactly when a row does."""
-    names = ("table.csv", "start_times.csv", "usual_boxes.csv")
+    names = ("table.csv", "start_times.csv", "translations.csv", "usual_boxes.csv")
     rows = [line for name in names for line in text_of(name).splitlines()]
     return hashlib.sha256("\n".join(rows).encode()).hexdigest()[:8]
 

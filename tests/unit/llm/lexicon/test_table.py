@@ -8,7 +8,7 @@ import pytest
 
 from scene2hap import materials
 from scene2hap.errors import UnknownMaterial
-from scene2hap.llm.lexicon import similar_materials, words
+from scene2hap.llm.lexicon import similar_materials, table as lexicon_table, words
 from scene2hap.llm.lexicon.names import read_name
 from scene2hap.llm.lexicon.table import PLACES, ObjectRow, table
 
@@ -176,3 +176,16 @@ def test_intensity_keeps_the_scale_of_source_states() -> None:
     # HSE's typical hand-arm vibration: road breaker 12, hammer drill 9, angle grinder 4 to 8, brush cutter 4 m/s2.
     tools = [intensity(name) for name in ("road breaker", "hammer drill", "angle grinder", "brush cutter")]
     assert tools == sorted(tools, reverse=True)
+
+
+def test_version_changes_with_every_file_of_the_lexicon(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = lexicon_table.text_of
+    before = lexicon_table.version()
+    for file in files("scene2hap.llm.lexicon").iterdir():
+        if file.name.endswith(".csv"):
+            changed = file.name
+            monkeypatch.setattr(lexicon_table, "text_of", lambda name, c=changed: own(name) + "x," * (name == c))
+            lexicon_table.version.cache_clear()
+            assert lexicon_table.version() != before, changed
+    monkeypatch.undo()
+    lexicon_table.version.cache_clear()
