@@ -44,7 +44,7 @@ Words = tuple[str, ...]
 
 
 def is_unknown(category: str) -> bool:
-    """Return True if a category of an object or a material says that nothing is known."""
+    """Return True if a category, of an object or of a material, is a word for unknown."""
     return category.casefold().strip() in _UNKNOWN
 
 
