@@ -17,11 +17,12 @@ All weights are smooth in the gaps and depend on the present poses alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
-from scene2hap.compiled import compiled
+import numpy as np
+
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.vectors import Floats
 
@@ -122,9 +123,29 @@ class Support(NamedTuple):
 
 
 def supports(falls_m: Mapping[str, Floats], reach_m: float) -> dict[str, Support]:
-    """Return the support weight of each object below, from the fall distance of each triangle (m,) to it [m]."""
-    found = support_weights(list(falls_m.values()), reach_m, TOUCH_M, _HIDDEN_M) if falls_m else []
-    return {name: Support(*support) for name, support in zip(falls_m, found, strict=True) if support[0] > 0}
+    """Return the support weight of each object below, and the least fall distance to a part of it that bears.
+
+    Parameters: falls_m : for each object, the fall distance of each triangle (m,) onto it [m], inf where it meets
+    nothing.
+    """
+    if not falls_m:
+        return {}
+    falls = np.stack(list(falls_m.values()))
+    first = falls.min(axis=0)
+    least = first.min(initial=math.inf)
+    # The others, some of them infinite, bear nothing.
+    bears = first < least + TOUCH_M
+    falls, first = falls[:, bears], first[bears]
+    shares = _weights(falls, reach_m) * _weights(falls - least, TOUCH_M) * _weights(falls - first, _HIDDEN_M)
+    most = shares.max(axis=1, initial=0.0).tolist()
+    nearest = np.where(shares > 0, falls, math.inf).min(axis=1, initial=math.inf).tolist()
+    found = zip(falls_m, map(Support, most, nearest), strict=True)
+    return {name: support for name, support in found if support.weight > 0}
+
+
+def _weights(gaps_m: Floats, tolerance_m: float) -> Floats:
+    """Return the `weight` of each gap, for a tolerance above 0."""
+    return 0.5 * (1 + np.cos(math.pi * np.minimum(np.maximum(3 * gaps_m / tolerance_m - 2, 0.0), 1.0)))
 
 
 def supports_of_faces(
@@ -146,29 +167,6 @@ def supports_of_faces(
             return None
         if share * seen > 0:
             found[name] = Support(share * seen, fall_m)
-    return found
-
-
-@compiled
-def support_weights(
-    falls_m: Sequence[Floats], reach_m: float, touch_m: float, hidden_m: float
-) -> list[tuple[float, float]]:
-    """Return the weight of each support and the least fall distance to a part of it that bears [m].
-
-    Parameters: falls_m : for each support, the fall distance of each triangle (m,) [m], inf where it meets nothing.
-    """
-    rows = [falls.tolist() for falls in falls_m]
-    firsts = [min(column) for column in zip(*rows, strict=True)]
-    least, found = min(firsts, default=math.inf), []
-    for row in rows:
-        most, nearest = 0.0, math.inf
-        for fall, first in zip(row, firsts, strict=True):
-            if fall == math.inf:
-                continue
-            share = weight(fall, reach_m) * weight(fall - least, touch_m) * weight(fall - first, hidden_m)
-            if share > 0:
-                most, nearest = max(most, share), min(nearest, fall)
-        found.append((most, nearest))
     return found
 
 

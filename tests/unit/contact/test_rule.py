@@ -276,6 +276,29 @@ def test_first_falls_give_the_supports_of_all_triangles_unless_one_may_hide_anot
         nearby = rule.supports_of_faces({name: float(row.min()) for name, row in each.items()}, 0.06)
         if nearby is not None:
             n_known += 1
-            assert nearby == rule.supports(each, 0.06)
+            of_triangles = rule.supports(each, 0.06)
+            assert nearby == {name: pytest.approx(support) for name, support in of_triangles.items()}
     assert n_known > 5
     assert rule.supports_of_faces({}, 0.06) == {}
+
+
+@given(seed=st.integers(0, 10**6))
+@settings(max_examples=60)
+def test_the_part_of_a_support_that_bears_most_gives_its_weight(seed: int) -> None:
+    """A triangle bears if its fall is short, hardly longer than the shortest, and not hidden by another object."""
+    rng = np.random.default_rng(seed)
+    n, m, reach_m = int(rng.integers(0, 5)), int(rng.integers(1, 40)), float(rng.choice([0.004, 0.09]))
+    falls_m = rng.uniform(-0.004, 1.2 * reach_m + 0.001, (n, m)) if rng.random() < 0.7 else np.zeros((n, m))
+    falls_m[rng.random((n, m)) < 0.4] = np.inf
+    least = falls_m.min(initial=np.inf)
+    expected = {}
+    for name, row in zip("abcd", falls_m, strict=False):
+        bearing = {}
+        for fall, first in zip(row.tolist(), falls_m.min(axis=0).tolist(), strict=True):
+            if fall < np.inf:
+                share = rule.weight(fall, reach_m) * rule.weight(fall - least, 0.004) * rule.weight(fall - first, 0.002)
+                bearing[fall] = max(share, bearing.get(fall, 0.0))
+        bearing = {fall: share for fall, share in bearing.items() if share > 0}
+        if bearing:
+            expected[name] = pytest.approx((max(bearing.values()), min(bearing)))
+    assert rule.supports(dict(zip("abcd", falls_m, strict=False)), reach_m) == expected

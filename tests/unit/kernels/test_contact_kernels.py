@@ -107,18 +107,6 @@ def test_kernels_find_mesh_distances_bit_for_bit(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
-def test_kernels_weigh_supports_bit_for_bit(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    plain, twin = both("contact.rule.support_weights")
-    n, m = int(rng.integers(1, 5)), int(rng.integers(1, 40))
-    for reach_m in (0.0, 0.004, 0.09):
-        falls_m = rng.uniform(-0.004, 1.2 * reach_m + 0.001, (n, m)) if rng.random() < 0.7 else np.zeros((n, m))
-        falls_m[rng.random((n, m)) < 0.4] = np.inf
-        assert twin(list(falls_m), reach_m, 0.004, 0.002) == plain(list(falls_m), reach_m, 0.004, 0.002)
-
-
-@steady
-@given(seed=seeds)
 def test_kernels_find_the_same_triangles_in_a_box(seed: int) -> None:
     rng = np.random.default_rng(seed)
     tree = shape_of(mesh(rng)).tree
@@ -132,20 +120,6 @@ def test_kernels_find_the_same_triangles_in_a_box(seed: int) -> None:
         some = twin(tree, tuple(low.tolist()), tuple(high.tolist()), 2)
         assert len(some) == min(2, len(every))
         assert set(some) <= set(every)
-
-
-@steady
-@given(seed=seeds)
-def test_kernels_find_the_same_rectangles_covered_by_a_ledge(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    plain, twin = both("contact.ledge.covers")
-    k, n = int(rng.integers(0, 6)), int(rng.integers(0, 9))
-    triangles = np.round(rng.uniform(-0.5, 0.5, (k, 3, 2)), 1) if k else np.empty((0, 3, 2))
-    rims = np.round(rng.uniform(-0.5, 0.5, (n, 2, 2)), 1)
-    for _ in range(20):
-        u, v = np.round(rng.uniform(-0.5, 0.5, 2), 1).tolist()
-        a, b = rng.choice([0.0, 0.05, 0.1], 2).tolist()
-        assert twin(triangles, rims, (u, v, u + a, v + b)) == plain(triangles, rims, (u, v, u + a, v + b))
 
 
 @steady
