@@ -90,6 +90,14 @@ class Half:
     def start(self) -> None:
         """Lacks the parameter of the protocol."""
 
+    @property
+    def sum(self) -> int:
+        return self.parts  # type: ignore[attr-defined, no-any-return]  # set by a later call
+
+    @property
+    def quotient(self) -> float:
+        return 1 / 0
+
 
 @pytest.mark.parametrize(
     ("members", "words"),
@@ -98,6 +106,8 @@ class Half:
         ({"stats": None}, "Half has no 'stats'; it must have stats"),
         ({"start": ("fill",)}, "Half.start() must take (fill)"),
         ({"__doc__": ()}, "Half has no '__doc__'"),
+        ({"sum": None}, "Half.sum raises AttributeError: 'Half' object has no attribute 'parts'. It is read"),
+        ({"quotient": None}, "Half.quotient raises ZeroDivisionError: division by zero. It is read at any time"),
     ],
 )
 def test_error_for_a_missing_member_names_the_class(members: plugins.Members, words: str) -> None:
