@@ -120,9 +120,10 @@ def __getattr__(name: str) -> Any:
 
     if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a submodule that is being imported
         raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
+    from scene2hap import errors
     from scene2hap.calls import unknown_attribute, unknown_import
 
-    known = [one for one in __dir__() if not one.startswith("_")]
+    known = [f"errors.{name}"] if hasattr(errors, name) else [one for one in __dir__() if not one.startswith("_")]
     # `from scene2hap import name` looks the name up first, and replaces an AttributeError by a message of its own.
     is_import = sys._getframe(1).f_code.co_name == "_handle_fromlist"
     raise (unknown_import if is_import else unknown_attribute)("scene2hap", name, known)

@@ -102,6 +102,16 @@ def test_unknown_name_is_an_attribute_error() -> None:
         _ = scene2hap.Haptic
 
 
+@pytest.mark.parametrize("name", ["Scene2HapError", "AudioError", "ReplayMiss"])
+def test_an_error_is_found_in_its_module(name: str) -> None:
+    import scene2hap
+
+    with pytest.raises(AttributeError, match=f"Did you mean 'errors.{name}'"):
+        getattr(scene2hap, name)
+    with pytest.raises(ImportError, match=f"Did you mean 'errors.{name}'"):
+        exec(f"from scene2hap import {name}")
+
+
 def test_misspelt_import_suggests_a_name() -> None:
     with pytest.raises(ImportError, match=r"scene2hap has no 'HapticSesion' to import. Did you mean 'HapticSession'"):
         from scene2hap import HapticSesion  # noqa: F401

@@ -10,6 +10,7 @@ import pytest
 from scene2hap import plugins
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 from scene2hap.export import EXPORTS
+from scene2hap.llm import BACKENDS
 from scene2hap.plugins import PluginGroup
 
 GROUP = PluginGroup(
@@ -130,3 +131,11 @@ def test_error_for_a_missing_member_names_the_class(members: plugins.Members, wo
 def test_a_device_in_place_of_an_export_names_the_kind_that_it_plays(asked: str, meant: str) -> None:
     with pytest.raises(UnknownPlugin, match=re.escape(meant)):
         EXPORTS.load(asked)
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"), [("gpt-4o", "openai:gpt-4o"), ("Ollama", "local"), ("vLLM", "local"), ("chatgpt", "openai")]
+)
+def test_models_and_servers_suggest_the_kind_of_backend(words: str, meant: str) -> None:
+    with pytest.raises(UnknownPlugin, match=f"Did you mean '{meant}'"):
+        BACKENDS.build(words)
