@@ -17,9 +17,11 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 _NAMES_IN = {
+    "scene2hap.errors": ("UnknownMaterial",),
     "scene2hap.scene.load": ("load_scene",),
     "scene2hap.scene.capture": ("capture_images",),
     "scene2hap.scene.capture.given_pictures": ("GivenPictures",),
+    "scene2hap.scene.images": ("ImageSet",),
     "scene2hap.scene.pose": ("Pose",),
     "scene2hap.scene.pose_table": ("PoseTable",),
     "scene2hap.scene.objects": ("Contact", "SceneObject"),
@@ -37,7 +39,7 @@ _NAMES_IN = {
     "scene2hap.propagation.modal_plate": ("ModalPlate",),
     "scene2hap.propagation.auto": ("AutoFidelity",),
     "scene2hap.propagation.coupled.hand": ("Hand",),
-    "scene2hap.propagation.modes": ("plate_modes",),
+    "scene2hap.propagation.modes": ("PlateModes", "plate_modes"),
     "scene2hap.propagation.mass_spring_damper": ("MassSpringDamper",),
     "scene2hap.propagation.controls": ("FullPropagation", "NoPropagation"),
     "scene2hap.audio.clip": ("AudioClip", "Credit"),
@@ -118,9 +120,10 @@ def __getattr__(name: str) -> Any:
 
     if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a submodule that is being imported
         raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
+    from scene2hap import errors
     from scene2hap.calls import unknown_attribute, unknown_import
 
-    known = [one for one in __dir__() if not one.startswith("_")]
+    known = [f"errors.{name}"] if hasattr(errors, name) else [one for one in __dir__() if not one.startswith("_")]
     # `from scene2hap import name` looks the name up first, and replaces an AttributeError by a message of its own.
     is_import = sys._getframe(1).f_code.co_name == "_handle_fromlist"
     raise (unknown_import if is_import else unknown_attribute)("scene2hap", name, known)
@@ -167,6 +170,7 @@ if TYPE_CHECKING:
         MuJoCoLink as MuJoCoLink,
         Panda3DLink as Panda3DLink,
     )
+    from scene2hap.errors import UnknownMaterial as UnknownMaterial
     from scene2hap.export import export_bundle as export_bundle, export_clip as export_clip
     from scene2hap.haptics import (
         ActuatorProfile as ActuatorProfile,
@@ -199,7 +203,7 @@ if TYPE_CHECKING:
     from scene2hap.propagation.infinite_plate import InfinitePlate as InfinitePlate
     from scene2hap.propagation.mass_spring_damper import MassSpringDamper as MassSpringDamper
     from scene2hap.propagation.modal_plate import ModalPlate as ModalPlate
-    from scene2hap.propagation.modes import plate_modes as plate_modes
+    from scene2hap.propagation.modes import PlateModes as PlateModes, plate_modes as plate_modes
     from scene2hap.propagation.plate import Plate as Plate, RigidBody as RigidBody
     from scene2hap.propagation.protocol import (
         ContactNetwork as ContactNetwork,
@@ -209,6 +213,7 @@ if TYPE_CHECKING:
     )
     from scene2hap.scene.capture import capture_images as capture_images
     from scene2hap.scene.capture.given_pictures import GivenPictures as GivenPictures
+    from scene2hap.scene.images import ImageSet as ImageSet
     from scene2hap.scene.load import load_scene as load_scene
     from scene2hap.scene.objects import Contact as Contact, SceneObject as SceneObject
     from scene2hap.scene.pose import Pose as Pose

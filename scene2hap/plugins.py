@@ -22,6 +22,7 @@ from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 
 Members = Mapping[str, tuple[str, ...] | None]
 """Required members of an implementation: methods with the names of their arguments, and attributes (None)."""
+_ABSENT = object()
 
 
 @dataclass(frozen=True)
@@ -164,8 +165,14 @@ def lacking(made: object, members: Members) -> str:
         return f"{represented(made)} is a class; make one of it, {made.__name__}(...)."
     needed = ", ".join(name if takes is None else f"{name}({', '.join(takes)})" for name, takes in members.items())
     for name, takes in members.items():
-        member: Any = getattr(made, name, None)
-        if not (hasattr(made, name) if takes is None else callable(member)):
+        try:
+            member: Any = getattr(made, name)
+        except Exception as cause:
+            if hasattr(type(made), name):  # a property that fails, such as one that needs a field which `open` sets
+                problem = f"raises {type(cause).__name__}: {cause}. It is read at any time, also before any call"
+                return f"{_class_of(made)}.{name} {problem}. See docs/plugins.md."
+            member = _ABSENT
+        if member is _ABSENT or (takes is not None and not callable(member)):
             return f"{_class_of(made)} has no {name!r}; it must have {needed}. See docs/plugins.md."
         if takes is not None and misfit(member, takes, {}):
             own = ", ".join(signature(member).parameters)

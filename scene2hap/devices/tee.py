@@ -176,9 +176,9 @@ class _Buffer:
         self._readers: list[_Reader] = []
         self.lock = threading.Condition()
         self.head = 0
-        self._block = self._samples
+        self._block: Block | None = None
         for recorder in recorders:
-            recorder.start(lambda n_frames: self._block)
+            recorder.start(self._present_block)
 
     def reader(self) -> _Reader:
         """Return the reader of one more device."""
@@ -204,6 +204,16 @@ class _Buffer:
     def advance(self, n_frames: int) -> Block:
         """Render and store the next frames. Raises: errors of a sink without a clock, if no device must play on."""
         self._block = block = self._fill(n_frames)
+        try:
+            self._record(n_frames)
+        finally:
+            self._block = None
+        self._samples = np.concatenate([self._samples[-2 * self.most_lag :], block])
+        self.head += n_frames
+        return block
+
+    def _record(self, n_frames: int) -> None:
+        """Let every recorder pull the present block."""
         for recorder in tuple(self._recorders):
             try:
                 recorder.pull(n_frames)  # type: ignore[attr-defined]  # sinks without a clock have it
@@ -212,9 +222,12 @@ class _Buffer:
                     raise
                 self._recorders.remove(recorder)
                 self._on_failed(recorder, cause)
-        self._samples = np.concatenate([self._samples[-2 * self.most_lag :], block])
-        self.head += n_frames
-        return block
+
+    def _present_block(self, n_frames: int) -> Block:
+        """Return the block that is being recorded. Raises: DeviceError: there is none: a recorder was pulled itself."""
+        if self._block is None:
+            raise DeviceError("this sink is part of a TeeSink, which passes it the mix; pull the TeeSink instead.")
+        return self._block
 
     def read(self, start: int, n_frames: int) -> Block:
         """Return frames from a position on; missing ones are rendered."""

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
+from scene2hap.calls import clear_attributes
 from scene2hap.counted import counted
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.cached_while_used import cached_while_used
@@ -128,6 +129,7 @@ class ModeBlock:
         return columns - self.vectors @ (self.vectors.T @ columns)
 
 
+@clear_attributes
 @dataclass(frozen=True, eq=False)
 class PlateModes:
     """Modes of a plate, from the lowest: their frequencies and shapes.

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol, overload
 
+from scene2hap.calls import clear_attributes
+
 
 @dataclass(frozen=True)
 class Shot:
@@ -31,6 +33,7 @@ class ImageSource(Protocol):
         ...
 
 
+@clear_attributes
 class ImageSet(Sequence[bytes]):
     """Pictures of one object or scene from several angles, each rendered at its first access.
 

@@ -16,7 +16,7 @@ from scene2hap.errors import CallError, ReadOnlyAttribute, Scene2HapError, Unkno
 CLASSES = [
     one
     for one in (getattr(scene2hap, name) for name in scene2hap.__all__)
-    if isinstance(one, type) and not getattr(one, "_is_protocol", False) and not issubclass(one, Warning)
+    if isinstance(one, type) and not getattr(one, "_is_protocol", False) and not issubclass(one, Exception)
 ]
 
 

@@ -36,6 +36,24 @@ def test_every_public_name_is_there() -> None:
         assert getattr(scene2hap, name) is not None
 
 
+STABLE = """
+load_scene SceneSnapshot SceneObject DominantSurface Pose Box TriMesh Contact ImageSet capture_images Material
+UnknownMaterial Plate ExponentialPlate InfinitePlate ModalPlate MassSpringDamper AutoFidelity NoPropagation
+FullPropagation ContactNetwork RigidBody Excitation PropagationField plate_modes PlateModes Bands ContactGraph
+ContactChange bake abake infer_haptics ObjectHaptics SourceState LLMBackend LLMRequest LLMReply OpenAIBackend
+LocalBackend ReplayBackend LexiconBackend AudioSource VibrationDescription AudioClip select_clip TactileConverter
+ConversionContext HapticBundle HapticSession Touch HapticFrame ActuatorSink ActuatorProfile SoundCardSink
+SerialAmplifierSink UdpSink WavSink MemorySink SessionConfig BakeConfig
+"""
+"""The names that game code and independent checks were promised."""
+
+
+def test_promised_names_are_public() -> None:
+    import scene2hap
+
+    assert not set(STABLE.split()) - {*scene2hap.__all__}
+
+
 def test_type_checkers_know_every_public_name() -> None:
     """Those that `__getattr__` imports stand in a block that only type checkers read."""
     import scene2hap
@@ -82,6 +100,16 @@ def test_unknown_name_is_an_attribute_error() -> None:
 
     with pytest.raises(AttributeError, match="no attribute 'Haptic'"):
         _ = scene2hap.Haptic
+
+
+@pytest.mark.parametrize("name", ["Scene2HapError", "AudioError", "ReplayMiss"])
+def test_an_error_is_found_in_its_module(name: str) -> None:
+    import scene2hap
+
+    with pytest.raises(AttributeError, match=f"Did you mean 'errors.{name}'"):
+        getattr(scene2hap, name)
+    with pytest.raises(ImportError, match=f"Did you mean 'errors.{name}'"):
+        exec(f"from scene2hap import {name}")
 
 
 def test_misspelt_import_suggests_a_name() -> None:

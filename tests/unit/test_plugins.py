@@ -10,6 +10,7 @@ import pytest
 from scene2hap import plugins
 from scene2hap.errors import ConfigError, MissingExtra, UnknownPlugin
 from scene2hap.export import EXPORTS
+from scene2hap.llm import BACKENDS
 from scene2hap.plugins import PluginGroup
 
 GROUP = PluginGroup(
@@ -90,6 +91,14 @@ class Half:
     def start(self) -> None:
         """Lacks the parameter of the protocol."""
 
+    @property
+    def sum(self) -> int:
+        return self.parts  # type: ignore[attr-defined, no-any-return]  # set by a later call
+
+    @property
+    def quotient(self) -> float:
+        return 1 / 0
+
 
 @pytest.mark.parametrize(
     ("members", "words"),
@@ -98,6 +107,8 @@ class Half:
         ({"stats": None}, "Half has no 'stats'; it must have stats"),
         ({"start": ("fill",)}, "Half.start() must take (fill)"),
         ({"__doc__": ()}, "Half has no '__doc__'"),
+        ({"sum": None}, "Half.sum raises AttributeError: 'Half' object has no attribute 'parts'. It is read"),
+        ({"quotient": None}, "Half.quotient raises ZeroDivisionError: division by zero. It is read at any time"),
     ],
 )
 def test_error_for_a_missing_member_names_the_class(members: plugins.Members, words: str) -> None:
@@ -120,3 +131,11 @@ def test_error_for_a_missing_member_names_the_class(members: plugins.Members, wo
 def test_a_device_in_place_of_an_export_names_the_kind_that_it_plays(asked: str, meant: str) -> None:
     with pytest.raises(UnknownPlugin, match=re.escape(meant)):
         EXPORTS.load(asked)
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"), [("gpt-4o", "openai:gpt-4o"), ("Ollama", "local"), ("vLLM", "local"), ("chatgpt", "openai")]
+)
+def test_models_and_servers_suggest_the_kind_of_backend(words: str, meant: str) -> None:
+    with pytest.raises(UnknownPlugin, match=f"Did you mean '{meant}'"):
+        BACKENDS.build(words)

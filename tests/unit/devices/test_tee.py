@@ -127,6 +127,19 @@ def test_tee_of_files_can_be_pulled(tmp_path: Path) -> None:
     assert memory.stats.frames == 30
 
 
+@pytest.mark.parametrize("n_pulled", [0, 4])
+def test_a_part_of_a_tee_is_not_pulled_itself(n_pulled: int) -> None:
+    part = MemorySink()
+    tee = TeeSink([part, MemorySink()])
+    tee.open(FORMAT)
+    tee.start(Counting())
+    tee.pull(n_pulled)
+    with pytest.raises(DeviceError, match="pull the TeeSink"):
+        part.pull(4)  # would store the last block once more, or nothing
+    tee.pull(4)
+    np.testing.assert_array_equal(part.samples[:, 0], np.arange(n_pulled + 4))
+
+
 def test_abort_leaves_no_file(tmp_path: Path) -> None:
     tee = TeeSink([WavSink(tmp_path / "a.wav"), Device()])
     tee.open(FORMAT)

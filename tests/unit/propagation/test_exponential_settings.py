@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from scene2hap import Bands, Contact, ContactNetwork, Excitation, ExponentialPlate, FullPropagation, Plate, materials
-from scene2hap.errors import ConfigError, ModelDomainError
+from scene2hap.errors import ConfigError, ModelDomainError, UnknownPlugin
+from scene2hap.propagation import MODELS
 from scene2hap.propagation.domain import ThinPlateWarning
 
 OAK = materials.lookup("oak")
@@ -63,3 +64,13 @@ def test_settings_out_of_bounds(settings: dict) -> None:
 def test_the_number_of_contacts_is_whole_and_at_least_one(model: type, max_hops: object) -> None:
     with pytest.raises(ConfigError, match="max_hops"):
         model(max_hops=max_hops)
+
+
+@pytest.mark.parametrize(
+    ("words", "kind"),
+    [("none", "no_propagation"), ("full", "full_propagation"), ("attenuated", "exponential_plate"),
+     ("Paper", "exponential_plate")],
+)  # fmt: skip
+def test_the_papers_names_of_its_conditions_suggest_the_kinds(words: str, kind: str) -> None:
+    with pytest.raises(UnknownPlugin, match=f"Did you mean '{kind}'"):
+        MODELS.build(words)
