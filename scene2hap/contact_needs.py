@@ -37,15 +37,22 @@ _SAME = (
 
 _TOY = frozenset({"toy", "miniature", "fake", "model", "replica", "doll"})
 _BESIDE = frozenset({"a", "an", "the", "any", "some", "its", "on", "in", "at", "with", "of", "touching", "contact"})
-_UNKNOWN = frozenset({"", "unknown", "undefined"})
+_UNKNOWN = frozenset(
+    {"unknown", "undefined", "unidentified", "unclear", "undetermined", "uncertain", "unbekannt", "inconnu", "inconnue",
+     "desconocido", "desconocida", "desconhecido", "desconhecida", "sconosciuto", "sconosciuta", "onbekend", "nieznany",
+     "\u672a\u77e5", "\u4e0d\u660e", "\u043d\u0435\u0438\u0437\u0432\u0435\u0441\u0442\u043d\u043e"}
+)  # fmt: skip
+"""First words of a category that names nothing; models answer in the language of a user's prompt. Assumed."""
+_NO_CATEGORY = frozenset({"", "none", "null", "n/a", "na", "not applicable", "?", "-"})
 _LONGEST = 200  # most letters of a need or a category that are read; assumed
 
 Words = tuple[str, ...]
 
 
 def is_unknown(category: str) -> bool:
-    """Return True if a category, of an object or of a material, is a word for unknown."""
-    return category.casefold().strip() in _UNKNOWN
+    """Return True if a category, of an object or of a material, is a word for unknown, such as "unknown material"."""
+    text = category.casefold().strip()
+    return text in _NO_CATEGORY or text.split()[0].strip(".,;:()") in _UNKNOWN
 
 
 def stated(needed: str | None) -> str | None:

@@ -11,12 +11,14 @@ import json
 import re
 from typing import Annotated, Self, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
-from scene2hap.haptics import LONGEST_PASSAGE_S, LONGEST_TURN_S
+from scene2hap.haptics import LONGEST_TURN_S
 
 MOST_WORDS_IN_SENTENCE = 15
 """Bounds of the paper, section "Vibration Describer"."""
+_WORDS_OVER = 5
+"""Words beyond this bound that are accepted, since models count badly and a longer sentence does no harm."""
 LONGEST_NAME, LONGEST_REASON = 60, 600
 """Most characters of a category or of keywords, and of a reason."""
 
@@ -55,7 +57,7 @@ class StateAnswer(Answer):
     """One way in which an object vibrates by itself."""
 
     name: str = Field(min_length=1, max_length=40)
-    intensity: float = Field(gt=0.0, le=1.0)
+    intensity: float = Field(ge=0.0, le=1.0)
     needs_contact: str | None
 
 
@@ -77,10 +79,16 @@ class ObjectAnswer(Answer):
     estimated_mass_kg: float | None = Field(default=None, gt=0.0, le=1e7)
     feet_material: str | None = Field(default=None, max_length=LONGEST_NAME)
 
+    @field_validator("states")
+    @classmethod
+    def _without_still(cls, states: list[StateAnswer]) -> list[StateAnswer]:
+        # Many models list "off" as a state, with intensity 0.
+        return [state for state in states if state.intensity > 0.0]
+
     @model_validator(mode="after")
     def _states_fit(self) -> Self:
         if self.vibrates and not self.states:
-            raise ValueError("vibrates is true but states is empty; name at least one state, or say false")
+            raise ValueError("vibrates is true but no state has an intensity above 0; name one, or say false")
         names = [state.name.strip().lower() for state in self.states]
         if len(set(names)) < len(names):
             raise ValueError(f"states {names} repeat a name; each state needs its own")
@@ -104,12 +112,13 @@ class MaterialAnswer(Answer):
 class VibrationAnswer(Answer):
     """Vibration Describer: one state in words, for making and for finding a sound, and how it starts and stops."""
 
-    sentence: Annotated[str, _at_most(MOST_WORDS_IN_SENTENCE)] = Field(min_length=1, max_length=200)
+    sentence: Annotated[str, _at_most(MOST_WORDS_IN_SENTENCE + _WORDS_OVER)] = Field(min_length=1, max_length=200)
     keywords: Annotated[str, _at_most(6), AfterValidator(_without_vibrate)] = Field(
         min_length=1, max_length=LONGEST_NAME
     )
-    start_up_s: float | None = Field(default=None, ge=0.0, le=LONGEST_PASSAGE_S)
-    wind_down_s: float | None = Field(default=None, ge=0.0, le=LONGEST_PASSAGE_S)
+    # A kettle takes minutes to boil. Times above LONGEST_PASSAGE_S are limited to it (`chain`).
+    start_up_s: float | None = Field(default=None, ge=0.0, le=LONGEST_TURN_S)
+    wind_down_s: float | None = Field(default=None, ge=0.0, le=LONGEST_TURN_S)
     spins: bool | None = None
     on_s: float | None = Field(default=None, ge=0.1, le=LONGEST_TURN_S)
     off_s: float | None = Field(default=None, ge=0.1, le=LONGEST_TURN_S)

@@ -19,7 +19,7 @@ from scene2hap import checks
 from scene2hap.calls import clear_call
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
-from scene2hap.haptics import ObjectHaptics, SourceState, is_unknown, unmet_needs
+from scene2hap.haptics import LONGEST_PASSAGE_S, ObjectHaptics, SourceState, is_unknown, unmet_needs
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.config import InferenceConfig
@@ -398,9 +398,14 @@ async def _scene_category(scene: SceneSnapshot, questions: Questions) -> str:
 
 
 def _times(words: VibrationAnswer) -> dict[str, Any]:
-    """Return the fields of a description about the start and the stop of a state."""
+    """Return the fields of a description about the start and the stop of a state.
+
+    Starts and stops slower than `LONGEST_PASSAGE_S` cannot be felt, so longer times count as this one.
+    """
     named = ("start_up_s", "wind_down_s", "spins", "on_s", "off_s")
-    return {name: value for name in named if (value := getattr(words, name)) is not None}
+    stated = {name: value for name in named if (value := getattr(words, name)) is not None}
+    passages = {name: min(stated[name], LONGEST_PASSAGE_S) for name in ("start_up_s", "wind_down_s") if name in stated}
+    return stated | passages
 
 
 def _feet(answer: ObjectAnswer) -> Material | None:

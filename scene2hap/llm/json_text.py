@@ -9,6 +9,7 @@ from typing import Any
 
 _THOUGHT = re.compile(r"<(/?)think>", re.IGNORECASE)
 _OPENING = re.compile(r'\{\s*["}]')
+_KEY = re.compile(r'\{\s*"(?:[^"\\]|\\.)*"\s*:\s*', re.DOTALL)
 _MARK = re.compile(r'[\\"{}]')
 
 
@@ -26,6 +27,16 @@ def first_object(text: str) -> str | None:
         if found or candidates:
             return found or candidates[0]
     return None
+
+
+def answer_object(text: str) -> str | None:
+    """Return the first JSON object in a text, or the object in it that it only wraps: {"answer": {...}}."""
+    found = first_object(text)
+    fields = fields_of(found) if found is not None else None
+    if found is None or fields is None or [isinstance(field, dict) for field in fields.values()] != [True]:
+        return found
+    key = _KEY.match(found)
+    return found[key.end() :].rstrip().removesuffix("}").rstrip() if key is not None else found
 
 
 def _without_thoughts(text: str) -> str:

@@ -16,7 +16,7 @@ from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
 from scene2hap.llm.answers import Answer, AnswerType, read_answer
 from scene2hap.llm.backends import chat
 from scene2hap.llm.finish_reasons import is_whole
-from scene2hap.llm.json_text import first_object
+from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
@@ -174,7 +174,7 @@ def _validated(reply: LLMReply, shape: type[AnswerType], about: str) -> AnswerTy
     if not is_whole(reply.finish_reason):
         raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
     try:
-        return read_answer(shape, first_object(reply.text) or reply.text)
+        return read_answer(shape, answer_object(reply.text) or reply.text)
     except ValidationError as cause:
         fault = checks.first_problem(cause)
         given = "" if fault.kind == "missing" else f" is {checks.represented(fault.value)}"

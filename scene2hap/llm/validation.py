@@ -64,8 +64,8 @@ def find_fault(component: Component, text: str, facts: Mapping[str, Any] | None 
 
 
 def _misses_category(sentence: str, category: str) -> Fault | None:
-    said = _ARTICLE.sub("", sentence.strip().lower())
-    if said.startswith(category.lower()):
+    said, named = (_ARTICLE.sub("", text.strip().lower()) for text in (sentence, category))
+    if said.startswith(named):
         return None
     return Fault(f"sentence: it must begin with {category!r}, got {sentence[:80]!r}", needs_images=False, is_minor=True)
 

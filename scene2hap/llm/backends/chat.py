@@ -23,7 +23,10 @@ class BackendWarning(UserWarning):
 
 
 class UnusableAnswer(BadAnswer):
-    """A bad answer that was billed: by `model`, with `usage` in tokens if known, in tier `service_tier`."""
+    """A bad answer that was billed: by `model`, with `usage` in tokens if known, in tier `service_tier`.
+
+    `finish_reason` states why it ended.
+    """
 
     def __init__(
         self,
@@ -33,11 +36,13 @@ class UnusableAnswer(BadAnswer):
         model: str = "",
         usage: Mapping[str, int] | None = None,
         service_tier: str = "",
+        finish_reason: str = "stop",
     ) -> None:
         super().__init__(message, raw_text)
         self.model = model
         self.usage = dict(usage or {})
         self.service_tier = service_tier
+        self.finish_reason = finish_reason
 
 
 class RefusedAnswer(UnusableAnswer, AnswerRefused):
@@ -167,7 +172,8 @@ def unusable(said: Said, message: str, raw_text: str) -> UnusableAnswer:
 
 
 def _paid(said: Said) -> dict[str, Any]:
-    return {"model": said.model, "usage": said.usage, "service_tier": said.service_tier}
+    tier, reason = said.service_tier, said.finish_reason
+    return {"model": said.model, "usage": said.usage, "service_tier": tier, "finish_reason": reason}
 
 
 def json_object(reply: HttpReply) -> dict[str, Any]:

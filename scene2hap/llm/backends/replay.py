@@ -19,6 +19,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from scene2hap import checks
 from scene2hap.calls import clear_construction, not_pickled
 from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of
+from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
 from scene2hap.llm.wrappers.stack import Spec, Wrapper, identity
@@ -116,9 +117,22 @@ class RecordingBackend(Wrapper):
         _read(self._path)
 
     async def complete(self, request: LLMRequest) -> LLMReply:
-        """Return the inner backend's answer, after recording it."""
+        """Return the inner backend's answer, after recording it.
+
+        An answer that stayed unusable is recorded too, before its error is raised: a replay without it would miss it
+        and end the run, where the recorded run lost one object.
+        """
         key = request_key(request)  # before the call, so that a request that cannot be recorded is not billed
-        reply = await self.inner.complete(request)
+        try:
+            reply = await self.inner.complete(request)
+        except UnusableAnswer as bad:
+            said = LLMReply(bad.raw_text, bad.model, bad.finish_reason, bad.usage)
+            await self._record(request, key, said)
+            raise
+        await self._record(request, key, reply)
+        return replace(reply, key=key)
+
+    async def _record(self, request: LLMRequest, key: str, reply: LLMReply) -> None:
         entry = _Entry(
             key=key,
             component=request.component,
@@ -133,7 +147,6 @@ class RecordingBackend(Wrapper):
             parts=part_names(request),
         )
         await asyncio.to_thread(self._append, canonical(entry.model_dump()).encode() + b"\n")
-        return replace(reply, key=key)
 
     def _append(self, line: bytes) -> None:
         try:

@@ -26,7 +26,7 @@ from scene2hap.llm.protocol import COMPONENTS, Component
 from scene2hap.llm.quoting import IS_DATA, as_data
 from scene2hap.text_files import read_small_text
 
-VERSION = "5"
+VERSION = "6"
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
 from scene2hap.llm.backends.chat import Said, UnusableAnswer, about as describe, require_willing, unusable
 from scene2hap.llm.finish_reasons import is_whole
-from scene2hap.llm.json_text import first_object
+from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.validation import Fault, find_fault
 from scene2hap.llm.wrappers.stack import Spec, Wrapper
@@ -55,7 +55,7 @@ class RepairBackend(Wrapper):
             if not is_whole(reply.finish_reason):
                 message = f"{about}: the answer ended by {reply.finish_reason!r}, not by itself."
                 raise unusable(said, message, reply.text)
-            text = first_object(reply.text) or reply.text
+            text = answer_object(reply.text) or reply.text
             fault = find_fault(request.component, text, request.facts)
             if fault is None or (fault.is_minor and left == 0):
                 return replace(reply, text=text, usage=dict(usage))

@@ -30,7 +30,8 @@ class CaptureConfig(Settings):
     hidden_share : share of the target's silhouette that its surroundings may hide together; see `culling`.
     antialias : smooth edges by two more rays where neighbouring pixels differ; costs a seventh more time.
     share_copies : objects of one `instance_key` share isolated images. They also share context images if they are
-        copies (equal names and sizes, `scene.copies`) on supports of the same kind. False renders every object.
+        copies (equal names and sizes, `scene.copies`) that stand or hang on objects of the same kind. False renders
+        every object.
     workers : processes of `render_all`, this one included; 0 and 1 render only in this process.
     cache_dir : a folder that keeps pictures between runs; None keeps them only in memory.
     """

@@ -13,7 +13,7 @@ from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.protocol import RendererFactory, made_renderer
 from scene2hap.scene.capture.shot_rendering import Photographer
 from scene2hap.scene.capture.stage import Stage
-from scene2hap.scene.capture.surroundings import Copies, supports
+from scene2hap.scene.capture.surroundings import Copies, holders, supports
 from scene2hap.scene.images import Shot
 from scene2hap.scene.snapshot import SceneSnapshot
 
@@ -105,7 +105,8 @@ class Studio:
     @cached_property
     def copies(self) -> Copies:
         """The groups of objects that share pictures."""
-        return Copies(self.scene.objects, self.below, self.config.share_copies)
+        held_by = holders(self.stage, self.below, self.config.near_share)
+        return Copies(self.scene.objects, self.below, held_by, self.config.share_copies)
 
     @cached_property
     def below(self) -> tuple[int | None, ...]:

@@ -115,19 +115,37 @@ def _heights_under(actor: Actor, feet: Floats, below: float, up: int, level: lis
     return heights
 
 
+def holders(stage: Stage, below: Sequence[int | None], share: float) -> tuple[frozenset[int], ...]:
+    """Return, for each object that does not stand on its support, the objects near it (`near`); else none.
+
+    A picture frame hangs on one of these, and the floor far below it says nothing about where it hangs.
+    """
+    beside = (near(stage, number, share) for number in range(len(stage.actors)))
+    return tuple(frozenset() if under in by else by for under, by in zip(below, beside, strict=True))
+
+
 class Copies:
     """The groups of objects that share pictures.
 
     Objects of one `instance_key` share isolated images, even if their names differ. The first object in scene order is
     rendered, at its rotation. A *context class* is the kind of an object (`copy_key`) together with the kind of its
-    support (`supports`). Objects of one class share the context images of their first object, with its surroundings. An
-    object without a key has pictures of its own.
+    support (`supports`) and the kinds of what may hold it (`holders`). Objects of one class share the context images of
+    their first object, with its surroundings. An object without a key has pictures of its own.
     """
 
-    def __init__(self, objects: Sequence[SceneObject], below: Sequence[int | None], share: bool) -> None:
+    def __init__(
+        self,
+        objects: Sequence[SceneObject],
+        below: Sequence[int | None],
+        held_by: Sequence[frozenset[int]],
+        share: bool,
+    ) -> None:
         keys = [item.instance_key if share and item.instance_key else f"id {item.id}" for item in objects]
         kinds = [copy_key(item) if share else ("id", item.id) for item in objects]
-        classes = [(kind, None if under is None else kinds[under]) for kind, under in zip(kinds, below, strict=True)]
+        classes = [
+            (kind, None if under is None else kinds[under], frozenset(kinds[other] for other in beside))
+            for kind, under, beside in zip(kinds, below, held_by, strict=True)
+        ]
         first_of_key: dict[str, str] = {}
         first_of_class: dict[Hashable, str] = {}
         for item, key, among in zip(objects, keys, classes, strict=True):

@@ -9,7 +9,16 @@ from typing import Any, ClassVar
 
 import pytest
 
-from scene2hap import CacheBackend, LLMReply, LLMRequest, RecordingBackend, infer_haptics, materials
+from scene2hap import (
+    CacheBackend,
+    LLMReply,
+    LLMRequest,
+    RecordingBackend,
+    RepairBackend,
+    ReplayBackend,
+    infer_haptics,
+    materials,
+)
 from scene2hap.errors import BackendUnavailable, BadAnswer, BudgetExceeded, ReplayMiss
 from scripted_backend import SCENE, Scripted, run
 
@@ -159,8 +168,9 @@ def test_error_describes_an_invalid_answer(change: object, sentence: str) -> Non
         lambda request, answer: {**answer, "states": [{**state, "tone_hz": 60} for state in answer["states"]]},
         lambda request, answer: LLMReply(f"Sure:\n```json\n{json.dumps(answer)}\n```", "scripted"),
         lambda request, answer: LLMReply(json.dumps(answer), "scripted", "end_turn"),
+        lambda request, answer: {"object_analyzer": answer},
     ],
-    ids=["extra fields", "extra fields of a state", "fences", "the name of another service for the end"],
+    ids=["extra fields", "extra fields of a state", "fences", "the name of another service for the end", "a wrapper"],
 )
 def test_what_does_no_harm_costs_no_answer(change: object) -> None:
     assert infer_haptics(SCENE, Scripted(object_analyzer=change)) == infer_haptics(SCENE, Scripted())
@@ -173,3 +183,53 @@ def test_unreachable_backend_raises_connection_error() -> None:
 
     with pytest.raises(ConnectionError, match="away"):
         infer_haptics(SCENE, Away())
+
+
+def test_a_start_of_minutes_counts_as_the_longest_that_can_be_felt() -> None:
+    times = {"start_up_s": 240.0, "wind_down_s": 4.0}
+    found = run(Scripted(vibration_describer=lambda request, answer: {**answer, **times}))
+    state = found.objects["phone"].states[0]
+    assert (state.start_up_s, state.wind_down_s, state.keywords) == (30.0, 4.0, "phone buzzing")
+    assert not found.report.errors
+
+
+def test_a_state_in_which_nothing_moves_is_left_out() -> None:
+    still = {"name": "off", "intensity": 0.0, "needs_contact": None}
+    found = run(Scripted(object_analyzer=lambda request, answer: {**answer, "states": [*answer["states"], still]}))
+    assert [state.name for state in found.objects["phone"].states] == ["ringing", "alarm"]
+    assert not found.report.errors
+    with pytest.raises(BadAnswer, match="no state has an intensity above 0"):
+        infer_haptics(
+            SCENE, Scripted(object_analyzer=lambda request, answer: {**answer, "vibrates": True, "states": [still]})
+        )
+
+
+@pytest.mark.parametrize("word", ["Unknown material", "unbekannt", "N/A", "\u4e0d\u660e"])
+def test_no_constants_are_requested_for_a_material_that_is_unknown_in_other_words(word: str) -> None:
+    backend = Scripted(object_analyzer=lambda request, answer: {**answer, "material_category": word})
+    found = run(backend)
+    assert "material_estimator" not in {request.component for request in backend.asked}
+    assert found.objects["table"].material is None
+
+
+def test_a_sentence_a_few_words_too_long_is_used() -> None:
+    sentence = "phone " + "buzzes " * 17
+    found = run(Scripted(vibration_describer=lambda request, answer: {**answer, "sentence": sentence}))
+    assert found.objects["phone"].states[0].sentence == sentence
+
+
+def test_a_recorded_run_with_an_unusable_answer_can_be_replayed(tmp_path: Path) -> None:
+    def change(request: LLMRequest, answer: dict[str, Any]) -> dict[str, Any] | LLMReply:
+        if request.subject == "cup":
+            return {**answer, "confidence": 7.0}
+        cut = LLMReply(json.dumps(answer), "scripted", "length")
+        return cut if request.subject == "phone" else answer
+
+    kept = tmp_path / "answers.jsonl"
+    recorded = run(RecordingBackend(RepairBackend(Scripted(object_analyzer=change)), kept))
+    assert sorted(recorded.report.errors) == ["cup", "phone"]
+    replayed = run(ReplayBackend(kept))
+    assert sorted(replayed.report.errors) == ["cup", "phone"]
+    assert "confidence" in replayed.report.errors["cup"]
+    assert "ended by 'length'" in replayed.report.errors["phone"]
+    assert replayed.objects["table"].object_category == recorded.objects["table"].object_category == "table"

@@ -99,6 +99,6 @@ def test_user_prompt_for_one_copy_is_not_shared() -> None:
 
 def test_copies_share_isolated_pictures_but_not_context_pictures() -> None:
     objects = cubes().objects
-    copies = Copies(objects, [None] * len(objects), share=True)
+    copies = Copies(objects, [None] * len(objects), [frozenset()] * len(objects), share=True)
     assert set(copies.isolated.values()) == {"microwave_oven_1"}
     assert len(set(copies.context.values())) == 30

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from scene2hap.llm.json_text import first_object
+from scene2hap.llm.json_text import answer_object, first_object
 
 _JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.text(),
@@ -59,3 +59,16 @@ def test_first_object_handles_endless_nesting_fast() -> None:
     assert first_object('{"a":' * 50_000) is None
     assert first_object("{" * 200_000) is None
     assert first_object('{"a":' * 50_000 + "1" + "}" * 50_000) is not None
+
+
+@pytest.mark.parametrize(
+    "wrapped", ['{"answer": %s}', '{"object_analyzer":%s }', 'Sure:\n```json\n{"a {": %s}\n```', '[{"result": %s}]']
+)
+def test_object_in_a_wrapper_is_found_as_written(wrapped: str) -> None:
+    inner = '{"name": "a } b", "size": {"x": 1.50}}'
+    assert answer_object(wrapped % inner) == inner
+
+
+@pytest.mark.parametrize("text", ['{"answer": "no"}', '{"a": {"b": 1}, "c": 2}', '{"a": [{}]}', "{}"])
+def test_object_with_other_contents_is_not_unwrapped(text: str) -> None:
+    assert answer_object(text) == text

@@ -1,6 +1,7 @@
 """The prompt templates, and their replacement by a user's templates."""
 
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
@@ -8,6 +9,7 @@ from scene2hap.errors import ConfigError
 from scene2hap.llm.prompts import VERSION, Prompts, placeholders
 from scene2hap.llm.protocol import COMPONENTS
 from scene2hap.llm.quoting import IS_DATA
+from scene2hap.scene.shapes import SurfaceFlag
 
 
 def test_every_template_gives_the_user_prompt_priority() -> None:
@@ -58,3 +60,14 @@ def test_invalid_template_is_refused(tmp_path: Path, text: str, sentence: str) -
 def test_a_folder_without_templates_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match=r"has no template; .*scene_analyzer\.txt"):
         Prompts.load(tmp_path)
+
+
+def test_thickness_of_hollow_objects_and_bounds_are_stated() -> None:
+    """A model that gave the thickness of sheets ended nearly all propagation by the paper's law."""
+    templates = {name: " ".join(text.split()) for name, text in Prompts.load().templates.items()}
+    assert "keep its measured thickness, never give that of its panels or sheets" in templates["object_analyzer"]
+    assert "intensity above 0 and up to 1" in templates["object_analyzer"]
+    assert "at most 30" in templates["vibration_describer"]
+    assert "below 0.5" in templates["material_estimator"]
+    for flag in get_args(SurfaceFlag):
+        assert f'"{flag}"' in templates["object_analyzer"]

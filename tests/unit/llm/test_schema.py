@@ -107,7 +107,7 @@ def test_schema_fields_are_described_in_words() -> None:
     at = words.index("- states: list of objects")
     assert words[at + 1 : at + 4] == [
         "  - name: text (length at least 1, length at most 40)",
-        "  - intensity: number (above 0, at most 1)",
+        "  - intensity: number (at least 0, at most 1)",
         "  - needs_contact: text or null",
     ]
     named = {line.strip("- ").split(":")[0] for line in words[1:]}

@@ -174,3 +174,9 @@ def test_sentence_with_another_subject_is_requested_again_once_and_kept(
     reply = asyncio.run(RepairBackend(inner).complete(asked))
     assert json.loads(reply.text)["sentence"] == heard
     assert len(inner.requests) == calls
+
+
+def test_a_category_with_an_article_may_begin_a_sentence_with_or_without_it() -> None:
+    for sentence in ("A pan sizzles.", "The pan sizzles.", "Pan sizzles."):
+        text = json.dumps({"sentence": sentence, "keywords": "pan sizzling"})
+        assert find_fault("vibration_describer", text, {"object_category": "a pan"}) is None

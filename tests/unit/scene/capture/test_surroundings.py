@@ -9,7 +9,7 @@ import numpy as np
 from scene2hap import SceneObject
 from scene2hap.scene.capture.faces import planes, separates
 from scene2hap.scene.capture.stage import Stage
-from scene2hap.scene.capture.surroundings import Copies, containers, near, shells, supports
+from scene2hap.scene.capture.surroundings import Copies, containers, holders, near, shells, supports
 from scenes import box, scene
 
 ROOM = (
@@ -101,8 +101,25 @@ def test_copies_on_equal_supports_share_context_pictures() -> None:
     keys = {"floor": "f", "table": "t", "cup": "c", "cup2": "c", "cup3": "c", "bowl": "", "bowl2": ""}
     below = [None, 0, 1, 1, 0, 1, 1]
     objects = [replace(box(name, (1, 1, 1), (0, 0, 0)), instance_key=key) for name, key in keys.items()]
-    copies = Copies(objects, below, share=True)
+    copies = Copies(objects, below, (frozenset(),) * len(objects), share=True)
     assert [copies.isolated[key] for key in keys] == ["floor", "table", "cup", "cup", "cup", "bowl", "bowl2"]
     assert [copies.context[key] for key in keys] == ["floor", "table", "cup", "cup", "cup3", "bowl", "bowl2"]
-    apart = Copies(objects, below, share=False)
+    apart = Copies(objects, below, (frozenset(),) * len(objects), share=False)
     assert apart.isolated == {key: key for key in keys} == apart.context
+
+
+def test_copies_that_hang_on_different_things_have_context_pictures_of_their_own() -> None:
+    frames = {"frame": (-1.0, 1.5, -1.87), "frame#2": (1.0, 1.5, -1.87), "frame#3": (0, 0.6, 1.07)}
+    objects = (
+        box("floor", (6, 0.1, 4), (0, -0.05, 0)),
+        box("wall", (6, 2.5, 0.1), (0, 1.25, -1.95)),
+        box("cupboard", (1, 1.2, 0.3), (0, 0.65, 1.25)),
+        *(replace(box(key, (0.3, 0.4, 0.05), place), name="frame", instance_key="f") for key, place in frames.items()),
+    )
+    room = stage(*objects)
+    below = supports(room)
+    held_by = holders(room, below, 0.1)
+    assert [names(room, by) for by in held_by[3:]] == [{"wall"}, {"wall"}, {"cupboard"}]
+    copies = Copies(objects, below, held_by, share=True)
+    assert [copies.isolated[key] for key in frames] == ["frame"] * 3
+    assert [copies.context[key] for key in frames] == ["frame", "frame", "frame#3"]
