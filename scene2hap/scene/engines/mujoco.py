@@ -9,8 +9,10 @@
 4. An object's id is the name of the body (or world geom), which is unique in MuJoCo. Without a name, the id is made of
    the parent's id and the body's number there: `cabinet/body2`, `world/geom1`. The object's name is the body's name, or
    by rule (c) of `scene2hap.scene.grouping` the name of a wrapper: a parent without geoms whose only child is this
-   body, without a joint between them (`microwave` over `microroot`). Without both names, the object is named after a
-   geom or mesh in the body.
+   body, without a joint between them (`microwave` over `microroot`). If this name says nothing (`object`, or none), the
+   object has the words that the names of all its geoms, or their meshes, begin with (`milk_mesh`; `club` of
+   `club_handle` and `club_head`). An upright plane of the world is a `floor`. An unnamed body without any of these is
+   called by its id, which has the parent's name.
 
 Poses are the bodies' own (xpos, xquat). Infinite planes are cut to twice the model's extent. Deformable bodies and
 skins are left out. Nothing here steps or changes the simulation.
@@ -18,6 +20,7 @@ skins are left out. Nothing here steps or changes the simulation.
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
@@ -32,6 +35,8 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError, UnknownObject
 from scene2hap.scene import limits
+from scene2hap.scene.copies import name_words
+from scene2hap.scene.empty_names import says_nothing
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
@@ -46,7 +51,7 @@ from scene2hap.scene.tree import AuthoredNode, Piece
 _WORLD = 0
 _LAST_SHOWN_GROUP = 2
 _IN_GAP = 1
-_MESH = 7
+_PLANE, _MESH = 0, 7
 
 
 def snapshot(
@@ -88,7 +93,9 @@ def snapshot(
     objects = []
     for item in items.all:
         group = _group(mujoco, model, item, tuple(map(reader.piece, item.geoms)))
-        label = group.name or _name_of_geoms(mujoco, model, item) or item.id
+        label = group.name
+        if says_nothing(label):
+            label = _name_of_geoms(mujoco, model, item) or label or item.id
         mass_kg = float(model.body_mass[item.body]) if masses is not None else 0.0
         objects.append(maker.make(item.id, replace(group, name=label, mass_kg=mass_kg or None), placed[item.id]))
     if not objects:
@@ -331,13 +338,27 @@ def _parts(pieces: tuple[Piece, ...]) -> tuple[tuple[NDArray[np.float64], Piece]
 
 
 def _name_of_geoms(mujoco: Any, model: Any, item: _Item) -> str:
-    for geom in item.geoms:
-        if written := mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, geom):
-            return str(written)
-    for geom in item.geoms:
-        if model.geom_type[geom] == _MESH:
-            return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_MESH, int(model.geom_dataid[geom])) or ""
+    """Return the words that the names of all geoms, or else of all meshes, begin with; "" if they say nothing.
+
+    Names without common words are of parts (a handle and a head), not of the object.
+    """
+    kinds, first = mujoco.mjtObj, item.geoms[0]
+    if item.body == _WORLD and model.geom_type[first] == _PLANE and _is_upright(model.geom_quat[first]):
+        return "floor"
+    meshes = [int(model.geom_dataid[geom]) for geom in item.geoms if model.geom_type[geom] == _MESH]
+    for kind, rows in ((kinds.mjOBJ_GEOM, item.geoms), (kinds.mjOBJ_MESH, meshes)):
+        names = [name for row in rows if (name := mujoco.mj_id2name(model, kind, row))]
+        words = os.path.commonprefix([name_words(name) for name in names])
+        common = names[0] if len(set(map(name_words, names))) == 1 else " ".join(words)
+        if not says_nothing(common):
+            return str(common)
     return ""
+
+
+def _is_upright(rotation_wxyz: NDArray[np.float64]) -> bool:
+    """Return True if a rotation leaves the z axis upwards, within 45 degrees."""
+    _, x, y, _ = rotation_wxyz
+    return float(1.0 - 2.0 * (x * x + y * y)) > math.sqrt(0.5)
 
 
 # -- poses and contacts ----------------------------------------------------------------------------------------------
