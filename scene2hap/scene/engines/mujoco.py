@@ -25,6 +25,7 @@ import os
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from itertools import takewhile
 from pathlib import Path
 from typing import Any, Literal
 from weakref import WeakKeyDictionary
@@ -348,8 +349,9 @@ def _name_of_geoms(mujoco: Any, model: Any, item: _Item) -> str:
     meshes = [int(model.geom_dataid[geom]) for geom in item.geoms if model.geom_type[geom] == _MESH]
     for kind, rows in ((kinds.mjOBJ_GEOM, item.geoms), (kinds.mjOBJ_MESH, meshes)):
         names = [name for row in rows if (name := mujoco.mj_id2name(model, kind, row))]
-        words = os.path.commonprefix([name_words(name) for name in names])
-        common = names[0] if len(set(map(name_words, names))) == 1 else " ".join(words)
+        words = set(map(name_words, names))
+        shared = takewhile(lambda column: len(set(column)) == 1, zip(*words, strict=False))
+        common = names[0] if len(words) == 1 else " ".join(column[0] for column in shared)
         if not says_nothing(common):
             return str(common)
     return ""
