@@ -1,11 +1,12 @@
 """MuJoCo models as snapshots: a running `MjModel` with its `MjData`, or an MJCF file.
 
 1. Every body with drawn geoms is an object, with all its geoms in one mesh. Doors, drawers and knobs are bodies below
-   others, so they are objects too. A body without geoms is no object.
+   others, so they are objects too. A body without geoms is no object, and no mocap body whose geoms cannot collide:
+   these are targets and markers.
 2. Every geom of the world body (floor, walls) is an object.
 3. If a body has visible geoms that cannot collide (contype and conaffinity 0), only these are drawn; otherwise all its
    geoms are. Of the world body, visible geoms that cannot collide are drawn, and geoms that collide, except in groups 3
-   to 5, which MuJoCo's viewer hides. `geom_groups` overrides both rules.
+   to 5, which MuJoCo's viewer hides. `geom_groups` overrides these rules, also that for markers.
 4. An object's id is the name of the body (or world geom), which is unique in MuJoCo. Without a name, the id is made of
    the parent's id and the body's number there: `cabinet/body2`, `world/geom1`. The object's name is the body's name, or
    by rule (c) of `scene2hap.scene.grouping` the name of a wrapper: a parent without geoms whose only child is this
@@ -306,12 +307,15 @@ def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
         drawn = np.isin(model.geom_group, list(geom_groups))
         return drawn
     collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    can_collide = np.zeros(model.nbody, dtype=bool)
+    can_collide[model.geom_bodyid[collides]] = True
+    is_marker = (model.body_mocapid >= 0) & ~can_collide
     is_look = ~collides & (colours_rgba(model)[:, 3] > 0)
     has_looks = np.zeros(model.nbody, dtype=bool)
     has_looks[model.geom_bodyid[is_look]] = True
     is_solid_wall = collides & (model.geom_group <= _LAST_SHOWN_GROUP)
     drawn = is_look | np.where(model.geom_bodyid == _WORLD, is_solid_wall, ~has_looks[model.geom_bodyid])
-    return drawn
+    return drawn & ~is_marker[model.geom_bodyid]
 
 
 def _group(mujoco: Any, model: Any, item: _Item, pieces: tuple[Piece, ...]) -> Group:

@@ -107,6 +107,17 @@ def test_geoms_without_collision_give_the_appearance_of_a_body() -> None:
         radii(geom_groups=4)
 
 
+def test_markers_that_cannot_collide_are_no_objects() -> None:
+    """Targets of a gripper are drawn as mocap bodies. As objects they would land, and carry vibration."""
+    bodies = (
+        '<worldbody><body name="target" mocap="true"><geom size="1" contype="0" conaffinity="0"/></body>'
+        '<body name="hand" mocap="true"><geom size="1"/></body>'
+        '<body name="cup"><geom size="1" contype="0" conaffinity="0"/></body></worldbody>'
+    )
+    assert {item.id for item in scene_of(bodies).objects} == {"hand", "cup"}
+    assert {item.id for item in scene_of(bodies, geom_groups={0}).objects} == {"target", "hand", "cup"}
+
+
 def test_hidden_world_geoms_are_left_out() -> None:
     scene = scene_of(
         '<worldbody><geom name="floor" size="1"/><geom name="hidden" size="1" group="3"/>'
