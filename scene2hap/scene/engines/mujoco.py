@@ -315,7 +315,8 @@ def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
     has_looks[model.geom_bodyid[is_look]] = True
     is_solid_wall = collides & (model.geom_group <= _LAST_SHOWN_GROUP)
     drawn = is_look | np.where(model.geom_bodyid == _WORLD, is_solid_wall, ~has_looks[model.geom_bodyid])
-    return drawn & ~is_marker[model.geom_bodyid]
+    drawn &= ~is_marker[model.geom_bodyid]
+    return drawn
 
 
 def _group(mujoco: Any, model: Any, item: _Item, pieces: tuple[Piece, ...]) -> Group:
