@@ -3,7 +3,7 @@
 import numpy as np
 
 from libc.math cimport INFINITY, fabs
-from libc.stdlib cimport free, malloc, realloc
+from libc.stdlib cimport free, realloc
 from libc.string cimport memcpy, memset
 
 from scene2hap.contact.geometry._boxes cimport Box, greater, is_within, lesser, squared_distance

@@ -19,7 +19,15 @@ from scene2hap import checks
 from scene2hap.calls import clear_call
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError, Scene2HapError
-from scene2hap.haptics import LONGEST_PASSAGE_S, ObjectHaptics, SourceState, is_unknown, unmet_needs
+from scene2hap.haptics import (
+    LEAST_MASS_KG,
+    LONGEST_PASSAGE_S,
+    MOST_MASS_KG,
+    ObjectHaptics,
+    SourceState,
+    is_unknown,
+    unmet_needs,
+)
 from scene2hap.llm import BACKENDS
 from scene2hap.llm.answers import MaterialAnswer, ObjectAnswer, SceneAnswer, StateAnswer, VibrationAnswer
 from scene2hap.llm.config import InferenceConfig
@@ -346,7 +354,8 @@ class _Chain:
         self, item: SceneObject, answer: ObjectAnswer, material: Material | None, analyst: str
     ) -> tuple[float | None, str, str]:
         """Return the mass of an object [kg] or None, the source of the mass, and a doubt about it ("" if none)."""
-        if item.mass_kg is not None:
+        # Simulators give frames and helpers placeholders such as 1e-8 kg.
+        if item.mass_kg is not None and LEAST_MASS_KG <= item.mass_kg <= MOST_MASS_KG:
             return item.mass_kg, "scene", ""
         mass_kg, whole_m = answer.estimated_mass_kg, item.whole_size_m(self._scene.up_axis)
         if mass_kg is None:

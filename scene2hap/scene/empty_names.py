@@ -9,7 +9,7 @@ from scene2hap.scene.snapshot import SceneSnapshot
 
 _WORDS = (
     "object objects obj body link base root world node mesh geom geometry group default scene model main visual "
-    "collision part entity untitled unnamed noname polygon poly surface shape primitive "
+    "vis collision col part entity untitled unnamed noname polygon poly surface shape primitive "
     "pivot offset locator null empty game transform wrapper "
     "cube sphere icosphere uvsphere cylinder plane circle cone torus capsule"
 )

@@ -10,7 +10,8 @@
    a machine comes before its parts and before what it works with: a printer_label is no label printer. A container
    precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in it (wall_doorway), and
    a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their joints
-   (shoulder_pan_link), which are no objects.
+   (shoulder_pan_link), which are no objects. Only the base of a robot is the robot: robot0:base_link, but
+   robot0:elbow_link, robot0_l4 and robot_arm_link_2 are parts of one, which do not vibrate by themselves.
 5. The room or zone of a machine is no machine (engine_room).
 6. The size of a metric thread says that the object belongs to a bolt: "washer_M8" is no washing machine.
 7. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
@@ -38,6 +39,7 @@ _LONGEST_NOUN = 4  # words
 _HOLDS = {"container": ("vessel", "content"), "vessel": ("content",)}
 # 3ds Max gives its primitives such names; "Box_01" is a box.
 _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
+_NAMESPACE = re.compile(r"robot(?:\d+[\W_]|:)", re.IGNORECASE)
 _THREAD = re.compile(r"(?<![^\W_])M\d{1,2}(?![^\W_xX])")
 
 
@@ -97,6 +99,8 @@ def read_name(name: str) -> NameReading:
         head = turned
     if head.row.vibrates and set(tokens[head.end : min(head.end + 1, clause)]) & words.SURROUNDINGS:
         return unknown
+    if _is_robot_part(name, tokens, head):
+        head = _Noun(word_split.nouns()["robotpart"][0], head.start, len(tokens), plural=False)
     in_nouns = {i for noun in (*nouns, head) for i in range(noun.start, noun.end)}
     behind = tuple(tokens[i] for i in range(head.end, clause) if i not in in_nouns and not _is_beside(tokens[i]))
     before = tuple(word for word in tokens[: head.start] if word in unread)
@@ -160,6 +164,17 @@ def _is_of_robot(tokens: Sequence[str], noun: _Noun) -> bool:
     """Return True if a noun names a joint, a hand or the make of a robot, and no object."""
     beside = words.ROBOT_NOUNS.get(" ".join(tokens[noun.start : noun.end]))
     return beside is not None and not beside.isdisjoint(tokens)
+
+
+def _is_robot_part(name: str, tokens: Sequence[str], head: _Noun) -> bool:
+    """Return True if a name begins with a robot's and goes on with a part's; the base stands for the whole robot.
+
+    Without a namespace (`robot0_`, `robot:`) the word "link" or "joint" must be there: a "robot_kuka" is a robot.
+    """
+    after = tokens[head.end :]
+    if head.row.noun not in words.ROBOTS or "base" in after or words.WHOLE_ROBOT.issuperset(after):
+        return False
+    return _NAMESPACE.search(name) is not None or not {"link", "joint"}.isdisjoint(after)
 
 
 def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:

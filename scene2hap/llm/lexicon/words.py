@@ -165,11 +165,18 @@ COUNTED = frozenset({"seat", "cushion", "pillow", "shelf", "stove burner"})
 """Nouns besides parts that count something of the noun before them: a "sofa 2 seats" is a sofa."""
 
 ROBOT_NOUNS = {
-    **dict.fromkeys(("roll", "pan", "lift", "palm"), frozenset({"link", "joint"})),
-    "panda": frozenset({"link", "joint", "hand", "finger", "leftfinger", "rightfinger", "gripper"}),
+    **dict.fromkeys(("roll", "pan", "lift"), frozenset({"link", "joint", "robot"})),
+    "palm": frozenset({"link", "joint", "robot", "hand", "gripper", "rh", "lh"}),
+    "panda": frozenset({"link", "joint", "hand", "finger", "leftfinger", "rightfinger", "gripper", "flange"}),
 }
 """Nouns that name a robot's joint, hand or make beside one of these words: a "shoulder_pan_link" is no frying pan, a
-"hip_roll_link" no bread, and a "panda_link3" no animal."""
+"robot0_hip_roll" no bread, a "rh_palm" no tree, and a "panda_link3" no animal."""
+
+ROBOTS = frozenset({"robot", "mobile robot", "robot part"})
+"""Nouns of the table whose parts are called after them, as in "robot0_wrist"."""
+
+WHOLE_ROBOT = (TOOL_WORDS | MODIFIERS | COLOURS) - {"link", "joint", "bone"}
+"""Words after a robot's name that do not name a part of it."""
 
 SHELLS = frozenset({"wall", "brick wall", "concrete wall", "dungeon wall", "tile"})
 OPENINGS = frozenset({"window", "door", "doorway", "arch", "gate", "window frame"})

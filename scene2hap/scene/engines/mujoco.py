@@ -1,16 +1,19 @@
 """MuJoCo models as snapshots: a running `MjModel` with its `MjData`, or an MJCF file.
 
 1. Every body with drawn geoms is an object, with all its geoms in one mesh. Doors, drawers and knobs are bodies below
-   others, so they are objects too. A body without geoms is no object.
+   others, so they are objects too. A body without geoms is no object, and no mocap body whose geoms cannot collide:
+   these are targets and markers.
 2. Every geom of the world body (floor, walls) is an object.
 3. If a body has visible geoms that cannot collide (contype and conaffinity 0), only these are drawn; otherwise all its
    geoms are. Of the world body, visible geoms that cannot collide are drawn, and geoms that collide, except in groups 3
-   to 5, which MuJoCo's viewer hides. `geom_groups` overrides both rules.
+   to 5, which MuJoCo's viewer hides. `geom_groups` overrides these rules, also that for markers.
 4. An object's id is the name of the body (or world geom), which is unique in MuJoCo. Without a name, the id is made of
    the parent's id and the body's number there: `cabinet/body2`, `world/geom1`. The object's name is the body's name, or
    by rule (c) of `scene2hap.scene.grouping` the name of a wrapper: a parent without geoms whose only child is this
-   body, without a joint between them (`microwave` over `microroot`). Without both names, the object is named after a
-   geom or mesh in the body.
+   body, without a joint between them (`microwave` over `microroot`). If this name says nothing (`object`, or none), the
+   object has the words that the names of all its geoms, or their meshes, begin with (`milk_mesh`; `club` of
+   `club_handle` and `club_head`). An upright plane of the world is a `floor`. An unnamed body without any of these is
+   called by its id, which has the parent's name.
 
 Poses are the bodies' own (xpos, xquat). Infinite planes are cut to twice the model's extent. Deformable bodies and
 skins are left out. Nothing here steps or changes the simulation.
@@ -18,10 +21,12 @@ skins are left out. Nothing here steps or changes the simulation.
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from itertools import takewhile
 from pathlib import Path
 from typing import Any, Literal
 from weakref import WeakKeyDictionary
@@ -32,6 +37,8 @@ from numpy.typing import NDArray
 from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError, UnknownObject
 from scene2hap.scene import limits
+from scene2hap.scene.copies import name_words
+from scene2hap.scene.empty_names import says_nothing
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
@@ -46,7 +53,7 @@ from scene2hap.scene.tree import AuthoredNode, Piece
 _WORLD = 0
 _LAST_SHOWN_GROUP = 2
 _IN_GAP = 1
-_MESH = 7
+_PLANE, _MESH = 0, 7
 
 
 def snapshot(
@@ -88,7 +95,9 @@ def snapshot(
     objects = []
     for item in items.all:
         group = _group(mujoco, model, item, tuple(map(reader.piece, item.geoms)))
-        label = group.name or _name_of_geoms(mujoco, model, item) or item.id
+        label = group.name
+        if says_nothing(label):
+            label = _name_of_geoms(mujoco, model, item) or label or item.id
         mass_kg = float(model.body_mass[item.body]) if masses is not None else 0.0
         objects.append(maker.make(item.id, replace(group, name=label, mass_kg=mass_kg or None), placed[item.id]))
     if not objects:
@@ -298,11 +307,15 @@ def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
         drawn = np.isin(model.geom_group, list(geom_groups))
         return drawn
     collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    can_collide = np.zeros(model.nbody, dtype=bool)
+    can_collide[model.geom_bodyid[collides]] = True
+    is_marker = (model.body_mocapid >= 0) & ~can_collide
     is_look = ~collides & (colours_rgba(model)[:, 3] > 0)
     has_looks = np.zeros(model.nbody, dtype=bool)
     has_looks[model.geom_bodyid[is_look]] = True
     is_solid_wall = collides & (model.geom_group <= _LAST_SHOWN_GROUP)
     drawn = is_look | np.where(model.geom_bodyid == _WORLD, is_solid_wall, ~has_looks[model.geom_bodyid])
+    drawn &= ~is_marker[model.geom_bodyid]
     return drawn
 
 
@@ -331,13 +344,28 @@ def _parts(pieces: tuple[Piece, ...]) -> tuple[tuple[NDArray[np.float64], Piece]
 
 
 def _name_of_geoms(mujoco: Any, model: Any, item: _Item) -> str:
-    for geom in item.geoms:
-        if written := mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, geom):
-            return str(written)
-    for geom in item.geoms:
-        if model.geom_type[geom] == _MESH:
-            return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_MESH, int(model.geom_dataid[geom])) or ""
+    """Return the words that the names of all geoms, or else of all meshes, begin with; "" if they say nothing.
+
+    Names without common words are of parts (a handle and a head), not of the object.
+    """
+    kinds, first = mujoco.mjtObj, item.geoms[0]
+    if item.body == _WORLD and model.geom_type[first] == _PLANE and _is_upright(model.geom_quat[first]):
+        return "floor"
+    meshes = [int(model.geom_dataid[geom]) for geom in item.geoms if model.geom_type[geom] == _MESH]
+    for kind, rows in ((kinds.mjOBJ_GEOM, item.geoms), (kinds.mjOBJ_MESH, meshes)):
+        names = [name for row in rows if (name := mujoco.mj_id2name(model, kind, row))]
+        words = set(map(name_words, names))
+        shared = takewhile(lambda column: len(set(column)) == 1, zip(*words, strict=False))
+        common = names[0] if len(words) == 1 else " ".join(column[0] for column in shared)
+        if not says_nothing(common):
+            return str(common)
     return ""
+
+
+def _is_upright(rotation_wxyz: NDArray[np.float64]) -> bool:
+    """Return True if a rotation leaves the z axis upwards, within 45 degrees."""
+    _, x, y, _ = rotation_wxyz
+    return float(1.0 - 2.0 * (x * x + y * y)) > math.sqrt(0.5)
 
 
 # -- poses and contacts ----------------------------------------------------------------------------------------------

@@ -35,6 +35,7 @@ from scene2hap.scene.xml_files import walk_xml
 
 MAX_XML_BYTES = 1 << 24
 """Largest size of a URDF file [bytes] (assumed: a hundred times a large robot)."""
+_EXPAND = "Write the file out first: xacro FILE > robot.urdf"
 _MESHES = (".obj", ".stl", ".dae", ".ply", ".glb", ".gltf")
 
 Element = ElementTree.Element
@@ -59,9 +60,7 @@ def _parsed(path: Path) -> Element:
             hint = " An MJCF file has the suffix .xml." if tag == "mujoco" else ""
             raise SceneFormatError(f"{path.name!r} begins with <{tag}>; a URDF file begins with <robot>.{hint}")
         if tag.startswith("xacro:"):
-            raise SceneFormatError(
-                f"{path.name!r} has <{tag}>, a macro of xacro. Write the file out first: xacro FILE > robot.urdf"
-            )
+            raise SceneFormatError(f"{path.name!r} has <{tag}>, a macro of xacro. {_EXPAND}")
         builder.start(tag, attributes)
 
     walk_xml(path, "URDF", MAX_XML_BYTES, start, builder.end)
@@ -301,5 +300,6 @@ def _numbers(row: Element, key: str, place: str, n: int, default: str | None = N
         numbers = []
     if len(numbers) != n or not np.isfinite(numbers).all():
         wanted = "a finite number" if n == 1 else f"{n} finite numbers"
-        raise SceneFormatError(f"{place}.{key} is {checks.represented(text)}; it must be {wanted}.")
+        hint = f" $ is an expression of xacro. {_EXPAND}" if text is not None and "$" in text else ""
+        raise SceneFormatError(f"{place}.{key} is {checks.represented(text)}; it must be {wanted}.{hint}")
     return numbers

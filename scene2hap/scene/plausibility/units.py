@@ -17,7 +17,7 @@ from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.geometry import joined
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
-from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, usual
+from scene2hap.scene.plausibility.usual_sizes import DOOR, Usual, is_floor, usual
 from scene2hap.scene.scene_warning import warn_of
 
 
@@ -100,7 +100,8 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     bounds = np.array([item.bounds_m for item in snapshot.objects])
     low, high = joined(bounds)
     extents = np.ptp(bounds, axis=1)
-    evidence = _evidence_of(snapshot.objects, bounds[:, 1, up] - _ground_m(bounds, up), extents)
+    floors = np.array([is_floor(item.name) for item in snapshot.objects])
+    evidence = _evidence_of(snapshot.objects, bounds[:, 1, up] - _ground_m(bounds, floors, up), extents)
     by_name = _by_names(evidence) if evidence else None
     # A single name may mislead (a worktop called `Table`), so the size of the whole scene is checked first.
     found = by_name if len(evidence) > 1 else _by_size(high - low, up, extents.max(axis=1)) or by_name
@@ -118,11 +119,14 @@ def implausible(snapshot: SceneData, unit_m: float = 1.0) -> Doubt | None:
     return Doubt(f"sizes in {snapshot.name!r} are implausible as metres: {reason}.", text, name, of_model)
 
 
-def _ground_m(bounds_m: NDArray[np.float64], up: int) -> float:
-    """Return the height of the lowest object [m].
+def _ground_m(bounds_m: NDArray[np.float64], is_floor: NDArray[np.bool_], up: int) -> float:
+    """Return the height of the lowest floor [m]; without floors, that of the lowest object.
 
-    An object that encloses the whole scene does not count: the bottom of a sky dome is kilometres below the floor.
+    Simulations keep objects below the floor until they need them. An object that encloses the whole scene does not
+    count either: the bottom of a sky dome is kilometres below the floor.
     """
+    if is_floor.any():
+        return float(bounds_m[is_floor, 0, up].min())
     is_shell = (bounds_m == joined(bounds_m)).all(axis=(1, 2))
     standing = bounds_m if is_shell.all() else bounds_m[~is_shell]
     return float(standing[:, 0, up].min())

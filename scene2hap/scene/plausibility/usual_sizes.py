@@ -83,16 +83,29 @@ _AROUND = (
 @lru_cache(maxsize=4096)
 def usual(name: str) -> Usual | None:
     """Return the usual size of an object by its name; None if the name does not show it."""
-    apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name[:_LONGEST_NAME])
-    words = " ".join(re.findall(r"[a-z]{2,}", apart.lower()))
+    words = _words(name)
     for pattern, top_m in _TOPS_M:
         if re.fullmatch(f"({pattern})( (left|right|front|back))?", words):
             return Usual(pattern, top_m, top_m, is_top=True)
-    bare = re.sub(rf"^(?:{_AROUND} )+|(?: {_AROUND})+$", "", words)
+    bare = _bare(words)
     for pattern, low_m, high_m in _LONGEST_M:
         if re.fullmatch(f"(?:{pattern})s?", bare):
             return Usual(pattern, low_m, high_m, is_top=False)
     return None
+
+
+def is_floor(name: str) -> bool:
+    """Return True if a name is that of the floor that objects stand on."""
+    return re.fullmatch(r"floor|ground( plane)?", _bare(_words(name))) is not None
+
+
+def _words(name: str) -> str:
+    apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name[:_LONGEST_NAME])
+    return " ".join(re.findall(r"[a-z]{2,}", apart.lower()))
+
+
+def _bare(words: str) -> str:
+    return re.sub(rf"^(?:{_AROUND} )+|(?: {_AROUND})+$", "", words)
 
 
 _LONGEST_NAME = 200  # number of letters of a name that are read

@@ -73,6 +73,16 @@ def test_a_sky_around_the_scene_is_not_its_ground() -> None:
     assert suggestion(scene(sky, *room(100.0, FURNITURE).objects)) == 0.01
 
 
+def test_what_a_simulation_keeps_below_the_floor_is_not_the_ground() -> None:
+    """Targets and spare objects wait below the floor until they are needed; the table is 0.8 m high."""
+    parked = box("target", (0.1, 0.1, 0.1), (0.0, -1.0, 0.0))
+    floor = box("Floor_01", (6.0, 0.02, 6.0), (0.0, 0.0, 0.0))
+    table = box("table", (1.4, 0.8, 0.8), (0.0, 0.4, 0.0))
+    assert suggestion(scene(parked, floor, table)) is None
+    high = box("table", (140.0, 80.0, 80.0), (0.0, 40.0, 0.0))
+    assert suggestion(scene(parked, floor, high)) == 0.01
+
+
 @pytest.mark.parametrize("name", ["doormat", "Cupboard_Door_R", "Tablet", "chair_leg_cover", "table lamp", "Куб", "7"])
 def test_unrelated_names_give_no_suggestion(name: str) -> None:
     assert suggestion(room(1.0, [(name, 0.3, 0.02)])) is None

@@ -357,6 +357,10 @@ def test_broken_mesh_error_names_its_link(home: Path) -> None:
         (f"<link name='a'>{BOX}</link><joint name='j'><child link='a'/></joint>", "joint 'j' has no <parent>"),
         (f"<link name='a'>{BOX}</link><joint name='j'><parent/><child/></joint>", "<parent> has no link"),
         (f"<link name='a'>{BOX.replace('1 1 1', '1 1')}</link>", "size is '1 1'; it must be 3 finite numbers"),
+        (
+            f"<link name='a'>{BOX.replace('1 1 1', '$(optenv SIZE 1 1 1)')}</link>",
+            r"must be 3 finite numbers\. \$ is an expression of xacro\. .*xacro FILE > robot\.urdf",
+        ),
         (f"<link name='a'>{BOX.replace('1 1 1', '1 1 nan')}</link>", "it must be 3 finite numbers"),
         (f"<link name='a'>{BOX.replace('1 1 1', '1 1 -1')}</link>", "they must be above 0"),
         (f"<link name='a'>{BOX.replace('1 1 1', '1 1 1e30')}</link>", "and sensible"),

@@ -50,12 +50,36 @@ def test_unnamed_bodies_get_ids_from_their_place_in_the_tree() -> None:
         "world/body1/body2": "world/body1/body2",
         "cup": "cup",
         "cup/body1": "wedge",
-        "world/geom1": "world/geom1",
+        "world/geom1": "floor",
         "wall": "wall",
     }
     again = scene_of(xml)
     assert names(again) == names(scene)
     assert [item.geometry for item in again.objects] == [item.geometry for item in scene.objects]
+
+
+@pytest.mark.parametrize(
+    ("body", "name"),
+    [
+        # Kits of objects call every body "object", and name its mesh or its geoms.
+        ('<body name="object"><geom type="mesh" mesh="milk_mesh"/></body>', "milk_mesh"),
+        ('<body name="object0"><geom name="kettle_visual" size="1"/></body>', "kettle_visual"),
+        # The common words name the whole, each name by itself a part.
+        ('<body><geom name="club_handle" size="1"/><geom name="club_head" size="1"/></body>', "club"),
+        ('<body><geom name="shelf_0" size="1"/><geom name="shelf_1" size="1"/></body>', "shelf_0"),
+        ('<body name="Object"><geom name="handle" size="1"/><geom name="head" size="1"/></body>', "Object"),
+        # Without a word in the body, its parent names it.
+        ('<body name="lamp"><geom size="1"/><body name=""><geom name="geom0" size="1"/></body></body>', "lamp/body1"),
+        # A name that says something stays, whatever its geoms are called.
+        ('<body name="cup"><geom name="kettle" size="1"/></body>', "cup"),
+        ('<geom type="plane" size="1 1 1" euler="90 0 0"/>', "world/geom1"),
+        ('<geom name="ground_plane" type="plane" size="1 1 1"/>', "ground_plane"),
+        ('<geom name="plane" type="plane" size="1 1 1"/>', "floor"),
+    ],
+)
+def test_bodies_whose_name_says_nothing_are_named_after_their_geoms(body: str, name: str) -> None:
+    mesh = '<asset><mesh name="milk_mesh" file="wedge.obj"/></asset>'
+    assert list(names(scene_of(f"{mesh}<worldbody>{body}</worldbody>")).values())[-1] == name
 
 
 def test_body_and_geom_with_one_name_get_different_ids() -> None:
@@ -81,6 +105,17 @@ def test_geoms_without_collision_give_the_appearance_of_a_body() -> None:
         radii(geom_groups=(0,))
     with pytest.raises(SceneError, match="geom_groups is 4; it must be a set of group numbers"):
         radii(geom_groups=4)
+
+
+def test_markers_that_cannot_collide_are_no_objects() -> None:
+    """Targets of a gripper are drawn as mocap bodies. As objects they would land, and carry vibration."""
+    bodies = (
+        '<worldbody><body name="target" mocap="true"><geom size="1" contype="0" conaffinity="0"/></body>'
+        '<body name="hand" mocap="true"><geom size="1"/></body>'
+        '<body name="cup"><geom size="1" contype="0" conaffinity="0"/></body></worldbody>'
+    )
+    assert {item.id for item in scene_of(bodies).objects} == {"hand", "cup"}
+    assert {item.id for item in scene_of(bodies, geom_groups={0}).objects} == {"target", "hand", "cup"}
 
 
 def test_hidden_world_geoms_are_left_out() -> None:
