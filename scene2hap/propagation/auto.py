@@ -152,7 +152,9 @@ class AutoFidelity:
 
     def _situation(self, scene: Assembly, object_id: str) -> Situation:
         plate = scene.plates[object_id]
-        situation = Situation(plate, floored_loss(plate, self.loss_floor), scene.top_hz)
+        situation = Situation(
+            plate, floored_loss(plate, self.loss_floor), scene.top_hz, load_kg=_load_kg(scene, object_id)
+        )
         mass_kg = {item.source_id: item.mass_kg for item in scene.excitations}
         joints = [one for _, several in scene.groups for one in several if object_id in (one.a, one.b)]
         pushing: dict[str, list[Joint]] = {}
@@ -175,3 +177,23 @@ class AutoFidelity:
         """Density of frequencies relative to that of `sampling`, for `SAMPLING_SHARE` of the tolerance."""
         spacing = math.pi / math.log(2 / (10 ** (SAMPLING_SHARE * self.tolerance_db / 10) - 1))
         return min(1.0, SPACING / min(spacing, 1.0))
+
+
+def _load_kg(scene: Assembly, object_id: str) -> float:
+    """Mass with the inertia of the greatest forces that others exert on an object at the top frequency [kg].
+
+    A rigid body that touches nothing else exerts no more than its own mass, any other no more than its contacts.
+    """
+    pulling: dict[str, float] = {}
+    touching: dict[str, set[str]] = {}
+    for _, joints in scene.groups:
+        for joint in joints:
+            touching.setdefault(joint.a, set()).add(joint.b)
+            touching.setdefault(joint.b, set()).add(joint.a)
+            if object_id in (joint.a, joint.b):
+                other = joint.b if joint.a == object_id else joint.a
+                pulling[other] = pulling.get(other, 0.0) + joint.stiffness_n_m / (2 * math.pi * scene.top_hz) ** 2
+    return sum(
+        min(kg, scene.rigid[other].mass_kg) if other in scene.rigid and len(touching[other]) == 1 else kg
+        for other, kg in pulling.items()
+    )

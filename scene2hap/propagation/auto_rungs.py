@@ -1,6 +1,6 @@
 """The rungs of `auto`: models of one plate from the cheapest to `ModalPlate`, and bounds on their errors against it.
 
-    rigid     moves as a whole               error 250 dB (f / f_1)^2, calibrated
+    rigid     moves as a whole               error 250 dB (f / f_1)^2 M / m, calibrated
     infinite  has no edges                   error is the level above the floor of -40 dB, derived (`auto_level`)
     lattice   `MassSpringDamper`             for plates with an outline that are not rigid
     coarse    modes of a small basis         error `MODAL_DB`, calibrated
@@ -13,7 +13,7 @@ Calibrated bounds are at least the 99th percentile over 600 draws of `benchmarks
 which is among the draws that it reports. The rigid rung errs most if a source resonates on several feet, especially
 near a corner: by 210 dB (f / f_1)^2 at worst in 600 draws.
 
-Letters: f [Hz] top frequency, f_1 [Hz] first bending mode.
+Letters: f [Hz] top frequency, f_1 [Hz] first bending mode, m [kg] mass of the plate, M [kg] mass that strains it.
 """
 
 from __future__ import annotations
@@ -66,19 +66,20 @@ class Choice:
 
 @dataclass(frozen=True)
 class Situation:
-    """Input of a choice: a plate, its loss factor [-], the top frequency [Hz], and a bound on its gain [dB]
-    (`auto_level`), infinite if unknown."""
+    """Input of a choice: a plate, its loss factor [-], the top frequency [Hz], a bound on its gain [dB] (`auto_level`),
+    infinite if unknown, and the mass that others may pull it with at the top frequency [kg]."""
 
     plate: Plate
     loss_factor: float
     top_hz: float
     peak_db: float = math.inf
+    load_kg: float = 0.0
 
     def choose(self, object_id: str, tolerance_db: float, *, may_be_infinite: bool = True) -> Choice:
         """Choose the cheapest rung whose bound is within the tolerance [dB]; `ModalPlate` if none is."""
         ratio = self._bending(tolerance_db)
         if RIGID_DB * ratio**2 <= tolerance_db:
-            why = f"{self.top_hz:g} Hz is {ratio:.2g} of its first bending mode"
+            why = f"{self.top_hz:g} Hz is {ratio:.2g} of its first bending mode under its load"
             return Choice(object_id, "rigid", RIGID_DB * ratio**2, why)
         if self.plate.outline is not None:
             return Choice(object_id, "lattice", 0.0, "its outline is no rectangle")
@@ -93,13 +94,18 @@ class Situation:
         return Choice(object_id, "modal", 0.0, f"no smaller basis serves a plate that is {held}")
 
     def _bending(self, tolerance_db: float) -> float:
-        """Ratio of the top frequency to the first bending mode's; infinite for a held plate or above a simple bound."""
-        if self.plate.edges != "FFFF" or RIGID_DB * (self.top_hz / beam_hz(self.plate)) ** 2 > tolerance_db:
+        """Ratio of the top frequency to the first bending mode's; infinite for a held plate or above a simple bound.
+
+        All mass that a plate carries strains it, so the mode counts as lower by the root of the masses' ratio.
+        """
+        carried = (max(self.plate.moving_mass_kg, self.plate.mass_kg) + self.load_kg) / self.plate.mass_kg
+        top_hz = self.top_hz * math.sqrt(carried)
+        if self.plate.edges != "FFFF" or RIGID_DB * (top_hz / beam_hz(self.plate)) ** 2 > tolerance_db:
             return math.inf
         if self.plate.outline is not None and len(self.plate.outline.inward[0]):
             # Arms of an L, tongues beside a slot and rings bend at lower frequencies than the rectangle.
-            return self.top_hz / float(lowest_frequencies_hz(self.plate, _COARSE_CELLS, 4)[3])
-        return self.top_hz / first_bending_hz(replace(self.plate, outline=None))
+            return top_hz / float(lowest_frequencies_hz(self.plate, _COARSE_CELLS, 4)[3])
+        return top_hz / first_bending_hz(replace(self.plate, outline=None))
 
     @property
     def held(self) -> str:
@@ -119,7 +125,7 @@ def _modal(fineness: Fineness) -> Callable[[Plate, float, float], ElasticBody]:
 
 
 _MAKERS: dict[str, Callable[[Plate, float, float], ElasticBody]] = {
-    "rigid": lambda plate, max_frequency_hz, eta: RigidMotion.of(plate, plate.moving_mass_kg, rocks=True),
+    "rigid": lambda plate, max_frequency_hz, eta: RigidMotion.of_thin(plate),
     "infinite": lambda plate, max_frequency_hz, eta: InfiniteBody(plate, eta),
     "lattice": lambda plate, max_frequency_hz, eta: MassSpringDamper(loss_floor=eta).elastic_body(
         plate, max_frequency_hz

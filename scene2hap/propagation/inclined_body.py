@@ -4,9 +4,10 @@ A plate bends only under forces along its normal. Under forces along its plane i
 `in_plane`), and it pitches if contacts are in front of or behind its mid-plane. A compact body moves and turns as a
 whole. A port is a point of a body and the direction of a joint's force there. The receptance between two ports is
 
-    Y = n n' Y_b(x, x') + sum over the motions of s_i s_i' / (omega_i^2 (1 + j eta) - omega^2)
+    Y = n n' Y_b(x, x') + sum over the motions of +-s_i s_i' / (omega_i^2 (1 + j eta) - omega^2)
 
-where n is the direction's component along the normal, and s_i the port's displacement in a motion of modal mass 1.
+where n is the direction's component along the normal, and s_i the port's displacement in a motion of modal mass 1. The
+sign is negative for what Y_b and another motion both contain (`Sheet`).
 
 Letters: Y_b [m/N] receptance of the plate in bending, omega_i [rad/s] 0 for the motions of a rigid box, eta [-].
 """
@@ -21,7 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.propagation.coupled.coupling import ElasticBody
+from scene2hap.propagation.coupled.legged_body import LeggedBody
 from scene2hap.propagation.coupled.response_basis import AnyFloat, HasResponseBasis, ResponseBasis, real_times
+from scene2hap.propagation.coupled.rigid import RigidMotion
 from scene2hap.propagation.in_plane import InPlaneModes, in_plane_modes
 from scene2hap.propagation.plate import Plate
 
@@ -32,46 +35,52 @@ Complex = NDArray[np.complex128]
 
 
 class Box:
-    """The motions of a rigid box: translations along three axes and rotations about them.
+    """The motions of a rigid body: translations along its principal axes and rotations about them."""
 
-    Parameters: mass_kg; size_m : length, width and thickness.
-    """
-
-    def __init__(self, mass_kg: float, size_m: tuple[float, float, float]) -> None:
-        x, y, z = np.square(size_m)
-        self._middle_m = np.array([size_m[0] / 2, size_m[1] / 2, 0.0])
-        self._roots = np.sqrt(mass_kg * np.array([1.0, 1.0, 1.0, (y + z) / 12, (x + z) / 12, (x + y) / 12]))
-        self.squares = np.zeros(6)
+    def __init__(self, body: RigidMotion) -> None:
+        assert body.spread is not None
+        self._mass_kg, self._spread = body.mass_kg, body.spread
+        x, y, z = body.spread.squares_m2
+        self._roots = np.sqrt(body.mass_kg * np.array([1.0, 1.0, 1.0, y + z, x + z, x + y]))
+        self.squares, self.signs = np.zeros(6), np.ones(6)
 
     def shapes(self, ports: Floats) -> Floats:
         """Displacement of each port in each motion (n, 6) [kg^-1/2]."""
-        along = ports[:, 3:]
-        shapes: Floats = np.concatenate([along, np.cross(ports[:, :3] - self._middle_m, along)], axis=1) / self._roots
+        off = np.column_stack([self._spread.off(ports[:, :2]), ports[:, 2]])
+        along = np.column_stack([ports[:, 3:5] @ self._spread.axes, ports[:, 5]])
+        shapes: Floats = np.concatenate([along, np.cross(off, along)], axis=1) / self._roots
         return shapes
 
 
 class Sheet:
-    """The in-plane motions of a plate, and its pitching about the plane's two axes as a rigid box.
+    """The in-plane motions of a plate, and its tilting about the plane's two axes as a rigid box.
 
-    Parameters: modes, mass_kg, size_m : of the plate and everything that moves with it.
+    A tilt moves a point beside the mid-plane in the plane's direction, by s, and a point beside the middle along the
+    normal, by t. The plate's bending contains t t' already, so (s + t) (s' + t') - t t' is added.
+
+    Parameters: modes : in-plane modes; tilting_kg : mass of a box of `size_m` with the inertia of the tilt.
     """
 
-    def __init__(self, modes: InPlaneModes, mass_kg: float, size_m: tuple[float, float, float]) -> None:
+    def __init__(self, modes: InPlaneModes, tilting_kg: float, size_m: tuple[float, float, float]) -> None:
         x, y, z = np.square(size_m)
-        self._modes, self._roots = modes, np.sqrt(mass_kg * np.array([y + z, x + z]) / 12)
-        self.squares = np.concatenate([modes.squares, np.zeros(2)])
+        self._modes, self._roots = modes, np.sqrt(tilting_kg * np.array([y + z, x + z]) / 12)
+        self._middle_m = np.array(size_m[:2]) / 2
+        self.squares = np.concatenate([modes.squares, np.zeros(4)])
+        self.signs = np.concatenate([np.ones(len(modes.squares) + 2), -np.ones(2)])
 
     def shapes(self, ports: Floats) -> Floats:
         """Displacement of each port in each motion (n, n_motions) [kg^-1/2]."""
-        height, along = ports[:, 2:3], ports[:, 3:5]
+        height, along, normal = ports[:, 2:3], ports[:, 3:5], ports[:, 5:6]
         own = np.einsum("kpm,pk->pm", self._modes.shapes(np.ascontiguousarray(ports[:, :2])), along)
-        return np.concatenate([own, height * along[:, ::-1] * (-1.0, 1.0) / self._roots], axis=1)
+        aside = height * along[:, ::-1] * (-1.0, 1.0) / self._roots
+        bent = normal * (ports[:, :2] - self._middle_m)[:, ::-1] * (1.0, -1.0) / self._roots
+        return np.concatenate([own, aside + bent, bent], axis=1)
 
 
 class Held:
     """The motions of a plate that an edge holds: none."""
 
-    squares = np.empty(0)
+    squares = signs = np.empty(0)
 
     def shapes(self, ports: Floats) -> Floats:
         """An empty array (n, 0)."""
@@ -116,7 +125,7 @@ class InclinedBody:
     def yielding(self, frequencies_hz: Floats) -> Complex:
         """Modal receptance of each motion (n_frequencies, n_motions) [s^2]."""
         stiff = self.motions.squares * complex(1.0, self.strain_loss)
-        yielding = 1 / (stiff - (2 * np.pi * frequencies_hz[:, None]) ** 2)
+        yielding = self.motions.signs / (stiff - (2 * np.pi * frequencies_hz[:, None]) ** 2)
         return yielding.astype(np.complex128, copy=False)
 
     def felt(self, points_m: Floats) -> Floats:
@@ -180,18 +189,27 @@ class InclinedBasis:
         return sums
 
 
-def inclined(plate: Plate, bending: ElasticBody | None, mass_kg: float | None = None) -> InclinedBody:
-    """Make the body of a plate that bends as `bending`, None for a compact one; `mass_kg` defaults to the plate's."""
-    if mass_kg is None:
-        mass_kg = plate.moving_mass_kg
-    size_m = plate.length_m, plate.width_m, plate.thickness_m
-    if bending is None:
-        return InclinedShapes(None, Box(mass_kg, size_m))
-    motions = Sheet(in_plane_modes(plate, mass_kg), mass_kg, size_m) if plate.edges == "FFFF" else Held()
+def inclined(plate: Plate, bending: ElasticBody) -> InclinedBody:
+    """Make the body of a plate that bends as `bending`."""
+    if plate.edges == "FFFF":
+        size_m = plate.length_m, plate.width_m, plate.thickness_m
+        # With less inertia than the bending has, the tilt would yield a negative mass. A mass at a corner counts three
+        # times as much as one that is spread.
+        tilting_kg = max(plate.moving_mass_kg, plate.mass_kg)
+        if isinstance(bending, LeggedBody):
+            tilting_kg = plate.mass_kg + 3 * float(bending.masses_kg.sum())
+        motions: Sheet | Held = Sheet(in_plane_modes(plate, plate.moving_mass_kg), tilting_kg, size_m)
+    else:
+        motions = Held()
     kind = InclinedShapes if isinstance(bending, HasResponseBasis) else InclinedBody
     # A plate without edges has no resonances and an infinite loss factor: strain takes that of the material.
     loss = bending.loss_factor if math.isfinite(bending.loss_factor) else plate.material.loss_factor
     return kind(bending, motions, loss)
+
+
+def inclined_box(rigid: RigidMotion) -> InclinedBody:
+    """Make the body of a compact object of known size."""
+    return InclinedShapes(None, Box(rigid))
 
 
 def _bending(ports: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:

@@ -112,7 +112,7 @@ class InfinitePlate:
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody | RigidMotion:
         """Return a plate as a body for coupling at any frequency; a plate without waves (`WAVELESS_HZ`) is rigid."""
         if plate.edges == "FFFF" and is_stiff(plate, WAVELESS_HZ):
-            return RigidMotion.of(plate, plate.moving_mass_kg, rocks=True)
+            return RigidMotion.of_thin(plate)
         return InfiniteBody(plate, plate.material.loss_factor)
 
     @one_blas_thread

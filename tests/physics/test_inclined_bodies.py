@@ -28,9 +28,10 @@ from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import inclined_in
 from scene2hap.propagation.coupled.joints import joints_of
+from scene2hap.propagation.coupled.rigid import RigidMotion
 from scene2hap.propagation.coupled.solved_object import contracted
 from scene2hap.propagation.in_plane import InPlaneModes
-from scene2hap.propagation.inclined_body import InclinedShapes, inclined
+from scene2hap.propagation.inclined_body import InclinedShapes, inclined, inclined_box
 
 OAK, STEEL = materials.lookup("oak"), materials.lookup("steel")
 UPRIGHT = (0.5**0.5, 0.0, 0.0, 0.5**0.5)
@@ -70,17 +71,17 @@ def test_board_moves_rigidly_far_below_its_first_mode() -> None:
 def test_box_on_front_and_rear_feet_pitches() -> None:
     """A refrigerator as a rigid box: heave and pitch by forces at its feet, in closed form."""
     box = Plate(0.6, 0.5, 0.55, STEEL, object_mass_kg=75.0)
-    body = inclined(box, None)
+    body = inclined_box(RigidMotion.of(box, 75.0, rocks=True))
     at = ports((0.3, 0.0, 0.2, 0.0, 1.0, 0.0), (0.3, 0.0, -0.2, 0.0, 1.0, 0.0))
     pitch = 75.0 / 12 * (0.5**2 + 0.55**2)
     for k, f in enumerate(F_HZ):
         own, across = 1 / 75.0 + 0.2**2 / pitch, 1 / 75.0 - 0.2**2 / pitch
         expected = -np.array([[own, across], [across, own]]) / (2 * np.pi * f) ** 2
         np.testing.assert_allclose(body.receptance(at, at, F_HZ)[k], expected, rtol=1e-12)
-    thin = Plate(0.6, 1.7, 0.05, STEEL, object_mass_kg=75.0)
+    thin = Plate(0.6, 1.7, 0.009, STEEL, object_mass_kg=75.0)
     sheet = inclined(thin, ModalPlate().elastic_body(thin, 1000.0))
     found = sheet.receptance(at, at, np.array([3.0]))[0]
-    pitch = 75.0 / 12 * (1.7**2 + 0.05**2)
+    pitch = 75.0 / 12 * (1.7**2 + 0.009**2)
     assert (found[0, 0] - found[0, 1]).real == pytest.approx(-2 * 0.2**2 / pitch / (2 * np.pi * 3.0) ** 2, rel=1e-9)
 
 
@@ -97,7 +98,10 @@ def test_inclined_body_is_passive(
     length: float, width: float, thickness: float, is_compact: bool, seed: int, f: float
 ) -> None:
     plate = Plate(length, width, thickness, OAK)
-    body = inclined(plate, None if is_compact else InfinitePlate().elastic_body(plate, 1000.0))
+    if is_compact:
+        body = inclined_box(RigidMotion.of(plate, plate.mass_kg, rocks=True))
+    else:
+        body = inclined(plate, InfinitePlate().elastic_body(plate, 1000.0))
     rng = np.random.default_rng(seed)
     directions = rng.normal(size=(5, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]

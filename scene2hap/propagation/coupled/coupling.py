@@ -74,6 +74,8 @@ class Along(NamedTuple):
 
 
 NORMAL = Along(0.0, 0.0, 1.0, 0.0)
+REVERSED = Along(0.0, 0.0, -1.0, 0.0)
+"""As `NORMAL`, for a body whose normal is opposed to the joint's direction."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,8 @@ class Ends:
     """The joints of one body.
 
     points_m : (n, 2) [m], on the body, or ports (n, 6) of an `InclinedBody` if any joint is not along its normal;
-    rows : (n,) indices among all joints; signs : (n,) +1 where the body is the joint's a, -1 where it is b.
+    rows : (n,) indices among all joints; signs : (n,) +1 where the body is the joint's a, -1 where it is b, and the
+    opposite for `REVERSED`.
     """
 
     points_m: Floats
@@ -285,14 +288,15 @@ def ends_of(joints: Sequence[Joint]) -> dict[str, Ends]:
             (joint.b, joint.point_b_m, joint.along_b, -1.0),
         ):
             port = (*point_m, along.height_m, along.x, along.y, along.z) if key in inclined else point_m
-            found.setdefault(key, []).append((port, row, sign))
+            is_reversed = along is REVERSED and key not in inclined
+            found.setdefault(key, []).append((port, row, -sign if is_reversed else sign))
     return {body_id: Ends(*map(np.array, zip(*several, strict=True))) for body_id, several in found.items()}
 
 
 def inclined_in(joints: Sequence[Joint]) -> set[str]:
     """Return the bodies with a joint that is not along their normal."""
     ends = ((key, along) for one in joints for key, along in ((one.a, one.along_a), (one.b, one.along_b)))
-    return {key for key, along in ends if along is not NORMAL}
+    return {key for key, along in ends if along is not NORMAL and along is not REVERSED}
 
 
 def _free_deflections(ends: Mapping[str, Ends], n_joints: int, source_ids: Sequence[str]) -> Floats:

@@ -7,15 +7,16 @@ from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
+from types import MappingProxyType
 
 import numpy as np
 
 from scene2hap.contact.junction import Pair, pair_of
 from scene2hap.materials import Material
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import NORMAL, Along, Joint
+from scene2hap.propagation.coupled.coupling import NORMAL, REVERSED, Along, Joint
 from scene2hap.propagation.coupled.layers import pressed_through
-from scene2hap.propagation.plate import Plate
+from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.protocol import Body, ContactNetwork
 from scene2hap.scene.geometry import dot
 from scene2hap.scene.objects import Contact
@@ -24,27 +25,37 @@ from scene2hap.scene.pose import Pose
 SAME_POINT_M = 1e-6
 """Contacts of one pair that are closer than this are merged."""
 Direction = tuple[float, float, float]
+Axes = tuple[Direction, Direction, Direction]
 _PLACE_DIGITS = 6  # decimals of a position in metres, as `SAME_POINT_M`
 LEVEL = 0.9
 """A contact counts as normal to a plate if at least this part of its direction is, up to 26 degrees off."""
+_AGAINST = -1e-6
+"""A direction below this part of another is opposed to it; rounding does not oppose perpendicular ones."""
 
 
-def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLaw) -> list[Joint]:
+def joints_of(
+    network: ContactNetwork,
+    carriers: Collection[str],
+    law: ContactLaw,
+    source_kg: Mapping[str, float] = MappingProxyType({}),
+) -> list[Joint]:
     """Return the joints between bodies that carry vibration, in an order that does not depend on the contacts' order.
 
-    A contact's weight scales its stiffness; a contact of weight 0 makes no joint. Coinciding contacts of a pair act in
-    parallel, so their stiffnesses add up. A soft layer also touches its support below a load (`layers`).
+    A contact's weight scales its stiffness; a contact of weight 0 makes no joint. Contacts of a pair in one place and
+    direction act in parallel, so their stiffnesses add up. A soft layer also touches its support below a load
+    (`layers`).
+
+    Parameters: source_kg : mass with which each source moves [kg].
     """
     pairs: dict[Pair, list[Contact]] = defaultdict(list)
     for contact in network.contacts:
         if contact.weight > 0 and contact.a in carriers and contact.b in carriers:
             pairs[pair_of(contact.a, contact.b)].append(contact)
-    masses = {object_id: _known_mass_kg(network, object_id) for pair in pairs for object_id in pair}
+    resting = {pair: _resting(network, pair, source_kg) for pair in pairs}
     preloads_n: dict[Pair, float] = {}
     for pair, contacts in pairs.items():
         contacts.sort(key=lambda one: (one.point_m, one.weight, one.area_m2 or 0.0))
-        known = [mass for mass in (masses[pair[0]], masses[pair[1]]) if mass is not None]
-        preloads_n[pair] = law.preload(known, len(contacts))
+        preloads_n[pair] = law.preload([kg for _, kg in resting[pair]], len(contacts))
     pressed = pressed_through(network, pairs, preloads_n, law)
     touching: dict[str, list[Contact]] = defaultdict(list)
     for pair, contacts in pairs.items():
@@ -56,19 +67,20 @@ def joints_of(network: ContactNetwork, carriers: Collection[str], law: ContactLa
         object_id: iter(_on_body(bodies.get(object_id), poses.get(object_id), tuple([one.point_m for one in contacts])))
         for object_id, contacts in touching.items()
     }
-    axes = {object_id: _level_axis(network, object_id, contacts) for object_id, contacts in touching.items()}
-    level = {object_id: axis for object_id, axis in axes.items() if axis is not None}
+    axes = {object_id: _axes(network, object_id) for object_id in touching}
+    level = {
+        object_id: own[2]
+        for object_id, own in axes.items()
+        if own is not None and _is_level(own[2], touching[object_id])
+    }
     directions = {
-        object_id: iter(_directions(network, object_id, contacts, level)) for object_id, contacts in touching.items()
+        object_id: iter(_directions(network, object_id, touching[object_id], axes, level)) for object_id in axes
     }
     stiffness = cache(law.stiffness)  # joints are of few kinds
     joints: list[Joint] = []
     for (a, b), contacts in pairs.items():
-        mass_a, mass_b = masses[a], masses[b]
-        # The lighter object stands on the other; if no mass is known, neither stands.
-        a_rests = mass_a is not None and (mass_b is None or mass_a < mass_b)
-        b_rests = mass_b is not None and not a_rests
-        materials = (_material(network, a, stands=a_rests), _material(network, b, stands=b_rests))
+        standing = [object_id for object_id, _ in resting[a, b]]
+        materials = (_material(network, a, stands=a in standing), _material(network, b, stands=b in standing))
         found = []
         springs = [(one, stiffness(*materials, one.area_m2, preloads_n[a, b])) for one in contacts]
         for contact, (k, loss) in [*springs, *pressed.get((a, b), ())]:
@@ -88,8 +100,9 @@ def legs_of(network: ContactNetwork, object_id: str, plate: Plate) -> list[tuple
         return []
     heights_m = pose.to_own(points)[:, 2]
     is_far = np.abs(heights_m) > plate.thickness_m
-    places = network.on_body(object_id, points)[is_far].round(_PLACE_DIGITS)
-    return sorted(set(map(tuple, places.tolist())))
+    places = sorted(map(tuple, network.on_body(object_id, points)[is_far].tolist()))
+    # One for each place, itself not rounded: where it would be moved to depends on the corner of the plate.
+    return sorted({tuple(np.round(place, _PLACE_DIGITS)): place for place in places}.values())
 
 
 def source_groups(joints: Sequence[Joint], source_ids: Iterable[str]) -> list[tuple[list[str], list[Joint]]]:
@@ -124,57 +137,104 @@ def _on_body(
     return tuple([(x, y) for x, y in network.on_body("", points_m).tolist()])
 
 
-def _level_axis(network: ContactNetwork, object_id: str, contacts: Sequence[Contact]) -> Direction | None:
-    """The normal of a plate, if all its contacts are along it (`LEVEL`); else None."""
+def _axes(network: ContactNetwork, object_id: str) -> Axes | None:
+    """Directions of the length, the width and the normal of a body in the world; None for a body without them."""
     body, pose = network.bodies.get(object_id), network.poses.get(object_id)
-    if not isinstance(body, Plate) or pose is None:
+    if pose is None or body is None or (isinstance(body, RigidBody) and body.size_m is None):
         return None
-    x, y, z = pose.rotation[:, 2].tolist()
-    is_level = all(one.normal is None or abs(dot((x, y, z), one.normal)) >= LEVEL for one in contacts)
-    return (x, y, z) if is_level else None
+    x, y, z = map(tuple, pose.rotation.T.tolist())
+    return x, y, z
+
+
+def _is_level(normal: Direction, contacts: Sequence[Contact]) -> bool:
+    """Whether all contacts are along a normal (`LEVEL`)."""
+    return all(one.normal is None or abs(dot(normal, one.normal)) >= LEVEL for one in contacts)
 
 
 def _directions(
-    network: ContactNetwork, object_id: str, contacts: Sequence[Contact], level: Mapping[str, Direction]
-) -> Sequence[Along]:
-    """Direction in which each contact acts on an object: `NORMAL` for all, unless one differs (`LEVEL`).
+    network: ContactNetwork,
+    object_id: str,
+    contacts: Sequence[Contact],
+    axes: Mapping[str, Axes | None],
+    level: Mapping[str, Direction],
+) -> list[Along]:
+    """Direction in which each contact acts on an object: `NORMAL` or `REVERSED` for all, unless one differs (`LEVEL`).
 
-    Parameters: level : the normal of each plate all of whose contacts are along it.
+    Parameters: axes : see `_axes`; level : the normal of each body all of whose contacts are along it.
     """
-    body, pose = network.bodies.get(object_id), network.poses.get(object_id)
-    if not isinstance(body, Plate) or pose is None or object_id in level:
+    own = axes[object_id]
+    if own is None:
         return [NORMAL] * len(contacts)
-    x, y, z = pose.rotation.T.tolist()
+    x, y, z = own
     found = []
-    for contact, height_m in zip(contacts, pose.to_own([one.point_m for one in contacts])[:, 2].tolist(), strict=True):
-        # Both signs give the same spring, but both of its bodies must use the same sign: `NORMAL` is that of the plate.
-        normal = contact.normal or z
-        plate = level.get(contact.a) or level.get(contact.b)
-        sign = math.copysign(1.0, max(normal, key=abs) if plate is None else dot(plate, normal))
-        found.append(Along(sign * dot(x, normal), sign * dot(y, normal), sign * dot(z, normal), height_m))
+    for contact in contacts:
+        way = _way(contact, axes, level)
+        along = z if object_id in level or contact.normal is None else way
+        sign = -1.0 if dot(along, way) < _AGAINST else 1.0
+        if object_id in level:
+            found.append(NORMAL if sign > 0 else REVERSED)
+            continue
+        (height_m,) = network.poses[object_id].to_own([contact.point_m])[:, 2].tolist()
+        found.append(Along(sign * dot(x, along), sign * dot(y, along), sign * dot(z, along), height_m))
     return found
 
 
+def _way(contact: Contact, axes: Mapping[str, Axes | None], level: Mapping[str, Direction]) -> Direction:
+    """Direction of the spring at a contact, the same for both of its bodies.
+
+    Both signs give the same spring. That of the largest component is positive, so that a body without axes moves in
+    phase at contacts above and below it.
+    """
+    pair = (contact.a, contact.b)
+    normals = [contact.normal, *(level.get(x) for x in pair), *(own[2] for x in pair if (own := axes.get(x)))]
+    x, y, z = next((one for one in normals if one is not None), (0.0, 0.0, 1.0))
+    return (x, y, z) if max(x, y, z, key=abs) > 0 else (-x, -y, -z)
+
+
 def _merged(joints: Sequence[Joint]) -> list[Joint]:
+    """Joints of a pair, with those that act in one place and direction as one."""
     if len(joints) == 1:
         return list(joints)
-    kept: list[Joint] = []
+    kept: list[tuple[tuple[float, ...], Joint]] = []
     for joint in joints:
-        own = (*joint.point_a_m, *joint.point_b_m)
-        for i, other in enumerate(kept):
-            apart = zip(own, (*other.point_a_m, *other.point_b_m), strict=True)
-            if all(abs(one - two) <= SAME_POINT_M for one, two in apart):
-                kept[i] = replace(other, stiffness_n_m=other.stiffness_n_m + joint.stiffness_n_m)
+        own = (*joint.point_a_m, *joint.point_b_m, *joint.along_a, *joint.along_b)
+        for i, (place, other) in enumerate(kept):
+            if all(abs(one - two) <= SAME_POINT_M for one, two in zip(own, place, strict=True)):
+                kept[i] = place, _in_parallel(other, joint)
                 break
         else:
-            kept.append(joint)
-    return kept
+            kept.append((own, joint))
+    return [joint for _, joint in kept]
 
 
-def _known_mass_kg(network: ContactNetwork, object_id: str) -> float | None:
+def _in_parallel(one: Joint, other: Joint) -> Joint:
+    total = one.stiffness_n_m + other.stiffness_n_m
+    loss = (one.stiffness_n_m * one.loss_factor + other.stiffness_n_m * other.loss_factor) / total
+    return replace(one, stiffness_n_m=total, loss_factor=loss)
+
+
+def _resting(network: ContactNetwork, pair: Pair, source_kg: Mapping[str, float]) -> list[tuple[str, float]]:
+    """The lighter object of a pair, which rests on the other, and its mass [kg]; empty if no mass is stated.
+
+    If one mass is stated, the other object counts as heavy as it moves: a phone on a table of 25 kg does not press as
+    the table would.
+    """
+    stated = [_stated_mass_kg(network.bodies.get(object_id)) for object_id in pair]
+    if stated[0] is None and stated[1] is None:
+        return []
+    masses = []
+    for object_id, kg in zip(pair, stated, strict=True):
+        body = network.bodies.get(object_id)
+        moving_kg = source_kg.get(object_id, math.inf if body is None else body.moving_mass_kg)
+        masses.append(moving_kg if kg is None else kg)
+    return [(pair[0], masses[0])] if masses[0] < masses[1] else [(pair[1], masses[1])]
+
+
+def _stated_mass_kg(body: Body | None) -> float | None:
     """Stated mass of a whole object [kg], None if there is none."""
-    body = network.bodies.get(object_id)
-    return body.object_mass_kg if isinstance(body, Plate) else None
+    if isinstance(body, Plate):
+        return body.object_mass_kg
+    return None if body is None else body.mass_kg
 
 
 def _material(network: ContactNetwork, object_id: str, *, stands: bool) -> Material | None:

@@ -39,7 +39,7 @@ from scene2hap.propagation.coupled.object_response import ObjectResponse
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.solved_object import SolvedObject
 from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
-from scene2hap.propagation.inclined_body import InclinedBody, inclined
+from scene2hap.propagation.inclined_body import inclined, inclined_box
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import object_points
 from scene2hap.propagation.protocol import Carrier, ContactNetwork, CoupledModel, Excitation, require_input
@@ -95,7 +95,8 @@ class Assembly:
         """All bodies, with their legs; an `InclinedBody` where a joint is not along the normal."""
         bodies: dict[str, ElasticBody] = {**self.rigid, **{key: self._legged(key, elastic[key]) for key in elastic}}
         for object_id in inclined_in([joint for _, joints in self.groups for joint in joints]):
-            bodies[object_id] = self._inclined(object_id, elastic.get(object_id))
+            rigid, bending = self.rigid.get(object_id), bodies[object_id]
+            bodies[object_id] = inclined(self.plates[object_id], bending) if rigid is None else inclined_box(rigid)
         return bodies
 
     def _sampling(self, bodies: Mapping[str, ElasticBody], density: float) -> Sampling:
@@ -105,18 +106,10 @@ class Assembly:
 
     def _legged(self, object_id: str, plate: ElasticBody) -> ElasticBody:
         """A plate with the mass of the rest of its object at its feet."""
-        own, bends = self.plates[object_id], not isinstance(plate, RigidMotion)
+        own = self.plates[object_id]
         rest_kg = own.moving_mass_kg - own.mass_kg
-        legs = legs_of(self.network, object_id, own) if bends and rest_kg > 0 and own.edges == "FFFF" else []
+        legs = legs_of(self.network, object_id, own) if rest_kg > 0 and own.edges == "FFFF" else []
         return legged(plate, np.array(legs), np.full(len(legs), rest_kg / len(legs))) if legs else plate
-
-    def _inclined(self, object_id: str, bending: ElasticBody | None) -> InclinedBody:
-        rigid = self.rigid.get(object_id)
-        plate = self.plates.get(object_id, self.network.bodies[object_id])
-        assert isinstance(plate, Plate)
-        if isinstance(bending, RigidMotion):
-            rigid, bending = bending, None
-        return inclined(plate, bending, None if rigid is None else rigid.mass_kg)
 
 
 def assemble(
@@ -129,7 +122,7 @@ def assemble(
     """Find connected groups, rigid bodies and plates. For parameters, errors and warnings see `prepare_coupled`."""
     require_input(network, excitations, bands)
     mass_kg = {item.source_id: item.mass_kg for item in excitations}
-    joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law)
+    joints = joints_of(network, network.bodies.keys() | mass_kg.keys(), law, mass_kg)
     groups = source_groups(joints, mass_kg)
     own_hz = [bands.around_hz(item.frequency_tactile_hz)[1] for item in excitations if not bands.edges_hz]
     top_hz = max((*bands.edges_hz, *own_hz), default=0.0)

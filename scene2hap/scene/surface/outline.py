@@ -71,6 +71,23 @@ class Outline:
         x, _ = _crossings(*self._edges, np.linspace(y0, y1, 513))
         return float((x[1::2] - x[::2]).sum()) * (y1 - y0) / (512 * _LINES)
 
+    @cached_property
+    def moments(self) -> tuple[Floats, Floats]:
+        """Centroid (2,) [m] of the area, and the mean products of the distances from it along x and y (2, 2) [m2].
+
+        To a thousandth, as the area.
+        """
+        _, y0, _, y1 = self.box_m
+        ends, line = _crossings(*self._edges, np.linspace(y0, y1, 513))
+        a, b, y = ends[::2], ends[1::2], y0 + (line[::2] + 0.5) * (y1 - y0) / (512 * _LINES)
+        length = b - a
+        x, area = (a + b) / 2, length.sum()
+        middle = np.array([(length * x).sum(), (length * y).sum()]) / area
+        u, v = x - middle[0], y - middle[1]
+        xy = (length * u * v).sum()
+        products = np.array([[(length * (u**2 + length**2 / 12)).sum(), xy], [xy, (length * v**2).sum()]])
+        return middle, products / area
+
     @property
     def notches_m(self) -> Floats:
         """Corners (n, 2) [m] that point into the area by `SHARPEST` or more, such as the inner corner of an L."""
