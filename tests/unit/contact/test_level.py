@@ -7,6 +7,7 @@ import pytest
 from hypothesis import assume, given, settings, strategies as st
 
 from contact_scenes import box, boxes, thing
+from scene2hap.contact.base_face import outline
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.polygons import clipped
 from scene2hap.contact.graph import ContactGraph
@@ -45,6 +46,11 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
             own = np.abs(body.pose.to_own(points))
             assert (own[:, [0, 2]] <= np.array(half)[[0, 2]] + 1e-9).all()
         assert points[:, 1] == pytest.approx(0.2 + gap / 2)
+
+
+def test_the_outline_of_a_grid_is_its_four_corners() -> None:
+    grid = np.array([(x, y) for x in (0.0, 1.0, 2.0) for y in (0.0, 1.0, 2.0)])
+    assert grid[outline(grid)].tolist() == [[0, 0], [2, 0], [2, 2], [0, 2]]
 
 
 def test_a_clipped_square_loses_its_corner() -> None:

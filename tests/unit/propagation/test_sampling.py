@@ -2,12 +2,13 @@
 
 import pytest
 
-from scene2hap import Bands
+from scene2hap import Bands, Excitation
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.bands.sampling import Sampling
+from scene2hap.propagation.bands.sampling import AROUND, Sampling
 
 
+@pytest.mark.parametrize("bands", [Bands.third_octaves(), AROUND])
 @pytest.mark.parametrize("loss_factor", [0.0, 1e-9])
-def test_a_loss_that_no_grid_resolves_is_refused(loss_factor: float) -> None:
+def test_a_loss_that_no_grid_resolves_is_refused(loss_factor: float, bands: Bands) -> None:
     with pytest.raises(ModelDomainError, match="loss_floor"):
-        Sampling.of(Bands.third_octaves(), [], loss_factor)
+        Sampling.of(bands, [Excitation("phone", 150.0, 150.0)], loss_factor)
