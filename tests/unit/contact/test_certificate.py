@@ -256,20 +256,22 @@ def test_bodies_that_move_in_turns_meet_in_the_space_between() -> None:
     assert "jar" in graph.neighbours("cup")
 
 
+@pytest.mark.parametrize("flip", [Pose((0.0, 0.0, 0.0)), Pose((0.0, 0.81, 0.0), (1.0, 0.0, 0.0, 0.0))])
 @pytest.mark.parametrize("angle", [0.0, 0.2, 1.1])
-def test_a_step_in_a_rotated_shelf_needs_no_narrow_phase(angle: float, looked_at: Looked) -> None:
-    """A cup moves back and forth on the middle board of a rotated shelf."""
+def test_a_step_in_a_rotated_shelf_needs_no_narrow_phase(angle: float, flip: Pose, looked_at: Looked) -> None:
+    """A cup moves back and forth on the middle board of a rotated shelf, upright and upside down."""
     boards = [((0.8, 0.02, 0.3), (0.0, h, 0.0)) for h in (0.01, 0.4, 0.8)]
     sides = [((0.02, 0.8, 0.3), (x, 0.4, 0.0)) for x in (-0.41, 0.41)]
-    shelf = replace(boxes("shelf", *boards, *sides), pose=Pose((0.0, 0.0, 0.0), yaw(angle)))
-    cup = box("cup", (0.08, 0.1, 0.08), (0.0, 0.46, 0.0), yaw(angle))
+    shelf = replace(boxes("shelf", *boards, *sides), pose=Pose((0.0, 0.0, 0.0), yaw(angle)).compose(flip))
+    height_m = 0.47 if flip.position_m[1] else 0.46
+    cup = box("cup", (0.08, 0.1, 0.08), (0.0, height_m, 0.0), yaw(angle))
     graph = ContactGraph(scene(shelf, cup))
     looked_at(graph)
     for step in range(60):
         along = 0.2 * math.sin(0.1 * step)
         turn = Pose((0.0, 0.0, 0.0), yaw(angle))
         x, _, z = turn.to_world([along, 0.0, 0.0]).tolist()
-        graph.update({"cup": Pose((x, 0.46, z), yaw(angle + 0.05 * step))})
+        graph.update({"cup": Pose((x, height_m, z), yaw(angle + 0.05 * step))})
         assert graph.neighbours("cup") == ("shelf",)
         assert is_as_built(graph, shelf, cup)
     assert not looked_at(graph)
