@@ -48,6 +48,12 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
         assert points[:, 1] == pytest.approx(0.2 + gap / 2)
 
 
+def test_a_hexagon_cut_into_triangles_is_filled() -> None:
+    ring = [(math.cos(k * math.pi / 3), 0.0, math.sin(k * math.pi / 3)) for k in range(6)]
+    faces = np.array([[0, k, k + 1] for k in range(1, 5)])
+    assert Body.of(thing("lid", TriMesh(np.array(ring), faces), Pose()), 1).stance.posed_base_face.is_filled
+
+
 def test_a_turned_block_beside_another_does_not_rest_on_it() -> None:
     """Turned by 20 degrees, its corner reaches 0.128 m from its middle; the circle around it 0.141 m."""
     lower, turn = block("lower", (0.8, 0.2, 0.5), (0.0, 0.1, 0.0), 0.0), math.radians(20)
