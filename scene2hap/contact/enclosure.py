@@ -47,7 +47,7 @@ def _inside(host: Body, middle: Triple, half: Triple, least_m: float) -> float:
     for c, h, a, b in zip(middle, half, host.shape.middle, host.shape.half, strict=True):
         common = min(a + b, c + h) - max(a - b, c - h)
         share *= max(common + least_m, 0.0) / (2 * h + least_m)
-    return min(share, 1.0)
+    return share
 
 
 def _has_sides(host: Body, middle: Triple, half: Triple, reach_m: float) -> bool:

@@ -9,7 +9,8 @@ whose shape is twice its mean at both points, 4 / (eta omega M), over the mean m
 band of width b. At a free edge a mode is sqrt(2) times as large as inside, for each axis that ends there. A plate
 without reflections yields 3.4 times as much at an edge, and 9.4 times at a corner. Therefore r has a factor of sqrt(2)
 for each axis with a free end, since the hand may be anywhere. It has another if the source stands within a quarter wave
-of that end. Below its first resonance omega_1 a held plate yields less, 5.2 / (M (omega_1^2 - omega^2)). Derived here.
+of that end. Below its first resonance omega_1 a held plate yields less, Y_0 / (1 - omega^2 / omega_1^2) at
+most, where Y_0 is its greatest static receptance: no mode exceeds its static part by a larger factor. Derived here.
 The bound exceeded the loudest gain, also at edges and corners, in every draw of tests/physics/test_auto_fidelity.py.
 
 Letters: g [-] gain, F_b [N/m], m [kg], M [kg] mass of the plate, K [N/m] complex, Y [m/N], D [N m], k [rad/m],
@@ -28,10 +29,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.haptics import Bands
 from scene2hap.propagation.coupled.coupling import Joint
-from scene2hap.propagation.modes import first_bending_hz, n_rigid_motions
+from scene2hap.propagation.modes import first_bending_hz, largest_static_receptance_m_n, n_rigid_motions
 from scene2hap.propagation.plate import Plate
 
 N_FREQUENCIES = 40
+_NARROWEST = 10.0
+"""Ratio of sides above which the static receptance would take a large matrix; it is then not used."""
 
 
 def peak_level_db(
@@ -83,15 +86,16 @@ def _receptance(
     plate: Plate, eta: float, omega: NDArray[np.float64], share: float, rise: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Upper bound on the receptance of a plate (n_frequencies,) [m/N]."""
-    D, mass = plate.bending_stiffness_nm, plate.mass_kg
+    D = plate.bending_stiffness_nm
     m = plate.material.density_kg_m3 * plate.thickness_m
     n = plate.length_m * plate.width_m / (4 * math.pi) * math.sqrt(m / D)
     boost = 8 / (math.pi * omega * n * eta) * math.sqrt(min(1.0, math.pi * eta / (2 * share)))
     bound: NDArray[np.float64] = np.maximum(rise**2, rise * boost) / (8 * np.sqrt(D * m) * omega)
     # A plate clamped all round is the stiffest; its omega_1 is at most 36 sqrt(D / m) / (shorter side)^2.
-    could_be_first = 36.0 * max(plate.length_m / plate.width_m, plate.width_m / plate.length_m)
-    if n_rigid_motions(plate) == 0 and omega[0] < could_be_first / (plate.length_m * plate.width_m) * math.sqrt(D / m):
-        below = (2 * math.pi * first_bending_hz(plate)) ** 2 - omega**2
-        is_below = below > 0
-        bound = np.where(is_below, np.minimum(bound, 5.2 / (mass * np.where(is_below, below, 1.0))), bound)
+    shorter_m, longer_m = sorted((plate.length_m, plate.width_m))
+    may_be_below = omega[0] < 36.0 / shorter_m**2 * math.sqrt(D / m)
+    if n_rigid_motions(plate) == 0 and may_be_below and longer_m <= _NARROWEST * shorter_m:
+        below = 1 - (omega / (2 * math.pi * first_bending_hz(plate))) ** 2
+        static = 1.04 * largest_static_receptance_m_n(plate) / np.where(below > 0, below, 1.0)
+        bound = np.where(below > 0, np.minimum(bound, static), bound)
     return bound

@@ -252,6 +252,24 @@ def first_bending_hz(plate: Plate) -> float:
     return float(math.sqrt(k4[k4 > 1e-6 / longest**4][0]) / plate.wavenumber_per_root_omega**2 / (2 * math.pi))
 
 
+@lru_cache(maxsize=4096)
+def largest_static_receptance_m_n(plate: Plate) -> float:
+    """Greatest deflection under a constant force at the same point of a held plate [m/N], within 4 % from below."""
+    shorter = min(plate.length_m, plate.width_m)
+    bases_x, bases_y = (
+        axis_bases(edges, side_m, 8 * math.ceil(side_m / shorter))
+        for edges, side_m in ((plate.edges[:2], plate.length_m), (plate.edges[2:], plate.width_m))
+    )
+    parts = np.linspace(0.0, 1.0, 9)
+    points = np.array([(x * plate.length_m, y * plate.width_m) for x in parts for y in parts])
+    found = np.zeros(len(points))
+    for u in bases_x:
+        for v in bases_y:
+            shapes = products(u, v, points)
+            found += (shapes.T * np.linalg.solve(stiffness(u, v, plate.material.poisson_ratio), shapes.T)).sum(axis=0)
+    return float(found.max()) / plate.bending_stiffness_nm
+
+
 def largest_block(plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> int:
     """Number of functions in the largest eigenproblem of `plate_modes`; its time grows with the cube of this number."""
     terms = _terms(plate, _wavenumber(plate, max_frequency_hz), fineness)

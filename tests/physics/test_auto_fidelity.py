@@ -14,6 +14,7 @@ from scene2hap.propagation.auto import AutoFidelity
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import FLOOR_DB, RUNGS, Situation
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
+from scene2hap.propagation.coupled.coupling import Joint
 from scene2hap.propagation.coupled.substructuring import assemble
 from scene2hap.propagation.mass_spring_damper import MassSpringDamper
 
@@ -52,7 +53,7 @@ def test_auto_fidelity_keeps_its_tolerance_on_furniture() -> None:
 
 def test_a_foil_above_its_first_resonance_has_a_level_without_overflow() -> None:
     """A clamped foil of nanograms: formulas for below its first resonance must not be evaluated above it."""
-    foil = Plate(0.034, 0.00048, 2.5e-6, replace(OAK, density_kg_m3=120.0), "CCFF")
+    foil = Plate(0.034, 0.0048, 2.5e-6, replace(OAK, density_kg_m3=120.0), "CCFF")
     bands = Bands.dominant()
     with np.errstate(all="raise", under="ignore"):
         for f in (10.0, 400.0, 900.0):
@@ -78,6 +79,20 @@ def test_no_gain_exceeds_the_level_that_is_promised() -> None:
         parts[8:14, 0] = parts[8:14, 0].round()  # edges
         loudest = 20 * np.log10(field.attenuation("plate", parts * size).max())
         assert loudest <= promised
+
+
+@pytest.mark.parametrize("edges", ["CCCC", "SSSS", "CCFF", "CFCF", "CSSF"])
+@pytest.mark.parametrize("width_m", [0.4, 0.08])
+def test_the_level_promised_below_the_first_resonance_of_a_held_plate(edges: str, width_m: float) -> None:
+    """A soft contact to a heavy source pushes with the force of its spring; a hand is where the plate moves most."""
+    plate = Plate(0.5, width_m, 0.004, OAK, edges)
+    places = [(x, y) for x in (0.0, 0.25, 0.5) for y in (0.0, width_m / 2, width_m)]
+    for share in (0.1, 0.9, 0.97):
+        f = share * modes.first_bending_hz(plate)
+        each = [np.abs(ModalPlate().plate_receptance(plate, at, at, f)[0, 0]) for at in places]
+        joint = Joint("phone", "top", (0.0, 0.0), places[int(np.argmax(each))], stiffness_n_m=1.0)
+        promised = peak_level_db(plate, 0.01, [(1e9, [joint])], [joint.point_b_m], Bands.dominant(), [f])
+        assert 0 <= promised - 20 * np.log10(max(each)) < (1 if share == 0.1 else 15)
 
 
 @pytest.mark.parametrize(

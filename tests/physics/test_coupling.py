@@ -208,3 +208,4 @@ def test_joints_with_missing_ends_are_refused() -> None:
             couple(bodies, [Joint(a, b, (0, 0), (0, 0))], ["s"], FREQUENCIES_HZ)
     with pytest.raises(ModelDomainError, match="stiffness_n_m is -1"):
         Joint("s", "r", (0, 0), (0, 0), -1.0)
+    assert Joint("s", "r", (0, 0), (0, 0), 0).stiffness_n_m == 0  # not only as a float

@@ -187,6 +187,16 @@ def test_motion_without_loss_never_settles_nor_grows() -> None:
     assert np.ptp(motion[4000:]) == pytest.approx(np.ptp(motion[10:4000]), rel=0.1)
 
 
+def test_a_later_force_gives_a_later_motion() -> None:
+    plate, early, late = Plate(0.8, 0.5, 0.006, MATERIAL, "CFFF"), np.zeros(40), np.zeros(40)
+    early[1] = late[2] = 1.0
+    first, second = (
+        MassSpringDamper(10).plate_motion(plate, [0.7, 0.2], [0.8, 0.5], force, 4000.0, max_frequency_hz=300.0)[0]
+        for force in (early, late)
+    )
+    np.testing.assert_allclose(second[1:], first[:-1], rtol=1e-9, atol=1e-12 * np.abs(first).max())
+
+
 def test_refused_motions() -> None:
     plate = Plate(0.8, 0.5, 0.006, MATERIAL)
     ask = (plate, [0.1, 0.1], [0.2, 0.2])

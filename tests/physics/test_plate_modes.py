@@ -64,6 +64,13 @@ def test_leissa_is_an_upper_bound(boundary: str) -> None:
     np.testing.assert_allclose(found, expected, rtol=0.011)
 
 
+def test_points_may_lie_beyond_an_edge_by_rounding() -> None:
+    modes = plate_modes(plate("FFFF", 2.0), 5)
+    corners = np.array([[0.0, 0.0], [2.0, 1.0]])
+    beyond = corners + np.array([[-5e-7], [5e-7]])
+    np.testing.assert_array_equal(modes.shapes(beyond), modes.shapes(corners))
+
+
 def test_free_square_of_another_poisson_ratio() -> None:
     """The value 14.1 of handbooks is for nu = 0.225."""
     assert lambdas(plate("FFFF", nu=0.225), 4)[3] == pytest.approx(14.116, rel=1e-4)

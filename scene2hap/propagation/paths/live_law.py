@@ -76,9 +76,8 @@ class LivePaths:
         """Update the pairs whose contacts changed since the last call."""
         version = self._graph.version
         if version != self._version:
-            # The graph's log is short: after a longer pause, as without a touch, all contacts are read again.
-            changed = None if self._version < 0 else self._graph.changed_since(self._version)
-            self._paths.update(changed, self._beside)
+            # The graph's log is short: at first, and after a pause, as without a touch, all contacts are read.
+            self._paths.update(self._graph.changed_since(self._version), self._beside)
             self._version = version
 
     def least_costs(

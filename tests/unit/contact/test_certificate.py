@@ -231,20 +231,47 @@ def test_larger_neighbours_of_a_body_that_loses_its_support_are_checked(looked_a
     assert is_as_built(graph, floor(), TABLE, crate, picture)
 
 
+def test_a_body_on_a_smaller_one_that_loses_its_support_is_checked() -> None:
+    """Without the table, the plinth hangs from the pole that stands on it, and not from the wall 12 mm away."""
+    plinth, pole = box("plinth", (0.2, 0.05, 0.2), (0.0, 0.725, 0.0)), box("pole", (0.1, 1.0, 0.1), (0.0, 1.25, 0.0))
+    wall = box("wall", (2.0, 3.0, 0.1), (0.0, 1.5, -0.162))
+    objects = [floor(), TABLE, wall, plinth, pole]
+    graph = ContactGraph(scene(*objects))
+    graph.update({"pole": Pose((0.001, 1.25, 0.0))})
+    graph.update({"pole": Pose((0.002, 1.25, 0.0))})
+    graph.update({}, removed=["table"])
+    assert graph.neighbours("plinth") == ("pole",)
+    assert {contact.normal for contact in graph.contacts if contact.b == "pole"} == {(0.0, 1.0, 0.0)}
+    assert is_as_built(graph, floor(), wall, plinth, pole)
+
+
+def test_bodies_that_move_in_turns_meet_in_the_space_between() -> None:
+    """A jar moves 55 mm, then a cup 93 mm, each within the box of its neighbour list: they end 2 mm apart."""
+    objects = [floor(), TABLE, replace(CUP, pose=Pose((0.0, 0.75, 0.0))), replace(JAR, pose=Pose((-0.3, 0.8, 0.0)))]
+    graph = ContactGraph(scene(*objects))
+    moves = [("cup", 0.05), ("cup", 0.1), ("jar", -0.14), ("jar", -0.085), ("cup", 0.007)]
+    for name, x in moves:
+        graph.update({name: Pose((x, graph.pose(name).position_m[1], 0.0))})
+        assert is_as_built(graph, *objects)
+    assert "jar" in graph.neighbours("cup")
+
+
+@pytest.mark.parametrize("flip", [Pose((0.0, 0.0, 0.0)), Pose((0.0, 0.81, 0.0), (1.0, 0.0, 0.0, 0.0))])
 @pytest.mark.parametrize("angle", [0.0, 0.2, 1.1])
-def test_a_step_in_a_rotated_shelf_needs_no_narrow_phase(angle: float, looked_at: Looked) -> None:
-    """A cup moves back and forth on the middle board of a rotated shelf."""
+def test_a_step_in_a_rotated_shelf_needs_no_narrow_phase(angle: float, flip: Pose, looked_at: Looked) -> None:
+    """A cup moves back and forth on the middle board of a rotated shelf, upright and upside down."""
     boards = [((0.8, 0.02, 0.3), (0.0, h, 0.0)) for h in (0.01, 0.4, 0.8)]
     sides = [((0.02, 0.8, 0.3), (x, 0.4, 0.0)) for x in (-0.41, 0.41)]
-    shelf = replace(boxes("shelf", *boards, *sides), pose=Pose((0.0, 0.0, 0.0), yaw(angle)))
-    cup = box("cup", (0.08, 0.1, 0.08), (0.0, 0.46, 0.0), yaw(angle))
+    shelf = replace(boxes("shelf", *boards, *sides), pose=Pose((0.0, 0.0, 0.0), yaw(angle)).compose(flip))
+    height_m = 0.47 if flip.position_m[1] else 0.46
+    cup = box("cup", (0.08, 0.1, 0.08), (0.0, height_m, 0.0), yaw(angle))
     graph = ContactGraph(scene(shelf, cup))
     looked_at(graph)
     for step in range(60):
         along = 0.2 * math.sin(0.1 * step)
         turn = Pose((0.0, 0.0, 0.0), yaw(angle))
         x, _, z = turn.to_world([along, 0.0, 0.0]).tolist()
-        graph.update({"cup": Pose((x, 0.46, z), yaw(angle + 0.05 * step))})
+        graph.update({"cup": Pose((x, height_m, z), yaw(angle + 0.05 * step))})
         assert graph.neighbours("cup") == ("shelf",)
         assert is_as_built(graph, shelf, cup)
     assert not looked_at(graph)

@@ -129,6 +129,10 @@ def test_a_step_in_the_floor_gives_no_free_region() -> None:
     known = FreeSpace(beside, host).region_below
     assert known is not None
     assert known.top_m == 0.0
+    # The region ends at the podium and the walls.
+    low, high = (side[[known.own.u, known.own.v, known.own.axis]] for side in host.shape.boxes)
+    is_within = (np.less(low.T, known.box[1]) & np.greater(high.T, known.box[0])).all(axis=1)
+    assert (high[2, is_within] <= 1e-5).all()
     assert FreeSpace(across, host).region_below is None
     assert FreeSpace(on_podium, host).empty_region is None
 

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import assume, given, settings, strategies as st
 
 from contact_scenes import box, boxes, thing
+from scene2hap.contact.base_face import outline
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.polygons import clipped
 from scene2hap.contact.graph import ContactGraph
@@ -45,6 +46,25 @@ def test_a_block_falls_onto_another_as_its_triangles_do(
             own = np.abs(body.pose.to_own(points))
             assert (own[:, [0, 2]] <= np.array(half)[[0, 2]] + 1e-9).all()
         assert points[:, 1] == pytest.approx(0.2 + gap / 2)
+
+
+def test_a_hexagon_cut_into_triangles_is_filled() -> None:
+    ring = [(math.cos(k * math.pi / 3), 0.0, math.sin(k * math.pi / 3)) for k in range(6)]
+    faces = np.array([[0, k, k + 1] for k in range(1, 5)])
+    assert Body.of(thing("lid", TriMesh(np.array(ring), faces), Pose()), 1).stance.posed_base_face.is_filled
+
+
+def test_a_turned_block_beside_another_does_not_rest_on_it() -> None:
+    """Turned by 20 degrees, its corner reaches 0.128 m from its middle; the circle around it 0.141 m."""
+    lower, turn = block("lower", (0.8, 0.2, 0.5), (0.0, 0.1, 0.0), 0.0), math.radians(20)
+    for reach_m, rests in ((0.125, True), (0.130, False)):
+        upper = block("upper", (0.2, 0.1, 0.2), (0.0, 0.25, 0.25 + reach_m), turn)
+        assert (rest_on(upper, lower) is not None) == rests
+
+
+def test_the_outline_of_a_grid_is_its_four_corners() -> None:
+    grid = np.array([(x, y) for x in (0.0, 1.0, 2.0) for y in (0.0, 1.0, 2.0)])
+    assert grid[outline(grid)].tolist() == [[0, 0], [2, 0], [2, 2], [0, 2]]
 
 
 def test_a_clipped_square_loses_its_corner() -> None:

@@ -3,6 +3,7 @@
 import csv
 import math
 
+import numpy as np
 import pytest
 
 from others import SHARED, needed
@@ -27,6 +28,8 @@ def test_lookup_gives_the_nominal_constants() -> None:
 def test_unknown_material_names_the_nearest() -> None:
     with pytest.raises(UnknownMaterial, match=r"no material 'plywod'.*'plywood'"):
         materials.lookup("plywod")
+    with pytest.raises(UnknownMaterial, match="no material '-'"):
+        materials.lookup("-")
 
 
 def test_every_nominal_value_lies_in_its_range_and_has_a_source() -> None:
@@ -60,6 +63,13 @@ def test_the_table_is_the_published_one() -> None:
     assert {row.material.name for row in materials.table()} == set(published)
     for row in materials.table():
         assert row.material.density_kg_m3 == float(published[row.material.name]["density_kg_m3"])
+
+
+def test_constants_are_kept_as_floats() -> None:
+    odd = Material("odd", 700, 10**10, 0, np.float32(0.5))
+    assert [type(x) for x in (odd.density_kg_m3, odd.youngs_modulus_pa, odd.poisson_ratio, odd.loss_factor)] == [
+        float
+    ] * 4
 
 
 @pytest.mark.parametrize(

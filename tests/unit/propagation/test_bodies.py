@@ -3,6 +3,7 @@
 import math
 import weakref
 from collections import OrderedDict
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -75,6 +76,21 @@ def test_without_edges_a_small_stiff_plate_is_rigid_and_a_large_one_infinite() -
     assert isinstance(InfinitePlate().elastic_body(Plate(0.09, 0.08, 0.012, CERAMIC), 1000.0), RigidMotion)
     assert isinstance(InfinitePlate().elastic_body(Plate(1.2, 0.7, 0.025, OAK), 1000.0), InfiniteBody)
     assert isinstance(InfinitePlate().elastic_body(Plate(0.09, 0.08, 0.012, CERAMIC, "CFFF"), 1000.0), InfiniteBody)
+
+
+def test_a_body_without_edges_answers_as_its_formula_far_away_and_with_loss() -> None:
+    """Its table takes the phase and the decay of the wave out and puts them back."""
+    plate = Plate(1.2, 0.7, 0.025, replace(OAK, loss_factor=0.1))
+    at, points = np.zeros((1, 2)), np.array([[0.0, 0.1], [1.0, 0.5], [7.0, 0.0]])
+    found = InfiniteBody(plate, 0.1).receptance(points, at, np.array([400.0]))[0, :, 0]
+    expected = InfinitePlate().plate_receptance(plate, at[0], points, [400.0])[:, 0]
+    np.testing.assert_allclose(found, expected, rtol=1e-3)
+
+
+def test_a_rigid_body_of_known_size_rocks() -> None:
+    body = RigidBody(1.0, size_m=(0.3, 0.2, 0.1))
+    sizes = [RigidMotion.of(one, 1.0, rocks=rocks).size_m for one in (body, None) for rocks in (True, False)]
+    assert sizes == [(0.3, 0.2, 0.1), None, None, None]
 
 
 @pytest.mark.parametrize("edges", ["free", "CFFF", "SSFF", "SSSS", "FFFS", "CCSF"])

@@ -5,7 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from scene2hap import Bands, Contact, ContactNetwork, Excitation, ExponentialPlate, FullPropagation, Plate, materials
+from scene2hap import (
+    Bands,
+    Contact,
+    ContactNetwork,
+    Excitation,
+    ExponentialPlate,
+    FullPropagation,
+    Plate,
+    RigidBody,
+    materials,
+)
 from scene2hap.errors import ConfigError, ModelDomainError, UnknownPlugin
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.domain import ThinPlateWarning
@@ -49,6 +59,7 @@ def test_thick_plates_on_request() -> None:
         ExponentialPlate(outside_domain="warn").prepare(slab, source, Bands.dominant())
     with pytest.raises(ModelDomainError, match="'slab here'"):
         ExponentialPlate(outside_domain="raise").prepare(slab, source, Bands.dominant())
+    ExponentialPlate(outside_domain="raise").prepare(ContactNetwork({"s": RigidBody(1.0)}), source, Bands.dominant())
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from contact_scenes import box, scene
+from scene2hap import Bands, ExponentialPlate, Plate, materials
 from scene2hap.compiled import KERNELS
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.paths.live_law import LivePaths
@@ -128,6 +129,21 @@ def test_path_costs_do_not_depend_on_query_frequency(rigid: dict[str, float]) ->
                 assert found == pytest.approx(true, rel=1e-12) if true <= limit else found > limit
             reached += int(np.isfinite(expected).sum())
     assert reached > 500
+
+
+@pytest.mark.parametrize("max_hops", [3, None])
+def test_an_object_without_a_price_passes_nothing_on(max_hops: int | None) -> None:
+    contacts = [Contact("radio", "rug", (0.0, 0.0, 0.0)), Contact("rug", "table", (1.0, 0.0, 0.0))]
+    arrivals = cheapest_arrivals({"table": 1.0}, contacts, [0.0, 0.0], ["radio"], max_hops)
+    assert not np.isfinite(arrivals["table"].costs).any()
+
+
+def test_an_impact_falls_off_as_the_paper_says() -> None:
+    """exp(-k r) from the struck point to the hand, by the plate's own wavenumber."""
+    table, f = Plate(1.2, 0.8, 0.02, materials.lookup("oak")), np.array([50.0, 250.0])
+    law = ExponentialPlate().live(room(), {"table": table}, [], Bands.dominant())
+    found = law.from_point("table", (0.1, 0.7, 0.0), [[("table", (0.4, 0.7, 0.4))]], f)
+    np.testing.assert_allclose(found, [np.exp(-0.5 * table.wavenumber_rad_m(f))], rtol=1e-9)
 
 
 @pytest.mark.parametrize("max_hops", [1, 2, 3, None])
