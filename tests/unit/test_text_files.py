@@ -68,6 +68,21 @@ def test_a_failed_write_leaves_the_earlier_file_and_no_draft(tmp_path: Path) -> 
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_disk_that_is_full_at_the_flush_keeps_the_earlier_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    path = tmp_path / "a.json"
+    write_whole(path, "before")
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left"):
+        write_whole(path, "after")
+    assert path.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [path]
+
+
 def test_a_draft_has_the_suffix_of_its_file(tmp_path: Path) -> None:
     """Some libraries choose the format by the suffix."""
     with draft_of(tmp_path / "a.png") as draft:
