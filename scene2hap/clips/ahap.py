@@ -86,8 +86,6 @@ class _Control:
             return self.neutral
         right = min(after, len(self.times_s) - 1)
         t0, t1, v0, v1 = self.times_s[after - 1], self.times_s[right], self.values[after - 1], self.values[right]
-        if t1 <= t0:
-            return v0
         return v1 if time_s >= t1 else v0 + (v1 - v0) * (time_s - t0) / (t1 - t0)
 
 

@@ -331,7 +331,6 @@ class _Stream:
     def take(self, n_frames: int) -> Block:
         # The ripple of the converter's filter exceeds full scale, and samples of 8 or 16 bit would wrap around.
         block = self._rate.convert(self._pull(self._rate.needed(n_frames)), n_frames).clip(-1.0, 1.0)
-        if len(self._fade):
-            now, self._fade = self._fade[:n_frames], self._fade[n_frames:]
-            block[: len(now)] *= now
+        now, self._fade = self._fade[:n_frames], self._fade[n_frames:]
+        block[: len(now)] *= now
         return block

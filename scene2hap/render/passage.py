@@ -142,7 +142,7 @@ class Passage(LoopBank):
     def _place(self, at: int) -> float:
         """Return the sample of the loop that is played at a tactile sample; both on the common clock."""
         k = min(at - self._begin, len(self._at) - 1)
-        return self._begin + float(self._at[k]) + at - self._begin - k
+        return float(self._at[k]) + at - k
 
     def _shift(self, steady: LoopBank, own: float, present: float, n_samples: int) -> Signal:
         """Return how far the places in the loop are shifted (n_samples,), to continue from the present one."""

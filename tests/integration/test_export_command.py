@@ -9,7 +9,9 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
+import soundfile
 
+from files_of import files_of
 from scene2hap import (
     Box,
     HapticBundle,
@@ -24,7 +26,7 @@ from scene2hap import (
 from scene2hap.cli import main
 from scene2hap.demo import tour_path
 from scene2hap.errors import ClipError, ConfigError, ExportError
-from scene2hap.export import EXPORTS
+from scene2hap.export import EXPORTS, Exported, Track
 from scene2hap.export.schema import manifest_schema
 from scene2hap.session import HapticSession
 
@@ -120,6 +122,43 @@ def test_one_clip_is_turned_into_other_formats_and_back(tmp_path: Path) -> None:
             assert one["amplitude"] == pytest.approx(other["amplitude"], abs=1e-6)
         assert found["amplitude"][1]["emphasis"] == pytest.approx(points[1]["emphasis"])
         assert found["frequency"][0]["frequency"] == pytest.approx(0.25, abs=1e-6)
+
+
+def test_a_sound_beyond_full_scale_is_clipped(tmp_path: Path) -> None:
+    loud = np.linspace(-2.0, 2.0, 801)
+    soundfile.write(tmp_path / "loud.wav", loud, 48_000, subtype="FLOAT")
+    export_clip(tmp_path / "loud.wav", tmp_path / "out", "wav")
+    played, _ = soundfile.read(next((tmp_path / "out" / "wav").glob("*.wav")))
+    np.testing.assert_allclose(played, np.clip(loud, -1.0, 1.0), atol=1e-4)
+
+
+def test_a_full_disk_keeps_the_earlier_export(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Some file systems report a full disk only when a file is flushed."""
+    for name, level in (("before", 0.1), ("after", 0.2)):
+        (tmp_path / name).mkdir()
+        soundfile.write(tmp_path / name / "x.wav", np.full(800, level), 8000)
+    export_clip(tmp_path / "before" / "x.wav", tmp_path / "out")
+    written = files_of(tmp_path / "out")
+
+    def full(descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(ExportError, match="No space left on device"):
+        export_clip(tmp_path / "after" / "x.wav", tmp_path / "out")
+    assert files_of(tmp_path / "out") == written
+
+
+@pytest.mark.parametrize("name", ["../x.bin", "below/x.bin", ""])
+def test_an_exporter_writes_into_its_own_folder_only(tmp_path: Path, name: str) -> None:
+    class Elsewhere:
+        def export(self, track: Track) -> Exported:
+            return Exported({name: b"x"})
+
+    soundfile.write(tmp_path / "x.wav", np.zeros(800), 8000)
+    with pytest.raises(ExportError, match="a name without a folder"):
+        export_clip(tmp_path / "x.wav", tmp_path / "out", Elsewhere())
+    assert [path.name for path in tmp_path.iterdir()] == ["x.wav"]
 
 
 def test_invalid_requests_get_an_error_and_write_nothing(

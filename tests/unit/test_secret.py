@@ -104,6 +104,7 @@ def test_a_key_is_found_however_it_is_written(form: str, key: str) -> None:
     left = shown.removeprefix("You sent ").removesuffix(", which is wrong.").replace(MASK, "")
     assert len(left) <= len(echoed) - len(key)  # the rest of an escape that also encoded the key
     assert not any(key[at : at + 4] in left for at in range(len(key) - 3))
+    assert Secret(key).scrub(echoed) == shown.removeprefix("You sent ").removesuffix(", which is wrong.")
 
 
 def test_text_without_the_key_stays_as_it_is() -> None:

@@ -28,6 +28,13 @@ def test_file_size_limit_is_exact(tmp_path: Path) -> None:
         read_small(path, 10)
 
 
+@pytest.mark.skipif(not Path("/proc/version").exists(), reason="no files without a size here")
+def test_a_file_whose_size_the_system_does_not_know_is_read_whole() -> None:
+    assert read_small("/proc/version") == Path("/proc/version").read_bytes()
+    with pytest.raises(ValueError, match="it has 5 bytes; it must have at most 4"):
+        read_small("/proc/version", 4)
+
+
 def test_a_byte_order_mark_is_left_out(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes("\ufeffHz".encode())
     assert read_small_text(tmp_path / "a.csv") == "Hz"
@@ -57,6 +64,21 @@ def test_a_failed_write_leaves_the_earlier_file_and_no_draft(tmp_path: Path) -> 
     with pytest.raises(KeyError), draft_of(path) as draft:
         draft.write_text("half")
         raise KeyError
+    assert path.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_disk_that_is_full_at_the_flush_keeps_the_earlier_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    path = tmp_path / "a.json"
+    write_whole(path, "before")
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left"):
+        write_whole(path, "after")
     assert path.read_text() == "before"
     assert list(tmp_path.iterdir()) == [path]
 

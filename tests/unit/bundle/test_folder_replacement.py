@@ -99,6 +99,14 @@ def test_saving_to_the_working_directory_is_refused(tmp_path: Path, monkeypatch:
         assert sorted(tmp_path.rglob("*")) == before
 
 
+@pytest.mark.usefixtures("both_ways")
+def test_an_empty_folder_is_replaced(tmp_path: Path) -> None:
+    (tmp_path / "room").mkdir()
+    a_bundle().save(tmp_path / "room")
+    assert HapticBundle.load(tmp_path / "room").gain_db("phone") == 0.0
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+
+
 @pytest.mark.parametrize("name", ["", "a\0b", "x" * 300, "file/below"])
 def test_invalid_folder_name_is_refused(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
@@ -247,6 +255,13 @@ def test_drafts_of_dead_processes_are_removed_and_live_drafts_kept(tmp_path: Pat
         assert len(list(tmp_path.iterdir())) == 2
         process.communicate("\n")
     assert len(list(tmp_path.iterdir())) == 2
+    a_bundle().save(tmp_path / "room")
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="folders cannot be locked")
+def test_a_draft_that_was_never_written_to_is_removed(tmp_path: Path) -> None:
+    (tmp_path / ".room.scene2hap-0123abcd").mkdir()
     a_bundle().save(tmp_path / "room")
     assert [path.name for path in tmp_path.iterdir()] == ["room"]
 

@@ -23,6 +23,7 @@ class ScriptedLine:
     def __init__(self) -> None:
         self.there = True
         self.wants = True
+        self.n_frames = 4  # in one request
         self.rate_hz = 0  # the session's
         self.error: Exception | None = None
         self.underruns = 0
@@ -42,7 +43,7 @@ class ScriptedLine:
         if self.error is not None:
             error, self.error = self.error, None
             raise error
-        return 4 if self.wants else 0
+        return self.n_frames if self.wants else 0
 
     def send(self, block: NDArray[np.float32]) -> None:
         self.taken.append(block)
@@ -157,6 +158,7 @@ def test_a_device_of_another_rate_gets_the_whole_fade_out(bench: Bench, rate_hz:
     assert safety.silent.wait(10)
     bench.sink.stop()
     x = bench.line.samples[:, 0]
+    assert bench.sink.stats.frames == len(x)
     assert np.abs(x[-4:]).max() < 1e-3
     # The tone changes by 0.5 * 2 pi 100 / s, the raised cosine by 0.5 * pi / 2 / 8 ms at most.
     steepest = 0.5 * 2 * np.pi * 100 + 0.5 * np.pi / 2 / 0.008
@@ -164,7 +166,7 @@ def test_a_device_of_another_rate_gets_the_whole_fade_out(bench: Bench, rate_hz:
 
 
 def test_blocks_stay_within_full_scale_at_any_rate(bench: Bench) -> None:
-    bench.line.rate_hz = 8000
+    bench.line.rate_hz, bench.line.n_frames = 8000, 100
     n_asked = 0
 
     def square(n_frames: int) -> NDArray[np.float32]:

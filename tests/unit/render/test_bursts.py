@@ -98,6 +98,7 @@ def test_number_of_simultaneous_bursts_is_limited() -> None:
     wave, bursts, mix = np.ones(100, np.float32), Bursts(), np.zeros((10, 1), np.float32)
     for _ in range(100):
         bursts.start(PlannedBurst(0, [wave], {0: [1.0]}))
+    assert bursts.n_playing == MOST_PLAYING  # without a thread that renders, nothing accumulates
     bursts.add_to(mix, 0, (0,))
     assert mix.max() == MOST_PLAYING
     assert bursts.n_playing == MOST_PLAYING

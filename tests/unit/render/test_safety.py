@@ -169,15 +169,17 @@ def test_a_source_too_loud_for_the_actuator_does_not_click(most: float, f: float
 
 
 def test_a_limit_that_changes_does_not_click_and_is_kept() -> None:
-    guard = PeakGuard(np.array([1.0]), RATE, 1)
-    x = sine(150.0, 3.0, 0.6).astype(np.float64)
+    """The limit of one hand changes, and that of the other does not."""
+    guard = PeakGuard(np.ones(2), RATE, 2)
+    x = np.repeat(sine(150.0, 3.0, 0.6).astype(np.float64), 2, axis=1)
     y = [guard.pass_through(x[:RATE])]
-    guard.limit = np.array([0.1])
+    guard.limit = np.array([0.1, 1.0])
     y.append(guard.pass_through(x[RATE : 2 * RATE]))
-    guard.limit = np.array([1.0])
+    guard.limit = np.ones(2)
     y.append(guard.pass_through(x[2 * RATE :]))
-    assert np.abs(y[1][RATE // 20 :]).max() <= 0.1
+    assert np.abs(y[1][RATE // 20 :, 0]).max() <= 0.1
     assert level_above_1khz_db(np.concatenate(y)[:, 0]) < -50.0
+    np.testing.assert_array_equal(np.concatenate(y)[:, 1], x[:, 1])
 
 
 @pytest.mark.parametrize("rate", [8000, 44100, 48000])

@@ -237,17 +237,27 @@ def test_device_is_reopened_for_a_new_set_of_hands() -> None:
     assert device.opened == [("left", "right"), ("left", "right", "foot"), ("right", "foot")]
 
 
-def test_pause_fades_out_and_resumes_at_the_same_position() -> None:
+def test_each_pause_fades_out() -> None:
+    s = session()
+    for _ in range(2):
+        s.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))])
+        before = s.render(RATE)[-1:]
+        s.pause()
+        fading = np.concatenate([before, s.render(RATE)])[:, 0]
+        assert np.abs(fading[:80]).max() > 0.1
+        assert np.abs(np.diff(fading)).max() < steepest(100)
+        assert not fading[RATE // 10 :].any()
+        s.resume()
+
+
+def test_pause_resumes_at_the_same_position() -> None:
     s, never = session(), session()
     on_phone = [Touch("left", "phone", (0.1, 0.73, 0.4))]
     for x in (s, never):
         x.update(touches=on_phone)
         x.render(RATE)
     s.pause()
-    fading = s.render(RATE)[:, 0]
-    assert np.abs(fading[:80]).max() > 0.1
-    assert np.abs(np.diff(fading)).max() < steepest(100)
-    assert not fading[RATE // 10 :].any()
+    s.render(RATE)
     stood = s.position
     assert s.update(touches=on_phone).gain("left", "phone") == 0.0
     assert not s.render(3 * RATE).any()

@@ -138,3 +138,11 @@ def test_frame_can_be_read_at_any_time() -> None:
         s.update(touches=[Touch("left", "table", (0.15, 0.72, 0.4))])
         s.update({"phone": Pose((0.3, 0.725, 0.4))})
     assert (sink.frames[0].gains[0] > 0).all()
+
+
+def test_a_sink_of_gains_gets_zeros_in_a_pause() -> None:
+    sink = Shown()
+    with HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE}, sink=sink) as s:
+        s.update(touches=[Touch("left", "table", (0.15, 0.72, 0.4))])
+        s.pause()
+    assert [frame.gains.any() for frame in sink.frames] == [True, False]

@@ -288,6 +288,15 @@ def test_harder_strikes_are_felt_more_within_full_scale() -> None:
     assert 20 * math.log10(felt[1] / felt[0]) == pytest.approx(10.0, abs=0.1)  # 2:1
 
 
+def test_an_impact_outside_the_actuator_s_band_is_not_felt() -> None:
+    made = session(actuator={"min_frequency_hz": 700.0, "max_frequency_hz": 1000.0})
+    made.update(touches=touches())
+    impact = made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+    assert impact.frequency_hz < 300.0
+    assert impact.felt == {}
+    assert not rendered(made).any()
+
+
 def test_strike_accepts_a_finger_or_an_impulse() -> None:
     made = session()
     made.update(touches=touches())

@@ -196,6 +196,8 @@ def test_gain_limit_caps_and_counts() -> None:
     capped = session(prepare="blocking", propagation=Loud(3.0))
     assert capped.update(touches=[ON_TABLE]).gain("left", "phone") == 1.0
     assert capped.stats.gains_capped == 2
+    lower = session(prepare="blocking", propagation=Loud(3.0), gain_limit_db=-20.0)
+    assert lower.update(touches=[ON_TABLE]).gain("left", "phone") == pytest.approx(0.1)
     assert (
         session(prepare="blocking", propagation=Loud(3.0), gain_limit_db=None)
         .update(touches=[ON_TABLE])
