@@ -15,7 +15,7 @@ from pathlib import Path
 
 from scene2hap import load_scene
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.scene.grouping import Grouping
+from scene2hap.scene.grouping.groups import Grouping
 
 LISTS = Path(__file__).parent / "contacts"
 SCENES = Path(__file__).parents[2] / "shared" / "scenes"

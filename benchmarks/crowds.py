@@ -58,7 +58,7 @@ def times_us(
     scene: SceneSnapshot, frames: Frames, n_passes: int, *, with_certificates: bool
 ) -> tuple[np.ndarray, list]:
     """Least time of each frame [us], and the contacts at the end."""
-    off = mock.patch("scene2hap.contact.certificates.Certificates.may_be_issued", return_value=False)
+    off = mock.patch("scene2hap.contact.certificate_issuer.CertificateIssuer.may_be_issued", return_value=False)
     found, contacts = [], list[Contact]()
     with nullcontext() if with_certificates else off:
         for _ in range(n_passes):

@@ -70,6 +70,7 @@ FIGURES = {
     "surfaces": Figure("surfaces", "benchmarks/surfaces.py", 1, needs="scenes"),
     "contacts-by-hand": Figure("contacts", f"benchmarks/contacts.py {SCENES}", 1, needs="scenes"),
     "contacts-crowds": Figure("contacts", "benchmarks/crowds.py", 3, has_times=True),
+    "contacts-trembling": Figure("contacts", "benchmarks/trembling.py", 1, has_times=False),
     "contacts-falling-boxes": Figure("contacts", "benchmarks/falling_boxes.py 1800", 2, has_times=True),
     "contacts-triangles": Figure(
         "contacts", f"stress/contacts.py {MOVERS} --moves 1500", 60, is_text=True, needs="scenes"

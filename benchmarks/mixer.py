@@ -47,7 +47,7 @@ def new_mixer(bank: LoopBank) -> Mixer:
 
 def some_gains(bank: LoopBank) -> list[NDArray[np.float32]]:
     rng = np.random.default_rng(SEED)
-    return [rng.uniform(0.01, 0.1, (N_HANDS, bank.n_rows)).astype(np.float32) for _ in range(16)]
+    return [rng.uniform(0.01, 0.1, (N_HANDS, N_SOURCES, bank.n_bands)).astype(np.float32) for _ in range(16)]
 
 
 class Game(threading.Thread):
@@ -63,7 +63,8 @@ class Game(threading.Thread):
         due = time.perf_counter()
         while not self.done:
             begin = time.perf_counter()
-            self._mixer.set_gains(self._gains[self.n_updates % len(self._gains)], self._mixer.position)
+            gains = self._gains[self.n_updates % len(self._gains)]
+            self._mixer.set_gains(gains, range(N_SOURCES), self._mixer.position)
             while time.perf_counter() - begin < self._update_s:
                 pass
             self.n_updates += 1
@@ -74,7 +75,7 @@ class Game(threading.Thread):
 def times(bank: LoopBank, seconds: float, update_s: float | None) -> tuple[NDArray[np.float64], float]:
     """Render, processor and from-due times (3, n_blocks) [s], and updates per second; None: gains are set once."""
     mixer, gains = new_mixer(bank), some_gains(bank)
-    mixer.set_gains(gains[0], 0)
+    mixer.set_gains(gains[0], range(N_SOURCES), 0)
     out = np.zeros((N_FRAMES, N_HANDS), dtype=np.float32)
     for _ in range(50):
         mixer.render_into(out)
@@ -108,7 +109,7 @@ def allocation(bank: LoopBank, n_blocks: int) -> tuple[int, int]:
     tracemalloc.start()
     for i in range(2 * n_blocks):
         for k in range(3):
-            mixer.set_gains(gains[(i + k) % len(gains)], mixer.position + 48 * k)
+            mixer.set_gains(gains[(i + k) % len(gains)], range(N_SOURCES), mixer.position + 48 * k)
         tracemalloc.reset_peak()
         before = tracemalloc.get_traced_memory()[0]
         mixer.render_into(out)

@@ -1,8 +1,8 @@
-"""Write USD files with the classes of usd-core: an empty stage, or a `SceneSnapshot`."""
+"""Write USD files with the classes of usd-core, or as text, and load them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +10,11 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
+from looks import QUAD
+from scene2hap.scene.load import load_scene
 from scene2hap.scene.snapshot import SceneSnapshot
 
+HEADER = "#usda 1.0\n"
 CUBE_POINTS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
 CUBE_QUADS = [0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
 """A cube of edge 1 with a corner in the origin, as six quadrilaterals that face outwards."""
@@ -101,3 +104,45 @@ def as_usd(scene: SceneSnapshot, path: Path) -> Path:
         )
     stage.Save()
     return path
+
+
+def scene_of(fill: Callable[[Any], object], folder: Path, *, suffix: str = ".usda", **options: Any) -> SceneSnapshot:
+    """Save a stage that `fill` fills, and load it."""
+    path = folder / f"scene{suffix}"
+    stage = new_stage(path)
+    fill(stage)
+    stage.Save()
+    return load_scene(path, unit_m=options.pop("unit_m", 1.0), **options)
+
+
+def text_file(folder: Path, text: str, name: str = "scene.usda") -> Path:
+    path = folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(HEADER + text, encoding="utf-8")
+    return path
+
+
+def ids(scene: SceneSnapshot) -> list[str]:
+    return [item.id for item in scene.objects]
+
+
+def painted_square(stage: Any, file: str = "./floor.png", interpolation: str = "vertex") -> None:
+    """A square with an upright texture; in USD, t runs up."""
+    square = mesh(stage, "/square", QUAD, [0, 1, 2, 3], [4])
+    st = (
+        usd("UsdGeom")
+        .PrimvarsAPI(square)
+        .CreatePrimvar("map1", usd("Sdf").ValueTypeNames.TexCoord2fArray, interpolation)
+    )
+    st.Set([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
+    bind(square, textured(stage, "/Looks/floor", file, primvar="map1"))
+
+
+def instancer(stage: Any, *, n: int = 3) -> Any:
+    """A point instancer of cubes at x = 0, 2, 4, ...; its only prototype is a prim below it."""
+    made = usd("UsdGeom").PointInstancer.Define(stage, "/World/cups")
+    mesh(stage, "/World/cups/prototypes/cup")
+    made.CreatePrototypesRel().AddTarget("/World/cups/prototypes/cup")
+    made.CreateProtoIndicesAttr([0] * n)
+    made.CreatePositionsAttr([(2.0 * i, 0, 0) for i in range(n)])
+    return made

@@ -12,7 +12,7 @@ from collections.abc import Collection, Container, Mapping, Sequence
 from scene2hap.contact.body import Body
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate
-from scene2hap.contact.certificates import Certificates
+from scene2hap.contact.certificate_issuer import CertificateIssuer
 from scene2hap.contact.holders import Holders
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.pair import BodyPair, BodyPairs, apart_by, beside_by
@@ -37,7 +37,7 @@ class ContactFinder:
         self._bodies = self._pairs.bodies
         self._holders = Holders(self._pairs, self._broad_phase.neighbours, certified)
         self._unsupported = self._holders.unsupported
-        self._certificates = Certificates(self._bodies, self._unsupported, self._broad_phase, certified)
+        self._issuer = CertificateIssuer(self._bodies, self._unsupported, self._broad_phase, certified)
 
     def replace(
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
@@ -46,15 +46,15 @@ class ContactFinder:
 
         Returns the junctions of all pairs that may have changed, None for pairs that do not touch.
         """
-        bodies, certificates = self._bodies, self._certificates
+        bodies, issuer = self._bodies, self._issuer
         found: dict[Pair, Junction | None] = {}
-        ended = certificates.end_pinned((*moved, *gone))
+        ended = issuer.end_pinned((*moved, *gone))
         placed = [bodies[x] for x in ended if x not in moved and x not in gone]
-        certified = certificates.of
+        certified = issuer.of
         for x, pose in moved.items():
             certificate = certified.get(x)
             if certificate is None or not certificate.step(pose, found):
-                certificates.end(x)
+                issuer.end(x)
                 placed.append(bodies[x].at(pose))
         if placed or added or gone:
             self._search(placed, [Body.of(item, self._up_axis) for item in added], gone, found)
@@ -64,7 +64,7 @@ class ContactFinder:
         self, placed: list[Body], added: Sequence[Body], gone: Collection[str], found: dict[Pair, Junction | None]
     ) -> None:
         """Find the contacts of `placed` and `added` bodies, and of all bodies that these affect."""
-        bodies, certificates = self._bodies, self._certificates
+        bodies, issuer = self._bodies, self._issuer
         dirty: set[Pair] = set()
         recheck: set[str] = set()
         for x in gone:
@@ -78,15 +78,15 @@ class ContactFinder:
         pending = [*added]
         moving = {body.id for body in placed}
         for body in placed:
-            junction = self._certify(body, moving, dirty, recheck) if certificates.may_be_issued(body.id) else None
+            junction = self._certify(body, moving, dirty, recheck) if issuer.may_be_issued(body.id) else None
             if junction is None:
                 pending.append(body)
             else:
                 proven[body.id] = junction
         while pending or recheck:
             for body in pending:
-                certificates.end(body.id)
-                pending += certificates.separate_from_neighbours(body)
+                issuer.end(body.id)
+                pending += issuer.separate_from_neighbours(body)
             seen: set[str] = set()
             for body in pending:
                 self._pair_with_neighbours(body, seen, dirty, recheck)
@@ -94,18 +94,18 @@ class ContactFinder:
             pending = []
             recheck.update(seen)
             for x in recheck:
-                if x in bodies and x not in certificates.of and self._update_holders(x, dirty):
-                    pending += certificates.separate_from_neighbours(bodies[x])
+                if x in bodies and x not in issuer.of and self._update_holders(x, dirty):
+                    pending += issuer.separate_from_neighbours(bodies[x])
             recheck = set()
         found.update((pair, self._holders.junction(pair)) for pair in dirty)
         for x, junctions in proven.items():
-            if x in certificates.of:
+            if x in issuer.of:
                 found.update(junctions)
 
     def _remove(self, x: str, found: dict[Pair, Junction | None], recheck: set[str]) -> None:
         """Remove a body with all its pairs."""
         del self._bodies[x]
-        self._certificates.forget(x)
+        self._issuer.forget(x)
         for y in self._broad_phase.remove(x):
             self._drop_pair(x, y, found, recheck)
         self._pairs.of.pop(x, None)
@@ -119,8 +119,8 @@ class ContactFinder:
         Its stored pairs are dropped. Pairs and bodies that this may change go into `dirty` and `recheck`.
         """
         x, holders = body.id, self._holders
-        resting = self._certificates.resting(body, holders.held.get(x, ()))
-        junctions = self._certificates.issue(body, resting, moving)
+        resting = self._issuer.resting(body, holders.held.get(x, ()))
+        junctions = self._issuer.issue(body, resting, moving)
         if junctions is None:
             return None
         for y in list(self._pairs.of.setdefault(x, {})):
@@ -142,7 +142,7 @@ class ContactFinder:
 
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
         """Pair a body that moved with the bodies now near enough to touch it."""
-        x, bodies, certificates, unsupported = body.id, self._bodies, self._certificates.of, self._unsupported
+        x, bodies, certificates, unsupported = body.id, self._bodies, self._issuer.of, self._unsupported
         body_pairs = self._pairs.of.setdefault(x, {})
         for y in self._broad_phase.neighbours[x]:
             if y in certificates:

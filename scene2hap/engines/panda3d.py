@@ -7,7 +7,7 @@ from typing import Any
 from scene2hap.calls import clear_calls
 from scene2hap.engines.link import EngineLink
 from scene2hap.scene.engines import panda3d as engine
-from scene2hap.scene.grouping import Grouping
+from scene2hap.scene.grouping.groups import Grouping
 from scene2hap.scene.pose import Pose
 from scene2hap.session import HapticSession
 

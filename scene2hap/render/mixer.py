@@ -165,34 +165,17 @@ class Mixer:
         mixed, offered = self._mix.n_rows_mixed, self._mix.n_cells * self._shape[1]
         return MixerStats(mixed, offered - mixed, self._mix.n_merged)
 
-    def set_gains(self, gains: NDArray[np.float32], at_frame: int) -> None:
-        """Set the target gains (n_hands, n_rows) from a frame on; frames in the past count as the next one.
+    def set_gains(self, gains: NDArray[np.float32], loops: Sequence[int], at_frame: int) -> None:
+        """Set the target gains (n_hands, n_loops, n_bands) of some loops, and 0 for all others, from a frame on.
 
+        Frames in the past count as the next one.
         Raises: SessionError: another shape, or gains that are not finite; the audio thread could not report them.
         """
-        loops = self._all_loops
-        shape = (self._shape[0], len(loops), self._n_bands)
-        self._send(gains, self._shape, shape, loops, None if self._is_skipping else loops, at_frame)
-
-    def set_loops(self, gains: NDArray[np.float32], loops: Sequence[int], at_frame: int) -> None:
-        """Set the target gains (n_hands, n_loops, n_bands) of some loops, and 0 for all others. See `set_gains`."""
-        shape = (self._shape[0], len(loops), self._n_bands)
-        self._send(gains, shape, shape, loops, loops if self._is_skipping else self._all_loops, at_frame)
-
-    def _send(
-        self,
-        gains: NDArray[np.float32],
-        wanted: tuple[int, ...],
-        by_loop: tuple[int, int, int],
-        loops: Sequence[int],
-        heard: Sequence[int] | None,
-        at_frame: int,
-    ) -> None:
-        checked_gains = None
-        if gains.shape == wanted:
-            checked_gains = Gains.of(gains.reshape(by_loop), loops, heard)
+        shape, checked_gains = (self._shape[0], len(loops), self._n_bands), None
+        if gains.shape == shape:
+            checked_gains = Gains.of(gains, loops, loops if self._is_skipping else self._all_loops)
         if checked_gains is None:
-            raise SessionError(f"gains has shape {gains.shape}; it must be finite numbers of shape {wanted}.")
+            raise SessionError(f"gains has shape {gains.shape}; it must be finite numbers of shape {shape}.")
         latest = self._latest
         if latest is not None and latest.at_frame == at_frame:
             # Of several gains for one frame only the newest count.

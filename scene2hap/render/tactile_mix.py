@@ -47,18 +47,12 @@ class Gains:
     heard: Sequence[int]
 
     @classmethod
-    def of(cls, values: Block, loops: Sequence[int], heard: Sequence[int] | None = None) -> Gains | None:
-        """Return a checked copy of gains, None if they are not finite. The check runs on the thread that sets them.
-
-        Parameters: heard : the mixed loops; None for all with a gain above 0.
-        """
+    def of(cls, values: Block, loops: Sequence[int], heard: Sequence[int]) -> Gains | None:
+        """Return a checked copy of gains, None if they are not finite. The check runs on the thread that sets them."""
         own = np.array(values, dtype=np.float32, order="C")
         # A square may be infinite although its root is finite.
         if not math.isfinite(np.vdot(own, own)) and not np.isfinite(own).all():
             return None
-        if heard is None:
-            is_heard: list[bool] = np.any(own, axis=(0, 2)).tolist()
-            heard = [loop for loop, lets_through in zip(loops, is_heard, strict=True) if lets_through]
         return cls(own, loops, heard)
 
 

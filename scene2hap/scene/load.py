@@ -15,12 +15,12 @@ from scene2hap.counted import counted
 from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
-from scene2hap.scene.empty_names import named_after_file
 from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
-from scene2hap.scene.grouping import Grouping, group_objects, unique_ids
+from scene2hap.scene.grouping.empty_names import named_after_file
+from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
+from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.looks.textures import TextureWarning
-from scene2hap.scene.object_maker import ObjectMaker
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import UnitWarning, warn_if_implausible
 from scene2hap.scene.scene_warning import warn_of
@@ -53,7 +53,7 @@ def load_scene(
     up_axis : "y" or "z"; None means the file's own axis, else "y". Nothing is rotated; it only declares which axis is
         up.
     unit_m : metres per unit of the file; None means the file's own unit, else 1.
-    group : the rule by which nodes become objects; see `scene2hap.scene.grouping`. In a MuJoCo model, bodies are
+    group : the rule by which nodes become objects; see `scene2hap.scene.grouping.groups`. In a MuJoCo model, bodies are
         objects.
     assets_root : the folder from which files beside the scene are read, with its subfolders; None means the scene's own
         folder. Nothing outside it is opened. If textures are in a sibling folder of the scene's, give the folder that

@@ -10,7 +10,7 @@ and the share of the power through each contact.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from scene2hap.counted import first_of
 from scene2hap.html_tables import html_table
-from scene2hap.propagation.exponential_plate import PathCosts
-from scene2hap.propagation.paths.traced_paths import PathsToPoint, Point, Way
+from scene2hap.propagation.exponential_plate import ExponentialPlate, PathCosts
+from scene2hap.propagation.live import PricedField
+from scene2hap.propagation.paths.traced_paths import Leg, PathsToPoint, Point
 from scene2hap.propagation.protocol import Carrier, CarryingField
-from scene2hap.session.audibility import NOWHERE
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
 from scene2hap.session.impacts.felt_impacts import Impact
@@ -161,6 +161,7 @@ class Explainer:
 
     Parameters: field : the field in use, which `gains` evaluates; levels : of each source at the hand, by band
     (n_bands,) [-].
+    The costs of the paths are the law's own, so its field gives the gains along a path without another search.
     """
 
     def __init__(
@@ -173,7 +174,9 @@ class Explainer:
         levels: Mapping[str, NDArray[np.float64]],
     ) -> None:
         self._state, self._sources, self._model, self._gains, self._levels = state, sources, model, gains, levels
-        self._field = field if isinstance(field, CarryingField) else None
+        self._column = {source_id: column for column, source_id in enumerate(sources.ids)}
+        self._carrying = field if isinstance(field, CarryingField) else None
+        self._law = field if isinstance(field, PricedField) and isinstance(model, ExponentialPlate) else None
         self._paths: dict[tuple[str, Point], PathsToPoint] = {}
 
     def explain(
@@ -182,9 +185,13 @@ class Explainer:
         """Explain the gains of a hand in a frame with these touches."""
         felt = []
         if touches and hand in frame.hands:
+            at_touches = self._gains.of([[touch] for touch in touches])
             for source_id, given in zip(frame.sources, frame.gains[frame.hands.index(hand)], strict=True):
-                if given.any() and source_id in self._sources:
-                    felt.append(self._felt(source_id, int(given.argmax()), touches))
+                if given.any() and source_id in self._column:
+                    band = int(given.argmax())
+                    each = at_touches[:, self._column[source_id], band]
+                    loudest = int(each.argmax())
+                    felt.append(self._felt(source_id, band, touches[loudest], float(each[loudest])))
         felt.sort(key=lambda item: -(item.gain_db + item.level_db))
         on = tuple(touch.object_id for touch in touches)
         reasons = () if felt or not touches else tuple(self._reasons(set(on), is_paused=is_paused))
@@ -216,27 +223,33 @@ class Explainer:
                 named = first_of([*map(repr, several)], MOST_NAMED)
                 yield f"Connected, but {why}: {named}; call set_source(id, {remedy})."
 
-    def _felt(self, source_id: str, band: int, touches: Sequence[Touch]) -> FeltSource:
-        column = self._sources.ids.index(source_id)
-        limits = [math.inf if other == column else NOWHERE for other in range(len(self._sources.ids))]
-
-        def gain_at(object_id: str, point_m: Point) -> float:
-            return float(self._gains.of([[Touch("", object_id, point_m)]], limits)[0, column, band])
-
-        touch = max(touches, key=lambda touch: gain_at(touch.object_id, touch.point_m))
-        on, point_m = touch.object_id, touch.point_m
-        gain_db, level_db = decibels(gain_at(on, point_m)), decibels(float(self._levels[source_id][band]))
+    def _felt(self, source_id: str, band: int, touch: Touch, gain: float) -> FeltSource:
+        """Return the report of a source whose gain is highest at a touch."""
+        on = touch.object_id
+        gain_db, level_db = decibels(gain), decibels(float(self._levels[source_id][band]))
         steps: tuple[PathStep, ...] = ()
         carriers: tuple[Carrier, ...] = ()
-        if self._field is not None and on != source_id:
-            carriers = self._field.carriers(on, source_id, band)
+        if self._carrying is not None and on != source_id:
+            carriers = self._carrying.carriers(on, source_id, band)
         else:
-            way = self._paths_to(on, point_m).way(source_id)
-            steps = _steps(way, point_m, gain_at) if way is not None else ()
+            legs = self._paths_to(on, touch.point_m).legs(source_id)
+            steps = () if legs is None else _steps(source_id, legs, self._gains_along(legs, source_id, band))
         source = self._sources[source_id]
         felt = source.rows[source.state].loop.felt
         over_db = None if felt is None else felt.level_db + gain_db + level_db
         return FeltSource(source_id, source.state, on, gain_db, level_db, band, steps, carriers, over_db)
+
+    def _gains_along(self, legs: Sequence[Leg], source_id: str, band: int) -> list[float]:
+        """Return the gain of a source at the end of each leg."""
+        column = self._column[source_id]
+        if not legs:
+            return []
+        if self._law is not None:
+            gains = self._gains.capped(self._gains.at(self._law, [[leg.cost] for leg in legs], [column]))[:, 0]
+        else:
+            gains = self._gains.of([[Touch("", leg.object_id, leg.leave_m)] for leg in legs])[:, column]
+        along: list[float] = gains[:, band].tolist()
+        return along
 
     def _paths_to(self, on: str, point_m: Point) -> PathsToPoint:
         """Return the paths to a touched point; hands touch few, so that each is searched from once."""
@@ -266,17 +279,15 @@ def decibels(gain: float) -> float:
     return 20 * math.log10(gain) if gain > 0 else -math.inf
 
 
-def _steps(way: Way, point_m: Point, gain_at: Callable[[str, Point], float]) -> tuple[PathStep, ...]:
-    """Steps of a path. A step runs through its object up to the next contact; the loss of a contact belongs to the
-    object behind it."""
-    steps, before_db = [PathStep(way.objects[0], 0.0, 0.0)], 0.0
-    leaves = (*way.entries_m, point_m)[1:]
-    for object_id, enter, leave in zip(way.objects[1:], way.entries_m, leaves, strict=True):
-        after_db = decibels(gain_at(object_id, leave))
+def _steps(source_id: str, legs: Sequence[Leg], gains: Sequence[float]) -> tuple[PathStep, ...]:
+    """Steps of a path, from the gain at the end of each leg. The loss of a contact belongs to the object behind it."""
+    steps, before_db = [PathStep(source_id, 0.0, 0.0)], 0.0
+    for leg, gain in zip(legs, gains, strict=True):
+        after_db = decibels(gain)
         change_db = after_db - before_db if math.isfinite(before_db) else 0.0
-        steps.append(PathStep(object_id, math.dist(enter, leave), change_db))
+        steps.append(PathStep(leg.object_id, math.dist(leg.enter_m, leg.leave_m), change_db))
         before_db = after_db
-        first = [step.object_id for step in steps].index(object_id)
+        first = [step.object_id for step in steps].index(leg.object_id)
         steps[first:] = [_as_one(steps[first:])]
     return tuple(steps)
 

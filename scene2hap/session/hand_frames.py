@@ -154,7 +154,7 @@ class HandFrames:
         felt = (touch for touches in self._felt.values() for touch in touches)
         touches = [touch for touch in felt if touch.hand == hand and touch.object_id in self._state.objects]
         levels = self._levels_at(hand)
-        gains = self._touch_gains(self.keeper.method(self._sources.ids, self._reach), Counts())
+        gains = self._touch_gains(self.keeper.unnoted(self._sources.ids, self._reach, len(touches)), Counts())
         explainer = Explainer(self._state, self._sources, self._config.propagation, self.keeper.field, gains, levels)
         return explainer.explain(hand, touches, self._frame, is_current=self.keeper.is_current, is_paused=is_paused)
 

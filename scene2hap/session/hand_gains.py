@@ -102,6 +102,10 @@ class TouchGains:
             for touch in touches:
                 if touch.object_id in self._own:
                     gains[i, self._own[touch.object_id]] = 1.0
+        return self.capped(gains)
+
+    def capped(self, gains: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Cap gains (n, n_columns, n_bands) in place, and return them."""
         if self.may_be_capped:
             self._warn_of_invalid(gains)
             n_capped = cap(gains, self._limit)

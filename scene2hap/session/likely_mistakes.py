@@ -20,9 +20,9 @@ from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.counted import counted
 from scene2hap.haptics import ActuatorProfile, ObjectHaptics
-from scene2hap.scene.contact_normals import are_reversed
 from scene2hap.scene.geometry import bounds_of, distances
 from scene2hap.scene.objects import Contact
+from scene2hap.scene.plausibility.contact_normals import are_reversed
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot

@@ -6,10 +6,10 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from scene2hap.engines.adapter import EngineAdapter
-from scene2hap.scene.contact_normals import are_reversed
 from scene2hap.scene.engines.motion import moved
 from scene2hap.scene.geometry import bounds_of, distances
 from scene2hap.scene.objects import Contact
+from scene2hap.scene.plausibility.contact_normals import are_reversed
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.frame import Touch

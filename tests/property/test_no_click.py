@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.signal import firwin, oaconvolve
 
 from edge_scenes import EDGE_SCENES, on_top_of
+from mixed_rows import set_gains
 from scene2hap import AudioClip, Bands, HapticSession, Pose, Touch
 from scene2hap.render.loop_bank import LoopBank
 from scene2hap.render.mixer import Mixer
@@ -42,7 +43,7 @@ def test_switching_a_tone_causes_no_click(frequency_hz: float, update_hz: int) -
         on, off = RATE // 2 + shift, RATE + 5 * shift
         # The game sets its gain in every update, not only when it changes.
         for frame in range(shift, 3 * RATE // 2, RATE // update_hz):
-            mixer.set_gains(np.full((1, 1), float(on <= frame < off), dtype=np.float32), frame)
+            set_gains(mixer, np.full((1, 1), float(on <= frame < off), dtype=np.float32), frame)
         x = mixer.render(3 * RATE // 2 + RATE // 4)[:, 0]
         for jump in (on, off):
             assert high_db(x, jump, 0.5**2 / 2) <= -60
@@ -54,7 +55,7 @@ def test_stepwise_gain_changes_cause_no_whine(update_hz: int) -> None:
     mixer = mixer_of(250, max(1 / update_hz, 0.010))
     for frame in range(0, RATE, RATE // update_hz):
         gain = math.exp(-3 * frame / RATE) * (1.1 + math.sin(2 * np.pi * 3 * frame / RATE)) / 2.1
-        mixer.set_gains(np.full((1, 1), gain, dtype=np.float32), frame)
+        set_gains(mixer, np.full((1, 1), gain, dtype=np.float32), frame)
     x = mixer.render(RATE)[:, 0]
     power = float(np.mean(x[RATE // 4 :] ** 2))
     assert high_db(x, RATE // 2, power) <= -60
@@ -96,7 +97,7 @@ def test_lifting_a_phone_a_thousand_times_causes_no_click() -> None:
     parts = []
     for _ in range(1000):
         for gains in frames:
-            mixer.set_gains(gains.reshape(2, -1), mixer.position)
+            set_gains(mixer, gains.reshape(2, -1), mixer.position)
             parts.append(mixer.render(int(rng.integers(480, 1500)))[:, 0])
     x = np.concatenate(parts).astype(np.float64)
     high = oaconvolve(x, ABOVE_1_KHZ, mode="same")

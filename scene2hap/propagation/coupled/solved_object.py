@@ -136,7 +136,7 @@ class SolvedObject:
         at, weights = sampling.of_source(column, band)
         forces = self.own_forces[None, :, mine[0]] if sampling.is_single else self.own_forces[at, :, mine[0]]
         frequencies, points_m = sampling.frequencies_hz[at], self.ends.points_m
-        moved = np.einsum("fpc,fc->fp", self.body.receptance(points_m, points_m, frequencies), forces)
+        moved = contracted(self.body, points_m, frequencies, forces.T.copy())(points_m).view(np.complex128).T
         weights = frequencies * weights
         passed = weights @ (forces.conj() * moved)
         others, number = np.unique(self.others, return_inverse=True)

@@ -26,13 +26,23 @@ _TOUCH = "\0touch"
 
 
 class Way(NamedTuple):
-    """Objects from a source to a touch, and the entry point of each object after the source [m].
+    """Objects from a source to a touch, and of each object after the source the entry point [m] and the cost up to it.
 
     A way may return to an object, as over a bar of steel on a rug.
     """
 
     objects: tuple[str, ...]
-    entries_m: tuple[Point, ...] = ()
+    entries_m: tuple[Point, ...]
+    costs: tuple[float, ...]
+
+
+class Leg(NamedTuple):
+    """One object on a way after the source: where the way enters and leaves it [m], and the cost up to leaving it."""
+
+    object_id: str
+    enter_m: Point
+    leave_m: Point
+    cost: float
 
 
 class TracedPaths:
@@ -94,10 +104,15 @@ class TracedPaths:
 
     def way(self, source_id: str, side: int) -> Way:
         """Return the cheapest way from a source to the object that it enters over a side."""
-        sides = [one for one, _ in self._back(source_id, side)][::-1]
+        sides, n_before = np.array([*self._back(source_id, side)][::-1]).T
         owner, _, points_m, _ = self._sides
-        entries_m = tuple((x, y, z) for x, y, z in points_m[np.array(sides) // 2].tolist())
-        return Way((source_id, *(owner[one] for one in sides)), entries_m)
+        entries_m = tuple((x, y, z) for x, y, z in points_m[sides // 2].tolist())
+        row = self._rows[source_id]
+        if self._is_limited:
+            costs = [self._by_hops[n][row, one] for one, n in zip(sides, n_before, strict=True)]
+        else:
+            costs = self._costs[row, sides].tolist()
+        return Way((source_id, *(owner[one] for one in sides)), entries_m, tuple(map(float, costs)))
 
     def objects(self, source_id: str, sides: Iterable[int]) -> list[tuple[str, ...]]:
         """Return the objects from a source to each of some sides, without those between an object and a return to it.
@@ -164,9 +179,14 @@ class PathsToPoint:
         self._traced = TracedPaths(price_per_m, [*contacts, touch], [*crossing_cost, 0.0], (_TOUCH,), hops)
         self._object_id = object_id
 
-    def way(self, source_id: str) -> Way | None:
-        """Return the cheapest way from a source to the point, None without one."""
+    def legs(self, source_id: str) -> tuple[Leg, ...] | None:
+        """Return the cheapest way from a source to the point, object by object after the source; None without one."""
         if source_id == self._object_id:
-            return Way((source_id,))
+            return ()
         found = self._traced.way_to(_TOUCH, source_id)
-        return None if found is None else Way(found.objects[:0:-1], found.entries_m[:0:-1])
+        if found is None:
+            return None
+        _, *objects, _ = found.objects
+        *costs, whole = found.costs
+        rows = zip(objects, found.entries_m[1:], found.entries_m[:-1], costs, strict=True)
+        return tuple(Leg(object_id, enter, leave, whole - cost) for object_id, enter, leave, cost in rows)[::-1]

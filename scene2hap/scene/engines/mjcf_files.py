@@ -19,7 +19,7 @@ from typing import NamedTuple
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
 from scene2hap.scene.files import usable_name
-from scene2hap.scene.xml_files import walk_xml
+from scene2hap.scene.formats.xml_files import walk_xml
 
 MAX_XML_BYTES = 1 << 26
 """Largest size of one XML file [bytes] (assumed: a hundred times a large robot)."""

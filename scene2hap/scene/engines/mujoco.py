@@ -9,7 +9,7 @@
    to 5, which MuJoCo's viewer hides. `geom_groups` overrides these rules, also that for markers.
 4. An object's id is the name of the body (or world geom), which is unique in MuJoCo. Without a name, the id is made of
    the parent's id and the body's number there: `cabinet/body2`, `world/geom1`. The object's name is the body's name, or
-   by rule (c) of `scene2hap.scene.grouping` the name of a wrapper: a parent without geoms whose only child is this
+   by rule (c) of `scene.grouping.groups` the name of a wrapper: a parent without geoms whose only child is this
    body, without a joint between them (`microwave` over `microroot`). If this name says nothing (`object`, or none), the
    object has the words that the names of all its geoms, or their meshes, begin with (`milk_mesh`; `club` of
    `club_handle` and `club_head`). An upright plane of the world is a `floor`. An unnamed body without any of these is
@@ -42,8 +42,8 @@ from scene2hap.scene.empty_names import says_nothing
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
-from scene2hap.scene.grouping import Group, group_objects, unique_ids
-from scene2hap.scene.object_maker import ObjectMaker
+from scene2hap.scene.grouping.groups import Group, group_objects, unique_ids
+from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.objects import Contact, with_relative_heights
 from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose_table import PoseTable

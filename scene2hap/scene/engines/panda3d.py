@@ -1,6 +1,6 @@
 """Panda3D scene graphs as snapshots.
 
-Objects are found by the rule of the file loaders (`scene2hap.scene.grouping`), since a scene graph keeps the structure
+Objects are found by the rule of the file loaders (`scene.grouping.groups`), since a scene graph keeps the structure
 of its artists' files. The pose of an object is that of the innermost node that contains all its triangles, even if
 another node names it. Instances are separate objects that share a mesh. Hidden and stashed nodes, lines and points are
 left out. Only the finest level of detail is read. Animated characters keep the pose in which they were modelled.
@@ -21,12 +21,12 @@ from scene2hap.errors import SceneError
 from scene2hap.scene import limits
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.panda3d_geoms import GeomReader
-from scene2hap.scene.grouping import Group, Grouping, group_objects, unique_ids
-from scene2hap.scene.object_maker import ObjectMaker
+from scene2hap.scene.grouping.groups import Group, Grouping, group_objects, unique_ids
+from scene2hap.scene.grouping.object_maker import ObjectMaker
+from scene2hap.scene.grouping.rigid_meshes import rigid_part
 from scene2hap.scene.objects import UpAxis, with_relative_heights
 from scene2hap.scene.plausibility.units import metres_per_unit, warn_if_implausible
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.rigid_meshes import rigid_part
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.scene.tree import AuthoredNode, Matrix
 

@@ -27,11 +27,11 @@ from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.scene import limits, solids
 from scene2hap.scene.files import read_bytes
 from scene2hap.scene.formats.urdf_files import UrdfFiles
+from scene2hap.scene.formats.xml_files import walk_xml
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, transform, with_own_keys
-from scene2hap.scene.xml_files import walk_xml
 
 MAX_XML_BYTES = 1 << 24
 """Largest size of a URDF file [bytes] (assumed: a hundred times a large robot)."""

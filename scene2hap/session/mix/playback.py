@@ -91,7 +91,7 @@ class MixerInstance:
         return self.mixer.render(n_frames)
 
     def _send(self, gains: NDArray[np.float32], slots: list[int], at_frame: int) -> None:
-        self.mixer.set_loops(gains, slots, at_frame - self._begin)
+        self.mixer.set_gains(gains, slots, at_frame - self._begin)
         self._gains, self._slots, self._last_request = gains, slots, None
 
 

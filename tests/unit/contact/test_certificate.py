@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from contact_scenes import box, boxes, floor, on_floor, scene
-from scene2hap.contact import certificates, finder
+from scene2hap.contact import certificate_issuer, finder
 from scene2hap.contact.body import Body
 from scene2hap.contact.certificate import Extent, separated
 from scene2hap.contact.graph import ContactGraph
@@ -304,13 +304,13 @@ def test_no_certificate_relies_on_a_body_that_moves(looked_at: Looked, monkeypat
     Once the vehicle stands still, a cup that is pushed gets one soon.
     """
     issued: list[str] = []
-    keep = certificates.Certificate
+    keep = certificate_issuer.Certificate
 
     def watched(extent: Extent, *given: Any) -> Any:
         issued.append(extent.body.id)
         return keep(extent, *given)
 
-    monkeypatch.setattr(certificates, "Certificate", watched)
+    monkeypatch.setattr(certificate_issuer, "Certificate", watched)
     shelf = boxes(
         "shelf",
         *[((0.6, 0.02, 0.3), (0.0, height, 0.0)) for height in (0.01, 0.4, 0.79)],

@@ -9,7 +9,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from scene2hap.propagation.paths.traced_paths import PathsToPoint, TracedPaths, Way
+from scene2hap.propagation.paths.traced_paths import Leg, PathsToPoint, TracedPaths
 from scene2hap.scene.objects import Contact
 
 Point = tuple[float, float, float]
@@ -49,17 +49,20 @@ def _expected_cost(
     return float(nx.shortest_path_length(graph, "start", "end", weight="weight"))
 
 
-def _cost(way: Way, prices: dict[str, float], contacts: list[Contact], crossing: list[float], point_m: Point) -> float:
-    """The cost of a way from its objects and entry points, each of which must be a contact of the two objects."""
-    cost = 0.0
-    for k, entry in enumerate(way.entries_m):
-        pair = tuple(sorted(way.objects[k : k + 2]))
+def _costs(
+    source: str, legs: tuple[Leg, ...], prices: dict[str, float], contacts: list[Contact], crossing: list[float]
+) -> list[float]:
+    """The cost up to the end of each leg, from the objects and points; each entry must be a contact of two objects."""
+    cost, costs, behind = 0.0, [], source
+    for leg in legs:
+        pair = tuple(sorted((behind, leg.object_id)))
         cost += min(
-            c for one, c in zip(contacts, crossing, strict=True) if (one.a, one.b, one.point_m) == (*pair, entry)
+            c for one, c in zip(contacts, crossing, strict=True) if (one.a, one.b, one.point_m) == (*pair, leg.enter_m)
         )
-        leave = way.entries_m[k + 1] if k + 1 < len(way.entries_m) else point_m
-        cost += prices[way.objects[k + 1]] * math.dist(entry, leave)
-    return cost
+        cost += prices[leg.object_id] * math.dist(leg.enter_m, leg.leave_m)
+        costs.append(cost)
+        behind = leg.object_id
+    return costs
 
 
 @pytest.mark.parametrize("seed", range(30))
@@ -76,14 +79,20 @@ def test_a_way_costs_what_the_shortest_path_costs(seed: int) -> None:
             for side, at in zip(sides, points_m.tolist(), strict=True):
                 point_m = (at[0], at[1], at[2])
                 expected = _expected_cost(prices, contacts, crossing, source, on, point_m)
-                back = PathsToPoint(prices, contacts, crossing, None, on, point_m).way(source)
+                back = PathsToPoint(prices, contacts, crossing, None, on, point_m).legs(source)
                 if math.isinf(expected):
                     assert (side, back) == (-1, None)
                     continue
-                for way in (traced.way(source, side), back):
-                    assert way is not None
-                    assert (way.objects[0], way.objects[-1]) == (source, on)
-                    assert _cost(way, prices, contacts, crossing, point_m) == pytest.approx(expected, rel=1e-9)
+                assert back
+                way = traced.way(source, side)
+                assert (way.objects[0], way.objects[-1]) == (source, on)
+                there = tuple(map(Leg, way.objects[1:], way.entries_m, (*way.entries_m[1:], point_m), way.costs))
+                for legs in (there, back):
+                    assert _costs(source, legs, prices, contacts, crossing)[-1] == pytest.approx(expected, rel=1e-9)
+                within = [prices[leg.object_id] * math.dist(leg.enter_m, leg.leave_m) for leg in there]
+                up_to = np.subtract(_costs(source, there, prices, contacts, crossing), within).tolist()
+                assert way.costs == pytest.approx(up_to, abs=1e-12)
+                assert [leg.cost for leg in back] == pytest.approx(_costs(source, back, prices, contacts, crossing))
 
 
 def test_a_way_crosses_no_more_contacts_than_allowed() -> None:
@@ -101,8 +110,9 @@ def test_a_way_crosses_no_more_contacts_than_allowed() -> None:
         traced = TracedPaths(prices, contacts, [0.0] * 5, ("phone",), max_hops)
         side = int(traced.entered("t3", np.array([[3.0, 0.0, 0.0]]))[0, 0])
         by_hops[max_hops] = traced.way("phone", side).objects if side >= 0 else ()
-        back = PathsToPoint(prices, contacts, [0.0] * 5, max_hops, "t3", (3.0, 0.0, 0.0)).way("phone")
-        assert (() if back is None else back.objects) == by_hops[max_hops]
+        back = PathsToPoint(prices, contacts, [0.0] * 5, max_hops, "t3", (3.0, 0.0, 0.0)).legs("phone")
+        assert tuple(leg.object_id for leg in back or ()) == by_hops[max_hops][1:]
+        assert [leg.cost for leg in back or ()] == pytest.approx([1.0, 2.0, 3.0] if back else [])
     assert by_hops == {None: ("phone", "t1", "t2", "t3"), 3: ("phone", "t1", "t2", "t3"), 2: ()}
 
 
@@ -115,7 +125,7 @@ def test_of_equal_paths_the_one_with_fewer_contacts_is_taken() -> None:
     ]
     traced = TracedPaths({"tray": 0.0, "table": 1.0}, contacts, [0.0] * 3, ("phone",), None)
     side = int(traced.entered("table", np.array([[1.0, 0.0, 0.0]]))[0, 0])
-    assert traced.way("phone", side) == Way(("phone", "table"), ((0.0, 0.0, 0.0),))
+    assert traced.way("phone", side) == (("phone", "table"), ((0.0, 0.0, 0.0),), (0.0,))
 
 
 @pytest.mark.parametrize("max_hops", [None, 3])
@@ -138,8 +148,8 @@ def test_objects_of_a_path_are_those_of_its_way_without_detours(max_hops: int | 
 def test_no_contact_and_no_source_give_no_path() -> None:
     traced = TracedPaths({"table": 1.0}, [], [], ("phone",), None)
     assert traced.entered("table", np.zeros((2, 3))).tolist() == [[-1, -1]]
-    assert PathsToPoint({"table": 1.0}, [], [], None, "table", (0.0, 0.0, 0.0)).way("phone") is None
-    assert PathsToPoint({"table": 1.0}, [], [], None, "table", (0.0, 0.0, 0.0)).way("table") == Way(("table",))
+    assert PathsToPoint({"table": 1.0}, [], [], None, "table", (0.0, 0.0, 0.0)).legs("phone") is None
+    assert PathsToPoint({"table": 1.0}, [], [], None, "table", (0.0, 0.0, 0.0)).legs("table") == ()
     assert TracedPaths({"table": 1.0}, [], [], (), None).entered("table", np.zeros((2, 3))).shape == (0, 2)
 
 
@@ -147,9 +157,9 @@ def test_a_row_of_objects_may_be_longer_than_pythons_stack() -> None:
     n = 1500
     contacts = [Contact(f"o{i:04d}", f"o{i + 1:04d}", (float(i), 0.0, 0.0)) for i in range(n)]
     prices = {f"o{i:04d}": 0.0 for i in range(n + 1)}
-    way = PathsToPoint(prices, contacts, [0.1] * n, None, f"o{n:04d}", (float(n), 0.0, 0.0)).way("o0000")
-    assert way is not None
-    assert way.objects == tuple(prices)
+    legs = PathsToPoint(prices, contacts, [0.1] * n, None, f"o{n:04d}", (float(n), 0.0, 0.0)).legs("o0000")
+    assert legs is not None
+    assert ["o0000", *(leg.object_id for leg in legs)] == list(prices)
 
 
 def test_memory_does_not_grow_with_sources_times_contacts_squared() -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
 from loop_reading import read_loop
+from mixed_rows import set_gains
 from scene2hap import AudioClip, Bands
 from scene2hap.errors import ConfigError, SessionError
 from scene2hap.render.loop_bank import LoopBank
@@ -66,7 +67,7 @@ def test_equals_the_slow_mixer_for_any_blocks(
     n_frames = 6000
     mixer = new_mixer(rate)
     for start, gains in stamped(changes):
-        mixer.set_gains(gains, start)
+        set_gains(mixer, gains, start)
     out = play(mixer, blocks, n_frames)
     loops = [clip.samples.astype(np.float64) for clip in (tone(*item) for item in TONES)]
     expected = slow_mix(loops, stamped(changes), n_frames, 2, ramp=RAMP, rate_in_hz=TACTILE, rate_out_hz=rate)
@@ -82,7 +83,7 @@ def test_mixer_output_is_bit_identical_for_any_block_size(
     whole, cut = new_mixer(rate), new_mixer(rate)
     for mixer in (whole, cut):
         for start, gains in stamped(changes):
-            mixer.set_gains(gains, start)
+            set_gains(mixer, gains, start)
     np.testing.assert_array_equal(play(cut, blocks, 6000), whole.render(6000))
 
 
@@ -92,12 +93,12 @@ def test_gains_that_arrive_just_in_time_give_the_same_bits(block: int) -> None:
     changes = [(int(at), rng.uniform(0, 1, (2, len(TONES))).astype(np.float32)) for at in range(5, 9000, 731)]
     early, late = new_mixer(), new_mixer()
     for at, gains in changes:
-        early.set_gains(gains, at)
+        set_gains(early, gains, at)
     parts = []
     while late.position < 9000:
         for at, gains in changes:
             if late.position <= at < late.position + block:
-                late.set_gains(gains, at)
+                set_gains(late, gains, at)
         parts.append(late.render(block))
     np.testing.assert_array_equal(np.concatenate(parts)[:9000], early.render(9000))
 
@@ -111,7 +112,7 @@ def test_true_bands_at_a_kilohertz_of_updates() -> None:
     changes = [(frame, rng.uniform(0, 1, (2, 40)).astype(np.float32)) for frame in range(0, 4800, 48)]
     mixer = Mixer(stored, 2, sample_rate_hz=48000, ramp_s=RAMP_S)
     for frame, gains in changes:
-        mixer.set_gains(gains, frame)
+        set_gains(mixer, gains, frame, bands.n_bands)
     expected = slow_mix(
         [row.astype(np.float64) for row in rows], changes, 4800, 2, ramp=RAMP, rate_in_hz=TACTILE, rate_out_hz=48000
     )
@@ -125,7 +126,7 @@ def test_skipped_silent_loops_are_counted_and_change_nothing_felt() -> None:
         for frame, loop in ((0, 0), (3000, 1), (3100, 0), (9000, 4)):
             gains = np.zeros((2, len(TONES)), dtype=np.float32)
             gains[0, loop] = 0.5
-            mixer.set_gains(gains, frame)
+            set_gains(mixer, gains, frame)
         return mixer
 
     skipping, full = run(True), run(False)
@@ -141,9 +142,9 @@ def test_silence_before_the_first_gain_and_after_the_last() -> None:
     mixer = new_mixer()
     assert not mixer.render(5000).any()
     assert mixer.stats.rows_mixed == 0
-    mixer.set_gains(np.ones((2, len(TONES)), dtype=np.float32), 0)
+    set_gains(mixer, np.ones((2, len(TONES)), dtype=np.float32), 0)
     assert mixer.render(5000).any()
-    mixer.set_gains(np.zeros((2, len(TONES)), dtype=np.float32), 0)
+    set_gains(mixer, np.zeros((2, len(TONES)), dtype=np.float32), 0)
     mixer.render(1000)
     assert not mixer.render(5000).any()
 
@@ -153,7 +154,7 @@ def test_a_change_begins_with_the_next_tactile_sample(rate: int) -> None:
     constant = LoopBank([AudioClip(np.full(100, 0.5, dtype=np.float32), TACTILE)], Bands.dominant(), TACTILE)
     for frame in (96, 97, 100, 101):
         mixer = Mixer(constant, 1, sample_rate_hz=rate, ramp_s=1 / TACTILE)
-        mixer.set_gains(np.ones((1, 1), dtype=np.float32), frame)
+        set_gains(mixer, np.ones((1, 1), dtype=np.float32), frame)
         first = int(np.flatnonzero(mixer.render(400)[:, 0])[0])
         tick = -(-frame * TACTILE // rate)
         assert frame <= first < frame + 2 * rate / TACTILE
@@ -165,7 +166,7 @@ def test_measured_delay_equals_the_stated_delay(rate: int) -> None:
     mixer = new_mixer(rate, 1)
     gains = np.zeros((1, len(TONES)), dtype=np.float32)
     gains[0, 0] = 1.0
-    mixer.set_gains(gains, 0)
+    set_gains(mixer, gains, 0)
     out = mixer.render(rate)[rate // 2 :, 0]
     t = np.arange(rate // 2, rate) / rate
     phase = np.angle(np.sum(out * np.exp(-2j * np.pi * 100 * t)) * 1j)
@@ -176,7 +177,7 @@ def test_measured_delay_equals_the_stated_delay(rate: int) -> None:
 def test_a_late_change_starts_with_the_next_frame() -> None:
     mixer = new_mixer(8000, 1)
     mixer.render(500)
-    mixer.set_gains(np.full((1, len(TONES)), 0.5, dtype=np.float32), 100)
+    set_gains(mixer, np.full((1, len(TONES)), 0.5, dtype=np.float32), 100)
     out = mixer.render(200)[:, 0]
     assert np.abs(np.diff(out)).max() < 0.3
     assert np.abs(out[:3]).max() < 0.01
@@ -187,9 +188,9 @@ def test_changes_that_come_too_fast_are_merged_and_the_last_one_counts() -> None
     mixer, direct = new_mixer(8000), new_mixer(8000)
     last = np.full((2, len(TONES)), 0.2, dtype=np.float32)
     for at in range(400):
-        mixer.set_gains(np.full((2, len(TONES)), 0.4 * (at % 2), dtype=np.float32), at)
-    mixer.set_gains(last, 400)
-    direct.set_gains(last, 400)
+        set_gains(mixer, np.full((2, len(TONES)), 0.4 * (at % 2), dtype=np.float32), at)
+    set_gains(mixer, last, 400)
+    set_gains(direct, last, 400)
     mixer.render(1000)
     direct.render(1000)
     assert mixer.stats.changes_merged > 200
@@ -199,13 +200,13 @@ def test_changes_that_come_too_fast_are_merged_and_the_last_one_counts() -> None
 def test_loud_mixes_stay_within_full_scale_at_every_rate() -> None:
     for rate in RATES:
         mixer = new_mixer(rate)
-        mixer.set_gains(np.full((2, len(TONES)), 1e6, dtype=np.float32), 0)
+        set_gains(mixer, np.full((2, len(TONES)), 1e6, dtype=np.float32), 0)
         out = mixer.render(10000)
         assert np.isfinite(out).all()
         assert np.abs(out).max() <= 1.0
         tone = np.zeros((2, len(TONES)), dtype=np.float32)
         tone[:, 0] = 7.0
-        mixer.set_gains(tone, 10000)
+        set_gains(mixer, tone, 10000)
         mixer.render(5 * rate)
         assert np.abs(mixer.render(rate)).max() == pytest.approx(10 ** (-3 / 20), rel=0.02)
 
@@ -218,7 +219,7 @@ def test_loud_tones_keep_their_shape() -> None:
     mixer = new_mixer(48000, 1)
     loud = np.zeros((1, len(TONES)), dtype=np.float32)
     loud[0, [0, 1, 3]] = 1.7  # 100, 250 and 125 Hz of 0.3 each
-    mixer.set_gains(loud, 0)
+    set_gains(mixer, loud, 0)
     mixer.render(48000)
     spectrum = np.abs(np.fft.rfft(mixer.render(4 * 48000)[:, 0]))
     own = [4 * f for f in (100, 250, 125)]
@@ -233,7 +234,7 @@ def test_a_mix_that_becomes_loud_makes_no_click() -> None:
     mixer = new_mixer(48000, 1)
     loud = np.zeros((1, len(TONES)), dtype=np.float32)
     loud[0, 0] = 1.0 / 0.3
-    mixer.set_gains(loud, 0)
+    set_gains(mixer, loud, 0)
     y = mixer.render(24000)[:, 0] * np.minimum(1.0, np.arange(24000)[::-1] / 2400)
     assert np.abs(y).max() > 10 ** (-3 / 20)
     above = sosfiltfilt(butter(6, 1400.0, "high", fs=48000, output="sos"), y)
@@ -244,19 +245,20 @@ def test_a_quiet_mix_after_a_loud_one_comes_back_slowly() -> None:
     mixer, quiet = new_mixer(8000, 1), new_mixer(8000, 1)
     gains = np.zeros((2, 1, len(TONES)), dtype=np.float32)
     gains[:, 0, 0] = 7.0, 1.0
-    quiet.set_gains(gains[1], 0)
+    set_gains(quiet, gains[1], 0)
     quiet.render(8000)
-    mixer.set_gains(gains[0], 0)
+    set_gains(mixer, gains[0], 0)
     mixer.render(8000)
-    mixer.set_gains(gains[1], 8000)
+    set_gains(mixer, gains[1], 8000)
     seconds = [np.abs(mixer.render(8000)).max() for _ in range(5)]
     assert np.diff(seconds[1:]).min() > 0  # the first second includes the ramp down
     assert seconds[4] == pytest.approx(np.abs(quiet.render(8000)).max(), rel=0.02)
 
 
 def test_mixer_without_loops_renders_silence() -> None:
-    empty = Mixer(LoopBank([], Bands.third_octaves(), TACTILE), 2, sample_rate_hz=48000, ramp_s=RAMP_S)
-    empty.set_gains(np.zeros((2, 0), dtype=np.float32), 0)
+    bands = Bands.third_octaves()
+    empty = Mixer(LoopBank([], bands, TACTILE), 2, sample_rate_hz=48000, ramp_s=RAMP_S)
+    empty.set_gains(np.zeros((2, 0, bands.n_bands), dtype=np.float32), [], 0)
     assert empty.render(1000).shape == (1000, 2)
     assert not empty.render(0).size
 
@@ -272,7 +274,7 @@ def test_render_into_a_buffer_of_the_caller() -> None:
     mixer, other = new_mixer(), new_mixer()
     gains = np.ones((2, len(TONES)), dtype=np.float32)
     for each in (mixer, other):
-        each.set_gains(gains, 0)
+        set_gains(each, gains, 0)
     wide = np.zeros((300, 4), dtype=np.float32)
     mixer.render_into(wide[:, 1:3])
     np.testing.assert_array_equal(wide[:, 1:3], other.render(300))
@@ -281,8 +283,8 @@ def test_render_into_a_buffer_of_the_caller() -> None:
 
 def test_gains_are_copied_when_they_are_set() -> None:
     mixer = new_mixer()
-    gains = np.ones((2, len(TONES)), dtype=np.float32)
-    mixer.set_gains(gains, 0)
+    gains = np.ones((2, len(TONES), 1), dtype=np.float32)
+    mixer.set_gains(gains, range(len(TONES)), 0)
     gains[:] = np.nan
     assert np.isfinite(mixer.render(1000)).all()
 
@@ -291,8 +293,8 @@ def test_repeated_gains_for_one_frame_replace_each_other() -> None:
     mixer, direct = new_mixer(), new_mixer()
     gains = [np.full((2, len(TONES)), 0.01 * (i % 50), dtype=np.float32) for i in range(1000)]
     for some in gains:
-        mixer.set_gains(some, 100)
-    direct.set_gains(gains[-1], 100)
+        set_gains(mixer, some, 100)
+    set_gains(direct, gains[-1], 100)
     np.testing.assert_array_equal(mixer.render(2000), direct.render(2000))
     assert mixer.stats.changes_merged == 0
 
@@ -303,23 +305,23 @@ def test_some_loops_are_set_and_all_others_fall_silent() -> None:
         gains = np.random.default_rng(len(some)).uniform(0.1, 0.5, (2, len(some), 1)).astype(np.float32)
         whole = np.zeros((2, len(TONES)), dtype=np.float32)
         whole[:, some] = gains[:, :, 0]
-        mixer.set_loops(gains, some, mixer.position)
-        direct.set_gains(whole, direct.position)
+        mixer.set_gains(gains, some, mixer.position)
+        set_gains(direct, whole, direct.position)
         np.testing.assert_allclose(mixer.render(300), direct.render(300), atol=1e-6)
     with pytest.raises(SessionError, match=r"shape \(2, 2, 1\); it must be finite numbers of shape \(2, 1, 1\)"):
-        mixer.set_loops(np.zeros((2, 2, 1), dtype=np.float32), [1], mixer.position)
+        mixer.set_gains(np.zeros((2, 2, 1), dtype=np.float32), [1], mixer.position)
 
 
 def test_gains_whose_square_overflows_are_played() -> None:
     mixer = new_mixer()
-    mixer.set_gains(np.full((2, len(TONES)), 1e30, dtype=np.float32), 0)
+    set_gains(mixer, np.full((2, len(TONES)), 1e30, dtype=np.float32), 0)
     assert np.isfinite(mixer.render(1000)).all()
 
 
-@pytest.mark.parametrize("bad", [np.zeros((1, len(TONES))), np.full((2, len(TONES)), np.nan)])
+@pytest.mark.parametrize("bad", [np.zeros((1, len(TONES), 1)), np.full((2, len(TONES), 1), np.nan)])
 def test_gains_that_cannot_be_played_are_refused_where_they_are_set(bad: NDArray[np.float64]) -> None:
-    with pytest.raises(SessionError, match=r"must be finite numbers of shape \(2, 5\)"):
-        new_mixer().set_gains(bad.astype(np.float32), 0)
+    with pytest.raises(SessionError, match=r"must be finite numbers of shape \(2, 5, 1\)"):
+        new_mixer().set_gains(bad.astype(np.float32), range(len(TONES)), 0)
 
 
 def test_invalid_rates_are_refused() -> None:
@@ -338,7 +340,7 @@ def test_rendering_allocates_little_and_keeps_nothing() -> None:
     def run(n_blocks: int) -> int:
         worst = 0
         for block in range(n_blocks):
-            mixer.set_gains(gains[block % 8], mixer.position)
+            set_gains(mixer, gains[block % 8], mixer.position)
             tracemalloc.reset_peak()
             before = tracemalloc.get_traced_memory()[0]
             mixer.render_into(out)
@@ -368,7 +370,7 @@ def test_setting_gains_while_rendering() -> None:
     def game() -> None:
         nonlocal n_set
         while not done.is_set():
-            mixer.set_gains(np.full((1, len(TONES)), 0.1 * (n_set % 10), dtype=np.float32), mixer.position)
+            set_gains(mixer, np.full((1, len(TONES)), 0.1 * (n_set % 10), dtype=np.float32), mixer.position)
             n_set += 1
             done.wait(0.0002)
 

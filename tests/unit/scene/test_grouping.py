@@ -10,8 +10,8 @@ import pytest
 
 from gltf_builder import CUBE, CUBE_FACES
 from scene2hap.errors import SceneError
-from scene2hap.scene.group_split import has_own_noun
-from scene2hap.scene.grouping import Group, group_objects, unique_ids
+from scene2hap.scene.grouping.groups import Group, group_objects, unique_ids
+from scene2hap.scene.grouping.split import has_own_noun
 from scene2hap.scene.tree import AuthoredNode, Piece
 
 

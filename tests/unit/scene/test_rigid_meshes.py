@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 
 from gltf_builder import CUBE, CUBE_FACES
 from scene2hap.errors import SceneError
-from scene2hap.scene.grouping import Group
+from scene2hap.scene.grouping.groups import Group
+from scene2hap.scene.grouping.rigid_meshes import MeshPool, rigid_part
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
-from scene2hap.scene.rigid_meshes import MeshPool, rigid_part
 from scene2hap.scene.tree import Matrix, Piece
 
 PIECE = Piece("cube", CUBE, CUBE_FACES.astype(np.int32), "oak")

@@ -11,12 +11,13 @@ import pytest
 
 from scene2hap import load_scene
 from scene2hap.errors import SceneError
-from scene2hap.scene import group_split, limits
+from scene2hap.scene import limits
 from scene2hap.scene.engines import mjcf_files, mujoco_geoms
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.formats import mtl, stl_ply
 from scene2hap.scene.formats.stl_ply import read_stl_ply
-from scene2hap.scene.group_split import Member, split
+from scene2hap.scene.geometry import distances
+from scene2hap.scene.grouping.split import Member, split
 from scene2hap.scene.shapes import Box, TriMesh
 from scene2hap.scene.surface import dominant_surface as dominant_surface_module, surfaces
 from scene2hap.scene.surface.cuboid import cuboid_bounds_m
@@ -131,8 +132,7 @@ def member(name: str, x: float) -> Member:
 
 def test_items_of_a_group_are_compared_by_table(monkeypatch: pytest.MonkeyPatch) -> None:
     calls = []
-    distances = group_split.distances
-    monkeypatch.setattr(group_split, "distances", lambda *given: calls.append(1) or distances(*given))
+    monkeypatch.setattr("scene2hap.scene.grouping.split.distances", lambda *given: calls.append(1) or distances(*given))
     members = [member("tea_cup", 0.0), member("tea_lid", 0.1), *(member("tea_spoon", 9.0 + i) for i in range(20))]
     found = split("tea", members)
     assert [len(item) for item in found] == [2, *[1] * 20]

@@ -5,7 +5,7 @@ import warnings
 import pytest
 
 from scene2hap import Box, Contact, HapticBundle, HapticSession, Pose, SceneObject, SceneSnapshot, SceneWarning, bake
-from scene2hap.scene.contact_normals import are_reversed
+from scene2hap.scene.plausibility.contact_normals import are_reversed
 
 DOWN, UP = (0.0, -1.0, 0.0), (0.0, 1.0, 0.0)
 ON_TABLE, UNDER_PHONE = (0.3, 0.72, 0.1), (0.26, 0.72, -0.1)

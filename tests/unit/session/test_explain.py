@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+from typing import Any
 
 import pytest
 
@@ -10,6 +11,7 @@ from scene2hap import Contact, HapticBundle, HapticSession, SceneSnapshot, Touch
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.errors import SessionError
 from scene2hap.propagation import MODELS
+from scene2hap.propagation.paths.live_law import LivePaths
 from scene2hap.session.explain import PathStep
 from scenes import RATE, box, haptics, scene, table_with_two_phones, tone_loop
 
@@ -76,6 +78,30 @@ def test_explanation_is_available_as_text_and_data() -> None:
     data = json.loads(json.dumps(told.to_data()))
     assert data["felt"][0]["steps"][1]["object_id"] == "shelf"
     assert data["text"] == told.text
+
+
+def test_searches_do_not_grow_with_the_length_of_paths(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A row of blocks with a source at each end: the path's own costs give the gain at every contact on it."""
+    n = 12
+    snapshot = scene(*(box(f"b{i}", (0.1, 0.05, 0.1), (0.1 * i, 0.0, 0.0)) for i in range(n)))
+    inferred = {f"b{i}": haptics("steel", (0.1, 0.1, 0.05), *["humming"] * (i % (n - 1) == 0)) for i in range(n)}
+    loops = {x: {"humming": tone_loop(60)} for x, one in inferred.items() if one.states}
+    s = HapticSession(snapshot, HapticBundle(snapshot, "row", inferred, loops), {"sample_rate_hz": RATE})
+    assert (s.update(touches=[Touch("left", "b5", (0.5, 0.025, 0.0))]).gains[0] > 0).all()
+    searches = []
+    least_costs = LivePaths.least_costs
+
+    def counted(paths: LivePaths, *given: Any) -> list[float]:
+        searches.append(given)
+        return least_costs(paths, *given)
+
+    monkeypatch.setattr(LivePaths, "least_costs", counted)
+    near, far = s.explain("left").felt
+    assert len(searches) == 1
+    assert [len(one.steps) for one in (near, far)] == [6, 7]
+    for one in (near, far):
+        each = [fall_db("steel", 0.05, 60, step.length_m) for step in one.steps]
+        assert [step.change_db for step in one.steps] == pytest.approx(each, abs=1e-6)
 
 
 def test_loss_of_a_weak_contact_is_added_to_the_path_behind_it() -> None:

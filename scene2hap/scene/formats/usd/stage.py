@@ -6,7 +6,7 @@ instancers share their pieces.
 
 Three kinds of prims are one object with all prims below: a rigid body (`PhysicsRigidBodyAPI`) without another rigid
 body below it; a model of kind "component" with at most one rigid body below it, unless it holds the whole scene; each
-copy of a point instancer. Other prims become objects by the rules of `scene2hap.scene.grouping`.
+copy of a point instancer. Other prims become objects by the rules of `scene.grouping.groups`.
 
 Source: OpenUSD 26.11, schemas Xformable, Imageable, PointInstancer, RigidBodyAPI; `UsdGeomGetStageMetersPerUnit`.
 """

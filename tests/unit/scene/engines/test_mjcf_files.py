@@ -12,10 +12,10 @@ from others import SCENES, needed, there
 from rooms.furniture import COUNTER_BOUNDS_M, IDS, write_furniture
 from scene2hap import load_scene
 from scene2hap.errors import SceneError, SceneFormatError
-from scene2hap.scene import xml_files
 from scene2hap.scene.engines import mjcf_files
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco import load_mjcf, open_mjcf, snapshot
+from scene2hap.scene.formats import xml_files
 
 pytest.importorskip("mujoco", reason="needs the extra mujoco")
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
-from scene2hap.scene.grouping import Group
+from scene2hap.scene.grouping.groups import Group
 from scene2hap.scene.looks.appearance import Appearance, joined
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh

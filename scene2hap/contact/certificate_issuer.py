@@ -1,4 +1,4 @@
-"""The certificates of all bodies: issue them, shrink them where other bodies come near, and end invalid ones."""
+"""Issues the certificates of all bodies, shrinks them where other bodies come near, and ends invalid ones."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _MOST_REFUSALS = 5
 """After n refusals a body waits for 2^(n-1) - 1 moves before the next attempt; n grows to this."""
 
 
-class Certificates:
-    """Certificates by body id, in `of`.
+class CertificateIssuer:
+    """Issues certificates and ends them; those in force are in `of`, by body id.
 
     Parameters: bodies, unsupported : all bodies, and the ids of those without full support; read here, changed by the
     caller. of : the mapping in which certificates are stored.

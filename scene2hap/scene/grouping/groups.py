@@ -13,7 +13,7 @@ c. A node without a mesh that contains only one object, directly or through othe
    give to their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never used,
    and names that say nothing (`pivot`, `entity`) only in the place of another such name.
 d. Every other node without a mesh is a container; its children are grouped one by one.
-e. An object by (a) or (b) is split if it is a collection of separate items (`scene.group_split`): a pot, two cups and
+e. An object by (a) or (b) is split if it is a collection of separate items (`grouping.split`): a pot, two cups and
    their saucers, but not a table with its legs.
 f. A node that the file itself declares an object (`AuthoredNode.is_object`) is one object with all nodes below it.
 """
@@ -30,8 +30,8 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene.empty_names import says_nothing
-from scene2hap.scene.group_split import Member, split, stand_apart
+from scene2hap.scene.grouping.empty_names import says_nothing
+from scene2hap.scene.grouping.split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
 Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]

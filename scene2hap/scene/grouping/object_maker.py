@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
-from scene2hap.scene.grouping import Group
+from scene2hap.scene.grouping.groups import Group
+from scene2hap.scene.grouping.rigid_meshes import MeshPool
 from scene2hap.scene.objects import VERTICAL, SceneObject, UpAxis
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.rigid_meshes import MeshPool
 
 
 class ObjectMaker:
