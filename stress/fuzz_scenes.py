@@ -35,7 +35,7 @@ from scene2hap import load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.errors import Scene2HapError
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 from habitat_builder import mutated_dataset
 
 HABITAT = ".scene_instance.json"
