@@ -2,8 +2,8 @@
 
 python benchmarks/figures.py accuracy      (needs scikit-fem and matplotlib)
 
-The reference is a Kirchhoff plate of Argyris triangles (tests/plate_fe.py), solved directly at every frequency. Its
-error is shown as the difference from a coarser mesh. Times are processor times.
+The reference is a Kirchhoff plate of Argyris triangles (tests/support/plate_fe.py), solved directly at every frequency.
+Its error is shown as the difference from a coarser mesh. Times are processor times.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from plate_fe import fe_receptance
 from scene2hap import ExponentialPlate, InfinitePlate, MassSpringDamper, ModalPlate, Plate, materials, plate_modes

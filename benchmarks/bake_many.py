@@ -29,7 +29,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from others import SCENES
 from scene2hap import ManyReport, Pose, SceneSnapshot, bake_many, load_scene

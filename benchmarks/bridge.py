@@ -26,7 +26,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from bridge_client import Client
 from scene2hap import Box, HapticSession, Pose, SceneObject, SceneSnapshot, Touch, bake

@@ -4,10 +4,10 @@ python benchmarks/figures.py coupled      (needs scikit-fem)
 
 Cases: two plates coupled at 3 or 4 points, a tray on its feet, a small stiff plate near a corner, a table on legs that
 are masses between springs, a board that stands upright on its edge, and all together, with a source of 0.1-2 kg.
-Reference: plates in bending by Argyris triangles (tests/plate_fe.py), the upright board in plane stress by quadratic
-triangles, rigid bodies as masses, and all joints as springs with loss, solved directly at every frequency. The
-stiffness of contacts is input; tests of `contact_stiffness` compare it with Hertz. Errors are those of levels [dB] at
-12 points.
+Reference: plates in bending by Argyris triangles (tests/support/plate_fe.py), the upright board in plane stress by
+quadratic triangles, rigid bodies as masses, and all joints as springs with loss, solved directly at every frequency.
+The stiffness of contacts is input; tests of `contact_stiffness` compare it with Hertz. Errors are those of levels [dB]
+at 12 points.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from scipy.sparse import block_diag, csc_matrix, csr_matrix, hstack
 from scipy.sparse.linalg import splu
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from plate_fe import finite_elements
 from scene2hap import (

@@ -5,9 +5,9 @@ python benchmarks/outlines.py [--order]
 
 Plates: discs with and without a hole, an ellipse, a hexagon, a T, a U, Ls, a top with a cut-out for a sink, and
 straight and slanted slots as thin as 5 mm, of oak, glass and steel, at 20-400 Hz. Reference: Argyris triangles
-(tests/plate_fe.py), smaller around corners that point inwards. Errors are those of levels [dB] at 12 points, the driven
-point included. Times are processor times with empty caches, the least of five; `ModalPlate` solves the rectangle of
-equal area. `--order` prints how natural frequencies converge with the resolution instead.
+(tests/support/plate_fe.py), smaller around corners that point inwards. Errors are those of levels [dB] at 12 points,
+the driven point included. Times are processor times with empty caches, the least of five; `ModalPlate` solves the
+rectangle of equal area. `--order` prints how natural frequencies converge with the resolution instead.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from plate_fe import fe_receptance_within, outline_mesh, refined_at
 from scene2hap import ModalPlate, Outline, Plate, materials

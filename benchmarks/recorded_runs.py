@@ -2,9 +2,9 @@
 
 python benchmarks/recorded_runs.py [--draws 300] [--seed 0]
 
-Machines are drawn by `tests/starting_machines.py`: start or stop of 0.5 to 8 s, four shapes, 60 to 300 Hz, one to six
-harmonics, machine hiss 30 to 6 dB below, room noise 40 to 20 dB below. In half of the machines the pitch moves. Level
-and speed are compared while the machine is within 20 dB of steady running.
+Machines are drawn by `tests/support/starting_machines.py`: start or stop of 0.5 to 8 s, four shapes, 60 to 300 Hz, one
+to six harmonics, machine hiss 30 to 6 dB below, room noise 40 to 20 dB below. In half of the machines the pitch moves.
+Level and speed are compared while the machine is within 20 dB of steady running.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from scene2hap.audio.recorded_runs import recorded_runs
 from sound_draws import recordings

@@ -5,10 +5,11 @@ python stress/audio.py [frequency] [loops] [chopped] [choice] [--seed 0] [--draw
 frequency : 1,000 tones of 15 to 500 Hz with a second partial at -6 dB, 2.5 s, noise in 20-1000 Hz at 10 dB below;
     for recorded hums, the strongest third octave of a bank of Butterworth filters confirms the octave.
 loops : 300 clips, a quarter each of recordings, noises, tones and beats, through every converter in turn; the wrap of
-    the loop is compared with percentiles of 200 places inside the clip (`tests/seam_judge.py`).
+    the loop is compared with percentiles of 200 places inside the clip (`tests/support/seam_judge.py`).
 chopped : a test of that comparison: 1,500 tones and 1,500 noises, each cut once at random; 1 to 8 tones in a hundred
     are continuous at the cut by chance.
-choice : 200 draws of a recorded hum among the other recordings and eight synthesized decoys (`tests/sound_draws.py`).
+choice : 200 draws of a recorded hum among the other recordings and eight synthesized decoys
+    (`tests/support/sound_draws.py`).
 Recordings are read from ../shared/audio beside the repository. Without them, their part is skipped with a message.
 """
 
@@ -25,7 +26,7 @@ from pathlib import Path
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from scene2hap.audio import analysis
 from scene2hap.audio.anchor import anchor_of

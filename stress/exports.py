@@ -2,9 +2,10 @@
 
 python stress/exports.py [--draws 2000] [--seed 0]
 
-Each draw is a random track in one format with random settings. The checker (`tests/haptic_file_checker.py`) names every
-rule that a file breaks. `.haptic` and AHAP files are also read back. The clip, played by the published rule, may differ
-from the signal by no more than the export reported, and writing the clip again must give the same file.
+Each draw is a random track in one format with random settings. The checker (`tests/support/haptic_file_checker.py`)
+names every rule that a file breaks. `.haptic` and AHAP files are also read back. The clip, played by the published
+rule, may differ from the signal by no more than the export reported, and writing the clip again must give the same
+file.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from export_draws import CHECKED, problems, random_exporter, random_track
 from scene2hap.clips.ahap import compose_ahap, read_ahap

@@ -14,7 +14,7 @@ from __future__ import annotations
 import argparse
 import collections
 import json
-import multiprocessing
+import multiprocessing.connection
 import platform
 import random
 import re
@@ -29,13 +29,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import trimesh
+from restarted_child import Child
 from usd_seeds import usd_files
 
 from scene2hap import load_scene
 from scene2hap.demo import kitchen_path
 from scene2hap.errors import Scene2HapError
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 from habitat_builder import mutated_dataset
 
 HABITAT = ".scene_instance.json"
@@ -177,36 +178,6 @@ def reader(inbox: multiprocessing.connection.Connection, seconds: float, megabyt
         inbox.send((outcome, time.perf_counter() - begin, peak_mb))
 
 
-class Child:
-    """Reader process that is started again when it dies."""
-
-    def __init__(self, seconds: float, megabytes: int) -> None:
-        self._limits = (seconds, megabytes)
-        self._start()
-
-    def _start(self) -> None:
-        context = multiprocessing.get_context("spawn")
-        self._pipe, theirs = context.Pipe()
-        self._process = context.Process(target=reader, args=(theirs, *self._limits), daemon=True)
-        self._process.start()
-        theirs.close()
-
-    def read(self, path: Path) -> tuple[str, float, float]:
-        self._pipe.send(path)
-        try:
-            outcome: tuple[str, float, float] = self._pipe.recv()
-        except EOFError:
-            self._process.join()
-            code = self._process.exitcode
-            self._start()
-            return f"CRASH exit status {code}", 0.0, 0.0
-        return outcome
-
-    def stop(self) -> None:
-        self._pipe.send(None)
-        self._process.join()
-
-
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--files", type=int, default=2000)
@@ -221,7 +192,7 @@ def main() -> int:
     bad: list[str] = []
     slowest, peak = (0.0, ""), 0.0
     originals = {kind: data for kind, data in {**seeds(), HABITAT: b""}.items() if kind in (arguments.kinds or [kind])}
-    child = Child(arguments.seconds, arguments.megabytes)
+    child = Child(reader, arguments.seconds, arguments.megabytes)
     with tempfile.TemporaryDirectory() as folder:
         # The mesh that the URDF names; an OBJ case overwrites it, valid or broken.
         (Path(folder) / "case.obj").write_bytes(seeds()[".obj"])
@@ -237,7 +208,8 @@ def main() -> int:
                     data = mutation(data, rng) or b"\0"
                 path = Path(folder) / f"case{suffix}"
                 path.write_bytes(data)
-            outcome, seconds, peak_mb = child.read(path)
+            replies, end = child.ask(path)
+            outcome, seconds, peak_mb = replies[0] if replies else (f"CRASH {end}", 0.0, 0.0)
             outcomes[suffix][outcome.split(":")[0]] += 1
             slowest, peak = max(slowest, (seconds, name)), max(peak, peak_mb)
             if outcome.split()[0] in ("HANG", "FOREIGN", "CRASH"):

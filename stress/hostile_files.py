@@ -19,7 +19,6 @@ import enum
 import gc
 import itertools
 import math
-import multiprocessing
 import os
 import platform
 import random
@@ -41,6 +40,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import numpy as np
 from hostile.damage import damage, odd_file
 from hostile.readers import KEY, READERS, Reader
+from restarted_child import Child
 
 from scene2hap.errors import Scene2HapError
 
@@ -165,45 +165,14 @@ def child(pipe: Any, folder: Path, seed: int, seconds: float, megabytes: int) ->
         pipe.send((outcome, fault, time.process_time() - begin, max(peaks) >> 10))
 
 
-class Child:
-    """A process that reads damaged inputs, and is started again when it dies or hangs."""
-
-    def __init__(self, folder: Path, seed: int, seconds: float, megabytes: int) -> None:
-        self._arguments, self._seconds = (folder, seed, seconds, megabytes), seconds
-        self._start()
-
-    def _start(self) -> None:
-        context = multiprocessing.get_context("fork")
-        self._pipe, theirs = context.Pipe()
-        self._process = context.Process(target=child, args=(theirs, *self._arguments), daemon=False)
-        self._process.start()
-        theirs.close()
-
-    def run(self, name: str, number: int) -> tuple[str, str, str, float, int]:
-        """Run one case. Returns damage, outcome, failure, processor time [s] and peak memory [MB] until then."""
-        self._pipe.send((name, number))
-        done = "?"
-        try:
-            done = self._pipe.recv()
-            if not self._pipe.poll(12 * self._seconds):
-                self._process.kill()
-                self._restart()
-                return done, "hang", f"no result after {12 * self._seconds:g} s", 12 * self._seconds, 0
-            return (done, *self._pipe.recv())
-        except EOFError:
-            self._process.join()
-            code = self._process.exitcode
-            self._restart()
-            return done, "crash", f"exit status {code}", 0.0, 0
-
-    def _restart(self) -> None:
-        self._process.join()
-        self._pipe.close()
-        self._start()
-
-    def stop(self) -> None:
-        self._pipe.send(None)
-        self._process.join()
+def run_case(process: Child, name: str, number: int) -> tuple[str, str, str, float, int]:
+    """Return damage, outcome, failure, processor time [s] and peak memory [MB] until then."""
+    replies, end = process.ask((name, number), n_replies=2)
+    done = replies[0] if replies else "?"
+    if end:
+        outcome, _, fault = end.partition(": ")
+        return done, outcome, fault, 0.0, 0
+    return (done, *replies[1])
 
 
 @dataclasses.dataclass
@@ -251,7 +220,8 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as work:
         names = write_inputs(Path(work), given.readers)
         rows = {name: Row() for name in names}
-        process = Child(Path(work), given.seed, given.seconds, given.megabytes)
+        limits = given.seconds, given.megabytes
+        process = Child(child, Path(work), given.seed, *limits, longest_s=12 * given.seconds)
         end = time.monotonic() + 60 * given.minutes
         numbers = itertools.count() if given.case is None else [given.case]
         for number, name in ((number, name) for number in numbers for name in names):
@@ -259,7 +229,7 @@ def main() -> int:
                 continue
             if given.case is None and time.monotonic() > end:
                 break
-            done, outcome, fault, seconds, megabytes = process.run(name, number)
+            done, outcome, fault, seconds, megabytes = run_case(process, name, number)
             rows[name].outcomes[outcome] += 1
             rows[name].slowest_s = max(rows[name].slowest_s, seconds)
             peak = max(peak, megabytes)

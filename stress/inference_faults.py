@@ -22,7 +22,7 @@ import tempfile
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from llm_campaign import BACKENDS, Outcome, run
 from llm_faults import FAULTS, NOT_OF_OLLAMA, Fault

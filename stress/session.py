@@ -8,7 +8,7 @@ The game runs at 1 kHz in simulated time, as fast as possible. At the end the co
     memory did not grow after the first fifth by more than the noise of the allocator;
     each loop is within one sample of the clock, by `position_s` and by the phase of a rendered tone.
 
-With --edges every scene of tests/edge_scenes.py is run instead, and loops are not checked.
+With --edges every scene of tests/support/edge_scenes.py is run instead, and loops are not checked.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from process_use import memory_mb
 

@@ -12,7 +12,7 @@ from tempfile import mkdtemp
 import pytest
 from hypothesis import settings
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parent / "support"))
 
 # The workers of pytest share the cores. Several BLAS threads in each worker, and in each process that tests start,
 # would wait busily for each other and take many times as long. numpy and scipy read these variables when imported.

@@ -171,8 +171,8 @@ def is_beep(own_hz: float, felt_hz: float) -> bool:
 
 
 def band_of(clip: AudioClip, anchor: Anchor) -> NDArray[np.float64]:
-    """Return the band (n_samples,) of a clip that the adaptive converter keeps around its anchor."""
-    x = clip.samples.astype(np.float64)
+    """Return the band that the adaptive converter keeps around a clip's anchor, shortened to `fast_length`."""
+    x = clip.samples[: fast_length(len(clip.samples))].astype(np.float64)
     spectrum = scipy.fft.rfft(x - x.mean())
     f = scipy.fft.rfftfreq(len(x), 1.0 / clip.sample_rate_hz)
     spectrum *= band_gain(f, anchor.frequency_hz, anchor.band_q or BAND_Q)

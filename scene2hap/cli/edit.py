@@ -41,7 +41,7 @@ from typing import Any
 from scene2hap.baking import BakeConfig, rebake
 from scene2hap.baking.sound import Remade
 from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable, save_stamp, write_bundle
-from scene2hap.cli.console import Console
+from scene2hap.cli.console import Console, Tell
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report
 from scene2hap.counted import counted
@@ -65,13 +65,21 @@ class Remaking:
 
     arguments: argparse.Namespace
     config: BakeConfig
+    tell: Tell
     remade: dict[str, dict[str, list[str]]] = field(default_factory=dict)
     report: InferenceReport | None = None
 
     def rebake(self, bundle: HapticBundle) -> HapticBundle:
         """Return the bundle after `scene2hap.rebake`. Raises: as it does."""
         prompt = getattr(self.arguments, "prompt", "")
-        return rebake(bundle, self.config, user_prompt=prompt, on_report=self._note, on_remade=self._note_loops)
+        return rebake(
+            bundle,
+            self.config,
+            user_prompt=prompt,
+            progress=self.tell,
+            on_report=self._note,
+            on_remade=self._note_loops,
+        )
 
     def _note(self, report: InferenceReport) -> None:
         self.report = report if is_remote(self.config.llm) and report.calls else None
@@ -164,16 +172,17 @@ def _edit(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
     config = BakeConfig.parse(settings | (loop_settings(arguments) if "actuator" in arguments else {}))
     while True:
         try:
-            return _edit_once(Remaking(arguments, config), console)
+            return _edit_once(arguments, config, console)
         except BundleChanged:
             continue  # Another process has edited the bundle in the meantime. Both edits must be kept.
 
 
-def _edit_once(remaking: Remaking, console: Console) -> dict[str, Any]:
-    arguments = remaking.arguments
+def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Console) -> dict[str, Any]:
     read = save_stamp(Path(arguments.bundle))
     before = HapticBundle.load(arguments.bundle)
-    after = arguments.change(before, remaking)
+    with console.progress() as tell:
+        remaking = Remaking(arguments, config, tell)
+        after = arguments.change(before, remaking)
     remade = remaking.remade
     if remaking.report is not None:
         show_report(console, remaking.report, remaking.config.prices)

@@ -3,7 +3,8 @@
 A device is a `Line`: five methods, about a page of code for a sound card, a serial port or a socket. `LiveSink` does
 the rest. A failure of the device is a state, not an exception. The thread reports a `SinkEvent` and continues to
 request the mix by the wall clock. It drops these samples, so that the session's clock, ramps and queues never stop. It
-tries again after 0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device is back.
+tries again after 0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device is back. It also fades in after a pause
+of the program in which the device ran out of samples.
 
     unavailable ─┬─► connected ─┬─► stalled ─► resumed        (the kinds of SinkEvent)
        ▲         │              └─► lost ─┐
@@ -13,6 +14,7 @@ tries again after 0.1 s, 0.2 s, ... 2 s, and fades in over 50 ms when the device
 from __future__ import annotations
 
 import atexit
+import math
 import threading
 import time
 from collections.abc import Callable, Hashable
@@ -29,7 +31,7 @@ from scene2hap.devices.rate import RateConverter
 from scene2hap.errors import ConfigError, DeviceError, DeviceTimeout
 
 FADE_S = 0.05
-"""Length of the fade-in after each connection [s]; a shorter one would be felt as a knock."""
+"""Length of the fade-in after each connection and silence [s]; a shorter one would be felt as a knock."""
 
 POLL_S = 0.005
 """Longest wait inside a line [s], and so the longest time for `stop`."""
@@ -61,8 +63,10 @@ return."""
 class Line(Protocol):
     """Connection to one device. All methods are called on the sink's thread and may raise DeviceError at any time.
 
-    Any thread may read `underruns` and `latency_s` (None if unknown) for `stats`. A line may have a `remark`: a
-    sentence on its present connection, which the message of the event "connected" includes.
+    Any thread may read `underruns` and `latency_s` (None if unknown) for `stats`. Two attributes are optional, and are
+    read after `connect`. `remark` is a sentence on the present connection, which the message of the event "connected"
+    includes. `silent_after_s` is the time without samples after which the device is silent [s]; samples after it fade
+    in. Without it the line fades in by itself.
     """
 
     @property
@@ -228,7 +232,8 @@ class LiveSink:
     def _play(self, format: SinkFormat, rate_hz: int) -> None:
         stream = _Stream(self._pull, format, rate_hz)
         self._filter_s = stream.latency_s
-        last = time.monotonic()
+        silent_after_s = getattr(self._line, "silent_after_s", math.inf)
+        sent = last = time.monotonic()
         waited_s = 0.0
         stalled = False
         while not self._stopping.is_set():
@@ -239,11 +244,16 @@ class LiveSink:
             waited_s += min(now - last, _FAIR_S)
             last = now
             if n_frames:
+                block = stream.take(n_frames)
+                # Decided last: the program may be stopped anywhere, also while it renders.
+                if stalled or time.monotonic() - sent > silent_after_s:
+                    stream = _Stream(self._pull, format, rate_hz)
+                    block = stream.take(n_frames)
                 if stalled:
                     stalled = False
-                    stream = _Stream(self._pull, format, rate_hz)
                     self._report_once("resumed", f"{self._name} takes samples again.")
-                self._line.send(stream.take(n_frames))
+                self._line.send(block)
+                sent = time.monotonic()
                 self._frames += n_frames
                 waited_s = 0.0
                 self._idle.restart(now)

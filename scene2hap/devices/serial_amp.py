@@ -26,6 +26,9 @@ PROBE_S = 0.05
 """Time without free space and without CREDIT after which an empty PCM frame is sent [s]. Its CREDIT reveals lost
 frames."""
 
+WATCHDOG_S = 0.05
+"""Time without samples after which a device mutes [s] (docs/serial-protocol.md)."""
+
 _BITS_PER_BYTE = 10
 _FRAME_OVERHEAD = 19
 
@@ -72,6 +75,7 @@ class SerialLine:
         self._block = checks.whole("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError)
         self.underruns = 0
         self.latency_s: float | None = None
+        self.silent_after_s = WATCHDOG_S
         self._port: SerialPort | None = None
         self._parser = FrameParser()
         self._in_flight: deque[tuple[int, int]] = deque()
@@ -97,6 +101,7 @@ class SerialLine:
         self._block_frames = self._largest_block(device, self._channels)
         wished = max(round(self._buffer_s * device.sample_rate_hz), 2 * self._block_frames)
         self._target_frames = min(wished, device.queue_frames)
+        self.silent_after_s = min(WATCHDOG_S, self._target_frames / device.sample_rate_hz)
         self._news_s = time.monotonic()
         return device.sample_rate_hz
 

@@ -39,44 +39,20 @@ add("answers", _answers, _inferred, names_file=False, opens_files=False)
 
 
 def _completion(folder: Path) -> Path:
-    from llm_server import GOOD
+    from llm_server import ollama_said, refused, said
 
-    message = {"role": "assistant", "content": json.dumps(GOOD["scene_analyzer"]), "refusal": None}
-    choice = {"index": 0, "message": message, "finish_reason": "stop"}
-    usage = {
-        "prompt_tokens": 10,
-        "completion_tokens": 5,
-        "total_tokens": 15,
-        "prompt_tokens_details": {"cached_tokens": 1},
-    }
-    body = {
-        "id": "c1",
-        "object": "chat.completion",
-        "created": 1,
-        "model": "gpt-4o",
-        "choices": [choice],
-        "usage": usage,
-    }
-    ollama = {
-        "model": "m",
-        "message": message,
-        "done": True,
-        "done_reason": "stop",
-        "eval_count": 3,
-        "prompt_eval_count": 5,
-    }
     models = {
         "object": "list",
         "data": [{"id": "m", "owned_by": "library", "architecture": {"input_modalities": ["image"]}}],
     }
-    fault = {"error": {"message": "no", "type": "invalid_request_error", "code": "x", "param": "temperature"}}
+    fault = refused(400, {"code": "x", "param": "temperature"}).body
     batch = {
         "id": "b1", "status": "completed", "input_file_id": "f", "output_file_id": "o",
         "errors": {"data": [fault["error"]]}, "request_counts": {"completed": 1, "failed": 0, "total": 1},
     }  # fmt: skip
     listed = {"object": "list", "data": [{**batch, "input_file_id": "g"}], "has_more": False}
-    for name, one in (("chat", body), ("ollama", ollama), ("models", models), ("fault", fault), ("batch", batch),
-                      ("batches", listed)):  # fmt: skip
+    replies = {"chat": said().body, "ollama": ollama_said().body, "models": models, "fault": fault, "batch": batch}
+    for name, one in {**replies, "batches": listed}.items():
         (folder / f"{name}.json").write_text(json.dumps(one))
     return folder
 
@@ -177,7 +153,7 @@ add("cache of answers", _cache, _from_cache, "*.json")
 
 
 def _batches(folder: Path) -> Path:
-    from llm_server import GOOD, request
+    from llm_server import GOOD, request, said
     from scene2hap.llm.batch.backend import BatchBackend
     from scene2hap.llm.batch.folder import BatchFolder
     from scene2hap.llm.wrappers.prices import price_list
@@ -193,9 +169,7 @@ def _batches(folder: Path) -> Path:
     (row,) = batches.rows()
     lines = []
     for key, name in zip(row.requests, ("scene_analyzer", "material_estimator"), strict=True):
-        message = {"role": "assistant", "content": json.dumps(GOOD[name])}
-        body = {"model": "gpt-4o", "choices": [{"message": message, "finish_reason": "stop"}],
-                "usage": {"prompt_tokens": 3, "completion_tokens": 2}}  # fmt: skip
+        body = said(GOOD[name]).body
         lines.append(json.dumps({"custom_id": key, "response": {"status_code": 200, "body": body}, "error": None}))
     fault = json.dumps({"custom_id": row.requests[0], "response": None, "error": {"code": "x", "message": "y"}})
     batches.keep(row, "\n".join(lines) + "\n", fault + "\n")

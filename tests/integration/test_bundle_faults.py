@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-TESTS = Path(__file__).parents[1]
+SUPPORT = Path(__file__).parents[1] / "support"
 NEVER = 7
 STRIDE = "5"  # every fifth of the similar steps that only write the draft; all of them take four minutes
 
@@ -28,8 +28,8 @@ def faults(kind: str, how: str) -> list[dict[str, Any]]:
 
 def _tried(work: Path, kind: str, how: str) -> list[dict[str, Any]]:
     run = subprocess.run(
-        [sys.executable, str(TESTS / "bundle_faults.py"), str(work), kind, how, STRIDE],
-        env={**os.environ, "PYTHONPATH": str(TESTS)},
+        [sys.executable, str(SUPPORT / "bundle_faults.py"), str(work), kind, how, STRIDE],
+        env={**os.environ, "PYTHONPATH": str(SUPPORT)},
         capture_output=True,
         text=True,
         check=True,

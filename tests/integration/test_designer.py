@@ -176,7 +176,7 @@ def test_every_setting_is_listed_with_its_meaning(capsys: pytest.CaptureFixture[
 
 
 def test_the_page_of_the_command_line_is_up_to_date() -> None:
-    assert PAGE.read_text(encoding="utf-8") == page(), "run: python tests/command_line_page.py"
+    assert PAGE.read_text(encoding="utf-8") == page(), "run: python tests/support/command_line_page.py"
 
 
 def test_help_names_the_documentation(capsys: pytest.CaptureFixture[str]) -> None:

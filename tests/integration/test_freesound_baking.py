@@ -15,7 +15,7 @@ from scene2hap.audio.sources.chain import SourceWarning
 from scene2hap.errors import AudioError
 from scenes import box, scene
 
-GENERATOR = Path(__file__).parents[1] / "fake_generator.py"
+GENERATOR = Path(__file__).parents[1] / "support" / "fake_generator.py"
 KITCHEN = scene(
     box("refrigerator", (0.6, 1.8, 0.6), (0.0, 0.9, 0.0)),
     box("kettle", (0.2, 0.25, 0.2), (2.0, 0.95, 0.0)),

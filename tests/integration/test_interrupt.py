@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -60,8 +61,11 @@ os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
 """
 
 
-def interrupted(*arguments: str, after_s: float = 0.2) -> tuple[int, str]:
-    """Start Python, interrupt it some time after its first line of output, and return its status and errors."""
+def interrupted(*arguments: str, after_s: float = 0.2, with_children: bool = False) -> tuple[int, str]:
+    """Start Python, interrupt it some time after its first line of output, and return its status and errors.
+
+    A terminal interrupts children as well.
+    """
     command = [sys.executable, "-c", IN_FOREGROUND, *arguments]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
@@ -70,7 +74,7 @@ def interrupted(*arguments: str, after_s: float = 0.2) -> tuple[int, str]:
             assert process.stdout is not None
             process.stdout.readline()
             time.sleep(after_s)
-            process.send_signal(signal.SIGINT)
+            (os.killpg if with_children else os.kill)(process.pid, signal.SIGINT)
             _, errors = process.communicate(timeout=30)
         finally:
             process.kill()
@@ -94,6 +98,29 @@ def test_a_command_ends_quietly_whenever_it_is_interrupted(after_s: float, tmp_p
     assert "Traceback" not in errors
     assert "ignored" not in errors
     assert not (tmp_path / "bundle").exists() or status == 0
+
+
+BAKE_IN_WORKERS = """import sys
+from scene2hap.baking.many.pool import Pool
+import scene2hap.__main__ as program
+run = Pool.run
+async def said(self, task, *arguments):
+    print("ready", flush=True)
+    return await run(self, task, *arguments)
+Pool.run = said
+sys.exit(program.main())
+"""
+
+
+def test_worker_processes_end_quietly_with_the_program(tmp_path: Path) -> None:
+    """Each worker printed a traceback, and bakes that had begun went on."""
+    scene = Path(__file__).parents[2] / "scene2hap" / "demo" / "kitchen.glb"
+    scenes = [shutil.copy(scene, tmp_path / f"kitchen_{number}.glb") for number in range(8)]
+    command = ["bake-many", *map(str, scenes), "-o", str(tmp_path / "out"), "--executor", "processes:2"]
+    status, errors = interrupted("-c", BAKE_IN_WORKERS, *command, after_s=3.0, with_children=True)
+    assert status in ENDS
+    assert errors in ("scene2hap: interrupted.\n", "scene2hap: error: interrupted; no file was left incomplete.\n")
+    assert not list(tmp_path.glob("out/kitchen_7.bundle"))
 
 
 IN_BACKGROUND = """import os, signal, sys

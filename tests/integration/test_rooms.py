@@ -1,4 +1,4 @@
-"""The rooms of `tests/rooms`: properties that are known by construction."""
+"""The rooms of `tests/support/rooms`: properties that are known by construction."""
 
 from __future__ import annotations
 

@@ -107,7 +107,7 @@ def program_that_plays(seconds: float, last_lines: str) -> str:
     """A program that plays a session on the card, and then runs the last lines."""
     return f"""
 import sys, time
-sys.path.insert(0, {str(Path(__file__).parents[1])!r})
+sys.path.insert(0, {str(Path(__file__).parents[1] / "support")!r})
 from scene2hap.devices.soundcard import SoundCardSink
 from sound_takes import TOUCHES, session_on
 sink = SoundCardSink({DEVICE!r})

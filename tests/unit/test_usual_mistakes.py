@@ -39,4 +39,4 @@ def test_the_code_of_the_page_runs(room: Room, block: str) -> None:
 def test_page_quotes_the_current_error_messages(tmp_path: Path) -> None:
     """Uses a new room, since files left by other mistakes would change the suggested names."""
     page = PAGE.read_text("utf-8")
-    assert page == with_table(page, page_table(Room(tmp_path))), "run: python tests/mistakes_room.py"
+    assert page == with_table(page, page_table(Room(tmp_path))), "run: python tests/support/mistakes_room.py"

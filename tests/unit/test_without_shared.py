@@ -11,5 +11,6 @@ import others
 def test_tests_skip_without_the_shared_folder(folder: str) -> None:
     assert set(others.LEFT_OUT) <= {"scenes", "audio"}
     if others.LEFT_OUT[folder]:
-        own = {"scenes": "the rooms of tests/rooms", "audio": "the sounds of tests/own_sounds.py"}[folder]
-        pytest.skip(f"{others.LEFT_OUT[folder]} further cases of tests that ran over {own} need ../shared/{folder}")
+        own = {"scenes": "rooms", "audio": "own_sounds.py"}[folder]
+        ran = f"{others.LEFT_OUT[folder]} further cases of tests that ran over tests/support/{own}"
+        pytest.skip(f"{ran} need ../shared/{folder}")

@@ -6,6 +6,7 @@ import asyncio
 import multiprocessing
 import os
 import pickle
+import signal
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor
 from types import TracebackType
@@ -74,8 +75,13 @@ class Pool:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         for pool in (self._own, self._alone):
-            if pool is not None:
-                pool.shutdown(wait=error is None, cancel_futures=True)
+            if pool is None:
+                continue
+            # Python would wait for running tasks at its exit. They have begun nothing that costs money.
+            workers = [] if error is None else list((pool._processes or {}).values())
+            pool.shutdown(wait=error is None, cancel_futures=True)
+            for worker in workers:
+                worker.terminate()
         for close in self._close:
             close()
 
@@ -119,8 +125,10 @@ class Pool:
         )
 
     def _begun(self, n_workers: int) -> ProcessPoolExecutor:
-        # Spawn, since fork would copy the threads and locks of this process.
-        return ProcessPoolExecutor(n_workers, mp_context=multiprocessing.get_context("spawn"))
+        # Spawn, since fork would copy the threads and locks of this process. A terminal sends Ctrl-C to workers, too,
+        # each of which would print a traceback; this process ends them.
+        context, ignored = multiprocessing.get_context("spawn"), (signal.SIGINT, signal.SIG_IGN)
+        return ProcessPoolExecutor(n_workers, mp_context=context, initializer=signal.signal, initargs=ignored)
 
     def _of_dask(self, address: str) -> Submits:
         try:

@@ -16,22 +16,19 @@ _ACTUATOR = {"left": 2, "right": 3}
 class DualSenseExport:
     """Write a WAV of four channels, 16 bits, 48 kHz, for the DualSense's sound card.
 
-    A track of one channel moves both actuators.
+    A track of one channel moves both actuators. If there is a left or right channel, others are left out; if there is
+    none, the first two are left and right.
     """
 
     def export(self, track: Track) -> Exported:
-        """Return one file with all channels. If there is a left or right channel, others are left out."""
-        at_rate = {name: one.at_rate(SAMPLE_RATE_HZ) for name, one in track.channels.items()}
-        hands = {name: samples for name, samples in at_rate.items() if name in _ACTUATOR}
-        if not hands:
-            only = next(iter(at_rate.values()))
-            hands = {"left": only, "right": only}
-        frames = np.zeros((max(map(len, hands.values())), _N_CHANNELS))
-        for name, samples in hands.items():
-            frames[: len(samples), _ACTUATOR[name]] = samples
-        played = {
-            name: one.resampled(SAMPLE_RATE_HZ)
-            for name, one in track.channels.items()
-            if name in hands or len(at_rate) == 1
-        }
+        """Return one file with all channels."""
+        places = {name: [_ACTUATOR[name]] for name in track.channels if name in _ACTUATOR}
+        if not places:
+            in_order = [[2], [3]] if len(track.channels) > 1 else [[2, 3]]
+            places = dict(zip(track.channels, in_order, strict=False))
+        at_rate = {name: track.channels[name].at_rate(SAMPLE_RATE_HZ) for name in places}
+        frames = np.zeros((max(map(len, at_rate.values())), _N_CHANNELS))
+        for name, samples in at_rate.items():
+            frames[: len(samples), places[name]] = samples[:, None]
+        played = {name: track.channels[name].resampled(SAMPLE_RATE_HZ) for name in places}
         return Exported({f"{track.name}.wav": encoded(frames, SAMPLE_RATE_HZ, "PCM_16")}, played)

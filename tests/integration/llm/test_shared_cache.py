@@ -31,7 +31,7 @@ def test_concurrent_runs_pay_for_each_answer_once(tmp_path: Path) -> None:
         time.sleep(0.05)
         return said({"scene_category": asked.prompt[:-1]})
 
-    tests = str(Path(__file__).parents[2])
+    tests = str(Path(__file__).parents[2] / "support")
     with openai_serving(by=slow) as server:
         command = [sys.executable, "-c", PROGRAM, f"{server.base_url}/v1", str(tmp_path / "cache"), tests, KEY]
         runs = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(RUNS)]

@@ -241,7 +241,7 @@ table_with_two_phones()[1].override("phone", gain_db=-7.0).save(sys.argv[1])
 
 def dying(folder: Path, where: str) -> subprocess.Popen[str]:
     """Start a process that begins to save to a folder and dies, on command or between the two renames."""
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2] / "support")}
     arguments = [sys.executable, "-c", DIES, str(folder), where]
     return subprocess.Popen(arguments, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 

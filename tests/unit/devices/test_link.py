@@ -1,5 +1,6 @@
 """The thread of a device sink, with a scripted line that fails on command."""
 
+import math
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -28,6 +29,7 @@ class ScriptedLine:
         self.error: Exception | None = None
         self.underruns = 0
         self.latency_s: float | None = 0.01
+        self.silent_after_s = math.inf
         self.taken: list[NDArray[np.float32]] = []
         self.connects = self.disconnects = 0
 
@@ -247,3 +249,42 @@ def test_sink_can_be_started_several_times(bench: Bench) -> None:
     bench.sink.close()
     with pytest.raises(DeviceError, match="not open"):
         bench.sink.start(bench.fill)
+
+
+def played_around_a_pause(bench: Bench, pause: Callable[[], None]) -> tuple[float, float]:
+    """The last sample before a pause and the first one after it, of a mix of 1."""
+    bench.start()
+    assert eventually(lambda: len(bench.line.taken) * 4 > 200)  # after the fade-in of 50 frames
+    pause()
+    n_before = len(bench.line.taken)
+    assert eventually(lambda: len(bench.line.taken) > n_before + 2)
+    bench.sink.close()
+    return float(bench.line.taken[n_before - 1][-1, 0]), float(bench.line.taken[n_before][0, 0])
+
+
+def test_samples_fade_in_after_a_pause_in_which_the_device_has_run_dry(bench: Bench) -> None:
+    """As when the program is stopped and continued: the pause may come while the sink renders."""
+    bench.line.silent_after_s = 0.1
+    halt, halted = threading.Event(), threading.Event()
+    plain_fill = bench.fill
+
+    def fill(n_frames: int) -> NDArray[np.float32]:
+        if halt.is_set():
+            halt.clear()
+            halted.set()
+            time.sleep(0.2)
+        return plain_fill(n_frames)
+
+    bench.fill = fill  # type: ignore[method-assign]
+    before, after = played_around_a_pause(bench, lambda: (halt.set(), halted.wait()))
+    assert before == 1.0
+    assert after < 0.01
+
+
+def test_a_line_that_fades_by_itself_gets_the_mix_as_it_is(bench: Bench) -> None:
+    def pause() -> None:
+        bench.line.wants = False
+        time.sleep(0.2)
+        bench.line.wants = True
+
+    assert played_around_a_pause(bench, pause) == (1.0, 1.0)

@@ -90,6 +90,14 @@ def test_steps_and_samples_of_a_tour_fit_their_formats(tour: Track) -> None:
         assert header["sample_count"] == 30_000
 
 
+def test_a_dualsense_plays_the_first_two_channels_of_hands_by_other_names(tour: Track) -> None:
+    left, right = tour.channels["left"], tour.channels["right"]
+    named = Track("tour", {"thumb": left, "finger": right})
+    whole = made("dualsense", named)
+    assert set(whole.played) == {"thumb", "finger"}
+    assert whole.files == made("dualsense", tour).files
+
+
 def test_a_dualsense_moves_its_third_and_fourth_channel(tour: Track) -> None:
     frames, rate = soundfile.read(io.BytesIO(made("dualsense", tour).files["tour.wav"]))
     assert rate == 48_000

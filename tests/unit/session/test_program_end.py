@@ -52,7 +52,7 @@ while time.monotonic() < end or sink.stats.frames < 12000:
 )
 def test_a_program_that_ends_while_it_plays_fades_out(last_line: str, status: int | None, tmp_path: Path) -> None:
     played = tmp_path / "played.npy"
-    tests = str(Path(__file__).parents[2])
+    tests = str(Path(__file__).parents[2] / "support")
     program = f"import sys; sys.path.insert(0, {tests!r})\n{PROGRAM}{last_line}"
     done = subprocess.run(
         [sys.executable, "-c", program, str(played)], capture_output=True, text=True, timeout=60, check=False

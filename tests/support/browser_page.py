@@ -19,7 +19,7 @@ from urllib.parse import urlencode
 
 from server_thread import running
 
-CLIENT = Path(__file__).parents[1] / "clients" / "browser"
+CLIENT = Path(__file__).parents[2] / "clients" / "browser"
 NEEDS_CHROMIUM = "needs chromium: apt-get install chromium, and pip install playwright"
 NEEDS_MODULES = "needs three.js and iwer: apt-get install npm, and run npm ci in clients/browser"
 TIMEOUT_MS = 20_000

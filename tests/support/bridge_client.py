@@ -21,7 +21,7 @@ from scene2hap.bridge.frames import Gains, decode_gains, encode_frame
 from scene2hap.session import Touch
 from scene2hap.testing.bridge_game import IDS, game_scene, positions_m, time_s, touches
 
-SCHEMA = Path(__file__).parents[1] / "docs" / "bridge.schema.json"
+SCHEMA = Path(__file__).parents[2] / "docs" / "bridge.schema.json"
 
 
 ANSWER = Draft202012Validator(

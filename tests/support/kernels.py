@@ -13,7 +13,7 @@ from hypothesis import settings, strategies as st
 
 from scene2hap.compiled import KERNELS
 
-PACKAGE = Path(__file__).parents[1] / "scene2hap"
+PACKAGE = Path(__file__).parents[2] / "scene2hap"
 for source in sorted(PACKAGE.rglob("_*.pyx")):
     module = ".".join(source.relative_to(PACKAGE.parent).with_suffix("").parts)
     import_module(module.replace("._", "."))

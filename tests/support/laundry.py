@@ -1,6 +1,6 @@
 """A laundry scene in plain glTF, for comparison with the same scene packed by other tools.
 
-    PYTHONPATH=tests python tests/laundry.py laundry.glb
+    PYTHONPATH=tests/support python tests/support/laundry.py laundry.glb
 
 writes the file; tests/data/meshopt/README.md says how the packed files were made from it.
 """

@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-_PAGE = Path(__file__).parents[1] / "docs" / "bridge-protocol.md"
+_PAGE = Path(__file__).parents[2] / "docs" / "bridge-protocol.md"
 
 
 def hex_of_page(before: str) -> str:

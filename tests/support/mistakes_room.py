@@ -201,7 +201,7 @@ shell('bake', 'kitchen.glb')
 """.strip().splitlines()
 """The code of the mistakes that docs/errors.md shows: common ones, each with another message."""
 
-BEGIN, END = "<!-- tests/mistakes_room.py writes what follows -->\n", "<!-- until here -->\n"
+BEGIN, END = "<!-- tests/support/mistakes_room.py writes what follows -->\n", "<!-- until here -->\n"
 
 
 def page_table(room: Room) -> str:
@@ -234,6 +234,6 @@ def _cell(text: str) -> str:
 
 
 if __name__ == "__main__":
-    page = Path(__file__).parents[1] / "docs" / "errors.md"
+    page = Path(__file__).parents[2] / "docs" / "errors.md"
     with tempfile.TemporaryDirectory() as folder:
         page.write_text(with_table(page.read_text("utf-8"), page_table(Room(Path(folder)))), "utf-8")

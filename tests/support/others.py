@@ -1,8 +1,8 @@
 """Files by others that this repository does not hold: scenes, recordings and tables in the folder `../shared`.
 
-A test that is true of any scene always runs over the rooms of `tests/rooms`, and over scenes by others where they are
-present. `there` leaves out the cases whose files are absent and counts them; `tests/unit/test_without_shared.py`
-reports the count. A test of one such file alone calls `needed`, which skips.
+A test that is true of any scene always runs over the rooms of `tests/support/rooms`, and over scenes by others where
+they are present. `there` leaves out the cases whose files are absent and counts them;
+`tests/unit/test_without_shared.py` reports the count. A test of one such file alone calls `needed`, which skips.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import TypeVar
 
 import pytest
 
-SHARED = Path(__file__).parents[2] / "shared"
+SHARED = Path(__file__).parents[3] / "shared"
 SCENES = SHARED / "scenes"
 RECORDINGS = SHARED / "audio"
 LEFT_OUT: Counter[str] = Counter()

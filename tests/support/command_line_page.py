@@ -1,4 +1,4 @@
-"""Write the documentation page of the command line from its parser: `python tests/command_line_page.py`."""
+"""Write the documentation page of the command line from its parser: `python tests/support/command_line_page.py`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from textwrap import fill
 
 from scene2hap.cli import command_parser
 
-PAGE = Path(__file__).parents[1] / "docs" / "command-line.md"
+PAGE = Path(__file__).parents[2] / "docs" / "command-line.md"
 
 _HEAD = """# The command line
 
@@ -18,7 +18,7 @@ To look up a command and its arguments. `scene2hap COMMAND --help` shows the sam
 progress, no tables) and `--json` (the result as JSON). The exit status is 0; 1 for an error that you can act on; 2 for
 wrong usage.
 
-<!-- python tests/command_line_page.py writes this page from the parser -->
+<!-- python tests/support/command_line_page.py writes this page from the parser -->
 """
 
 _COMMON = {"help", "quiet", "json"}
