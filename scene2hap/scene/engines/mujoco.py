@@ -38,10 +38,10 @@ from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError, UnknownObject
 from scene2hap.scene import limits
 from scene2hap.scene.copies import name_words
-from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
+from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Group, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.objects import Contact, with_relative_heights
