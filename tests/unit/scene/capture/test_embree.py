@@ -7,6 +7,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -147,8 +148,8 @@ def digest_of_pictures(workers: int) -> str:
 
 
 def test_pictures_are_identical_across_processes_and_workers(tmp_path: Any) -> None:
-    here = __file__.rsplit("/", 1)[0]
-    path = [here, here.rsplit("/", 3)[0]]
+    here = Path(__file__).parent
+    path = [str(here), str(here.parents[2] / "support")]
     script = tmp_path / "take.py"
     script.write_text(SCRIPT.format(path=path))
     run = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True)
