@@ -3,7 +3,7 @@
 import numpy as np
 
 from libc.math cimport INFINITY, fabs
-from libc.stdlib cimport free, realloc
+from libc.stdlib cimport free, malloc, realloc
 from libc.string cimport memcpy, memset
 
 from scene2hap.contact.geometry._boxes cimport Box, greater, is_within, lesser, squared_distance
@@ -113,6 +113,16 @@ cdef void compare(Nearest* search, const Nodes* leaves) noexcept:
 
 # --- contact points ---------------------------------------------------------------------------------------------------
 
+cdef enum:
+    HEIGHT = 4  # of the nodes of a patch, 16 triangles each; 2 and 3 are slower in real scenes
+
+
+cdef struct Patch:
+    Nodes nodes
+    Box around              # a box around the middles of their contact points
+    double most_apart2      # upper bound of the squared distance of these points from the nearest place
+
+
 cdef struct Points:
     double* ends     # (n, 6) on guest and host
     double* middles  # (n, 3)
@@ -128,7 +138,11 @@ cdef struct Spreading:
     double[MAX_POINTS][3] places  # the next point is to be far from each of these
     int n_places
     double most                   # distance of the farthest point found from the nearest place
-    Points points                 # those found that were the farthest, or about as far
+    Points points
+    Patch* patches                # patches that were not measured at once
+    Py_ssize_t n_patches, patch_capacity
+    Patch** heap                  # (n_left,) patches that are not measured yet, the largest bound first
+    Py_ssize_t n_left
     bint is_out_of_memory
 
 
@@ -161,6 +175,8 @@ cdef points_without(host, guest, turn, shift, way, double within, double loose):
     finally:
         close_tree(&search.guest)
         close_tree(&search.host)
+        free(search.patches)
+        free(search.heap)
         free(search.points.ends)
         free(search.points.middles)
         free(search.points.apart)
@@ -169,20 +185,36 @@ cdef points_without(host, guest, turn, shift, way, double within, double loose):
 cdef int choose(double[6]* chosen, Spreading* search) noexcept:
     """Choose the ends of contact points: the farthest from the first place, then the farthest from all chosen ones.
 
-    Each is found by branch and bound. Two surfaces of 10,000 triangles in contact have thousands of contact points, but
-    only four are chosen. Returns the number of chosen points, -1 if out of memory.
+    The search is branch and bound and measures only patches that may have such a point. Two surfaces of 10,000
+    triangles in contact have thousands of contact points, but only four are chosen. Returns the number of chosen
+    points, -1 if out of memory.
     """
     cdef double least = -1.0
     cdef Nodes roots
+    cdef Py_ssize_t row
+    cdef Patch* patch
     cdef int count, axis
-    search.n_places = 1
+    search.n_places, search.most = 1, least
     if not (search.guest.m and search.host.m):
         return 0
     roots = roots_of(&search.guest, &search.host)
+    if is_within(roots.of_guest, roots.of_host, search.within + ROUNDING_M):
+        find_patches(search, &roots)
+    search.n_left, search.heap = search.n_patches, <Patch**>malloc((search.n_patches + 1) * sizeof(Patch*))
+    if search.heap == NULL:
+        return -1
+    for row in range(search.n_patches):
+        search.heap[row] = search.patches + row
     for count in range(MAX_POINTS):
-        search.points.n, search.most = 0, least
-        if is_within(roots.of_guest, roots.of_host, search.within + ROUNDING_M):
-            find_farthest(search, &roots)
+        if count:
+            least, search.n_places = SPREAD_M, count
+            measure_from_last_place(search, least)
+        while search.n_left and is_promising(search, search.heap[0]):
+            patch = search.heap[0]
+            search.n_left -= 1
+            search.heap[0] = search.heap[search.n_left]
+            sift_down(search, 0)
+            measure_patch(search, &patch.nodes)
         if search.is_out_of_memory:
             return -1
         if search.most <= least:
@@ -190,59 +222,88 @@ cdef int choose(double[6]* chosen, Spreading* search) noexcept:
         take_farthest(chosen[count], &search.points)
         for axis in range(3):
             search.places[count][axis] = (chosen[count][axis] + chosen[count][axis + 3]) / 2
-        # The first chosen point replaces the first place.
-        search.n_places, least = count + 1, SPREAD_M
     return MAX_POINTS
 
 
-cdef void find_farthest(Spreading* search, const Nodes* nodes) noexcept:
-    """Visit the pairs of leaves below two nodes that may have the farthest point, the half with the larger bound first.
-    """
+cdef void find_patches(Spreading* search, const Nodes* nodes) noexcept:
+    """Find the pairs of small nodes below two nodes whose boxes are within reach, first those far from the place."""
     cdef Nodes halves[2]
-    cdef double most2[2]
+    cdef const double* place = search.places[0]
+    cdef int k
+    if not halve(halves, &search.guest, &search.host, nodes, HEIGHT):
+        add_patch(search, nodes)
+        return
+    if halves[0].host == halves[1].host:
+        k = most_apart2(halves[1].of_guest, place) > most_apart2(halves[0].of_guest, place)
+    else:
+        k = most_apart2(halves[1].of_host, place) > most_apart2(halves[0].of_host, place)
+    for _ in range(2):
+        if is_within(halves[k].of_guest, halves[k].of_host, search.within + ROUNDING_M):
+            find_patches(search, &halves[k])
+        k = 1 - k
+
+
+cdef inline double most_apart2(const Box* box, const double* place) noexcept:
+    """Return the largest squared distance of a point of a box from a place."""
+    cdef double gap, total = 0
+    cdef int axis
+    for axis in range(3):
+        gap = greater(fabs(box.low[axis] - place[axis]), fabs(box.high[axis] - place[axis]))
+        total += gap * gap
+    return total
+
+
+cdef void add_patch(Spreading* search, const Nodes* nodes) noexcept:
+    """Measure a patch if it may have a farther point than those found; otherwise keep it for later."""
+    cdef const Box* a = nodes.of_guest
+    cdef const Box* b = nodes.of_host
+    cdef Patch patch
+    cdef Patch* patches
+    cdef double reach = search.within + ROUNDING_M
+    cdef int axis
+    for axis in range(3):
+        # Each end is within reach of the other box.
+        patch.around.low[axis] = (
+            greater(a.low[axis], b.low[axis] - reach) + greater(b.low[axis], a.low[axis] - reach) - search.way[axis]
+        ) / 2
+        patch.around.high[axis] = (
+            lesser(a.high[axis], b.high[axis] + reach) + lesser(b.high[axis], a.high[axis] + reach) - search.way[axis]
+        ) / 2
+    patch.nodes, patch.most_apart2 = nodes[0], most_apart2(&patch.around, search.places[0])
+    if is_promising(search, &patch):
+        measure_patch(search, nodes)
+        return
+    if search.n_patches == search.patch_capacity:
+        search.patch_capacity = 2 * search.patch_capacity + 64
+        patches = <Patch*>realloc(search.patches, search.patch_capacity * sizeof(Patch))
+        if patches == NULL:
+            search.is_out_of_memory, search.patch_capacity = True, search.n_patches
+            return
+        search.patches = patches
+    search.patches[search.n_patches] = patch
+    search.n_patches += 1
+
+
+cdef inline bint is_promising(const Spreading* search, const Patch* patch) noexcept:
+    """Return True if a patch may have a point that is farther than those found, or about as far."""
+    # Bounds have other rounding errors than distances.
+    return patch.most_apart2 >= greater(search.most - TIE_M - ROUNDING_M, 0.0) ** 2
+
+
+cdef void measure_patch(Spreading* search, const Nodes* nodes) noexcept:
+    """Collect the contact points below two nodes."""
+    cdef Nodes halves[2]
     cdef int k
     if not halve(halves, &search.guest, &search.host, nodes, 0):
         collect(search, nodes)
         return
     for k in range(2):
-        most2[k] = most_apart2(search, &halves[k])
-    k = most2[1] > most2[0]
-    for _ in range(2):
-        # Bounds have other rounding errors than distances.
-        if most2[k] >= greater(search.most - TIE_M - ROUNDING_M, 0.0) ** 2:
-            find_farthest(search, &halves[k])
-        k = 1 - k
-
-
-cdef double most_apart2(const Spreading* search, const Nodes* nodes) noexcept:
-    """Return an upper bound of the squared distance of the contact points below two nodes from the nearest place, -1 if
-    the nodes' boxes are not within reach."""
-    cdef const Box* a = nodes.of_guest
-    cdef const Box* b = nodes.of_host
-    cdef const double* place
-    cdef double reach = search.within + ROUNDING_M, low[3], high[3], gap, total, least = INFINITY
-    cdef int axis, k
-    if not is_within(a, b, reach):
-        return -1
-    for axis in range(3):
-        # A box around the middles of the contact points, since each end is within reach of the other box.
-        low[axis] = (
-            greater(a.low[axis], b.low[axis] - reach) + greater(b.low[axis], a.low[axis] - reach) - search.way[axis]
-        ) / 2
-        high[axis] = (
-            lesser(a.high[axis], b.high[axis] + reach) + lesser(b.high[axis], a.high[axis] + reach) - search.way[axis]
-        ) / 2
-    for k in range(search.n_places):
-        place, total = search.places[k], 0
-        for axis in range(3):
-            gap = greater(fabs(low[axis] - place[axis]), fabs(high[axis] - place[axis]))
-            total += gap * gap
-        least = lesser(least, total)
-    return least
+        if is_within(halves[k].of_guest, halves[k].of_host, search.within + ROUNDING_M):
+            measure_patch(search, &halves[k])
 
 
 cdef void collect(Spreading* search, const Nodes* leaves) noexcept:
-    """Add the contact points of a pair of triangles that are the farthest found, or about as far."""
+    """Add the contact points of a pair of triangles."""
     cdef Meetings found
     cdef double[6] ends
     cdef double[3] middle
@@ -258,8 +319,6 @@ cdef void collect(Spreading* search, const Nodes* leaves) noexcept:
         apart = INFINITY
         for k in range(search.n_places):
             apart = lesser(apart, distance_between(middle, search.places[k], 3))
-        if apart < search.most - TIE_M:
-            continue
         search.most = greater(search.most, apart)
         if not append(&search.points, ends, middle, apart):
             search.is_out_of_memory = True
@@ -286,6 +345,45 @@ cdef inline bint grow(double** array, Py_ssize_t n) noexcept:
         return False
     array[0] = larger
     return True
+
+
+cdef void sift_down(Spreading* search, Py_ssize_t row) noexcept:
+    """Restore the order of the heap below a row."""
+    cdef Patch* patch
+    cdef Patch** heap = search.heap
+    cdef Py_ssize_t child
+    if row >= search.n_left:
+        return
+    patch = heap[row]
+    while True:
+        child = 2 * row + 1
+        if child + 1 < search.n_left and heap[child + 1].most_apart2 > heap[child].most_apart2:
+            child += 1
+        if child >= search.n_left or heap[child].most_apart2 <= patch.most_apart2:
+            break
+        heap[row] = heap[child]
+        row = child
+    heap[row] = patch
+
+
+cdef void measure_from_last_place(Spreading* search, double least) noexcept:
+    """Include the last place in the distances of points and patches. The first chosen place replaces the corner."""
+    cdef Points* points = &search.points
+    cdef Patch* patch
+    cdef const double* place = search.places[search.n_places - 1]
+    cdef double apart
+    cdef Py_ssize_t row
+    search.most = least
+    for row in range(points.n):
+        apart = distance_between(points.middles + 3 * row, place, 3)
+        points.apart[row] = apart if search.n_places == 1 else lesser(points.apart[row], apart)
+        search.most = greater(search.most, points.apart[row])
+    for row in range(search.n_left):
+        patch = search.heap[row]
+        apart = most_apart2(&patch.around, place)
+        patch.most_apart2 = apart if search.n_places == 1 else lesser(patch.most_apart2, apart)
+    for row in range(search.n_left // 2 - 1, -1, -1):
+        sift_down(search, row)
 
 
 cdef void take_farthest(double* ends, const Points* points) noexcept:
