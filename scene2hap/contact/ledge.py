@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.compiled import compiled
 from scene2hap.contact.geometry.boxes import Boxes
 from scene2hap.contact.geometry.vectors import AABB, Floats
 
@@ -62,10 +63,8 @@ class Ledges:
         self._outlines: dict[int, tuple[Floats, Floats]] = {}
 
     def covers(self, number: int, foot: Flat) -> bool:
-        """Return True if a ledge covers a whole rectangle: its middle, and no rim enters it."""
-        triangles, rims = self._outline(number)
-        middle = np.array([(foot[0] + foot[2]) / 2, (foot[1] + foot[3]) / 2])
-        return _is_covered(middle, triangles) and not len(_clipped(rims, foot))
+        """Return True if a ledge covers a whole rectangle."""
+        return covers(*self._outline(number), foot)
 
     def stretch(self, number: int, foot: Flat, most: Flat) -> Flat:
         """Return a rectangle that a ledge covers, which contains `foot` and lies in `most`. `foot` must be covered."""
@@ -167,6 +166,13 @@ def _outlined(triangles: Floats) -> tuple[Floats, Floats]:
     has_left[number[is_left]] = has_right[number[~is_left]] = True
     rim = which[has_left != has_right]
     return triangles, np.stack([corners[rim // len(corners)], corners[rim % len(corners)]], axis=1)
+
+
+@compiled
+def covers(triangles: Floats, rims: Floats, foot: Flat) -> bool:
+    """Return True if triangles (n, 3, 2) cover a rectangle: they cover its middle, and no rim (k, 2, 2) enters it."""
+    middle = np.array([(foot[0] + foot[2]) / 2, (foot[1] + foot[3]) / 2])
+    return _is_covered(middle, triangles) and not len(_clipped(rims, foot))
 
 
 def _is_covered(point: Floats, triangles: Floats) -> bool:

@@ -124,6 +124,20 @@ def test_kernels_find_the_same_triangles_in_a_box(seed: int) -> None:
 
 @steady
 @given(seed=seeds)
+def test_kernels_find_the_same_rectangles_covered_by_a_ledge(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    plain, twin = both("contact.ledge.covers")
+    k, n = int(rng.integers(0, 6)), int(rng.integers(0, 9))
+    triangles = np.round(rng.uniform(-0.5, 0.5, (k, 3, 2)), 1) if k else np.empty((0, 3, 2))
+    rims = np.round(rng.uniform(-0.5, 0.5, (n, 2, 2)), 1)
+    for _ in range(20):
+        u, v = np.round(rng.uniform(-0.5, 0.5, 2), 1).tolist()
+        a, b = rng.choice([0.0, 0.05, 0.1], 2).tolist()
+        assert twin(triangles, rims, (u, v, u + a, v + b)) == plain(triangles, rims, (u, v, u + a, v + b))
+
+
+@steady
+@given(seed=seeds)
 def test_kernels_intersect_outlines_bit_for_bit(seed: int) -> None:
     rng = np.random.default_rng(seed)
     outlines = []
