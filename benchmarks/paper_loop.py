@@ -268,7 +268,7 @@ def split(n_objects: int, kind: str, n_frames: int) -> None:
         "narrow": (ContactGraph, "update"),
         "paths": (LivePaths, "least_costs"),
         "gains": (LiveLaw, "at"),
-        "worth": (Audibility, "loud"),
+        "worth": (Audibility, "silence"),
         "mixer": (Playback, "set_gains"),
         "rest": (HapticSession, "update"),
     }
