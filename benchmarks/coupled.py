@@ -237,7 +237,8 @@ def truth(case: Case, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
 
     network = case.network()
     springs = csc_matrix((n, n), dtype=np.complex128)
-    for joint in joints_of(network, network.bodies.keys() | {source}, case.law):
+    source_kg = {source: case.source.mass_kg}
+    for joint in joints_of(network, network.bodies.keys() | {source}, case.law, source_kg):
         at = next(p for p in matching(case, joint.a, joint.b) if is_at(network, joint, p))
         one, other = (spread(key, parts[key].rows(np.array([at]))) for key in (joint.a, joint.b))
         pull = one - other
