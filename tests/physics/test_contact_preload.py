@@ -24,7 +24,7 @@ def hertz(preload_n: float, radius_m: float = 0.005) -> float:
 
 def stiffness(oven: Plate, table: Plate, contacts: list[Contact]) -> float:
     network = ContactNetwork({"oven": oven, "table": table}, contacts)
-    return sum(joint.stiffness_n_m for joint in joints_of(network, {"oven", "table"}, ContactLaw()))
+    return sum(joint.stiffness_n_m for joint in joints_of(network, {"oven", "table"}, ContactLaw(), {}))
 
 
 @pytest.mark.parametrize("n", [1, 3, 4])

@@ -139,7 +139,7 @@ def test_coupled_scene_is_passive(seed: int, model: ModalPlate | InfinitePlate) 
         x: model.elastic_body(body, 400.0) if isinstance(body, Plate) else RigidMotion(body.mass_kg)
         for x, body in network.bodies.items()
     } | {x: RigidMotion(0.3) for x in ("s0", "s1")}
-    joints = joints_of(network, bodies, model.contact)
+    joints = joints_of(network, bodies, model.contact, {})
     solved = couple(bodies, joints, ["s0", "s1"], f)
     moved = np.concatenate([solved.deflection(x, np.zeros((1, 2))) for x in ("s0", "s1")], axis=1)
     y = -moved / (0.3 * (2 * np.pi * f) ** 2)[:, None, None]

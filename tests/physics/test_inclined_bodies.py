@@ -149,7 +149,7 @@ def test_only_bodies_pushed_in_their_plane_are_inclined() -> None:
     level, upright = Pose((0.3, 0.2, 0.0)), Pose((0.3, 0.3, 0.0), UPRIGHT)
     for pose, normal, expected in ((level, UP, set()), (upright, None, set()), (upright, UP, {"board"})):
         network = on_a_table(normal, pose)
-        assert inclined_in(joints_of(network, {"table", "board", "phone"}, ContactLaw())) == expected
+        assert inclined_in(joints_of(network, {"table", "board", "phone"}, ContactLaw(), {})) == expected
     at = [[0.9, 0.5, 0.0]]
     with_normals, without = (
         ModalPlate().prepare(on_a_table(normal, level), [phone], Bands.third_octaves()).attenuation("table", at)

@@ -45,7 +45,7 @@ def stacked(*layers: Plate) -> ContactNetwork:
 
 
 def joints_between(network: ContactNetwork, a: str, b: str) -> int:
-    joints = joints_of(network, {*network.bodies, "machine"}, LAW)
+    joints = joints_of(network, {*network.bodies, "machine"}, LAW, {})
     return sum({joint.a, joint.b} == {a, b} for joint in joints)
 
 
@@ -126,4 +126,4 @@ def test_joints_do_not_depend_on_the_order_of_contacts() -> None:
     network = stacked(mat(), mat(0.006))
     names = {*network.bodies, "machine"}
     turned = replace(network, contacts=network.contacts[::-1])
-    assert joints_of(network, names, LAW) == joints_of(turned, names, LAW)
+    assert joints_of(network, names, LAW, {}) == joints_of(turned, names, LAW, {})

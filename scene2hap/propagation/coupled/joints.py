@@ -7,7 +7,6 @@ from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
-from types import MappingProxyType
 
 import numpy as np
 
@@ -37,7 +36,7 @@ def joints_of(
     network: ContactNetwork,
     carriers: Collection[str],
     law: ContactLaw,
-    source_kg: Mapping[str, float] = MappingProxyType({}),
+    source_kg: Mapping[str, float],
 ) -> list[Joint]:
     """Return the joints between bodies that carry vibration, in an order that does not depend on the contacts' order.
 
