@@ -4,7 +4,7 @@ python benchmarks/trembling.py [--scenes 60] [--frames 60]
 
 A vibrating box stands on a table, level or tilted about one of its bottom edges. A hand touches the table 2 cm beyond
 the opposite edge. From frame to frame the pose moves and turns by up to 0.01 or 0.1 mm. Sizes, materials and frequency
-are drawn anew for each scene. The limit is the highest lift at which the opposite edge still touches (bisection). A
+are drawn for each scene. The limit is the highest lift at which the opposite edge still touches (bisection). A
 step is the largest change of the gain between two frames; gains below -60 dB count as -60 dB.
 """
 

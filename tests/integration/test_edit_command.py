@@ -317,15 +317,15 @@ def test_a_name_is_inferred_by_the_model_of_the_options(
     """The lexicon does not know the word; the model answers that it is a fridge."""
     for name in ("HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY", "http_proxy", "https_proxy", "all_proxy"):
         monkeypatch.delenv(name, raising=False)
-    told: list[tuple[str, int, int]] = []
-    show = contextlib.nullcontext(lambda stage, what, done, total: told.append((stage, done, total)))
+    stages: list[tuple[str, int, int]] = []
+    show = contextlib.nullcontext(lambda stage, what, done, total: stages.append((stage, done, total)))
     monkeypatch.setattr(Console, "progress", lambda console: show)
     folder = str(kitchen())
     before = HapticBundle.load(folder)
     with serving(by=answered) as server:
         model = ["--llm", "local:scripted", "--base-url", f"{server.base_url}/v1", "--cache", str(tmp_path / "cache")]
         assert main(["edit", folder, "name", "oak table", "flurbelgurk", *model]) == 0
-        assert ("inference", 1, 1) in told  # shown while the model is asked
+        assert ("inference", 1, 1) in stages  # shown while a model answers
         asked = [one.prompt for one in server.asked]
         assert any("flurbelgurk" in prompt for prompt in asked)
         assert "inference: " in capsys.readouterr().out

@@ -191,7 +191,7 @@ def _way(contact: Contact, axes: Mapping[str, Axes | None], level: Mapping[str, 
 
 
 def _merged(joints: Sequence[Joint]) -> list[Joint]:
-    """Joints of a pair, with those that act in one place and direction as one."""
+    """Return the joints of a pair, merged where place and direction are the same."""
     if len(joints) == 1:
         return list(joints)
     kept: list[tuple[tuple[float, ...], Joint]] = []
