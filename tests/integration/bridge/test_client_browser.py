@@ -329,18 +329,20 @@ class TestDesk:
         opened.value("""(() => {
           const { client } = scene2hapExample;
           window.intensities = [];
-          client.on("gains", (detail) => intensities.push([...detail.intensities]));
+          client.on("gains", (detail) => {
+            intensities.push([...detail.intensities]);
+            window.isPaused = detail.isPaused;
+          });
         })()""")
         opened.page.get_by_label("gamepads rumble").check()
         opened.wait("effects.length >= 8")
         opened.page.get_by_role("button", name="Pause").click()
         opened.wait("document.getElementById('pause').ariaPressed === 'true'")
-        opened.page.wait_for_timeout(200)
+        opened.wait("isPaused && effects.at(-1).strongMagnitude + effects.at(-1).weakMagnitude === 0")
         n = len(opened.value(effects))
         opened.page.wait_for_timeout(300)
         found = opened.value(effects)
         assert len(found) == n  # one effect of 0, then none
-        assert (found[-1]["strongMagnitude"], found[-1]["weakMagnitude"]) == (0, 0)
         assert found[0]["weakMagnitude"] > 0
         _require_pulses([(max(one["strongMagnitude"], one["weakMagnitude"]), one["duration"]) for one in found])
         # At most one effect in 50 ms, and each with an intensity that the server sent.
@@ -421,7 +423,8 @@ def test_controllers_of_an_emulated_headset(browser: Any, port: int, modules: Pa
         opened.wait("scene2hapExample.hands.touchedBy('left') === null")
         opened.value("headset.controllers.right.position.set(0.25, 1.2, -0.3)")
         opened.wait("scene2hapExample.hands.touchedBy('right') === null")
-        opened.page.wait_for_timeout(200)
+        last = "pulses.filter(([hand]) => hand === 'right').at(-1)"
+        opened.wait(f"{FELT} && scene2hapExample.client.gain('right', 'phone') === 0 && {last}[1] === 0")
         n = opened.value("pulses.length")
         opened.page.wait_for_timeout(300)
         pulses = opened.value("pulses.filter(([hand]) => hand === 'right')")
