@@ -75,7 +75,7 @@ def interrupted(*arguments: str, after_s: float = 0.2, with_children: bool = Fal
             process.stdout.readline()
             time.sleep(after_s)
             (os.killpg if with_children else os.kill)(process.pid, signal.SIGINT)
-            _, errors = process.communicate(timeout=30)
+            _, errors = process.communicate(timeout=120)
         finally:
             process.kill()
     return process.returncode, errors
@@ -136,7 +136,7 @@ def test_sigterm_keeps_the_answers_that_are_paid_for(shell: str, tmp_path: Path)
 
     def slow(asked: Asked) -> Scripted:
         began.set()
-        go_on.wait(30.0)
+        go_on.wait(60.0)
         return answered(asked)
 
     with serving(by=slow) as server:
@@ -147,14 +147,15 @@ def test_sigterm_keeps_the_answers_that_are_paid_for(shell: str, tmp_path: Path)
             command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
         ) as process:
             try:
-                assert began.wait(30.0)
+                assert began.wait(60.0)
                 process.send_signal(signal.SIGTERM)
-                time.sleep(0.5)
+                assert process.stderr is not None
+                told = process.stderr.readline()
                 go_on.set()
-                _, errors = process.communicate(timeout=30)
+                _, errors = process.communicate(timeout=120)
             finally:
                 process.kill()
     assert process.returncode == 143
-    assert "1 question to the model will be answered first" in errors
+    assert "1 question to the model will be answered first" in told + errors
     assert len(list((tmp_path / "cache").glob("*.json"))) == 1
     assert len(server.asked) == 1

@@ -31,7 +31,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "udp.md"
 def listener() -> Iterator[socket.socket]:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
         sock.bind(("127.0.0.1", 0))
-        sock.settimeout(10)
+        sock.settimeout(60)
         yield sock
 
 
@@ -63,7 +63,7 @@ def test_the_receiver_of_the_page_gets_every_sample(listener: socket.socket) -> 
         sink.open(SinkFormat(8000, ("left", "right")))
         sink.start(lambda n: counting(n, position))
         assert eventually(lambda: sink.stats.frames >= 4000)
-    thread.join(10)
+    thread.join(60)
     assert not thread.is_alive()
     samples = np.array(got).reshape(-1, 2)
     assert told == {(2, 8000)}
@@ -105,7 +105,7 @@ def test_udp_stream_is_paced_by_the_clock(listener: socket.socket) -> None:
     with UdpSink("127.0.0.1", listener.getsockname()[1]) as sink:
         sink.open(SinkFormat(8000, ("left",)))
         sink.start(lambda n: np.zeros((n, 1), dtype=np.float32))
-        assert sink.wait_connected(10)
+        assert sink.wait_connected(60)
         began = time.monotonic()
         assert eventually(lambda: sink.stats.frames >= 2400)
         # Never ahead of the clock; the delay depends on the machine.
@@ -114,30 +114,22 @@ def test_udp_stream_is_paced_by_the_clock(listener: socket.socket) -> None:
 
 def test_a_late_sender_sends_no_backlog_and_counts_it(listener: socket.socket) -> None:
     """After 50 ms a receiver is silent, and it buffers 20 to 30 ms: blocks that are later would only delay it."""
-    n_calls = 0
+    times_s: list[float] = []
 
     def fill(n_frames: int) -> NDArray[np.float32]:
-        nonlocal n_calls
-        n_calls += 1
-        if n_calls == 10:
+        if len(times_s) == 10:
             time.sleep(0.4)
+        times_s.append(time.monotonic())
         return np.zeros((n_frames, 1), dtype=np.float32)
 
-    listener.settimeout(1.0)
-    sink = UdpSink("127.0.0.1", listener.getsockname()[1])
-    sink.open(SinkFormat(8000, ("left",)))
-    sink.start(fill)
-    times_s = []
-    end = time.monotonic() + 1.0
-    while time.monotonic() < end:
-        listener.recv(2048)
-        times_s.append(time.monotonic())
-    found = sink.stats.underruns
-    sink.close()
-    gap = int(np.argmax(np.diff(times_s))) + 1
-    assert times_s[gap] - times_s[gap - 1] > 0.3
-    assert np.searchsorted(times_s, times_s[gap] + 0.02) - gap < 12
-    assert found >= 1
+    with UdpSink("127.0.0.1", listener.getsockname()[1]) as sink:
+        sink.open(SinkFormat(8000, ("left",)))
+        sink.start(fill)
+        assert eventually(lambda: len(times_s) >= 60)
+        assert sink.stats.underruns >= 1
+    # Judged by the sender's clock: blocks of 10 ms are sent at most 60 ms after their time, however late they are made.
+    since_s = np.array(times_s[10:]) - times_s[10]
+    assert (0.01 * np.arange(len(since_s)) < since_s + 0.08).all()
 
 
 def test_receiver_that_starts_later_gets_the_stream(listener: socket.socket) -> None:
@@ -194,7 +186,7 @@ def test_gain_messages_have_the_format_of_the_paper() -> None:
         sink = UdpSink("127.0.0.1", patch.port, content="osc", clips={"phone": "loops/phone.wav"})
         session = HapticSession(scene, bundle, {"sample_rate_hz": RATE}, sink=sink)
         with session:
-            assert sink.wait_connected(10)
+            assert sink.wait_connected(60)
             session.update(touches=[Touch("right", "phone", (0.1, 0.73, 0.4))])
             assert eventually(lambda: ("loops/phone.wav", 1) in [told[1:] for told in patch.of("/scene2hap/gain")])
             assert patch.of("/scene2hap/hello")[0] == (RATE,)

@@ -71,7 +71,7 @@ class Client:
         number = self.say(kind, **fields)
         return self.hear(lambda found: found.get("re") == number)
 
-    def hear(self, is_wanted: Any, timeout_s: float = 30.0) -> dict[str, Any]:
+    def hear(self, is_wanted: Any, timeout_s: float = 60.0) -> dict[str, Any]:
         """Wait for the next JSON message for which `is_wanted` is true. Raises: Refused: it is an error."""
         end_s = time.monotonic() + timeout_s
         while True:
@@ -102,7 +102,7 @@ class Client:
         rows = [(hands.index(x.hand), objects.index(x.object_id), x.point_m) for x in felt]
         return encode_frame(self.order["layout"], self.key, sequence, at_s, np.asarray(poses, np.float32), rows)
 
-    def next_gains(self, timeout_s: float = 10.0) -> Gains:
+    def next_gains(self, timeout_s: float = 60.0) -> Gains:
         end_s = time.monotonic() + timeout_s
         while not self.gains:
             message = self.socket.recv(timeout=max(0.0, end_s - time.monotonic()))

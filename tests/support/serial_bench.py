@@ -60,7 +60,7 @@ class Plug:
             serve(device, terminal, self._stop)
 
 
-def eventually(holds: Callable[[], bool], within_s: float = 10.0) -> bool:
+def eventually(holds: Callable[[], bool], within_s: float = 60.0) -> bool:
     """Wait until `holds` is true. False after `within_s`, which is long because only a failure waits for all of it."""
     end = time.monotonic() + within_s
     while not holds():

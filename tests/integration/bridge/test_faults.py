@@ -24,6 +24,7 @@ from scene2hap import HapticSession, Touch
 from scene2hap.bridge import BridgeServer
 from scene2hap.bridge.played_session import PlayedSession
 from scene2hap.cli import main
+from serial_bench import eventually
 
 Bridge = Callable[..., BridgeServer]
 
@@ -40,7 +41,7 @@ def closing_of(url: str, first: str | bytes | None, **options: Any) -> tuple[int
         said = ""
         with pytest.raises(ConnectionClosed) as closed:
             while True:
-                said += str(raw.recv(timeout=10))
+                said += str(raw.recv(timeout=60))
     assert closed.value.rcvd is not None
     return closed.value.rcvd.code, closed.value.rcvd.reason, said
 
@@ -159,7 +160,7 @@ def test_messages_above_the_size_limit_are_refused(bridge: Bridge) -> None:
         assert_plays(client)
         other.socket.send("x" * 13_000_000)
         with pytest.raises(ConnectionClosed) as closed:
-            other.socket.recv(timeout=10)
+            other.socket.recv(timeout=60)
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1009
         assert_plays(client, 2)
@@ -174,7 +175,7 @@ def test_client_that_does_not_read_is_disconnected(bridge: Bridge) -> None:
         with connect(server.url, sock=raw, max_queue=1) as deaf:
             deaf.send(hello())
             deaf.send(json.dumps({"type": "watch", "session": session}))
-            time.sleep(0.3)
+            assert eventually(lambda: any(one.client.watched for one in server.connections))
             for sequence in range(1, 1500):
                 player.socket.send(player.frame(sequence, sequence / 60, NO_POSES, [ON_TABLE]))
                 if sequence % 2:
@@ -187,11 +188,11 @@ def test_client_that_does_not_read_is_disconnected(bridge: Bridge) -> None:
 
 
 def test_too_many_clients(bridge: Bridge) -> None:
-    url = bridge(max_clients=2).url
-    with Client(url), Client(url):
-        assert closing_of(url, None)[0] == 4009
-    time.sleep(0.2)
-    with Client(url) as client:
+    server = bridge(max_clients=2)
+    with Client(server.url), Client(server.url):
+        assert closing_of(server.url, None)[0] == 4009
+    assert eventually(lambda: not server.connections)
+    with Client(server.url) as client:
         assert client.welcome["version"] == 1
 
 
@@ -201,14 +202,14 @@ def test_a_session_that_ends_is_not_resumed(bridge: Bridge, monkeypatch: pytest.
 
     def close_slowly(played: PlayedSession) -> None:
         begins.set()
-        may_end.wait(10.0)
+        may_end.wait(60.0)
         close(played)
 
     monkeypatch.setattr(PlayedSession, "close", close_slowly)
     server = bridge()
     with Client(server.url) as lost:
         playing = lost.play(bundle="desk.bundle", keep_s=0.0)
-    assert begins.wait(10.0)
+    assert begins.wait(60.0)
     with Client(server.url) as late:
         for request in ({"kind": "resume", "key": playing["key"]}, {"kind": "watch"}):
             with pytest.raises(Refused) as refused:
@@ -231,15 +232,12 @@ def test_a_dead_connection_is_noticed_by_its_heartbeat(bridge: Bridge) -> None:
     mask = b"\x01\x02\x03\x04"
     assert len(text) < 126
     raw.sendall(bytes([0x81, 0x80 | len(text)]) + mask + bytes(b ^ mask[k % 4] for k, b in enumerate(text)))
-    until = time.monotonic() + 5
-    while not server.connections and time.monotonic() < until:
-        time.sleep(0.01)
-    assert len(server.connections) == 1
-    until = time.monotonic() + 5
-    while server.connections and time.monotonic() < until:
-        time.sleep(0.01)  # the client never answers pings
-    assert not server.connections
+    raw.settimeout(60)
+    heard = b"".join(iter(lambda: raw.recv(4096), b""))  # until the server cuts: the client never answers pings
     raw.close()
+    assert b'"welcome"' in heard
+    assert b"no answer to a ping" in heard
+    assert eventually(lambda: not server.connections)
 
 
 def test_a_backlog_of_frames_is_not_a_dead_connection(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -250,7 +248,7 @@ def test_a_backlog_of_frames_is_not_a_dead_connection(bridge: Bridge, monkeypatc
         time.sleep(0.01)
         return update(self, *args, **options)
 
-    with Client(bridge(heartbeat_s=0.1).url) as client:
+    with Client(bridge(heartbeat_s=0.25).url) as client:
         client.play(bundle="desk.bundle", moving=[], frames="every")
         monkeypatch.setattr(HapticSession, "update", slow)
         for sequence in range(1, 101):
@@ -334,7 +332,7 @@ def test_a_server_that_is_killed_and_started_again(root: Path) -> None:
         again.play(bundle="desk.bundle", moving=[])
         assert_plays(again)
         process.send_signal(signal.SIGTERM)
-        assert process.wait(10) == 0
+        assert process.wait(60) == 0
         with pytest.raises(ConnectionClosed) as closed:
             again.next_gains()
         assert closed.value.rcvd is not None
@@ -348,7 +346,7 @@ def test_the_server_ends_while_a_client_sends_every_frame_and_reads_nothing(root
         Client(url, max_queue=1, close_timeout=1) as client,
     ):
         client.play(bundle="desk.bundle", moving=[], frames="every")
-        until, sequence = time.monotonic() + 10, 0
+        until, sequence = time.monotonic() + 60, 0
         while process.poll() is None and time.monotonic() < until:
             sequence += 1
             with suppress(ConnectionClosed):
@@ -372,7 +370,7 @@ def test_warnings_reach_the_client(root: Path) -> None:
 def test_port_in_use_is_reported(bridge: Bridge) -> None:
     port = bridge().port
     words = [sys.executable, "-m", "scene2hap", "bridge", "--port", str(port)]
-    found = subprocess.run(words, capture_output=True, text=True, timeout=30, check=False)
+    found = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
     assert found.returncode == 1
     assert f"port {port} cannot be used" in found.stderr
     assert "Traceback" not in found.stderr

@@ -16,6 +16,7 @@ from scene2hap import HapticBundle, HapticSession, Pose, Touch, bake_object
 from scene2hap.bridge import BridgeServer
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.testing import check_bridge_client
+from serial_bench import eventually
 
 Bridge = Callable[..., BridgeServer]
 
@@ -192,7 +193,7 @@ def held_updates(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, thre
 
     def slow(self: HapticSession, *args: Any, **options: Any) -> Any:
         entered.set()
-        assert may_go_on.wait(10)
+        assert may_go_on.wait(60)
         return update(self, *args, **options)
 
     monkeypatch.setattr(HapticSession, "update", slow)
@@ -205,8 +206,7 @@ def test_the_newest_frame_wins(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) 
         entered, may_go_on = held_updates(monkeypatch)
         for sequence in range(1, 11):
             client.socket.send(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]))
-        assert entered.wait(10)
-        time.sleep(0.2)
+        assert entered.wait(60)
         may_go_on.set()
         found = client.next_gains()
         while found.sequence < 10:
@@ -224,10 +224,9 @@ def test_poses_of_a_skipped_frame_hold(bridge: Bridge, monkeypatch: pytest.Monke
         on_table = client.next_gains().gains[0, 0, 0]
         entered, may_go_on = held_updates(monkeypatch)
         client.socket.send(client.frame(2, 0.1, np.empty((0, 7)), [ON_TABLE]))
-        assert entered.wait(10)
+        assert entered.wait(60)
         client.socket.send(client.frame(3, 0.2, poses("phone", phone=(0.2, 5.0, 0.0)), [ON_TABLE]))
         client.socket.send(client.frame(4, 0.3, np.empty((0, 7)), [ON_TABLE]))
-        time.sleep(0.2)
         may_go_on.set()
         found = client.next_gains()
         while found.sequence < 4:
@@ -358,11 +357,12 @@ def test_pause_is_kept_across_connections(bridge: Bridge) -> None:
 
 def test_session_without_client_ends_after_a_timeout(bridge: Bridge) -> None:
     server = bridge()
-    with Client(server.url) as client:
-        client.play(bundle="desk.bundle", keep_s=0.1)
-        session, key = client.order["session"], client.order["key"]
-    with Client(server.url) as again:
-        time.sleep(0.5)
+    with Client(server.url) as watcher, Client(server.url) as again:
+        with Client(server.url) as client:
+            client.play(bundle="desk.bundle", keep_s=0.1)
+            session, key = client.order["session"], client.order["key"]
+            watcher.ask("watch", session=session)
+        watcher.hear(lambda one: one["type"] == "state" and one["is"] == "ended")
         with pytest.raises(Refused, match="play` again") as refused:
             again.ask("resume", session=session, key=key)
         assert refused.value.kind == "UnknownSession"
@@ -374,7 +374,7 @@ def test_frames_by_udp(bridge: Bridge) -> None:
     with Client(server.url) as client, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as datagrams:
         port = client.play(bundle="desk.bundle", moving=["phone"])["udp_port"]
         assert port == client.welcome["udp_port"]
-        datagrams.settimeout(5)
+        datagrams.settimeout(60)
         datagrams.sendto(b"S2HB not of any session", ("127.0.0.1", port))
         datagrams.sendto(client.frame(1, 0.0, poses("phone"), [ON_TABLE]), ("127.0.0.1", port))
         from scene2hap.bridge.frames import decode_gains
@@ -384,18 +384,22 @@ def test_frames_by_udp(bridge: Bridge) -> None:
         assert found.gains[0, 0, 0] > 0.0
         datagrams.sendto(client.frame(2, 0.1, poses("phone"), [ON_TABLE])[:-1], ("127.0.0.1", port))
         with pytest.raises(Refused, match="must have 88"):
-            client.hear(lambda one: one["type"] == "error", 5)
+            client.hear(lambda one: one["type"] == "error")
 
 
 def test_an_overtaken_datagram_does_not_replace_a_newer_frame(bridge: Bridge, monkeypatch: pytest.MonkeyPatch) -> None:
-    with Client(bridge(udp=True).url) as client, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as datagrams:
+    server = bridge(udp=True)
+    with Client(server.url) as client, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as datagrams:
         port = client.play(bundle="desk.bundle", moving=[], session={"prepare": "blocking"})["udp_port"]
-        datagrams.settimeout(5)
+        datagrams.settimeout(60)
         entered, may_go_on = held_updates(monkeypatch)
         for sequence in (1, 3, 2, 3):
             datagrams.sendto(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]), ("127.0.0.1", port))
-            assert entered.wait(10)
-        time.sleep(0.2)
+            assert entered.wait(60)
+        (connection,) = server.connections
+        hosted = connection.client.hosted
+        assert hosted is not None
+        assert eventually(lambda: hosted.played.n_outdated == 2)
         may_go_on.set()
         from scene2hap.bridge.frames import decode_gains
 
@@ -404,10 +408,10 @@ def test_an_overtaken_datagram_does_not_replace_a_newer_frame(bridge: Bridge, mo
 
 
 class ClockedSink:
-    """A sink that takes blocks of 10 ms on its own clock, like a sound card, and stores them with their times."""
+    """A sink that takes blocks of 10 ms on its own clock, like a sound card, and stores them."""
 
     def __init__(self) -> None:
-        self.blocks: list[tuple[float, Block]] = []
+        self.blocks: list[Block] = []
         self._ends = threading.Event()
         self.format: SinkFormat | None = None
 
@@ -418,7 +422,7 @@ class ClockedSink:
     def start(self, fill: Fill) -> None:
         def run() -> None:
             while not self._ends.wait(0.01):
-                self.blocks.append((time.monotonic(), fill(480)))
+                self.blocks.append(fill(480))
 
         self._worker = threading.Thread(target=run)
         self._worker.start()
@@ -446,17 +450,16 @@ def test_the_server_s_sink_falls_silent_when_its_player_is_killed(bridge: Bridge
         for sequence in range(1, 1200):  # until the phone rings
             client.socket.send(client.frame(sequence, sequence / 60, poses(), [ON_TABLE]))
             time.sleep(1 / 60)
-            if sink.blocks and np.abs(sink.blocks[-1][1]).max() > 0.01:
+            if sink.blocks and np.abs(sink.blocks[-1]).max() > 0.01:
                 break
-        killed_s = time.monotonic()
+        else:
+            pytest.fail("the phone does not ring")
         client.socket.socket.close()
         # The watchdog of a session fades out after 0.1 s; a busy machine may run it later.
-        while time.monotonic() < killed_s + 2.0:
-            time.sleep(0.05)
-        late = [np.abs(block).max() for at_s, block in sink.blocks if at_s > killed_s + 1.0]
-        assert max(np.abs(block).max() for at_s, block in sink.blocks if at_s < killed_s) > 0.01
-        assert late
-        assert max(late) == 0.0
+        assert eventually(lambda: not any(block.any() for block in sink.blocks[-50:]))
+        n_heard = len(sink.blocks)
+        assert eventually(lambda: len(sink.blocks) > n_heard + 50)
+        assert not any(block.any() for block in sink.blocks[n_heard:])
         # A session that waits for its player releases the sink to another session.
         other.ask("leave")
         assert other.play(bundle="desk.bundle")["sink"] == "ClockedSink"

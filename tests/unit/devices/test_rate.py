@@ -96,12 +96,20 @@ def test_pace_counts_frames() -> None:
     assert pace.due(10.1001) == 40
 
 
-def test_pace_waits_until_frames_are_due() -> None:
-    pace = Pace(1000)
-    pace.restart(time.monotonic())
-    assert pace.wait(40, 0.0) == 0
-    assert pace.wait(40, 1.0) == 40
-    assert pace.due(time.monotonic()) >= 40
+def test_pace_waits_until_frames_are_due(monkeypatch: pytest.MonkeyPatch) -> None:
+    now_s = 10.0
+
+    def sleep(seconds: float) -> None:
+        nonlocal now_s
+        now_s += seconds
+
+    monkeypatch.setattr(time, "monotonic", lambda: now_s)
+    monkeypatch.setattr(time, "sleep", sleep)
+    pace = Pace(1024)
+    pace.restart(now_s)
+    assert pace.wait(32, 0.0) == 0
+    assert pace.wait(32, 1.0) == 32
+    assert now_s == 10.0 + 32 / 1024
 
 
 def test_pace_drops_a_backlog_above_its_limit() -> None:
