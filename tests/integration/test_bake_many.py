@@ -101,7 +101,7 @@ def test_dask_makes_the_same_bundles(scenes: list[Path], alone: Path, tmp_path: 
     program = tmp_path / "run.py"
     program.write_text(DASK)
     command = [sys.executable, str(program), str(tmp_path / "out"), *map(str, scenes)]
-    run = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    run = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert f"{N_SCENES} scenes baked" in run.stdout, run.stderr[-2000:]
     assert digests(tmp_path / "out") == digests(alone)
 
@@ -241,7 +241,7 @@ def test_a_cancelled_run_sends_no_question_that_waits_for_another_scene(scenes: 
         await asyncio.sleep(0.1)
         held.calls[0].set()
         with pytest.raises(asyncio.CancelledError):
-            await asyncio.wait_for(running, 5.0)
+            await asyncio.wait_for(running, 60.0)
         assert len(held.calls) == 1
 
     with pytest.warns(BackendWarning, match="1 question to the model"):
@@ -343,7 +343,7 @@ def test_bundles_after_a_killed_run_equal_an_undisturbed_run(
     program.write_text(PROGRAM)
     command = [sys.executable, str(program), str(tmp_path / "out"), *map(str, scenes)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
-        children = _children(run.pid, seconds=30.0)
+        children = _children(run.pid, seconds=120.0)
         if who == "worker":
             time.sleep(1.5)
             os.kill(children[-1], signal.SIGKILL)
@@ -351,7 +351,7 @@ def test_bundles_after_a_killed_run_equal_an_undisturbed_run(
             run.kill()
             for child in children:
                 os.kill(child, signal.SIGKILL)
-        told, errors = run.communicate(timeout=120)
+        told, errors = run.communicate(timeout=300)
     if who == "worker":
         assert f"{N_SCENES} scenes baked" in told, errors[-2000:]
     else:

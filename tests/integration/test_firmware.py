@@ -57,7 +57,7 @@ def test_firmware_plays_the_sent_samples(amplifier: Path, tmp_path: Path) -> Non
             program.stdin.close()
             errors = program.stderr.read()
             program.stderr.close()
-            assert program.wait(10) == 0
+            assert program.wait(60) == 0
     assert errors == b""
     assert [event.kind for event in events] == ["connected", "connected"]
     left, right = np.fromfile(heard, dtype="<i2").reshape(-1, 2).astype(int).T

@@ -67,7 +67,7 @@ def played(tmp_path: Path, *options: str) -> tuple[int, bytes]:
         os.execv(sys.executable, [sys.executable, "-m", "scene2hap", "play", str(folder), *options])
     said, started = b"", time.monotonic()
     sent_s = 0.0
-    while time.monotonic() - started < 60:
+    while time.monotonic() - started < 120:
         if select.select([terminal], [], [], 0.1)[0]:
             try:
                 said += os.read(terminal, 65536)

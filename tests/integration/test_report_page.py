@@ -122,8 +122,7 @@ def test_the_felt_map_follows_source_model_and_band(opened: Opened) -> None:
     before = opened.page.locator("#canvas").screenshot()
     opened.report("setFelt({model: 'full_propagation', source: '', band: 'all'})")
     assert opened.page.get_by_label("model").input_value() == "full_propagation"
-    opened.page.wait_for_timeout(100)
-    assert opened.page.locator("#canvas").screenshot() != before
+    _wait_for_another_picture(opened.page, before)
 
 
 def test_point_under_the_cursor_shows_its_level(opened: Opened) -> None:
@@ -244,9 +243,8 @@ def test_touch_input_shows_level_and_path(browser: Any, html: str, tmp_path: Pat
     opened.page.set_viewport_size({"width": 390, "height": 844})
     x, y = opened.report("project('refrigerator')")
     opened.page.touchscreen.tap(x, y)
-    opened.page.wait_for_timeout(200)
     tip = opened.page.locator("#tip")
-    assert tip.is_visible()
+    tip.wait_for()
     assert "refrigerator" in tip.inner_text()
     assert opened.report("selected()") == "refrigerator"
     opened.context.close()
@@ -357,8 +355,7 @@ def test_walls_towards_the_camera_are_hidden(walled: Opened) -> None:
     assert walled.report(f"pick({x}, {y})") in ("south", "east", "ceiling")
     before = walled.page.locator("#canvas").screenshot()
     walled.page.get_by_label("walls").select_option("cut")
-    walled.page.wait_for_timeout(200)
-    assert walled.page.locator("#canvas").screenshot() != before
+    _wait_for_another_picture(walled.page, before)
     # Walls behind the room stay visible, as the northern wall here.
     x, y = walled.report("project('north')")
     assert walled.report(f"pick({x}, {y - 40})") == "north"
@@ -465,8 +462,16 @@ def _click_an_object(opened: Opened) -> str:
 
 def _wait_for(page: Any, condition: str) -> None:
     """Wait until a condition is true. `wait_for_function` would evaluate text, which the page's policy forbids."""
-    for _ in range(100):
-        if page.evaluate(condition):
+    _wait_until(page, lambda: page.evaluate(condition), condition)
+
+
+def _wait_for_another_picture(page: Any, before: bytes) -> None:
+    _wait_until(page, lambda: page.locator("#canvas").screenshot() != before, "another picture")
+
+
+def _wait_until(page: Any, is_so: Callable[[], object], what: str) -> None:
+    for _ in range(1200):
+        if is_so():
             return
         page.wait_for_timeout(50)
-    pytest.fail(f"never came: {condition}")
+    pytest.fail(f"never came: {what}")

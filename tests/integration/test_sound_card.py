@@ -34,7 +34,7 @@ def server() -> Iterator[SoundServer]:
         yield running
 
 
-def wait_for(is_so: Callable[[], object], timeout_s: float = 20.0) -> None:
+def wait_for(is_so: Callable[[], object], timeout_s: float = 60.0) -> None:
     deadline = time.monotonic() + timeout_s
     while not is_so():
         assert time.monotonic() < deadline, "nothing happened"
@@ -60,7 +60,7 @@ def test_sound_card_fades_in_and_fades_out_when_the_game_stops(server: SoundServ
     recorder = server.record(is_timed=True)
     threads = threading.active_count()
     with session_on(sink) as session:
-        assert sink.wait_connected(10.0)
+        assert sink.wait_connected(60.0)
         game = Game(session, lambda _: 0.01)
         game.start()
         time.sleep(1.0)
@@ -94,7 +94,7 @@ def test_the_card_plays_the_fade_of_a_stop(server: SoundServer) -> None:
     sink = SoundCardSink(DEVICE)
     recorder = server.record()
     with session_on(sink) as session:
-        assert sink.wait_connected(10.0)
+        assert sink.wait_connected(60.0)
         game = Game(session, lambda _: 0.01)
         game.start()
         time.sleep(1.0)
@@ -113,7 +113,7 @@ from sound_takes import TOUCHES, session_on
 sink = SoundCardSink({DEVICE!r})
 session = session_on(sink)
 session.start()
-assert sink.wait_connected(10.0)
+assert sink.wait_connected(60.0)
 print("plays", flush=True)
 end = time.monotonic() + {seconds}
 while time.monotonic() < end:
@@ -128,7 +128,7 @@ def test_a_program_that_ends_fades_out_on_the_card(server: SoundServer, last_lin
     """sounddevice ends PortAudio at the end of a program, which cut the sound, and sometimes never returned."""
     program = program_that_plays(0.7, last_line)
     recorder = server.record()
-    subprocess.run([sys.executable, "-c", program], stderr=subprocess.DEVNULL, timeout=60, check=False)
+    subprocess.run([sys.executable, "-c", program], stderr=subprocess.DEVNULL, timeout=120, check=False)
     time.sleep(0.3)
     assert level_at_end_db(recorder.stop()) < -50.0
 
@@ -162,11 +162,11 @@ def test_unplugged_sound_card_is_reconnected(server: SoundServer) -> None:
         game = Game(session, lambda _: 0.01)
         game.start()
         for _ in range(3):
-            assert sink.wait_connected(20.0)
+            assert sink.wait_connected(60.0)
             server.unplug()
             wait_for(lambda: not sink.stats.connected)
             server.plug_in()
-        assert sink.wait_connected(20.0)
+        assert sink.wait_connected(60.0)
         recorder = server.record()
         time.sleep(0.5)
         heard = recorder.stop()
@@ -184,13 +184,13 @@ def test_crashed_sound_server_is_reconnected(server: SoundServer) -> None:
     events: list[SinkEvent] = []
     sink = SoundCardSink(DEVICE, on_event=events.append)
     with session_on(sink) as session:
-        assert sink.wait_connected(10.0)
+        assert sink.wait_connected(60.0)
         server.kill()
         wait_for(lambda: any(event.kind == "unavailable" for event in events))
         session.update(touches=TOUCHES)
         assert sink.stats.dropped_frames >= 0
         server.start()
-        assert sink.wait_connected(20.0)
+        assert sink.wait_connected(60.0)
     kinds = [event.kind for event in events]
     assert kinds.index("lost") < kinds.index("unavailable")
     assert kinds[-1] == "connected"
@@ -200,7 +200,7 @@ def test_stalled_sound_server_is_reported(server: SoundServer) -> None:
     events: list[SinkEvent] = []
     sink = SoundCardSink(DEVICE, on_event=events.append)
     with session_on(sink):
-        assert sink.wait_connected(10.0)
+        assert sink.wait_connected(60.0)
         server.signal(signal.SIGSTOP)
         wait_for(lambda: any(event.kind == "stalled" for event in events))
         server.signal(signal.SIGCONT)
@@ -211,7 +211,7 @@ def test_device_of_another_rate_is_resampled(server: SoundServer) -> None:
     recorder = server.record()
     sink = SoundCardSink(DEVICE, sample_rate_hz=44100)
     with session_on(sink) as session:
-        assert sink.wait_connected(10.0)
+        assert sink.wait_connected(60.0)
         game = Game(session, lambda _: 0.01)
         game.start()
         time.sleep(2.0)
@@ -231,7 +231,7 @@ def test_hands_on_the_back_channels_of_a_game_pad() -> None:
         recorder = server.record()
         sink = SoundCardSink(DEVICE, channels={"left": 3, "right": 4})
         with session_on(sink) as session:
-            assert sink.wait_connected(10.0)
+            assert sink.wait_connected(60.0)
             game = Game(session, lambda _: 0.01)
             game.start()
             time.sleep(1.0)
@@ -248,7 +248,7 @@ def test_a_single_hand_is_played_on_its_channel_alone(server: SoundServer) -> No
     with SoundCardSink(DEVICE) as sink:
         sink.open(SinkFormat(RATE, ("left",)))
         sink.start(lambda n_frames: np.full((n_frames, 1), 0.25, dtype=np.float32))
-        assert sink.wait_connected(10.0)
+        assert sink.wait_connected(60.0)
         time.sleep(1.0)
     heard = recorder.stop()
     assert np.abs(heard).max(axis=0).tolist() == [0.25, 0.0]
@@ -261,7 +261,7 @@ def test_channels_that_a_server_may_drop_are_mentioned(server: SoundServer, n_ha
     sink = SoundCardSink(DEVICE, on_event=events.append)
     sink.open(SinkFormat(RATE, ("left", "right", "back")[:n_hands]))
     sink.start(lambda n_frames: np.zeros((n_frames, n_hands), dtype=np.float32))
-    assert sink.wait_connected(10.0)
+    assert sink.wait_connected(60.0)
     wait_for(lambda: events)
     sink.close()
     assert ("plays nothing on those that the card lacks" in events[0].message) == (n_hands > 2)

@@ -26,7 +26,7 @@ def start_server(port: int) -> subprocess.Popen[bytes]:
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
-    for _ in range(800):
+    for _ in range(2400):
         with socket.socket() as trial:
             if not trial.connect_ex(("127.0.0.1", port)):
                 return process

@@ -22,7 +22,7 @@ from server_thread import running
 CLIENT = Path(__file__).parents[2] / "clients" / "browser"
 NEEDS_CHROMIUM = "needs chromium: apt-get install chromium, and pip install playwright"
 NEEDS_MODULES = "needs three.js and iwer: apt-get install npm, and run npm ci in clients/browser"
-TIMEOUT_MS = 20_000
+TIMEOUT_MS = 60_000
 GAME_TIMEOUT_MS = 100_000
 _FLAGS = [
     "--no-sandbox",

@@ -84,7 +84,7 @@ class SoundServer:
             self._process = subprocess.Popen(
                 command, env={**os.environ, "HOME": str(self._folder)}, stdout=log, stderr=log
             )
-        deadline = time.monotonic() + 10.0
+        deadline = time.monotonic() + 60.0
         while subprocess.run(["pactl", "info"], capture_output=True, check=False).returncode:
             if time.monotonic() > deadline:
                 raise RuntimeError(f"pulseaudio does not start:\n{(self._folder / 'log').read_text()}")
@@ -149,7 +149,7 @@ class Recorder:
         self._thread = threading.Thread(target=self._listen, daemon=True)
         if is_timed:
             self._thread.start()
-        deadline = time.monotonic() + 10.0
+        deadline = time.monotonic() + 60.0
         while not self.n_heard and time.monotonic() < deadline:
             time.sleep(0.01)
         assert self.n_heard, "the monitor gives nothing"

@@ -110,7 +110,7 @@ def take(server: SoundServer, seconds: float, **settings: Any) -> Verdict:
     sink = SoundCardSink(DEVICE, **settings)
     recorder = server.record()
     with session_on(sink) as session:
-        assert sink.wait_connected(10.0)
+        assert sink.wait_connected(60.0)
         game = Game(session, lambda _: 0.001, allocates=True)
         game.start()
         time.sleep(seconds + 0.5)

@@ -17,8 +17,9 @@ public static class CSharpTrials
         CultureInfo.CurrentCulture = CultureInfo.InvariantCulture;
         switch (arguments[0])
         {
-            case "play": return Play(arguments[1], double.Parse(arguments[2], CultureInfo.InvariantCulture), false);
-            case "play-until-felt": return Play(arguments[1], 60, true);
+            case "play": return Play(arguments[1], double.Parse(arguments[2], CultureInfo.InvariantCulture), int.MaxValue);
+            case "play-until-felt": return Play(arguments[1], 60, 1);
+            case "play-until-outdated": return Play(arguments[1], 60, 2);
             case "requests": return Requests(arguments[1]);
             case "json": return ReadJson();
             case "garbage": return Garbage(arguments[1], int.Parse(arguments[2]), arguments.Length > 3);
@@ -67,7 +68,7 @@ public static class CSharpTrials
 
     /// <summary>Play the desk for some seconds, or until the server refuses, or the hand feels something. Prints each
     /// change of state, and whether the hand feels something.</summary>
-    static int Play(string url, double lastsS, bool endsFelt)
+    static int Play(string url, double lastsS, int lastChange)
     {
         using (Client client = Printing(url))
         {
@@ -77,8 +78,9 @@ public static class CSharpTrials
             Stopwatch clock = Stopwatch.StartNew();
             ClientState state = ClientState.Closed;
             bool feels = false;
+            int changes = 0;
             double slowestS = 0;
-            while (clock.Elapsed.TotalSeconds < lastsS && client.State != ClientState.Failed && !(endsFelt && feels))
+            while (clock.Elapsed.TotalSeconds < lastsS && client.State != ClientState.Failed && changes < lastChange)
             {
                 double before = clock.Elapsed.TotalSeconds;
                 client.Poll();
@@ -88,7 +90,10 @@ public static class CSharpTrials
                     Say("state {0}", state = client.State);
                 bool now = client.Intensity("left") > 0;
                 if (now != feels)
+                {
                     Say(now ? "feels" : "feels nothing");
+                    changes++;
+                }
                 feels = now;
                 Thread.Sleep(5);
             }
@@ -271,7 +276,7 @@ public static class CSharpTrials
                     hasError = true;
                 };
                 client.Connect();
-                for (int tries = 0; !hasError && tries < 2000; tries++)
+                for (int tries = 0; !hasError && tries < 20000; tries++)
                 {
                     client.Poll();
                     Thread.Sleep(2);
@@ -404,8 +409,8 @@ public static class CSharpTrials
         int[] counts = InputDevice.Counts;
         Stopwatch clock = Stopwatch.StartNew();
         bool isRemoved = false, isAdded = false;
-        double endS = double.PositiveInfinity;
-        while (clock.Elapsed.TotalSeconds < Math.Min(endS, 60))
+        bool isLifted = false, isHeld = false, isOver = false;
+        while (!(isLifted && isHeld) && clock.Elapsed.TotalSeconds < 60)
         {
             Time.unscaledTimeAsDouble = clock.Elapsed.TotalSeconds;
             Send(behaviour, "LateUpdate");
@@ -422,17 +427,19 @@ public static class CSharpTrials
                 Say("removed");
                 behaviour.Track(Box("Glass", -0.2f, 0.765f, 0.1f, 0.06f, 0.09f, 0.06f));
             }
-            else if (isAdded && double.IsInfinity(endS) && behaviour.Client.ObjectIndex("Glass") >= 0
+            else if (isAdded && !isOver && behaviour.Client.ObjectIndex("Glass") >= 0
                 && behaviour.Client.MovingCount == 3)
             {
                 Say("added");
                 behaviour.Lift("left");
-                endS = clock.Elapsed.TotalSeconds + 0.5;
+                isOver = true;
             }
+            isLifted = isOver && behaviour.Client.Intensity("left") == 0;
+            isHeld = behaviour.Client.Intensity("right") > 0;
             Thread.Sleep(5);
         }
-        Say("lifted {0}", behaviour.Client.Intensity("left") == 0);
-        Say("held {0}", behaviour.Client.Intensity("right") > 0);
+        Say("lifted {0}", isLifted);
+        Say("held {0}", isHeld);
         Send(behaviour, "OnDisable");
         foreach (string logged in UnityEngine.Debug.Logged)
             Say("logged {0}", logged);

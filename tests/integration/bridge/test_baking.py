@@ -84,7 +84,6 @@ def test_a_bake_is_cancelled(bridge: Bridge, root: Path, desk: HapticBundle) -> 
         assert client.ask("cancel", job=job)["job"] == job
         with pytest.raises(Refused, match="not running"):
             client.ask("cancel", job=job)
-        time.sleep(0.2)
         assert not (root / "never.bundle").exists()
         assert not [*server.host.jobs.folder.glob("scene-*.json")]
         for _ in range(MAX_RUNNING):
@@ -120,7 +119,7 @@ def test_bake_continues_without_its_client(bridge: Bridge, root: Path, desk: Hap
     server = bridge()
     with Client(server.url) as client:
         client.ask("bake", scene=json.loads(desk.snapshot.to_json()), save="alone.bundle")
-    until = time.monotonic() + 60
+    until = time.monotonic() + 120
     while not (root / "alone.bundle" / "bundle.json").exists() and time.monotonic() < until:
         time.sleep(0.1)
     assert HapticBundle.load(root / "alone.bundle").loops.keys() == desk.loops.keys()

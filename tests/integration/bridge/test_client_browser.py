@@ -481,7 +481,7 @@ def _bridge(port: int) -> Iterator[subprocess.Popen[str]]:
         yield process
     finally:
         process.send_signal(signal.SIGTERM)
-        process.wait(20)
+        process.wait(60)
         process.stdout.close()
 
 
@@ -496,8 +496,12 @@ def test_page_continues_after_a_server_restart(browser: Any, port: int) -> None:
             opened = stack.enter_context(_opened(browser, address(port, url=f"ws://127.0.0.1:{bridge_port}/")))
             opened.wait(PLAYING)
             opened.page.locator("#slides").uncheck()
-            opened.page.wait_for_timeout(200)  # for the phone's last place to arrive
-            before = opened.value_once(f"{FELT} && {gain}")
+            opened.value("""(() => {
+              const { client } = scene2hapExample;
+              const moving = client.sequence + 1;
+              client.on("gains", ({ sequence }) => (window.isAtRest = sequence > moving));
+            })()""")
+            before = opened.value_once(f"window.isAtRest && {FELT} && {gain}")
             opened.value("void (window.resumed = [])")
             opened.value("""scene2hapExample.client.on("playing", ({ isResumed }) => window.resumed.push(isResumed))""")
             process.kill()

@@ -157,7 +157,7 @@ def test_a_device_of_another_rate_gets_the_whole_fade_out(bench: Bench, rate_hz:
     bench.sink.start(safety.guard(tone))
     assert eventually(lambda: n_asked > 12_000)
     safety.release()
-    assert safety.silent.wait(10)
+    assert safety.silent.wait(60)
     bench.sink.stop()
     x = bench.line.samples[:, 0]
     assert bench.sink.stats.frames == len(x)
@@ -251,12 +251,13 @@ def test_sink_can_be_started_several_times(bench: Bench) -> None:
         bench.sink.start(bench.fill)
 
 
-def played_around_a_pause(bench: Bench, pause: Callable[[], None]) -> tuple[float, float]:
+def played_around_a_pause(bench: Bench, pause: Callable[[], object], resume: Callable[[], None]) -> tuple[float, float]:
     """The last sample before a pause and the first one after it, of a mix of 1."""
     bench.start()
     assert eventually(lambda: len(bench.line.taken) * 4 > 200)  # after the fade-in of 50 frames
     pause()
     n_before = len(bench.line.taken)
+    resume()
     assert eventually(lambda: len(bench.line.taken) > n_before + 2)
     bench.sink.close()
     return float(bench.line.taken[n_before - 1][-1, 0]), float(bench.line.taken[n_before][0, 0])
@@ -265,18 +266,19 @@ def played_around_a_pause(bench: Bench, pause: Callable[[], None]) -> tuple[floa
 def test_samples_fade_in_after_a_pause_in_which_the_device_has_run_dry(bench: Bench) -> None:
     """As when the program is stopped and continued: the pause may come while the sink renders."""
     bench.line.silent_after_s = 0.1
-    halt, halted = threading.Event(), threading.Event()
+    halt, halted, goes_on = threading.Event(), threading.Event(), threading.Event()
     plain_fill = bench.fill
 
     def fill(n_frames: int) -> NDArray[np.float32]:
         if halt.is_set():
             halt.clear()
             halted.set()
+            assert goes_on.wait(60)
             time.sleep(0.2)
         return plain_fill(n_frames)
 
     bench.fill = fill  # type: ignore[method-assign]
-    before, after = played_around_a_pause(bench, lambda: (halt.set(), halted.wait()))
+    before, after = played_around_a_pause(bench, lambda: (halt.set(), halted.wait()), goes_on.set)
     assert before == 1.0
     assert after < 0.01
 
@@ -285,6 +287,8 @@ def test_a_line_that_fades_by_itself_gets_the_mix_as_it_is(bench: Bench) -> None
     def pause() -> None:
         bench.line.wants = False
         time.sleep(0.2)
+
+    def resume() -> None:
         bench.line.wants = True
 
-    assert played_around_a_pause(bench, pause) == (1.0, 1.0)
+    assert played_around_a_pause(bench, pause, resume) == (1.0, 1.0)
