@@ -83,7 +83,7 @@ def test_propagation_model(scene: SceneSnapshot) -> None:
     check_propagation_model(model)
     session = HapticSession(scene, bake(scene), {"propagation": model})
     session.update(touches=[ON_TABLE])
-    assert session.wait_prepared(10.0)
+    assert session.wait_prepared(60)
     assert session.update(touches=[ON_TABLE]).gain("left", "smartphone") == 0.5
 
 

@@ -13,7 +13,7 @@ from scene2hap.session.mix import prepared_loops
 from scenes import RATE, box, haptics, table_with_two_phones, tone_loop
 
 ON_FAN = Touch("left", "fan", (0.8, 0.82, 0.6))
-SECONDS = 10.0
+SECONDS = 60.0
 
 
 class Notes:

@@ -55,7 +55,7 @@ def test_a_program_that_ends_while_it_plays_fades_out(last_line: str, status: in
     tests = str(Path(__file__).parents[2] / "support")
     program = f"import sys; sys.path.insert(0, {tests!r})\n{PROGRAM}{last_line}"
     done = subprocess.run(
-        [sys.executable, "-c", program, str(played)], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, "-c", program, str(played)], capture_output=True, text=True, timeout=120, check=False
     )
     assert status is None or done.returncode == status, done.stderr
     sound = np.load(played)[:, 0]

@@ -144,7 +144,7 @@ def test_another_scene_is_refused(bundle: HapticBundle) -> None:
 
 
 def until(condition: object, watch: BundleWatch) -> None:
-    end = time.monotonic() + 30
+    end = time.monotonic() + 60
     while not condition():
         assert time.monotonic() < end, watch.problem
         time.sleep(0.01)
