@@ -54,7 +54,7 @@ def compiled(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 def lines(program: Path, *files: Path) -> list[list[str]]:
     """Run a program on files. Returns the words of each line that it prints."""
-    done = subprocess.run([str(program), *map(str, files)], capture_output=True, text=True, timeout=20)
+    done = subprocess.run([str(program), *map(str, files)], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     return [line.split() for line in done.stdout.splitlines()]
 

@@ -35,7 +35,7 @@ def test_concurrent_runs_pay_for_each_answer_once(tmp_path: Path) -> None:
     with openai_serving(by=slow) as server:
         command = [sys.executable, "-c", PROGRAM, f"{server.base_url}/v1", str(tmp_path / "cache"), tests, KEY]
         runs = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(RUNS)]
-        answers = [run.communicate(timeout=60)[0].splitlines() for run in runs]
+        answers = [run.communicate(timeout=120)[0].splitlines() for run in runs]
     assert [json.loads(answer) for answer in answers[0]] == [{"scene_category": f"Question {i}"} for i in range(6)]
     assert answers == [answers[0]] * RUNS
     assert len(server.asked) == 6

@@ -37,7 +37,7 @@ class Through:
 
     def stream(self, sample_rate_hz: int, context: ConversionContext) -> "Through":
         if self.barrier is not None:
-            self.barrier.wait(timeout=10.0)
+            self.barrier.wait(timeout=60.0)
         if context.own_hz is not None and round(context.own_hz) in self.fails_at_hz:
             raise AudioError(f"no {context.own_hz:.0f} Hz")
         return self
