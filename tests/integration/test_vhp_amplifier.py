@@ -61,16 +61,15 @@ def test_a_slim_board_gets_whole_frames_and_ends_at_rest(events: list[SinkEvent]
         with VhpSink(board.terminal.name, on_event=events.append) as sink:
             sink.open(SinkFormat(2000, ("left", "right")))
             sink.start(lambda n: np.tile(np.float32([0.5, -1.0]), (n, 1)))
-            assert eventually(lambda: sink.stats.frames > 400)
+            # Counted in whole frames, since on a busy machine the sink may fade in once more.
+            playing_frame = 8 * bytes([192, 1, *[128] * 10])
+            assert eventually(lambda: board.heard.count(playing_frame) > 25)
         assert eventually(lambda: len(board.heard) % 100 == 0)
         heard = bytes(board.heard)
     frames = [heard[start : start + 100] for start in range(0, len(heard), 100)]
     assert {frame[:4].hex() for frame in frames} == {"c8c91180"}
     samples = np.frombuffer(b"".join(frame[4:] for frame in frames), np.uint8).reshape(-1, 12)
     playing = samples[2 * 8 + 100 : -8 * 8]  # after two frames of rest and the fade of 50 ms
-    assert len(playing) > 200
-    # On a busy machine, the sink may fade in once more.
-    assert (playing == [192, 1, *[128] * 10]).all(axis=1).sum() > 200
     assert (playing[:, 2:] == 128).all()
     assert playing[:, 0].min() >= 128
     assert playing[:, 1].max() <= 128
