@@ -26,6 +26,7 @@ from scene2hap import Box, SceneSnapshot, TriMesh
 from scene2hap.bridge import BridgeServer
 from scene2hap.bridge.frames import Frame, Gains, decode_frame, encode_gains
 from scene2hap.testing.bridge_client import check_bridge_client, expected_gains
+from serial_bench import eventually
 from server_thread import running
 
 MAIN = Path(__file__).parents[3]
@@ -873,11 +874,9 @@ def test_the_newest_frame_wins_when_the_server_does_not_read(driver: Driver) -> 
         driver.until("playing")
         counted = driver.one("flood 1")
         is_flooded.set()
-        while len(poses) < counted["n_sent"] or poses[-1] < counted["n"]:
-            driver.do("run 0.02")
+        assert eventually(lambda: (driver.do("run 0.02"), len(poses) >= counted["n_sent"])[1])
         last = driver.one("frame 1")["sent"]
-        while len(poses) < last:
-            driver.do("run 0.02")
+        assert eventually(lambda: (driver.do("run 0.02"), len(poses) >= last)[1])
         driver.do("destroy")
     assert counted["n_sent"] < counted["n"] / 2  # the network accepted no more
     assert last == counted["n_sent"] + 1
@@ -939,7 +938,7 @@ def head_of(key: str) -> bytes:
     ).encode()
 
 
-def greet(sock: socket.socket, *, with_head: bytes = b"") -> None:
+def greet(sock: socket.socket, *, with_head: bytes = b"", heartbeat_s: float = 60.0) -> None:
     """Do the handshake, `hello` and `welcome`; `with_head` is sent in the same packet as the head."""
     headers = read_head(sock)
     assert headers["Host"] == f"127.0.0.1:{sock.getsockname()[1]}"
@@ -953,7 +952,8 @@ def greet(sock: socket.socket, *, with_head: bytes = b"") -> None:
     first, payload = next(read_messages(sock))
     assert first == 0x81
     hello = json.loads(payload)
-    sock.sendall(frame(0x81, json.dumps({"type": "welcome", "re": hello["id"], "heartbeat_s": 0.1}).encode()))
+    welcome = {"type": "welcome", "re": hello["id"], "heartbeat_s": heartbeat_s}
+    sock.sendall(frame(0x81, json.dumps(welcome).encode()))
 
 
 def answer_play(sock: socket.socket) -> None:
@@ -1178,7 +1178,7 @@ def test_invalid_handshakes_are_refused(driver: Driver, answer: str) -> None:
 
 def test_silent_server_counts_as_lost(driver: Driver) -> None:
     def handle(sock: socket.socket) -> None:
-        greet(sock)  # the heartbeat is 0.1 s, which the client treats as 0.4 s
+        greet(sock, heartbeat_s=0.1)  # which the client treats as 0.4 s
         read_exactly(sock, 1)
 
     with raw(handle) as url:
