@@ -101,16 +101,22 @@ def test_the_example_of_the_readme_feels_the_phone(
 ) -> None:
     found = re.search(r"```c\n(.*?)```", (CLIENT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
     assert found
-    assert found[1].count("s2h_create(NULL)") == 1
+    changes = {
+        "s2h_create(NULL)": f's2h_create(&(s2h_settings){{.url = "{bridge().url}"}})',  # the default port may be in use
+        "frame < 600": "s2h_intensity(client, left) == 0",  # the bake may take longer
+    }
+    code = found[1]
+    for written, run_here in changes.items():
+        assert code.count(written) == 1
+        code = code.replace(written, run_here)
     source = tmp_path / "readme.c"
-    elsewhere = f's2h_create(&(s2h_settings){{.url = "{bridge().url}"}})'  # the default port may be in use
-    source.write_text(found[1].replace("s2h_create(NULL)", elsewhere))
+    source.write_text(code)
     program = build(source, flags=("-Wno-conversion",))
     run = subprocess.run([str(program)], capture_output=True, text=True, check=True, timeout=120)
     # Progress lines begin with a space; other lines must be numbers.
     intensities = [float(line) for line in run.stdout.splitlines() if not line.startswith(" ")]
-    assert len(intensities) == 600
-    assert 0.0 < max(intensities) <= 1.0
+    assert 0.0 < intensities[-1] <= 1.0
+    assert not any(intensities[:-1])
 
 
 @needs_cpp
