@@ -10,8 +10,8 @@ only the playing side.
 
 from __future__ import annotations
 
+import importlib
 import sys
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
@@ -111,11 +111,11 @@ __all__ = ["__version__", *sorted(_MODULE_OF)]
 
 def __getattr__(name: str) -> Any:
     if name in _MODULE_OF:
-        value = getattr(import_module(_MODULE_OF[name]), name)
+        value = getattr(importlib.import_module(_MODULE_OF[name]), name)
         globals()[name] = value
         return value
     if name in _PACKAGES:
-        return import_module(f"scene2hap.{name}")
+        return importlib.import_module(f"scene2hap.{name}")
     from importlib.util import find_spec
 
     if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a submodule that is being imported

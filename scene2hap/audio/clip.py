@@ -65,7 +65,7 @@ class AudioClip:
             samples: ArrayLike,
             sample_rate_hz: int,
             credit: Credit = ...,
-            is_vibration: bool = ...,
+            is_vibration: bool = False,
         ) -> None: ...
 
     def __post_init__(self) -> None:

@@ -125,8 +125,8 @@ class PersonalGains:
     ) -> None:
         felt_hz = _frequencies_hz(rows, bands)
         factors = np.array([10 ** (profile.level_db(hand, device, felt_hz) / 20) for hand in hands])
-        self.highest = factors.max(axis=(0, 2))
-        self.shares = (factors / self.highest[None, :, None]).astype(np.float32)
+        self.highest: NDArray[np.float64] = factors.max(axis=(0, 2))
+        self.shares: NDArray[np.float32] = (factors / self.highest[None, :, None]).astype(np.float32)
 
     def applied(self, gained: HandGains) -> HandGains:
         """Multiply the gains of all hands by the share of each hand and band."""

@@ -206,10 +206,18 @@ def test_declared_constructors_have_the_parameters_of_the_class(
     module: str, name: str, declared: ast.FunctionDef
 ) -> None:
     arguments = declared.args.args[1:]
-    n_required = len(arguments) - len(declared.args.defaults)
-    given = [(one.arg, place >= n_required) for place, one in enumerate(arguments)]
-    by_name = zip(declared.args.kwonlyargs, declared.args.kw_defaults, strict=True)
-    given += [(one.arg, default is not None) for one, default in by_name]
+    required: list[ast.expr | None] = [None] * (len(arguments) - len(declared.args.defaults))
+    defaults = zip(
+        (*arguments, *declared.args.kwonlyargs),
+        (*required, *declared.args.defaults, *declared.args.kw_defaults),
+        strict=True,
+    )
     of_class = inspect.signature(getattr(import_module(module), name)).parameters.values()
     parameters = [one for one in of_class if one.kind is not one.VAR_POSITIONAL]  # that of settings only refuses
-    assert given == [(one.name, one.default is not inspect.Parameter.empty) for one in parameters]
+    for (given, default), parameter in zip(defaults, parameters, strict=True):
+        assert given.arg == parameter.name
+        value = parameter.empty if default is None else eval(ast.unparse(default), vars(import_module(module)))
+        if value is ...:  # a new object at each call
+            assert parameter.default is not parameter.empty
+        else:
+            assert value == parameter.default
