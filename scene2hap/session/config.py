@@ -16,7 +16,7 @@ from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.exponential_plate import ExponentialPlate
-from scene2hap.propagation.protocol import CoupledModel
+from scene2hap.propagation.protocol import CoupledModel, PropagationModel
 from scene2hap.settings import Settings
 
 MIN_RAMP_S = 0.010
@@ -110,7 +110,7 @@ class SessionConfig(Settings):
         def __init__(
             self,
             *,
-            propagation: Any = ...,
+            propagation: PropagationModel | Mapping[str, Any] | str = ...,
             bands: Bands | Sequence[float] | Mapping[str, Any] | str = ...,
             reference: Literal["source", "felt_near"] = "source",
             prepare: Literal["background", "blocking"] = "background",
