@@ -64,7 +64,8 @@ class HostedSession:
     ) -> None:
         self.id: str = secrets.token_hex(8)
         self.key: bytes = secrets.token_bytes(8)
-        self.frames, self._keep_s, self._ended = frames, keep_s, ended
+        self.frames: Frames = frames
+        self._keep_s, self._ended = keep_s, ended
         self.player: Receiver | None = None
         self.watchers: set[Receiver] = set()
         self._make = make

@@ -57,7 +57,7 @@ class ReferenceDevice:
         self.lost: int = 0
         self.refused: int = 0
         self.muted: bool = True
-        self.grants_credit = True
+        self.grants_credit: bool = True
         self._on_samples = on_samples
         self._on_output = on_output
         self._parser = FrameParser()

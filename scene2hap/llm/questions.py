@@ -31,8 +31,8 @@ class Slots:
 
     def __init__(self, n_slots: int) -> None:
         self.free: asyncio.Semaphore = asyncio.Semaphore(n_slots)
-        self.n_running = 0
-        self.is_stopping = False
+        self.n_running: int = 0
+        self.is_stopping: bool = False
 
 
 class Questions:
