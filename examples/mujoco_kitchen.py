@@ -147,7 +147,7 @@ def play(arguments: argparse.Namespace, has_window: bool) -> None:
                 kitchen.key(keys.popleft())
             kitchen.step()
             frame = link.update()
-            if output:
+            if isinstance(sink, WavSink):
                 sink.pull_s(FRAME_S)
             i += 1
             if i % 25 == 0:

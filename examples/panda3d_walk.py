@@ -114,7 +114,7 @@ class Walker:
         point = hit.get_surface_point(self.render)
         object_id = link.object_id(hit.get_into_node_path())  # a leg belongs to its table
         is_near = (point - self.eyes.get_pos()).length() <= REACH_M
-        return [Touch(hand, object_id, tuple(point)) for hand in hands] if is_near else []
+        return [Touch(hand, object_id, tuple(point)) for hand in hands] if object_id and is_near else []
 
 
 def person(game: ShowBase, walker: Walker) -> Iterator[list[str]]:
@@ -179,7 +179,7 @@ def play(arguments: argparse.Namespace, has_window: bool) -> None:
             nonlocal told
             touches = walker.touches(next(player), link)
             frame = link.update(touches)
-            if output:
+            if isinstance(sink, WavSink):
                 sink.pull_s(clock.dt)
             line = "; ".join(f"{one.hand} hand on {one.object_id}" for one in touches) or "nothing touched"
             if line != told:

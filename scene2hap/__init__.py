@@ -106,34 +106,55 @@ _PACKAGES = (
     "testing",
 )
 
-__all__ = ["__version__", *sorted(_MODULE_OF)]
+if not TYPE_CHECKING:  # type checkers would take any name for one of ours, and do not compute `__all__`
+    __all__ = ["__version__", *sorted(_MODULE_OF)]
 
+    def __getattr__(name: str) -> Any:
+        if name in _MODULE_OF:
+            value = getattr(import_module(_MODULE_OF[name]), name)
+            globals()[name] = value
+            return value
+        if name in _PACKAGES:
+            return import_module(f"scene2hap.{name}")
+        from importlib.util import find_spec
 
-def __getattr__(name: str) -> Any:
-    if name in _MODULE_OF:
-        value = getattr(import_module(_MODULE_OF[name]), name)
-        globals()[name] = value
-        return value
-    if name in _PACKAGES:
-        return import_module(f"scene2hap.{name}")
-    from importlib.util import find_spec
+        if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a submodule that is being imported
+            raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
+        from scene2hap import errors
+        from scene2hap.calls import unknown_attribute, unknown_import
 
-    if name.startswith("_") or find_spec(f"{__name__}.{name}") is not None:  # a submodule that is being imported
-        raise AttributeError(f"module 'scene2hap' has no attribute {name!r}")
-    from scene2hap import errors
-    from scene2hap.calls import unknown_attribute, unknown_import
-
-    known = [f"errors.{name}"] if hasattr(errors, name) else [one for one in __dir__() if not one.startswith("_")]
-    # `from scene2hap import name` looks the name up first, and replaces an AttributeError by a message of its own.
-    is_import = sys._getframe(1).f_code.co_name == "_handle_fromlist"
-    raise (unknown_import if is_import else unknown_attribute)("scene2hap", name, known)
+        known = [f"errors.{name}"] if hasattr(errors, name) else [one for one in __dir__() if not one.startswith("_")]
+        # `from scene2hap import name` looks the name up first, and replaces an AttributeError by a message of its own.
+        is_import = sys._getframe(1).f_code.co_name == "_handle_fromlist"
+        raise (unknown_import if is_import else unknown_attribute)("scene2hap", name, known)
 
 
 def __dir__() -> list[str]:
-    return sorted({*__all__, *_PACKAGES, *(name for name in globals() if name.startswith("__"))})
+    return sorted({*_MODULE_OF, *_PACKAGES, *(name for name in globals() if name.startswith("__"))})
 
 
 if TYPE_CHECKING:
+    from scene2hap import (
+        audio as audio,
+        baking as baking,
+        bundle as bundle,
+        clips as clips,
+        contact as contact,
+        demo as demo,
+        devices as devices,
+        engines as engines,
+        errors as errors,
+        export as export,
+        haptics as haptics,
+        llm as llm,
+        materials as materials,
+        propagation as propagation,
+        render as render,
+        report as report,
+        scene as scene,
+        session as session,
+        testing as testing,
+    )
     from scene2hap.audio.clip import AudioClip as AudioClip, Credit as Credit
     from scene2hap.audio.haptic_loop import HapticLoop as HapticLoop
     from scene2hap.audio.protocol import (

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import ContextDecorator
 from functools import cache
-from typing import Protocol
+from typing import Final, Protocol
 
 from scene2hap.forks import lock_of_process, renew_in_child
 
@@ -61,7 +61,7 @@ class OneBlasThread(ContextDecorator):
                 self._before.clear()
 
 
-one_blas_thread = OneBlasThread()
+one_blas_thread: Final = OneBlasThread()
 """The one context of the process."""
 
 

@@ -33,7 +33,7 @@ class BundleWatch:
     """
 
     def __init__(self, session: HapticSession, folder: str | os.PathLike[str]) -> None:
-        self.problem = ""
+        self.problem: str = ""
         self._session, self._folder = session, checks.path("folder", folder, error=BundleError)
         if not self._folder.is_dir():
             raise BundleError(f"there is no folder {str(self._folder)!r} to watch; `bake` and `save` write one.")

@@ -88,7 +88,8 @@ class SceneFormatError(SceneError):
 class UnknownObject(SceneError, KeyError):
     """An object id that the scene does not have."""
 
-    __str__ = Exception.__str__  # KeyError would show the message in quotes
+    def __str__(self) -> str:
+        return Exception.__str__(self)  # KeyError would show the message in quotes
 
 
 class MaterialError(Scene2HapError, ValueError):

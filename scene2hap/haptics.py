@@ -125,12 +125,12 @@ class ObjectHaptics:
             estimated_size_m: Iterable[float],
             usage: str,
             vibrates: bool,
-            states: Iterable[SourceState] = ...,
-            confidence: float = ...,
+            states: Iterable[SourceState] = (),
+            confidence: float = 1.0,
             reasons: Mapping[str, str] = ...,
             provenance: Mapping[str, str] = ...,
-            mass_kg: float | None = ...,
-            feet: Material | None = ...,
+            mass_kg: float | None = None,
+            feet: Material | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -226,15 +226,15 @@ class ActuatorProfile:
 
         def __init__(
             self,
-            name: str = ...,
-            min_frequency_hz: float = ...,
-            max_frequency_hz: float = ...,
-            resonance_hz: float | None = ...,
-            q: float | None = ...,
-            response_db: Iterable[Iterable[float]] = ...,
-            max_amplitude: float = ...,
-            max_rms: float = ...,
-            rms_window_s: float = ...,
+            name: str = "flat",
+            min_frequency_hz: float = 10.0,
+            max_frequency_hz: float = 1000.0,
+            resonance_hz: float | None = None,
+            q: float | None = None,
+            response_db: Iterable[Iterable[float]] = (),
+            max_amplitude: float = 1.0,
+            max_rms: float = 1.0,
+            rms_window_s: float = 1.0,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -288,8 +288,8 @@ class Bands:
         def __init__(
             self,
             edges_hz: Iterable[float],
-            kind: Literal["edges", "dominant"] = ...,
-            octaves: float = ...,
+            kind: Literal["edges", "dominant"] = "edges",
+            octaves: float = 0.0,
         ) -> None: ...
 
     def __post_init__(self) -> None:

@@ -28,7 +28,7 @@ class Secret:
         if not isinstance(variable, str):
             raise ConfigError("the name of an environment variable with a key must be a text.")
         self._value = value
-        self.variable = variable
+        self.variable: str = variable
 
     def __repr__(self) -> str:
         return f"Secret({MASK})"

@@ -27,7 +27,9 @@ class Settings(BaseModel):
     """
 
     # Inputs are hidden in pydantic's messages, which appear in tracebacks, since a setting may be a key.
-    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True, hide_input_in_errors=True)
+    model_config: ClassVar[ConfigDict] = ConfigDict(
+        frozen=True, extra="forbid", arbitrary_types_allowed=True, hide_input_in_errors=True
+    )
 
     of_what: ClassVar[str]
 

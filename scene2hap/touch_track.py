@@ -9,7 +9,7 @@ from __future__ import annotations
 import csv
 import os
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError, model_validator
 
@@ -37,7 +37,9 @@ _ACTIONS = ("touch", "lift", "move", "source")
 
 
 class _Step(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    """What every step has: its time from the start [s]."""
+
+    model_config: ClassVar[ConfigDict] = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     time_s: float = Field(ge=0.0)
 
@@ -104,7 +106,7 @@ Step = Annotated[
 class TouchTrack(BaseModel):
     """Recorded touches, moves and switches in order of time, as a file of touches has them; and their duration [s]."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config: ClassVar[ConfigDict] = ConfigDict(frozen=True, extra="forbid")
 
     format: Literal["scene2hap/touches"] = FORMAT
     version: Literal[1] = VERSION

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -65,7 +65,7 @@ class AudioClip:
             samples: ArrayLike,
             sample_rate_hz: int,
             credit: Credit = ...,
-            is_vibration: bool = ...,
+            is_vibration: bool = False,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -104,6 +104,10 @@ class AudioClip:
         """Length [s]."""
         return len(self.samples) / self.sample_rate_hz
 
+    @overload
+    def plot(self, *, title: str | None = None, figure: None = None) -> Figure: ...
+    @overload
+    def plot(self, *, title: str | None = None, figure: Figure | SubFigure) -> Figure | SubFigure: ...
     def plot(self, *, title: str | None = None, figure: Figure | SubFigure | None = None) -> Figure | SubFigure:
         """Draw the waveform [full scale] over the spectrogram, and the spectrum with the threshold of touch [dB].
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
@@ -108,6 +108,10 @@ class HapticLoop:
         for name in ("frequency_raw_hz", "frequency_tactile_hz"):
             object.__setattr__(self, name, checks.number(name, getattr(self, name), "Hz", above=0.0, error=AudioError))
 
+    @overload
+    def plot(self, *, title: str | None = None, figure: None = None) -> Figure: ...
+    @overload
+    def plot(self, *, title: str | None = None, figure: Figure | SubFigure) -> Figure | SubFigure: ...
     def plot(self, *, title: str | None = None, figure: Figure | SubFigure | None = None) -> Figure | SubFigure:
         """Draw the sound over the vibration [full scale], and both spectra with the threshold of touch [dB].
 

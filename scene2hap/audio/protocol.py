@@ -19,7 +19,7 @@ from scene2hap.plugins import Members, lacking
 class AudioSource(Protocol):
     """Interface of sources that find or generate sounds for a description."""
 
-    def find(self, description: VibrationDescription) -> list[AudioClip]:
+    def find(self, description: VibrationDescription, /) -> list[AudioClip]:
         """Return candidates, best first; an empty list if there are none. Raises: BackendUnavailable, AudioError."""
         ...
 
@@ -62,7 +62,7 @@ class ConversionContext:
 class TactileStream(Protocol):
     """A running conversion. It keeps its state between blocks, so that the block size has no effect on the result."""
 
-    def process(self, block: Samples) -> Samples:
+    def process(self, block: Samples, /) -> Samples:
         """Return the next samples (n,) float32 in [-1, 1]. Raises: AudioError: not finite, or not one channel."""
         ...
 
@@ -78,7 +78,7 @@ class TactileConverter(Protocol):
     Set `follows_target = True` if it moves a source to `target_hz`.
     """
 
-    def stream(self, sample_rate_hz: int, context: ConversionContext) -> TactileStream:
+    def stream(self, sample_rate_hz: int, context: ConversionContext, /) -> TactileStream:
         """Start a conversion at a sample rate. Several may run at once, each in its own thread."""
         ...
 

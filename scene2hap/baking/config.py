@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
 
 from scene2hap.audio.actuators import actuator_profile
+from scene2hap.audio.protocol import AudioSource, TactileConverter
 from scene2hap.audio.sources import SOURCES
 from scene2hap.audio.sources.chain import ENOUGH
 from scene2hap.audio.spreading import SpreadLimits
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.haptics import ActuatorProfile
 from scene2hap.llm.config import InferenceConfig
+from scene2hap.llm.protocol import LLMBackend
 from scene2hap.llm.wrappers import build_backend
 from scene2hap.settings import cache_folder
+
+_Sounds = AudioSource | Mapping[str, Any] | str
 
 
 def _sources(specs: object) -> object:
@@ -59,23 +63,23 @@ class BakeConfig(InferenceConfig):
         def __init__(
             self,
             *,
-            concurrency: int = ...,
-            inference: Literal["eager", "lazy"] = ...,
-            materials: Literal["model", "table"] = ...,
-            share_copies: bool = ...,
-            share_scenes: bool = ...,
-            temperature: float = ...,
-            prompts: str | os.PathLike[str] | None = ...,
-            cache_dir: str | os.PathLike[str] | None = ...,
-            max_cost_usd: float | None = ...,
+            concurrency: int = 8,
+            inference: Literal["eager", "lazy"] = "eager",
+            materials: Literal["model", "table"] = "model",
+            share_copies: bool = True,
+            share_scenes: bool = False,
+            temperature: float = 0.2,
+            prompts: str | os.PathLike[str] | None = None,
+            cache_dir: str | os.PathLike[str] | None = None,
+            max_cost_usd: float | None = None,
             prices: Mapping[str, tuple[float, float] | tuple[float, float, float]] = ...,
-            llm: Any = ...,
-            audio: Any = ...,
-            enough_candidates: int = ...,
-            tactile: Any = ...,
+            llm: LLMBackend | Mapping[str, Any] | str = "lexicon",
+            audio: _Sounds | Sequence[_Sounds] = "synth",
+            enough_candidates: int = ENOUGH,
+            tactile: TactileConverter | Mapping[str, Any] | str = DEFAULT_CONVERTER,
             actuator: ActuatorProfile | str | Path | Mapping[str, Any] = ...,
             spread: SpreadLimits | Mapping[str, float] = ...,
-            seed: int = ...,
+            seed: int = 0,
         ) -> None: ...
 
     @field_validator("llm", mode="before")

@@ -27,7 +27,7 @@ class Client:
         self.hosted: HostedSession | None = None
         self.watched: HostedSession | None = None
         self.pictures = pictures
-        self.is_too_slow = asyncio.Event()
+        self.is_too_slow: asyncio.Event = asyncio.Event()
         self._waiting: deque[str | bytes] = deque()
         self._gains: bytes | None = None
         self._repeated: tuple[bytes, ...] = ()

@@ -16,7 +16,9 @@ class Host:
     """The sessions and bakes of a listening bridge."""
 
     def __init__(self, config: BridgeConfig, *, owns_process: bool) -> None:
-        self.config, self.owns_process, self.jobs = config, owns_process, Jobs()
+        self.config = config
+        self.owns_process = owns_process
+        self.jobs: Jobs = Jobs()
         self.udp_port: int | None = None
         self._sessions: dict[str, HostedSession] = {}
         self._plays_sink: HostedSession | None = None

@@ -62,8 +62,10 @@ class HostedSession:
         keep_s: float,
         ended: Callable[[HostedSession], None],
     ) -> None:
-        self.id, self.key = secrets.token_hex(8), secrets.token_bytes(8)
-        self.frames, self._keep_s, self._ended = frames, keep_s, ended
+        self.id: str = secrets.token_hex(8)
+        self.key: bytes = secrets.token_bytes(8)
+        self.frames: Frames = frames
+        self._keep_s, self._ended = keep_s, ended
         self.player: Receiver | None = None
         self.watchers: set[Receiver] = set()
         self._make = make
@@ -73,13 +75,13 @@ class HostedSession:
         self._reply: Reply | None = None
         self._taking: asyncio.Task[None] | None = None
         self._forgetting: asyncio.TimerHandle | None = None
-        self.is_closed = False
+        self.is_closed: bool = False
         # Gains that a lost connection may have dropped.
         self.last_gains: deque[bytes] = deque(maxlen=N_REPEATED if frames == "every" else 1)
 
     async def open(self, player: Receiver) -> None:
         """Make the session. Raises: as HapticSession; DeviceError: its sink cannot be opened."""
-        self.played = await self._on_a_thread(lambda: self._make(self._tell))
+        self.played: PlayedSession = await self._on_a_thread(lambda: self._make(self._tell))
         self.player = player
 
     async def run(self, work: Callable[P, Result], *args: P.args, **kwargs: P.kwargs) -> Result:

@@ -37,15 +37,19 @@ class PlayedSession:
     def __init__(
         self, session: HapticSession, moving: Sequence[str] | None, sink: ActuatorSink | None, tell: Tell
     ) -> None:
-        self.session, self._sink, self._tell = session, sink, tell
+        self.session = session
+        self._sink, self._tell = sink, tell
         self._layouts, self._changes = Layouts(), Changes(session)
         self._moving: tuple[str, ...] = ()
         self.use_layout([*session.poses] if moving is None else moving)
         self._frames = WholeFrames(session.config.sample_rate_hz)
         self._time_s: float | None = None
-        self.sequence = 0
-        self.n_received = self.n_skipped = self.n_outdated = 0
-        self.is_paused = self._may_begin_clock = False
+        self.sequence: int = 0
+        self.n_received: int = 0
+        self.n_skipped: int = 0
+        self.n_outdated: int = 0
+        self.is_paused: bool = False
+        self._may_begin_clock = False
         self._last_impact: Impact | None = None
         if sink is not None:
             session.start()

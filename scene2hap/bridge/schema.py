@@ -9,7 +9,7 @@ server against them.
 from __future__ import annotations
 
 import json
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 
@@ -21,7 +21,7 @@ Index = Annotated[int, Field(ge=0)]
 class Answer(BaseModel):
     """A message of the server. `re` is the id of the request that it answers."""
 
-    model_config = ConfigDict(extra="allow")
+    model_config: ClassVar[ConfigDict] = ConfigDict(extra="allow")
 
     type: str
     re: int | None = None

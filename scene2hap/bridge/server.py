@@ -42,8 +42,9 @@ class BridgeServer:
     def __init__(
         self, config: BridgeConfig | dict[str, Any] | str | None = None, *, owns_process: bool = False
     ) -> None:
-        self.config, self._owns_process = BridgeConfig.parse(config), owns_process
-        self.port = self.config.port
+        self.config: BridgeConfig = BridgeConfig.parse(config)
+        self._owns_process = owns_process
+        self.port: int = self.config.port
         self.connections: set[Connection] = set()
         self._n_clients = 0
 
@@ -51,7 +52,7 @@ class BridgeServer:
     async def listening(self) -> AsyncIterator[BridgeServer]:
         """Listen, and afterwards end all sessions and bakes. Raises: ConfigError: host or port cannot be used."""
         config = self.config
-        self.host = Host(config, owns_process=self._owns_process)
+        self.host: Host = Host(config, owns_process=self._owns_process)
         datagrams: asyncio.DatagramTransport | None = None
         try:
             listening = await serve(

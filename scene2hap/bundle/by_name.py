@@ -22,7 +22,8 @@ class ByName(dict[str, Thing]):
         self, entries: Mapping[str, Thing] | Iterable[tuple[str, Thing]] = (), what: str = "entry", of_what: str = ""
     ) -> None:
         super().__init__(entries)
-        self.what, self.of_what = what, of_what
+        self.what = what
+        self.of_what = of_what
 
     def __missing__(self, key: object) -> NoReturn:
         known = first_of([*map(repr, self)], _MOST_NAMED) or "none"

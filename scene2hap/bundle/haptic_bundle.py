@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, overload
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
@@ -169,6 +169,14 @@ class HapticBundle(BundleContents):
                     f"plays {low_hz:g} to {high_hz:g} Hz. Choose a pitch in that band."
                 )
 
+    @overload
+    def plot(
+        self, *, sources: Sequence[str] | None = None, up_to_m: float | None = None, figure: None = None
+    ) -> Figure: ...
+    @overload
+    def plot(
+        self, *, sources: Sequence[str] | None = None, up_to_m: float | None = None, figure: Figure | SubFigure
+    ) -> Figure | SubFigure: ...
     def plot(
         self,
         *,

@@ -102,7 +102,8 @@ class Actuator:
         if not isinstance(sink, ActuatorSink):
             raise ConfigError(f"--sink is {sink!r}; it must be a kind of sink, or JSON with one.")
         self.sink: ActuatorSink = sink
-        self.problem, self.has_played = "", not has_clock(sink)
+        self.problem: str = ""
+        self.has_played: bool = not has_clock(sink)
         self._pull: Callable[[int], object] | None = None if has_clock(sink) else getattr(sink, "pull", None)
         self._taken_s = time.monotonic()
         if getattr(sink, "on_event", self) is None:
@@ -126,11 +127,11 @@ class Player:
     """Position of the hand, and the text on the screen."""
 
     def __init__(self, bundle: HapticBundle, n_columns: int = 64, n_rows: int = 22) -> None:
-        self.plan = Plan.of(bundle.snapshot, n_columns, n_rows)
+        self.plan: Plan = Plan.of(bundle.snapshot, n_columns, n_rows)
         self._sources = frozenset(bundle.loops)
         self._hand = self._on_a_source()
         self._is_down = True
-        self.gain_db = 0.0
+        self.gain_db: float = 0.0
 
     def _on_a_source(self) -> tuple[int, int]:
         items = self.plan.scene.objects

@@ -20,7 +20,8 @@ class Fields:
     """An object of a JSON document, with its file and its place there for error messages."""
 
     def __init__(self, document: object, file: str, place: str = "") -> None:
-        self.file, self.place = file, place
+        self.file = file
+        self.place = place
         if not isinstance(document, Mapping):
             raise self.error("", f"is {checks.described(document)}; it must be an object")
         self._document: Mapping[str, Any] = document

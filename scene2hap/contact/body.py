@@ -35,17 +35,19 @@ class Body:
     )
 
     def __init__(self, object_id: str, shape: Shape, pose: Pose, up_axis: int) -> None:
-        self.id = object_id
-        self.shape = shape
-        self.size_m = shape.size_m
-        self.pose = pose
-        self.up_axis, self.v_axis = up_axis, 3 - up_axis
-        self.free_regions = FreeRegions()  # see `contact.free_space`
+        self.id: str = object_id
+        self.shape: Shape = shape
+        self.size_m: float = shape.size_m
+        self.pose: Pose = pose
+        self.up_axis: int = up_axis
+        self.v_axis: int = 3 - up_axis
+        self.free_regions: FreeRegions = FreeRegions()  # see `contact.free_space`
         stance = self._stance = Stance(shape, pose.rotation_xyzw, up_axis)
-        x, y, z = self.position_m = pose.position_m
+        x, y, z = pose.position_m
+        self.position_m: Triple = pose.position_m
         low, high = stance.low, stance.high
-        self.low = (x + low[0], y + low[1], z + low[2])
-        self.high = (x + high[0], y + high[1], z + high[2])
+        self.low: Triple = (x + low[0], y + low[1], z + low[2])
+        self.high: Triple = (x + high[0], y + high[1], z + high[2])
 
     @classmethod
     def of(cls, item: SceneObject, up_axis: int) -> Body:

@@ -73,15 +73,18 @@ class Certificate:
         pins: Collection[str],
         resting: Resting | None,
     ) -> None:
-        self.extent, self._planes, self.pins = extent, planes, pins
-        body = self.body = extent.body
+        self.extent: Extent = extent
+        self._planes = planes
+        self.pins: Collection[str] = pins
+        body = extent.body
+        self.body: Body = body
         standing, self._pair = None, None
         if resting is not None:
             self._pair = pair_of(body.id, resting.support.id)
             self._normals = (support_normal(body, resting.support),) * 4
             standing = _standing(body, resting)
         self._track = Track(body.stance, standing)
-        self.n_steps = 0
+        self.n_steps: int = 0
         self._set_bounds()
 
     def keep_behind(self, planes: Mapping[str, tuple[Plane, ...]]) -> None:

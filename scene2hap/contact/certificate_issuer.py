@@ -31,7 +31,8 @@ class CertificateIssuer:
         broad_phase: BroadPhase,
         of: dict[str, Certificate],
     ) -> None:
-        self._bodies, self._unsupported, self._broad_phase, self.of = bodies, unsupported, broad_phase, of
+        self._bodies, self._unsupported, self._broad_phase = bodies, unsupported, broad_phase
+        self.of = of
         # From the id of a pinning body to the ids of the bodies whose certificates end when it moves.
         self._pinned: dict[str, set[str]] = {}
         # By id: refusals minus certificates issued since, and moves that are left until the next attempt.

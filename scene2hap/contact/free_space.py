@@ -35,7 +35,9 @@ class FreeSpace:
     """The free space of a host around a guest, at their present poses. Each result is computed on first use."""
 
     def __init__(self, guest: Body, host: Body) -> None:
-        self.guest, self.host, self._own = guest, host, host.stance.upright
+        self.guest: Body = guest
+        self.host: Body = host
+        self._own = host.stance.upright
 
     @lazy
     def region_below(self) -> FreeRegion | None:

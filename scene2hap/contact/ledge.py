@@ -51,7 +51,8 @@ class Ledges:
     def __init__(self, triangles: Floats, boxes: Boxes, upright: Upright, uneven_m: float) -> None:
         axis, sign, *plane = upright
         low, high = boxes.low[axis], boxes.high[axis]
-        top = self.tops = high if sign > 0 else -low
+        top = high if sign > 0 else -low
+        self.tops: Floats = top
         self.number: NDArray[np.intp] = np.full(triangles.shape[2], -1)
         level = np.flatnonzero(high - low <= uneven_m)
         level = level[np.argsort(top[level], kind="stable")]

@@ -67,7 +67,9 @@ class MeshPair:
     """Two posed meshes. The larger is the host; a, if they have the same size."""
 
     def __init__(self, a: Body, b: Body) -> None:
-        self.guest_is_a = a.size_m < b.size_m
+        self.guest_is_a: bool = a.size_m < b.size_m
+        self.guest: Body
+        self.host: Body
         self.guest, self.host = (a, b) if self.guest_is_a else (b, a)
         self._rows = self.host.stance.rows
         back = self._back = transposed(self._rows)

@@ -25,11 +25,12 @@ class BodyPair:
     """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id."""
 
     def __init__(self, a: Body, b: Body) -> None:
-        self.a, self.b = a, b
-        self.space = FreeSpace(*roles(a, b))
+        self.a: Body = a
+        self.b: Body = b
+        self.space: FreeSpace = FreeSpace(*roles(a, b))
         rest = rest_of(a, b, self.space)
         # At least one of the two cannot rest on the other.
-        self.rests = (rest, rest_of(b, a, self.space) if rest is None else None)
+        self.rests: tuple[Rest | None, Rest | None] = (rest, rest_of(b, a, self.space) if rest is None else None)
         self._falls: dict[str, Floats | None] = {}
         self._first_falls_m: dict[str, float] = {}
         self._points: dict[tuple[Triple, float], tuple[Triple, ...]] = {}

@@ -9,6 +9,7 @@ from typing import TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap.contact.base_face import BaseFace, base_face_of, feet_m, top_of, triples, uneven_m
 from scene2hap.contact.geometry.boxes import Boxes, boxes_of
@@ -32,12 +33,13 @@ class Shape:
 
     def __init__(self, triangles: Floats, corners: Floats) -> None:
         self.triangles = triangles
-        self.boxes = boxes_of(triangles)
+        self.boxes: Boxes = boxes_of(triangles)
         self.corners = corners
         self.box: Boxes = self.boxes.hull()
-        self.low, self.high = self.box.low[:, 0], self.box.high[:, 0]
+        self.low: NDArray[np.float64] = self.box.low[:, 0]
+        self.high: NDArray[np.float64] = self.box.high[:, 0]
         # The diagonal of the box in the shape's own frame, since a rotation would change that of the AABB.
-        self.size_m = float(np.linalg.norm(self.high - self.low))
+        self.size_m: float = float(np.linalg.norm(self.high - self.low))
         self._uneven_m, self._feet_m = uneven_m(self.size_m), feet_m(self.size_m)
         self.middle: Triple = triples((self.low + self.high)[None] / 2)[0]
         self.half: Triple = triples((self.high - self.low)[None] / 2)[0]

@@ -63,7 +63,8 @@ class Stance:
     """
 
     def __init__(self, shape: Shape, rotation_xyzw: tuple[float, float, float, float], up_axis: int) -> None:
-        x, y, z, w = self.rotation_xyzw = rotation_xyzw
+        x, y, z, w = rotation_xyzw
+        self.rotation_xyzw = rotation_xyzw
         self.shape = shape
         xx, yy, zz, xy, xz, yz, wx, wy, wz = x * x, y * y, z * z, x * y, x * z, y * z, x * w, y * w, z * w
         self.rows: Rows = (
@@ -71,13 +72,17 @@ class Stance:
             (2 * (xy + wz), 1 - 2 * (xx + zz), 2 * (yz - wx)),
             (2 * (xz - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)),
         )
-        self.up_axis, self.v_axis = up_axis, 3 - up_axis
+        self.up_axis = up_axis
+        self.v_axis: int = 3 - up_axis
         up = self.rows[up_axis]
         self.way_up: Triple = (
             round(up[0], _DIGITS) + 0.0,
             round(up[1], _DIGITS) + 0.0,
             round(up[2], _DIGITS) + 0.0,
         )
+        self.middle: Triple
+        self.low: Triple
+        self.high: Triple
         self.middle, self.low, self.high = self._bounds(up)
 
     def _bounds(self, up: Triple) -> tuple[Triple, Triple, Triple]:

@@ -48,7 +48,7 @@ class Track:
     """A certified body, at its last rotation, on a support or in the air. `keep_in` must set its bounds first."""
 
     def __init__(self, stance: Stance, standing: Standing | None) -> None:
-        self.stance = stance
+        self.stance: Stance = stance
         self._standing = standing
         self._bounds: tuple[Flat, tuple[float, float], Sequence[Wall]]
 

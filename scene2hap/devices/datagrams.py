@@ -27,7 +27,7 @@ class Datagrams:
         self._host = host
         self._port = port
         self._socket: socket.socket | None = None
-        self.not_sent = 0
+        self.not_sent: int = 0
 
     def connect(self, probe: bytes, carry_on: CarryOn) -> None:
         """Resolve the address and probe it. Raises: DeviceNotFound: there is no such host, or no listener."""

@@ -16,7 +16,7 @@ class Pace:
         self._max_lag_s = max_lag_s
         self._since_s = 0.0
         self._taken = 0
-        self.n_pauses = 0
+        self.n_pauses: int = 0
 
     def restart(self, now_s: float) -> None:
         """Restart the count at a time."""

@@ -26,7 +26,7 @@ from scene2hap.calls import not_pickled
 from scene2hap.checks import represented
 from scene2hap.devices.due_frames import Pace
 from scene2hap.devices.exclusive_use import claim, give_back
-from scene2hap.devices.protocol import Block, EventCallback, Fill, SinkEvent, SinkFormat, SinkStats
+from scene2hap.devices.protocol import Block, EventCallback, EventKind, Fill, SinkEvent, SinkFormat, SinkStats
 from scene2hap.devices.rate import RateConverter
 from scene2hap.errors import ConfigError, DeviceError, DeviceTimeout
 
@@ -79,16 +79,16 @@ class Line(Protocol):
         """Time from taking a sample to playing it [s]."""
         ...
 
-    def connect(self, format: SinkFormat, carry_on: CarryOn) -> int:
+    def connect(self, format: SinkFormat, carry_on: CarryOn, /) -> int:
         """Connect to the device. Returns the sample rate [Hz] at which it plays."""
         ...
 
-    def wanted(self, timeout_s: float) -> int:
+    def wanted(self, timeout_s: float, /) -> int:
         """Return the number of frames that the device takes now, 0 for none. Waits at most `timeout_s` for a
         request."""
         ...
 
-    def send(self, block: Block) -> None:
+    def send(self, block: Block, /) -> None:
         """Pass the requested number of frames to the device."""
         ...
 
@@ -203,7 +203,7 @@ class LiveSink:
             if self._stopping.is_set():
                 break
             pause_s = FIRST_RETRY_S if self._frames > frames else pause_s
-            kind = "lost" if self._playing.is_set() else "unavailable"
+            kind: EventKind = "lost" if self._playing.is_set() else "unavailable"
             self._playing.clear()
             self._report_once(kind, f"{problem} Trying again.")
             self._idle_until(time.monotonic() + pause_s)
@@ -307,7 +307,7 @@ class LiveSink:
             self._report_once("fault", f"{self._name} plays silence: {type(cause).__name__}: {cause}.")
             return np.zeros((n_frames, n_channels), dtype=np.float32)
 
-    def _report_once(self, kind: str, message: str) -> None:
+    def _report_once(self, kind: EventKind, message: str) -> None:
         """Report an event once, not at every attempt."""
         if self._last_event == (kind, message):
             return

@@ -30,9 +30,9 @@ class PlaybackRing:
         self._top = n_fade
         self._place = 0
         self._is_dry = False
-        self.closing = False
+        self.closing: bool = False
         """Set by the writer to fade out. Samples written after that are not played."""
-        self.gaps = 0
+        self.gaps: int = 0
         """Number of times that samples ran out while playing."""
 
     def restart(self) -> None:

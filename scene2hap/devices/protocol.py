@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,9 @@ class SinkStats:
     latency_s: float | None = None
 
 
+EventKind = Literal["connected", "unavailable", "stalled", "resumed", "lost", "fault"]
+
+
 @clear_construction
 @dataclass(frozen=True)
 class SinkEvent:
@@ -57,7 +60,7 @@ class SinkEvent:
     message : a sentence with the next step; at_s : time [s], on the clock of `time.monotonic`.
     """
 
-    kind: str
+    kind: EventKind
     message: str
     at_s: float
 
@@ -77,11 +80,11 @@ class ActuatorSink(Protocol):
     `show(frame)` is called with every HapticFrame, for devices that play gains.
     """
 
-    def open(self, format: SinkFormat) -> None:
+    def open(self, format: SinkFormat, /) -> None:
         """Prepare the sink for this format. Raises: DeviceError."""
         ...
 
-    def start(self, fill: Fill) -> None:
+    def start(self, fill: Fill, /) -> None:
         """Begin to request blocks. A device requests them by its own clock; a file or memory sink by `pull`."""
         ...
 

@@ -36,8 +36,8 @@ class RateConverter:
         self._up, self._down = rate_out_hz // common, rate_in_hz // common
         self._phases = _phases(rate_in_hz, rate_out_hz, self._up) if self._up != self._down else None
         n_taps = 1 if self._phases is None else self._phases.shape[1]
-        self.latency_s = (n_taps * self._up - 1) / 2 / (rate_in_hz * self._up) if n_taps > 1 else 0.0
-        self.n_held = math.ceil(n_taps * self._up / self._down) if n_taps > 1 else 0
+        self.latency_s: float = (n_taps * self._up - 1) / 2 / (rate_in_hz * self._up) if n_taps > 1 else 0.0
+        self.n_held: int = math.ceil(n_taps * self._up / self._down) if n_taps > 1 else 0
         """Number of output frames that the newest input frame reaches."""
         self._past = np.zeros((n_taps, n_channels))
         self._next_out = self._next_in = 0

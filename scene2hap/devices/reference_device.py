@@ -51,10 +51,13 @@ class ReferenceDevice:
         on_samples: Callable[[Samples], None] | None = None,
         on_output: Callable[[Samples], None] | None = None,
     ) -> None:
-        self.format = DeviceFormat(sample_rate_hz, channels, queue_frames, 128)
-        self.accepted_frames = self.underruns = self.lost = self.refused = 0
-        self.muted = True
-        self.grants_credit = True
+        self.format: DeviceFormat = DeviceFormat(sample_rate_hz, channels, queue_frames, 128)
+        self.accepted_frames: int = 0
+        self.underruns: int = 0
+        self.lost: int = 0
+        self.refused: int = 0
+        self.muted: bool = True
+        self.grants_credit: bool = True
         self._on_samples = on_samples
         self._on_output = on_output
         self._parser = FrameParser()
@@ -195,7 +198,7 @@ class PseudoTerminal:
         self._master, self._slave = pty.openpty()
         tty.setraw(self._slave)
         os.set_blocking(self._master, False)
-        self.name = os.ttyname(self._slave)
+        self.name: str = os.ttyname(self._slave)
 
     def read(self, timeout_s: float) -> bytes:
         """Return the bytes that have arrived; wait at most `timeout_s` for a first byte."""

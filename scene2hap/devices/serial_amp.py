@@ -73,9 +73,9 @@ class SerialLine:
             )
         self._buffer_s = checks.number("buffer_s", buffer_s, "s", at_least=0.002, at_most=1.0, error=ConfigError)
         self._block = checks.whole("block_frames", block_frames, "-", at_least=1, at_most=256, error=ConfigError)
-        self.underruns = 0
+        self.underruns: int = 0
         self.latency_s: float | None = None
-        self.silent_after_s = WATCHDOG_S
+        self.silent_after_s: float = WATCHDOG_S
         self._port: SerialPort | None = None
         self._parser = FrameParser()
         self._in_flight: deque[tuple[int, int]] = deque()

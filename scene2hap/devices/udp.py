@@ -83,7 +83,7 @@ class PcmLine:
         self._block_frames = self._wish
         self._datagrams = datagrams
         self._samples = format
-        self.silent_after_s = LATEST_S + self._wish / self._rate_hz
+        self.silent_after_s: float = LATEST_S + self._wish / self._rate_hz
         self._pace = Pace(self._rate_hz, self.silent_after_s)
         self._sequence = 0
         self._announcement = b""

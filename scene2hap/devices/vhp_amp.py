@@ -55,7 +55,7 @@ class VhpLine:
     def __init__(self, port: str, *, slim: bool) -> None:
         self._name = port
         self._slim = slim
-        self.underruns = 0
+        self.underruns: int = 0
         # The slim board collects eight blocks before it plays them; the sleeve plays the last one that it received.
         self.latency_s: float | None = vhp.FRAMES * (vhp.SLIM_QUEUE_FRAMES if slim else 1) / vhp.SAMPLE_RATE_HZ
         self._port: SerialPort | None = None

@@ -6,6 +6,7 @@ import contextlib
 import os
 import uuid
 from collections.abc import Hashable
+from pathlib import Path
 
 import soundfile
 
@@ -29,7 +30,7 @@ class WavSink(Pulled):
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = checks.path("path", path, error=ConfigError)
+        self.path: Path = checks.path("path", path, error=ConfigError)
         if not self.path.name or self.path.is_dir():
             raise ConfigError(
                 f"path {str(path)!r} is a folder; give that of a file, as {str(self.path / 'touch.wav')!r}."

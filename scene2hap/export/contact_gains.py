@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -21,7 +23,7 @@ LEAST_GAIN = 1e-3
 class PathEntry(BaseModel):
     """The gain of a source at a contact through which it enters an object (scene at rest, first states)."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config: ClassVar[ConfigDict] = ConfigDict(frozen=True, extra="forbid")
 
     source: str
     object_id: str

@@ -28,7 +28,7 @@ class Exported:
 class Exporter(Protocol):
     """Interface of writers of tracks in one format. Configuration belongs to the constructor."""
 
-    def export(self, track: Track) -> Exported:
+    def export(self, track: Track, /) -> Exported:
         """Return the files of a track. Their names begin with the track's. Raises: ExportError."""
         ...
 

@@ -59,6 +59,6 @@ class LLMReply:
 class LLMBackend(Protocol):
     """Interface of language models: `complete` answers a request. Several requests may run at the same time."""
 
-    async def complete(self, request: LLMRequest) -> LLMReply:
+    async def complete(self, request: LLMRequest, /) -> LLMReply:
         """Return the answer. Raises: BackendUnavailable, BadAnswer, ReplayMiss."""
         ...

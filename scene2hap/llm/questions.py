@@ -30,9 +30,9 @@ class Slots:
     """
 
     def __init__(self, n_slots: int) -> None:
-        self.free = asyncio.Semaphore(n_slots)
-        self.n_running = 0
-        self.is_stopping = False
+        self.free: asyncio.Semaphore = asyncio.Semaphore(n_slots)
+        self.n_running: int = 0
+        self.is_stopping: bool = False
 
 
 class Questions:
@@ -53,7 +53,7 @@ class Questions:
         temperature: float = 0.2,
         wishes: Mapping[str, str] | None = None,
     ) -> None:
-        self.report = InferenceReport()
+        self.report: InferenceReport = InferenceReport()
         self.closed_by: Exception | None = None
         self._backend = backend
         self._prompts = prompts

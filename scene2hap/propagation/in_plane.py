@@ -44,7 +44,7 @@ class InPlaneModes:
         per_area = mass_kg / (plate.length_m * plate.width_m)
         C = plate.material.youngs_modulus_pa * plate.thickness_m / (1 - nu**2)
         squares, vectors = np.linalg.eigh(np.block([[uu, uv], [uv.T, vv]]))
-        self.squares = C / per_area * squares
+        self.squares: NDArray[np.float64] = C / per_area * squares
         self.squares[:3] = 0.0
         self._vectors = vectors.reshape(2, n * n, -1) / np.sqrt(per_area)
 

@@ -42,7 +42,8 @@ class Box:
         self._mass_kg, self._spread = body.mass_kg, body.spread
         x, y, z = body.spread.squares_m2
         self._roots = np.sqrt(body.mass_kg * np.array([1.0, 1.0, 1.0, y + z, x + z, x + y]))
-        self.squares, self.signs = np.zeros(6), np.ones(6)
+        self.squares: NDArray[np.float64] = np.zeros(6)
+        self.signs: NDArray[np.float64] = np.ones(6)
 
     def shapes(self, ports: Floats) -> Floats:
         """Displacement of each port in each motion (n, 6) [kg^-1/2]."""
@@ -65,8 +66,8 @@ class Sheet:
         x, y, z = np.square(size_m)
         self._modes, self._roots = modes, np.sqrt(tilting_kg * np.array([y + z, x + z]) / 12)
         self._middle_m = np.array(size_m[:2]) / 2
-        self.squares = np.concatenate([modes.squares, np.zeros(4)])
-        self.signs = np.concatenate([np.ones(len(modes.squares) + 2), -np.ones(2)])
+        self.squares: NDArray[np.float64] = np.concatenate([modes.squares, np.zeros(4)])
+        self.signs: NDArray[np.float64] = np.concatenate([np.ones(len(modes.squares) + 2), -np.ones(2)])
 
     def shapes(self, ports: Floats) -> Floats:
         """Displacement of each port in each motion (n, n_motions) [kg^-1/2]."""
@@ -80,7 +81,8 @@ class Sheet:
 class Held:
     """The motions of a plate that an edge holds: none."""
 
-    squares = signs = np.empty(0)
+    squares: NDArray[np.float64] = np.empty(0)
+    signs: NDArray[np.float64] = np.empty(0)
 
     def shapes(self, ports: Floats) -> Floats:
         """An empty array (n, 0)."""

@@ -76,7 +76,7 @@ class ModalBody:
     def __init__(self, plate: Plate, max_frequency_hz: float, loss_factor: float, fineness: Fineness = FINE) -> None:
         self.plate = plate
         self.loss_factor = loss_factor
-        self.terms = PlateTerms(plate, max_frequency_hz, fineness)
+        self.terms: PlateTerms = PlateTerms(plate, max_frequency_hz, fineness)
         self._at_forces = ByteBoundedLru(self.terms.of_forces)
         self._among_forces = ByteBoundedLru(self._symmetric)
         self._among_many = ByteBoundedLru(self._shapes_among, room=2)

@@ -63,7 +63,7 @@ class NearField:
         plate = modes.plate
         weights = _weights(plate.edges[:2]), _weights(plate.edges[2:])
         cut2 = cutoff_squared(modes, drive_m)
-        self.dimples = Dimples(drive_m, *weights, cut2, _extent(plate, modes.terms), table())
+        self.dimples: Dimples = Dimples(drive_m, *weights, cut2, _extent(plate, modes.terms), table())
 
     def __call__(self, points_m: Floats, k2: NDArray[Number]) -> NDArray[Number]:
         """Residual at points (n_points, 2) [m] for k2 = k_c^2 (n_frequencies,) [m^-2], complex or real, 0 < |k2| < K^2.

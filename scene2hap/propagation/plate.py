@@ -64,11 +64,11 @@ class Plate:
             width_m: float,
             thickness_m: float,
             material: Material | str,
-            boundary: str = ...,
-            object_mass_kg: float | None = ...,
-            feet: Material | None = ...,
-            outline: Outline | None = ...,
-            mass_is_estimate: bool = ...,
+            boundary: str = "free",
+            object_mass_kg: float | None = None,
+            feet: Material | None = None,
+            outline: Outline | None = None,
+            mass_is_estimate: bool = False,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -213,7 +213,7 @@ class RigidBody:
     if TYPE_CHECKING:
 
         def __init__(
-            self, mass_kg: float, size_m: Iterable[float] | None = ..., material: Material | None = ...
+            self, mass_kg: float, size_m: Iterable[float] | None = None, material: Material | None = None
         ) -> None: ...
 
     def __post_init__(self) -> None:

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from scene2hap.compiled import compiled
 from scene2hap.propagation.bands.octaves import OctaveSums
 from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
-from scene2hap.propagation.modes import FINE, MARGIN, Fineness, modes_up_to
+from scene2hap.propagation.modes import FINE, MARGIN, Fineness, PlateModes, modes_up_to
 from scene2hap.propagation.near_field import Dimples, NearField
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.ritz import axis_basis
@@ -151,7 +151,7 @@ class PlateTerms:
     """The terms of one plate, for frequencies up to `max_frequency_hz`: first its modes, then the rest."""
 
     def __init__(self, plate: Plate, max_frequency_hz: float, fineness: Fineness = FINE) -> None:
-        self.modes = modes_up_to(plate, MARGIN * max_frequency_hz, fineness)
+        self.modes: PlateModes = modes_up_to(plate, MARGIN * max_frequency_hz, fineness)
         top = float(plate.wavenumber_rad_m(max_frequency_hz)) ** 4
         self._nodes = top / 2 * (1 - np.cos(np.pi * (np.arange(N_NODES) + 0.5) / N_NODES))
         n_x, n_y = self.modes.terms
@@ -159,7 +159,7 @@ class PlateTerms:
             axis_basis(plate.edges[:2], plate.length_m, n_x),
             axis_basis(plate.edges[2:], plate.width_m, n_y),
         )
-        self.per_size = (2 / plate.length_m, 2 / plate.width_m)
+        self.per_size: tuple[float, float] = (2 / plate.length_m, 2 / plate.width_m)
         k4 = np.concatenate([block.k4 for block in self.modes.blocks])
         order = np.argsort(k4, kind="stable")
         self._k4 = k4[order]

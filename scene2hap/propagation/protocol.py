@@ -100,7 +100,7 @@ class PropagationField(Protocol):
         """Ids of the sources, in the order of the second axis of `attenuation`."""
         ...
 
-    def attenuation(self, object_id: str, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    def attenuation(self, object_id: str, points_m: NDArray[np.float64], /) -> NDArray[np.float64]:
         """Return the response at points of one object over each source's free vibration.
 
         Parameters: points_m : (n_points, 3) float64 [m], world, on or near the object as it was when prepared.
@@ -114,7 +114,7 @@ class PropagationField(Protocol):
 class ExpectantField(PropagationField, Protocol):
     """A field that is faster at objects announced by `expect`. Optional."""
 
-    def expect(self, object_id: str) -> None:
+    def expect(self, object_id: str, /) -> None:
         """Prepare an object for many queries. May take as long as many queries, and may run in one thread while another
         queries; results change by rounding only."""
         ...
@@ -137,7 +137,7 @@ class Carrier:
 class CarryingField(PropagationField, Protocol):
     """A field in which a source arrives over all paths at once, so that no single path explains it."""
 
-    def carriers(self, object_id: str, source_id: str, band: int) -> tuple[Carrier, ...]:
+    def carriers(self, object_id: str, source_id: str, band: int, /) -> tuple[Carrier, ...]:
         """Contacts through which a source's vibration enters an object in a band, strongest first; shares sum to 1.
 
         Returns: empty where nothing arrives, and on the source itself.
@@ -188,7 +188,7 @@ def checked_gains(found: ArrayLike, shape: tuple[int, int, int]) -> NDArray[np.f
 class PropagationModel(Protocol):
     """Interface of propagation models: `prepare` solves a scene once and returns a field that is queried often."""
 
-    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> PropagationField:
+    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands, /) -> PropagationField:
         """Prepare the field of a whole scene, over as many contacts as the model allows."""
         ...
 

@@ -79,8 +79,9 @@ class PlannedBurst:
     """
 
     def __init__(self, begin: int, waves: Sequence[Samples], weights: Mapping[int, Sequence[float]]) -> None:
-        self.begin, self._waves, self._weights = begin, waves, weights
-        self.n_frames = max(map(len, waves), default=0)
+        self.begin = begin
+        self._waves, self._weights = waves, weights
+        self.n_frames: int = max(map(len, waves), default=0)
         # By token: the first frame of the latest stretch, and its samples.
         self._stretches: dict[int, tuple[int, Samples]] = {}
 

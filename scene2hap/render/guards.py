@@ -72,7 +72,8 @@ class PeakGuard:
     def __init__(self, limit: float | NDArray[np.float64], sample_rate_hz: float, n_channels: int) -> None:
         from scipy.signal import lfilter
 
-        self.limit, self.n_channels = limit, n_channels
+        self.limit = limit
+        self.n_channels = n_channels
         self._now = np.broadcast_to(limit, n_channels)
         self._step = 1.0 / (FULL_SCALE_S * sample_rate_hz)
         self._release, self._attack = limiter.decays(sample_rate_hz, 1)[:, 0]
@@ -80,7 +81,7 @@ class PeakGuard:
         self._smooth = lfilter
         self._held, self._applied = np.zeros((2, n_channels))
         self._frame = 0
-        self.n_limited = 0
+        self.n_limited: int = 0
 
     def pass_through(self, x: Signal) -> Signal:
         """Return the signal within the limit."""
@@ -160,7 +161,7 @@ class PowerGuard:
         self._gains = [(self._gain_for(0.0),) * 2] * n_channels
         self._moments = np.zeros((3, n_channels))
         self._frame = 0
-        self.n_limited = 0
+        self.n_limited: int = 0
 
     def pass_through(self, x: Signal) -> Signal:
         """Return the signal within the budget."""
@@ -211,7 +212,7 @@ class SlewGuard:
     def __init__(self, step: float, n_channels: int) -> None:
         self._step = step
         self._last = np.zeros(n_channels)
-        self.n_limited = 0
+        self.n_limited: int = 0
 
     def pass_through(self, x: Signal) -> Signal:
         """Return the signal, or the nearest signal within the slew limit."""

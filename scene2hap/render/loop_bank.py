@@ -85,9 +85,9 @@ class LoopBank:
 
     def __init__(self, loops: Sequence[AudioClip], bands: Bands, sample_rate_hz: int) -> None:
         self.sample_rate_hz = sample_rate_hz
-        self.n_bands = bands.n_bands
+        self.n_bands: int = bands.n_bands
         self._stored = [_stored(loop, bands, sample_rate_hz) for loop in loops]
-        self.loops = [one.loop for one in self._stored]
+        self.loops: list[StoredLoop] = [one.loop for one in self._stored]
 
     def __len__(self) -> int:
         return len(self.loops)

@@ -64,7 +64,7 @@ class Playhead:
     def __init__(
         self, mix: TactileMix, upsampler: Upsampler, incoming: deque[Change], rates_hz: tuple[int, int]
     ) -> None:
-        self.position = 0
+        self.position: int = 0
         self._mix, self._upsampler, self._incoming = mix, upsampler, incoming
         self._tactile_rate_hz, self._sample_rate_hz = rates_hz
         self._outputs = upsampler.outputs(0)

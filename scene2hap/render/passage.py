@@ -103,15 +103,16 @@ class Passage(LoopBank):
         since: Running,
         after: Passage | None = None,
     ) -> None:
-        rate = self.sample_rate_hz = steady.sample_rate_hz
-        self.n_bands = steady.n_bands
+        rate = steady.sample_rate_hz
+        self.sample_rate_hz: int = rate
+        self.n_bands: int = steady.n_bands
         self._begin, self._course, self._lasts = begin, course, lasts_s * rate
         self._from = course.share(since)
         # At standstill and in steady running there is no difference of speed to fade.
         is_under_way = 0.0 < since.amplitude < 1.0
         self._ahead = since.speed - float(course.speed(np.array([self._from]))[0]) if is_under_way else 0.0
         lead, n = self._lead, math.ceil((1 - self._from) * self._lasts)
-        self.end = begin + lead + n
+        self.end: int = begin + lead + n
         x = self._share(np.arange(begin, self.end + CELL))
         speed, amplitude = self._speed(x), course.amplitude(x)
         played = np.concatenate([[0.0], np.cumsum(speed[:-1])])

@@ -107,7 +107,8 @@ class SafetyLayer:
     ) -> None:
         from scipy.signal import butter, sosfilt
 
-        self.budget = budget = profile if isinstance(profile, Budget) else Budget.of(profile)
+        budget = profile if isinstance(profile, Budget) else Budget.of(profile)
+        self.budget: Budget = budget
         if watchdog_s is not None:
             watchdog_s = checks.number("watchdog_s", watchdog_s, "s", at_least=0.02, at_most=1.0, error=ConfigError)
         self._watchdog_s = watchdog_s
@@ -115,7 +116,7 @@ class SafetyLayer:
         self._fed_at = -math.inf
         self._is_released = False
         self._is_tripped = True
-        self.silent = threading.Event()
+        self.silent: threading.Event = threading.Event()
         """Set once the gate has closed after `release`."""
         peak = budget.max_amplitude
         corner_hz = min(math.sqrt(2) * budget.max_frequency_hz, 0.45 * sample_rate_hz)

@@ -24,6 +24,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap.compiled import compiled
 from scene2hap.render.loop_bank import CELL, Block, LoopBank
@@ -80,8 +81,8 @@ class RampedProduct:
 
         self._sgemm = sgemm
         self._rises = np.lib.stride_tricks.sliding_window_view(rise, CELL)
-        self.loops = np.zeros((n_rows, CELL), dtype=np.float32)
-        self.gains = np.zeros((n_places, n_slots, n_hands), dtype=np.float32)
+        self.loops: NDArray[np.float32] = np.zeros((n_rows, CELL), dtype=np.float32)
+        self.gains: NDArray[np.float32] = np.zeros((n_places, n_slots, n_hands), dtype=np.float32)
         self._P = np.zeros((n_slots, n_hands, CELL), dtype=np.float32)
         self._weights = np.zeros((n_slots, CELL), dtype=np.float32)
         self._weighted = np.zeros((n_slots, CELL), dtype=np.float32)
@@ -175,7 +176,9 @@ class TactileMix:
         self._place_of = [len(bank)] * len(bank)
         self._begin = self._from = 0
         self._is_stale = False
-        self.n_cells = self.n_rows_mixed = self.n_merged = 0
+        self.n_cells: int = 0
+        self.n_rows_mixed: int = 0
+        self.n_merged: int = 0
         self._use(silence)
 
     def enter(self, begin: int) -> None:

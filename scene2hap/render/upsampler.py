@@ -84,16 +84,19 @@ class Upsampler:
 
     def __init__(self, rate_in_hz: int, rate_out_hz: int, n_channels: int) -> None:
         common = math.gcd(rate_in_hz, rate_out_hz)
-        self.up, self.down = rate_out_hz // common, rate_in_hz // common
+        self.up: int = rate_out_hz // common
+        self.down: int = rate_in_hz // common
         h = interpolation_filter(rate_in_hz, self.up)
         n_taps = len(h) // self.up
-        self.delay_s = (len(h) - 1) / 2 / (rate_in_hz * self.up)
-        self.inputs = np.zeros((n_channels, n_taps - 1 + CELL), dtype=np.float32)
+        self.delay_s: float = (len(h) - 1) / 2 / (rate_in_hz * self.up)
+        self.inputs: NDArray[np.float32] = np.zeros((n_channels, n_taps - 1 + CELL), dtype=np.float32)
         self._Y = np.zeros((n_channels, -(-CELL * self.up // self.down)), dtype=np.float32)
-        self.cell = self.inputs[:, n_taps - 1 :]
+        self.cell: NDArray[np.float32] = self.inputs[:, n_taps - 1 :]
         n_kinds = self.down // math.gcd(self.down, CELL * self.up)
         kinds = {self._offset(k * CELL) for k in range(n_kinds)} if n_kinds <= _MOST_KEPT else set[int]()
-        self.filter = PolyphaseFilter(h.astype(np.float32), self.up, self.down, self._Y.shape[1], kinds)
+        self.filter: PolyphaseFilter = PolyphaseFilter(
+            h.astype(np.float32), self.up, self.down, self._Y.shape[1], kinds
+        )
 
     def input_of(self, frame: int) -> int:
         """Return the newest input that an output needs."""

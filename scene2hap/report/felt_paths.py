@@ -21,6 +21,7 @@ from scene2hap.propagation.paths.live_law import LiveLaw
 from scene2hap.propagation.paths.traced_paths import TracedPaths
 from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation
 from scene2hap.report.surface_points import Patch
+from scene2hap.scene.objects import Contact
 from scene2hap.session.network import body_of
 
 Path = tuple[str, ...]
@@ -41,7 +42,7 @@ class ScenePaths:
     """The cheapest paths of a bundle's scene, searched once for each law: for levels in all bands, and as objects."""
 
     def __init__(self, bundle: HapticBundle) -> None:
-        self.contacts = ContactGraph(bundle.snapshot).contacts
+        self.contacts: tuple[Contact, ...] = ContactGraph(bundle.snapshot).contacts
         self._bodies = {key: body for key, haptics in bundle.objects.items() if (body := body_of(haptics)) is not None}
         self._sources = tuple(bundle.loops)
         self._traced: dict[ExponentialPlate, TracedPaths] = {}

@@ -141,8 +141,8 @@ class HighestSurface:
     """
 
     def __init__(self, n_columns: int, n_rows: int) -> None:
-        self.top = np.full((n_rows, n_columns), NOTHING, dtype=np.intp)
-        self.height = np.full((n_rows, n_columns), -np.inf)
+        self.top: NDArray[np.intp] = np.full((n_rows, n_columns), NOTHING, dtype=np.intp)
+        self.height: NDArray[np.float64] = np.full((n_rows, n_columns), -np.inf)
 
     def add(self, triangles: Floats, numbers: NDArray[np.intp], limit: float = np.inf) -> None:
         """Add triangles (n, 3, 3): column and row in cells, and height. Their numbers (n,) need not differ.

@@ -42,7 +42,7 @@ class ImageSet(Sequence[bytes]):
 
     def __init__(self, source: ImageSource, shots: Sequence[Shot]) -> None:
         self.source = source
-        self.shots = tuple(shots)
+        self.shots: tuple[Shot, ...] = tuple(shots)
 
     def __len__(self) -> int:
         return len(self.shots)

@@ -53,9 +53,9 @@ class Contact:
             a: str,
             b: str,
             point_m: Iterable[float],
-            normal: Iterable[float] | None = ...,
-            area_m2: float | None = ...,
-            weight: float = ...,
+            normal: Iterable[float] | None = None,
+            area_m2: float | None = None,
+            weight: float = 1.0,
         ) -> None: ...
 
     def __post_init__(self) -> None:

@@ -44,7 +44,9 @@ class Pose:
 
     if TYPE_CHECKING:
 
-        def __init__(self, position_m: Iterable[float] = ..., rotation_xyzw: Iterable[float] = ...) -> None: ...
+        def __init__(
+            self, position_m: Iterable[float] = (0.0, 0.0, 0.0), rotation_xyzw: Iterable[float] = (0.0, 0.0, 0.0, 1.0)
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         position = checks.vector("position_m", self.position_m, "m", size=3, error=SceneError)

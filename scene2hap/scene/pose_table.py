@@ -28,9 +28,9 @@ class PoseTable(Mapping[str, Pose]):
     __slots__ = ("_row", "ids", "positions_m", "rotations_xyzw")
 
     def __init__(self, ids: Sequence[str], positions_m: ArrayLike, rotations_xyzw: ArrayLike) -> None:
-        self.ids = checks.items("ids", ids, at_most=_MOST, error=SceneError)
+        self.ids: tuple[str, ...] = checks.items("ids", ids, at_most=_MOST, error=SceneError)
         n = len(self.ids)
-        self.positions_m = self._rows("positions_m", positions_m, (n, 3))
+        self.positions_m: NDArray[np.float64] = self._rows("positions_m", positions_m, (n, 3))
         rotations = self._rows("rotations_xyzw", rotations_xyzw, (n, 4))
         x, y, z, w = rotations.T
         lengths = np.sqrt(x * x + y * y + z * z + w * w)
@@ -40,7 +40,7 @@ class PoseTable(Mapping[str, Pose]):
                 thing = self.ids[int(np.argmin(lengths))]
                 raise SceneError(f"rotations_xyzw of {thing!r} has length 0. Use (0, 0, 0, 1) for no rotation.")
             rotations /= np.where(off, lengths, 1.0)[:, None]
-        self.rotations_xyzw = rotations
+        self.rotations_xyzw: NDArray[np.float64] = rotations
         self._row: dict[str, int] | None = None
 
     def __repr__(self) -> str:

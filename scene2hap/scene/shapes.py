@@ -49,7 +49,7 @@ class Box:
 
     if TYPE_CHECKING:
 
-        def __init__(self, size_m: Iterable[float], kind: Literal["box"] = ...) -> None: ...
+        def __init__(self, size_m: Iterable[float], kind: Literal["box"] = "box") -> None: ...
 
     def __post_init__(self) -> None:
         size = checks.vector("size_m", self.size_m, "m", size=3, above=0.0, error=SceneError)
@@ -80,7 +80,7 @@ class TriMesh:
 
     if TYPE_CHECKING:
 
-        def __init__(self, vertices_m: ArrayLike, faces: ArrayLike, kind: Literal["mesh"] = ...) -> None: ...
+        def __init__(self, vertices_m: ArrayLike, faces: ArrayLike, kind: Literal["mesh"] = "mesh") -> None: ...
 
     def __post_init__(self) -> None:
         vertices = _frozen_array("vertices_m", self.vertices_m, np.float64)

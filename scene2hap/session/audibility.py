@@ -45,11 +45,12 @@ class Audibility:
     """
 
     def __init__(self, peaks: NDArray[np.float32], skip: SkipConfig, counts: Counts) -> None:
-        self._skip, self._counts, self.peaks = skip, counts, peaks
+        self.peaks = peaks
+        self._skip, self._counts = skip, counts
         self._felt = peaks[:, 0, :, None].copy()
         with np.errstate(divide="ignore", over="ignore"):
             self._least_gain = np.float32(SILENT) / peaks[:, 1]
-        self.least_felt = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(peaks)))
+        self.least_felt: np.float32 = np.float32(10 ** (-BELOW_THRESHOLD_DB / 20) / max(1, len(peaks)))
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -16,7 +16,7 @@ from scene2hap.haptics import ActuatorProfile, Bands
 from scene2hap.propagation import MODELS
 from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.exponential_plate import ExponentialPlate
-from scene2hap.propagation.protocol import CoupledModel
+from scene2hap.propagation.protocol import CoupledModel, PropagationModel
 from scene2hap.settings import Settings
 
 MIN_RAMP_S = 0.010
@@ -110,18 +110,18 @@ class SessionConfig(Settings):
         def __init__(
             self,
             *,
-            propagation: Any = ...,
+            propagation: PropagationModel | Mapping[str, Any] | str = ...,
             bands: Bands | Sequence[float] | Mapping[str, Any] | str = ...,
-            reference: Literal["source", "felt_near"] = ...,
-            prepare: Literal["background", "blocking"] = ...,
-            gain_limit_db: float | None = ...,
-            sample_rate_hz: int = ...,
-            tactile_rate_hz: int = ...,
-            control_period_s: float = ...,
-            watchdog_s: float = ...,
+            reference: Literal["source", "felt_near"] = "source",
+            prepare: Literal["background", "blocking"] = "background",
+            gain_limit_db: float | None = 0.0,
+            sample_rate_hz: int = 48000,
+            tactile_rate_hz: int = 8000,
+            control_period_s: float = 0.02,
+            watchdog_s: float = 0.1,
             actuator: ActuatorProfile | str | Path | Mapping[str, Any] = ...,
             skip: SkipConfig | bool | Mapping[str, bool] = ...,
-            impacts: bool = ...,
+            impacts: bool = True,
         ) -> None: ...
 
     @model_validator(mode="after")

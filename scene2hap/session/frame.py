@@ -55,7 +55,8 @@ class HapticFrame:
     __slots__ = ("_gains", "_work_out", "hands", "sources")
 
     def __init__(self, gains: Gains | Callable[[], Gains], hands: tuple[str, ...], sources: tuple[str, ...]) -> None:
-        self.hands, self.sources = hands, sources
+        self.hands: tuple[str, ...] = hands
+        self.sources: tuple[str, ...] = sources
         self._gains: Gains | None = None if callable(gains) else _read_only(gains)
         self._work_out: Callable[[], Gains] | None = gains if callable(gains) else None
 

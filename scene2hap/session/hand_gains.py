@@ -60,7 +60,7 @@ class TouchGains:
         self._skips_unreachable = skips_unreachable
         self._is_counting = limit is not None
         self._limit = GREATEST if limit is None else min(limit, GREATEST)
-        self.may_be_capped = self._limit < max(1.0, field.most)
+        self.may_be_capped: bool = self._limit < max(1.0, field.most)
 
     def prices(
         self,
@@ -174,7 +174,7 @@ class Loudness:
     audibility: Audibility
 
     def __post_init__(self) -> None:
-        self.is_even = bool((self.levels == 1.0).all())
+        self.is_even: bool = bool((self.levels == 1.0).all())
 
     def applied(self, gains: NDArray[np.float64], columns: Sequence[int] | None = None) -> Gains:
         """Multiply gains (n, n_columns, n_bands) of some sources (None for all) by their levels, in place."""

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any, NoReturn, Self, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -465,6 +465,20 @@ class HapticSession:
         self._by_hand(given)
         return self._hand_frames.would_feel(self.hands, given)
 
+    @overload
+    def plot_felt(
+        self,
+        source_id: str,
+        *,
+        hand: str | None = None,
+        cells: int = 96,
+        up_to_m: float | None = None,
+        axes: None = None,
+    ) -> Figure: ...
+    @overload
+    def plot_felt(
+        self, source_id: str, *, hand: str | None = None, cells: int = 96, up_to_m: float | None = None, axes: Axes
+    ) -> Figure | SubFigure: ...
     def plot_felt(
         self,
         source_id: str,

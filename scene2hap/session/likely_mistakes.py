@@ -64,7 +64,7 @@ class LikelyMistakes:
         self._n_updates = 0
         self._n_silent_named = 0
         self._has_moved = self._is_silence_named = self._knows_normals = self._is_strike_named = False
-        self.n_touches_off = 0
+        self.n_touches_off: int = 0
 
     def in_moves(self, moved: Mapping[str, Pose]) -> None:
         """Warn if the first poses turn all objects over, but hardly rotate them if read with w first.

@@ -37,10 +37,10 @@ class SceneState:
         self.haptics: Mapping[str, ObjectHaptics] = bundle.objects
         bodies = ((item.id, self._body(item, bundle.objects.get(item.id))) for item in scene.objects)
         self.bodies: Mapping[str, Body] = {object_id: body for object_id, body in bodies if body is not None}
-        self.graph = ContactGraph(scene)
+        self.graph: ContactGraph = ContactGraph(scene)
         self._spelling = _Spelling()
         self._corners: Corners = {}
-        self.ids = frozenset(self.objects)
+        self.ids: frozenset[str] = frozenset(self.objects)
         self._removed = RemovedIds()
 
     @property

@@ -12,7 +12,7 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,6 +64,18 @@ class UserProfile(Comfort):
     curve_db: tuple[tuple[float, float], ...] = ()
     hands: dict[str, Comfort] = Field(default_factory=dict)
     devices: dict[str, Comfort] = Field(default_factory=dict)
+
+    if TYPE_CHECKING:
+        # Type checkers do not know which other forms pydantic accepts.
+        def __init__(
+            self,
+            *,
+            gain_db: float = 0.0,
+            max_amplitude: float = 1.0,
+            curve_db: Sequence[Sequence[float]] = (),
+            hands: Mapping[str, Comfort | Mapping[str, float]] = ...,
+            devices: Mapping[str, Comfort | Mapping[str, float]] = ...,
+        ) -> None: ...
 
     @field_validator("curve_db")
     @classmethod
@@ -125,8 +137,8 @@ class PersonalGains:
     ) -> None:
         felt_hz = _frequencies_hz(rows, bands)
         factors = np.array([10 ** (profile.level_db(hand, device, felt_hz) / 20) for hand in hands])
-        self.highest = factors.max(axis=(0, 2))
-        self.shares = (factors / self.highest[None, :, None]).astype(np.float32)
+        self.highest: NDArray[np.float64] = factors.max(axis=(0, 2))
+        self.shares: NDArray[np.float32] = (factors / self.highest[None, :, None]).astype(np.float32)
 
     def applied(self, gained: HandGains) -> HandGains:
         """Multiply the gains of all hands by the share of each hand and band."""

@@ -62,8 +62,18 @@ def test_type_checkers_know_every_public_name() -> None:
     (block,) = (one for one in tree.body if isinstance(one, ast.If) and ast.unparse(one.test) == "TYPE_CHECKING")
     imports = [one for one in block.body if isinstance(one, ast.ImportFrom)]
     known = {name.asname: f"{one.module}.{name.name}" for one in imports for name in one.names}
-    assert known.keys() == {*scene2hap.__all__} - {"__version__"}
+    assert known.keys() == {*scene2hap.__all__, *scene2hap._PACKAGES} - {"__version__"}
     assert all(place.endswith(f".{name}") for name, place in known.items())
+
+
+def test_type_checkers_report_names_that_the_package_lacks() -> None:
+    """A `__getattr__` that they saw would give any name the type Any, and they cannot compute `__all__`."""
+    import scene2hap
+
+    tree = ast.parse(Path(scene2hap.__file__).read_text(encoding="utf-8"))
+    (hidden,) = (one for one in tree.body if isinstance(one, ast.If) and ast.unparse(one.test) == "not TYPE_CHECKING")
+    shown = [ast.unparse(one) for one in tree.body if one is not hidden]
+    assert not [one for one in shown if "__getattr__" in one or "__all__" in one]
 
 
 def test_packages_are_reachable_as_attributes() -> None:

@@ -38,10 +38,12 @@ from scene2hap import (
     SourceState,
     Touch,
     TriMesh,
+    UserProfile,
     bake,
 )
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.session.config import SkipConfig
+from scene2hap.session.user_profile import Comfort
 
 SINGLE: NDArray[np.float32] = np.array([0.5, 0.25, 0.125], dtype=np.float32)
 EXACT = (0.5, 0.25, 0.125)
@@ -104,6 +106,10 @@ def test_settings_are_names_fields_or_instances(tmp_path: Path) -> None:
         assert BakeConfig(actuator=actuator, cache_dir=str(tmp_path), spread={"octaves": 0.0}).actuator == lra
     by_text, by_path = SessionConfig(actuator=str(measured)), BakeConfig(actuator=measured, prompts=tmp_path)
     assert by_text.actuator == by_path.actuator
+    points = [(60, 4.0), (150, -6)]
+    profile = UserProfile(curve_db=points, hands={"left": {"gain_db": 2.0}, "right": Comfort(max_amplitude=0.4)})
+    assert profile.curve_db == ((60.0, 4.0), (150.0, -6.0))
+    assert profile.hands["left"] == Comfort(gain_db=2.0)
     kept: Path | None = BakeConfig(cache_dir="kept", prices={"small": (0.1, 0.4)}).cache_dir
     assert kept == Path("kept")
 
@@ -134,14 +140,14 @@ def test_a_number_gives_a_number_and_an_array_an_array() -> None:
 
 
 class OwnField:
-    """A field of a user, who reads its points as the array that the protocol promises."""
+    """A field of a user, who reads its points as the array that the protocol promises, and has own names for them."""
 
     def __init__(self, source_ids: tuple[str, ...]) -> None:
         self.source_ids = source_ids
 
-    def attenuation(self, object_id: str, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        gains = np.zeros((points_m.shape[0], len(self.source_ids), 1))
-        gains[:, [one == object_id for one in self.source_ids]] = 1.0
+    def attenuation(self, touched: str, at: NDArray[np.float64]) -> NDArray[np.float64]:
+        gains = np.zeros((at.shape[0], len(self.source_ids), 1))
+        gains[:, [one == touched for one in self.source_ids]] = 1.0
         return gains
 
 
@@ -182,6 +188,16 @@ def test_session_accepts_the_documented_forms_of_touches() -> None:
     session.strike("wooden table", at)
 
 
+def test_a_plot_is_a_figure(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="needs the extra plots")
+    from matplotlib.figure import Figure
+
+    clip = AudioClip(np.sin(np.arange(4000) / 10), 8000)
+    clip.plot().savefig(tmp_path / "clip.png")
+    given = Figure()
+    assert clip.plot(figure=given) is given
+
+
 def _declared() -> list[tuple[str, str, ast.FunctionDef]]:
     """Module, class and declaration of each constructor that only type checkers see."""
     root = Path(scene2hap.__file__).parent
@@ -206,10 +222,44 @@ def test_declared_constructors_have_the_parameters_of_the_class(
     module: str, name: str, declared: ast.FunctionDef
 ) -> None:
     arguments = declared.args.args[1:]
-    n_required = len(arguments) - len(declared.args.defaults)
-    given = [(one.arg, place >= n_required) for place, one in enumerate(arguments)]
-    by_name = zip(declared.args.kwonlyargs, declared.args.kw_defaults, strict=True)
-    given += [(one.arg, default is not None) for one, default in by_name]
+    required: list[ast.expr | None] = [None] * (len(arguments) - len(declared.args.defaults))
+    defaults = zip(
+        (*arguments, *declared.args.kwonlyargs),
+        (*required, *declared.args.defaults, *declared.args.kw_defaults),
+        strict=True,
+    )
     of_class = inspect.signature(getattr(import_module(module), name)).parameters.values()
     parameters = [one for one in of_class if one.kind is not one.VAR_POSITIONAL]  # that of settings only refuses
-    assert given == [(one.name, one.default is not inspect.Parameter.empty) for one in parameters]
+    for (given, default), parameter in zip(defaults, parameters, strict=True):
+        assert given.arg == parameter.name
+        value = parameter.empty if default is None else eval(ast.unparse(default), vars(import_module(module)))
+        if value is ...:  # a new object at each call
+            assert parameter.default is not parameter.empty
+        else:
+            assert value == parameter.default
+
+
+def _attributes_without_a_type(cls: ast.ClassDef) -> set[str]:
+    """Public attributes that methods set, unless one statement annotates them, or sets them to a parameter."""
+    typed = {ast.unparse(one.target).removeprefix("self.") for one in ast.walk(cls) if isinstance(one, ast.AnnAssign)}
+    typed |= {one.name for one in cls.body if isinstance(one, ast.FunctionDef)}  # properties
+    assigned = set()
+    for method in (one for one in cls.body if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef)):
+        arguments = method.args
+        names = {one.arg for one in (*arguments.args, *arguments.kwonlyargs, arguments.vararg, arguments.kwarg) if one}
+        for one in (one for one in ast.walk(method) if isinstance(one, ast.Assign)):
+            if isinstance(one.value, ast.Name) and one.value.id in names:
+                typed |= {target.attr for target in one.targets if isinstance(target, ast.Attribute)}
+            for part in (part for target in one.targets for part in getattr(target, "elts", [target])):
+                if isinstance(part, ast.Attribute) and ast.unparse(part.value) == "self":
+                    assigned.add(part.attr)
+    return {name for name in assigned - typed if not name.startswith("_")}
+
+
+def test_public_attributes_state_their_types() -> None:
+    """Pyright does not infer the attributes of an installed package: such a class is partly unknown to its users."""
+    root = Path(scene2hap.__file__).parent
+    for path in sorted(root.rglob("*.py")):
+        for cls in (one for one in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(one, ast.ClassDef)):
+            if not cls.name.startswith("_"):
+                assert not _attributes_without_a_type(cls), f"{path.relative_to(root)}: {cls.name}"

@@ -31,7 +31,7 @@ class FeltLevel:
     def __init__(self, sample_rate_hz: int, channels: int, actuator: ActuatorProfile) -> None:
         size = scipy.fft.next_fast_len(max(round(_SEGMENT_S * sample_rate_hz), 2), real=True)
         self._overlap = max(1, round(_OVERLAP * size))
-        self.peak = 0.0
+        self.peak: float = 0.0
         self._segment, self._filled = np.zeros((channels, size), dtype=np.float32), self._overlap
         self._full: list[Block] = []
         self._n_frames = 0

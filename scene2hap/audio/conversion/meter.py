@@ -25,10 +25,10 @@ class Meter:
     """
 
     def __init__(self, sample_rate_hz: int, channels: int, *, n_frames: int = 0, n_columns: int = 0) -> None:
-        self.peak = 0.0
-        self.n_frames = 0
-        self.n_expected = max(1, n_frames)
-        self.envelope = np.zeros(n_columns, dtype=np.float32)
+        self.peak: float = 0.0
+        self.n_frames: int = 0
+        self.n_expected: int = max(1, n_frames)
+        self.envelope: NDArray[np.float32] = np.zeros(n_columns, dtype=np.float32)
         self._rate = sample_rate_hz
         size = scipy.fft.next_fast_len(round(SEGMENT_S * sample_rate_hz) or 2, real=True)
         n_segments = int(np.clip(self.n_expected // size, 1, MOST_SEGMENTS))

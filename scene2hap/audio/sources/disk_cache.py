@@ -72,7 +72,7 @@ class Store:
     """Documents and sounds by name, below one folder, which is created on the first write."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
-        self.folder = Path(folder)
+        self.folder: Path = Path(folder)
 
     def document(self, name: str) -> Any | None:
         """Return the JSON document of that name; None if it is missing or cannot be read."""

@@ -78,7 +78,7 @@ class WithOnsets(Stage):
     ) -> None:
         self._bed, self._rate_hz = bed, sample_rate_hz
         self._share = None if bed_db is None else 10 ** (bed_db / 10)
-        self.step = max(1, round(STEP_S * sample_rate_hz))
+        self.step: int = max(1, round(STEP_S * sample_rate_hz))
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
         self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
         self._waiting = np.empty(0)  # samples whose onsets are not decided

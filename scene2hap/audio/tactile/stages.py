@@ -48,7 +48,7 @@ class StageStream:
     def __init__(self, *stages: Stage) -> None:
         self.stages = stages
         self._chain = Chain(stages)
-        self.n_clipped = 0
+        self.n_clipped: int = 0
 
     def process(self, block: Samples) -> Samples:
         """Return the next samples; computed in float64. Raises: AudioError: not finite, or not one channel."""
@@ -136,7 +136,7 @@ class SosStage(Stage):
 
     def __init__(self, sections: Signal) -> None:
         self.sections = sections
-        self.state = np.zeros((len(sections), 2))
+        self.state: NDArray[np.float64] = np.zeros((len(sections), 2))
         self._rows = self.state[:, None]  # as `through_sections` needs it
 
     def run(self, x: Signal) -> Signal:

@@ -44,7 +44,7 @@ class Pool:
         self._alone_turn = asyncio.Lock()
         self._close: list[Callable[[], Any]] = []
         self._turn = asyncio.Semaphore(1)
-        self.n_workers = 1
+        self.n_workers: int = 1
         self._given: Submits | None = None
         if isinstance(executor, str):
             kind, _, rest = executor.partition(":")

@@ -142,7 +142,7 @@ class FrameParser:
     def __init__(self) -> None:
         self._rest = bytearray()
         self._overlong = False
-        self.damaged = 0
+        self.damaged: int = 0
 
     def feed(self, data: bytes) -> Iterator[Frame]:
         """Yield the frames that these bytes complete. Never raises; stores at most one frame's bytes."""

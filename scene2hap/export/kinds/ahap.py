@@ -15,7 +15,7 @@ class AhapExport:
     """Write curves as AHAP files, for iPhone. Settings: those of `CurveSettings`. Raises: ConfigError."""
 
     def __init__(self, **settings: Any) -> None:
-        self.settings = CurveSettings(**settings)
+        self.settings: CurveSettings = CurveSettings(**settings)
 
     def export(self, track: Track) -> Exported:
         """Return one or two files for each channel."""

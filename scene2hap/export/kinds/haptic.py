@@ -14,7 +14,7 @@ class HapticExport:
     """Write curves as `.haptic` files, for Meta Quest. Settings: those of `CurveSettings`. Raises: ConfigError."""
 
     def __init__(self, **settings: Any) -> None:
-        self.settings = CurveSettings(**settings)
+        self.settings: CurveSettings = CurveSettings(**settings)
 
     def export(self, track: Track) -> Exported:
         """Return one file for each channel."""

@@ -41,7 +41,7 @@ class HjifExport:
         if profile not in _TIMESCALE:
             raise ConfigError(f"profile is {checks.represented(profile)}; it must be {' or '.join(_TIMESCALE)}.")
         self.profile = profile
-        self.settings = CurveSettings(range_hz=range_hz, **settings)
+        self.settings: CurveSettings = CurveSettings(range_hz=range_hz, **settings)
 
     def export(self, track: Track) -> Exported:
         """Return one file with all channels. Raises: ConfigError: more channels than a file of level 1 may have."""

@@ -22,7 +22,7 @@ class OpenXrEnvelopeExport:
     """
 
     def __init__(self, step_s: float = 0.005) -> None:
-        self.step_s = checks.number("step_s", step_s, "s", at_least=0.001, at_most=0.1, error=ConfigError)
+        self.step_s: float = checks.number("step_s", step_s, "s", at_least=0.001, at_most=0.1, error=ConfigError)
 
     def export(self, track: Track) -> Exported:
         """Return one file for each channel."""

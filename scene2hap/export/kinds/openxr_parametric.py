@@ -48,12 +48,14 @@ class OpenXrParametricExport:
         range_hz: Any = (20.0, 500.0),
         **settings: Any,
     ) -> None:
+        self.first_frame_s: float
+        self.frame_s: float
         self.first_frame_s, self.frame_s = (
             checks.number(name, value, "s", at_least=0.001, at_most=10.0, error=ConfigError)
             for name, value in (("first_frame_s", first_frame_s), ("frame_s", frame_s))
         )
-        self.stream = checks.flag("stream", stream, error=ConfigError)
-        self.settings = CurveSettings(range_hz=range_hz, **settings)
+        self.stream: bool = checks.flag("stream", stream, error=ConfigError)
+        self.settings: CurveSettings = CurveSettings(range_hz=range_hz, **settings)
         checks.number("range_hz[0]", self.settings.range_hz[0], "Hz", at_least=_LEAST_HZ, error=ConfigError)
 
     def export(self, track: Track) -> Exported:

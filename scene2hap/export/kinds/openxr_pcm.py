@@ -19,7 +19,7 @@ class OpenXrPcmExport:
     """
 
     def __init__(self, sample_rate_hz: float = 2000.0) -> None:
-        self.sample_rate_hz = checks.number(
+        self.sample_rate_hz: float = checks.number(
             "sample_rate_hz", sample_rate_hz, "Hz", at_least=100.0, at_most=48_000.0, error=ConfigError
         )
 

@@ -14,7 +14,7 @@ class PcmExport:
     """Write samples as raw floats. Parameters: sample_rate_hz [Hz]. Raises: ConfigError."""
 
     def __init__(self, sample_rate_hz: float = 8000.0) -> None:
-        self.sample_rate_hz = checks.number(
+        self.sample_rate_hz: float = checks.number(
             "sample_rate_hz", sample_rate_hz, "Hz", at_least=100.0, at_most=384_000.0, error=ConfigError
         )
 

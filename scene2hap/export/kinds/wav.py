@@ -13,7 +13,7 @@ class WavExport:
     """Write samples as 24-bit WAV. Parameters: sample_rate_hz : whole hertz. Raises: ConfigError."""
 
     def __init__(self, sample_rate_hz: int = 48_000) -> None:
-        self.sample_rate_hz = checks.whole(
+        self.sample_rate_hz: int = checks.whole(
             "sample_rate_hz", sample_rate_hz, "Hz", at_least=100, at_most=384_000, error=ConfigError
         )
 

@@ -40,7 +40,7 @@ class UnusableAnswer(BadAnswer):
     ) -> None:
         super().__init__(message, raw_text)
         self.model = model
-        self.usage = dict(usage or {})
+        self.usage: dict[str, int] = dict(usage or {})
         self.service_tier = service_tier
         self.finish_reason = finish_reason
 

@@ -49,7 +49,7 @@ class Wrapper:
     """Base of the wrappers: holds `inner`."""
 
     def __init__(self, inner: Spec) -> None:
-        self.inner = cast("LLMBackend", BACKENDS.build(inner))  # `build` checks it
+        self.inner: LLMBackend = cast("LLMBackend", BACKENDS.build(inner))  # `build` checks it
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.inner!r})"

@@ -32,8 +32,10 @@ class LeggedBody:
     """
 
     def __init__(self, plate: ElasticBody, legs_m: Floats, masses_kg: Floats) -> None:
-        self.plate, self.legs_m, self.masses_kg = plate, legs_m, masses_kg
-        self.pulled = ByteBoundedLru(self._pulled, room=4)
+        self.plate = plate
+        self.legs_m = legs_m
+        self.masses_kg = masses_kg
+        self.pulled: ByteBoundedLru[Complex] = ByteBoundedLru(self._pulled, room=4)
 
     @property
     def loss_factor(self) -> float:

@@ -38,7 +38,7 @@ class BandFactors:
         from scipy.linalg import lapack
 
         self._factors, info = lapack.dpbtrf(band.T, lower=1, overwrite_ab=1)
-        self.is_good = info == 0
+        self.is_good: bool = info == 0
 
     def solve(self, rhs: Floats) -> Floats:
         """See `Factors`."""

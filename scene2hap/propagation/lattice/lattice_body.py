@@ -19,7 +19,7 @@ from scene2hap.propagation.coupled.byte_bounded_lru import ByteBoundedLru
 from scene2hap.propagation.coupled.many_joints import among as among_many, has_many
 from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
 from scene2hap.propagation.lattice.lattice import Lattice
-from scene2hap.propagation.lattice.lattice_modes import TERMS, lattice_modes
+from scene2hap.propagation.lattice.lattice_modes import TERMS, LatticeModes, lattice_modes
 from scene2hap.propagation.plate import Plate
 
 
@@ -68,7 +68,7 @@ class LatticeBody:
     def __init__(self, plate: Plate, resolution: int, max_frequency_hz: float, loss_factor: float) -> None:
         self.plate = plate
         self.loss_factor = loss_factor
-        self.modes = lattice_modes(plate, resolution, max_frequency_hz)
+        self.modes: LatticeModes = lattice_modes(plate, resolution, max_frequency_hz)
         self._from_forces = ByteBoundedLru(self._pushed)
         self._spectra = ByteBoundedLru(self._spectrum, room=4)
 

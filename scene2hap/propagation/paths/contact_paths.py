@@ -40,7 +40,10 @@ class ContactEdge:
     __slots__ = ("crossing_cost", "into", "out_of", "point_m")
 
     def __init__(self, out_of: str, into: str, point_m: Triple, crossing_cost: float) -> None:
-        self.out_of, self.into, self.point_m, self.crossing_cost = out_of, into, point_m, crossing_cost
+        self.out_of: str = out_of
+        self.into: str = into
+        self.point_m: Triple = point_m
+        self.crossing_cost: float = crossing_cost
 
 
 class Target:
@@ -53,7 +56,10 @@ class Target:
     __slots__ = ("at_most", "middle_m", "radius_m", "row")
 
     def __init__(self, row: int, at_most: float, ball: tuple[Triple, float]) -> None:
-        self.row, self.at_most = row, at_most
+        self.row: int = row
+        self.at_most: float = at_most
+        self.middle_m: Triple
+        self.radius_m: float
         self.middle_m, self.radius_m = ball
 
 

@@ -125,7 +125,7 @@ class LiveLaw:
     Parameters: floor : least attenuation wherever a source arrives at all [-].
     """
 
-    most = 1.0
+    most: float = 1.0
 
     def __init__(self, paths: LivePaths, source_ids: tuple[str, ...], gamma: Gamma, floor: float) -> None:
         self.source_ids = source_ids

@@ -27,15 +27,22 @@ from scene2hap.scene.capture.config import CaptureConfig
 from scene2hap.scene.capture.isolated_objects import SUBJECT, by_itself
 from scene2hap.scene.capture.lazy_pictures import CaptureStats, Studio
 from scene2hap.scene.capture.picture_sheets import contact_sheet, plan_view
-from scene2hap.scene.capture.protocol import RendererFactory
+from scene2hap.scene.capture.protocol import Renderer, RendererFactory, Selection
+from scene2hap.scene.capture.stage import Stage
+from scene2hap.scene.capture.views import Camera
 from scene2hap.scene.images import ImageSet, ObjectImages
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
 
 __all__ = [
     "RENDERERS",
+    "Camera",
     "CaptureConfig",
     "CaptureStats",
+    "Renderer",
+    "RendererFactory",
+    "Selection",
+    "Stage",
     "capture_images",
     "capture_stats",
     "contact_sheet",

@@ -37,8 +37,11 @@ class Studio:
     """
 
     def __init__(self, scene: SceneSnapshot, config: CaptureConfig, factory: RendererFactory, name: str) -> None:
-        self.scene, self.config, self.factory, self.name = scene, config, factory, name
-        self.stats = CaptureStats()
+        self.scene = scene
+        self.config = config
+        self.factory = factory
+        self.name = name
+        self.stats: CaptureStats = CaptureStats()
         self._folder = FolderCache(config.cache_dir) if config.cache_dir else None
         self._taken: dict[Shot, bytes] = {}
         self._lock = RLock()

@@ -40,11 +40,11 @@ class Selection:
 class Renderer(Protocol):
     """Interface of renderers of a `Stage`. The library makes one call at a time."""
 
-    def identify(self, camera: Camera, selection: Selection) -> Ids:
+    def identify(self, camera: Camera, selection: Selection, /) -> Ids:
         """Return the object at the middle of each pixel."""
         ...
 
-    def draw(self, camera: Camera, selection: Selection) -> tuple[Pixels, Ids]:
+    def draw(self, camera: Camera, selection: Selection, /) -> tuple[Pixels, Ids]:
         """Return the picture, and the ids as from `identify`."""
         ...
 

@@ -151,5 +151,7 @@ class Copies:
         for item, key, among in zip(objects, keys, classes, strict=True):
             first_of_key.setdefault(key, item.id)
             first_of_class.setdefault(among, item.id)
-        self.isolated = {item.id: first_of_key[key] for item, key in zip(objects, keys, strict=True)}
-        self.context = {item.id: first_of_class[among] for item, among in zip(objects, classes, strict=True)}
+        self.isolated: dict[str, str] = {item.id: first_of_key[key] for item, key in zip(objects, keys, strict=True)}
+        self.context: dict[str, str] = {
+            item.id: first_of_class[among] for item, among in zip(objects, classes, strict=True)
+        }

@@ -37,7 +37,8 @@ class GeomReader:
     """Reader of the geoms of one `MjModel`; materials and textures are read once."""
 
     def __init__(self, model: Any) -> None:
-        self.model, self._colours = model, colours_rgba(model)
+        self.model = model
+        self._colours = colours_rgba(model)
         self._materials: dict[tuple[object, ...], FaceMaterial] = {}
         self._textures: dict[int, NDArray[np.uint8]] = {}
         self._drawn = limits.Budget(

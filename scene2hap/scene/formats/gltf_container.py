@@ -46,17 +46,17 @@ class GltfFile:
     def __init__(self, path: Path, assets_root: Path) -> None:
         self._path, self._assets_root = path, assets_root
         text, self._binary = _split(path.name, read_bytes(path))
-        self.header = _header(text)
+        self.header: Json = _header(text)
         self._buffers: dict[int, bytes] = {}
         self._files: dict[str, bytes] = {}
         self.vectors: dict[int, NDArray[np.float64]] = {}
         self.unpacked: dict[object, Any] = {}
         stored = len(text) + len(self._binary or b"")
-        self.values = limits.Budget("the numbers in its accessors", 1_000_000, 2.0, stored=stored)
-        self.triangles = limits.Budget("its triangles", 100_000, 0.5, stored=stored)
-        self.packed_triangles = limits.Budget("its packed triangles", 1_000_000, 1.0, stored=stored)
-        self.packed_bytes = limits.Budget("the bytes of its packed views", 16 << 20, 16.0, stored=stored)
-        self.image_bytes = limits.Budget("the bytes of its images", 16 << 20, 4.0, stored=stored)
+        self.values: limits.Budget = limits.Budget("the numbers in its accessors", 1_000_000, 2.0, stored=stored)
+        self.triangles: limits.Budget = limits.Budget("its triangles", 100_000, 0.5, stored=stored)
+        self.packed_triangles: limits.Budget = limits.Budget("its packed triangles", 1_000_000, 1.0, stored=stored)
+        self.packed_bytes: limits.Budget = limits.Budget("the bytes of its packed views", 16 << 20, 16.0, stored=stored)
+        self.image_bytes: limits.Budget = limits.Budget("the bytes of its images", 16 << 20, 4.0, stored=stored)
 
     def table(self, name: str) -> list[Json]:
         """Return one of the header's tables; empty if the file has none."""

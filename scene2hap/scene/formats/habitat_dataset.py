@@ -107,8 +107,9 @@ class Dataset:
         self._documents: dict[Path, Json] = {}
         self.files: list[Path] = []
         """All files that were read, or that contain models to be read."""
+        self.folder: Path
         self.folder, found = self._found(scene, assets_root)
-        self.root = self.folder if assets_root is None else assets_root
+        self.root: Path = self.folder if assets_root is None else assets_root
         self._document, self._file = self._of_scene(found, scene) if found else ({}, "")
         self.count(scene)
 

@@ -48,7 +48,8 @@ class MeshPool:
     """
 
     def __init__(self, unit_m: float) -> None:
-        self.unit_m, self.surfaces = unit_m, Surfaces()
+        self.unit_m = unit_m
+        self.surfaces: Surfaces = Surfaces()
         self._copies: dict[tuple[object, ...], _Copies] = {}
         self._by_faces: dict[bytes, _Copies] = {}
         self._looks: dict[tuple[object, ...], Appearance | None] = {}

@@ -19,7 +19,7 @@ class Surfaces:
     """Cache of measured surfaces. `work` is the budget; the reader of a file raises it by the file's vertices."""
 
     def __init__(self) -> None:
-        self.work = limits.Budget(
+        self.work: limits.Budget = limits.Budget(
             "the rays that measure its shapes, times their triangles,",
             _FREE,
             _PER_VERTEX,

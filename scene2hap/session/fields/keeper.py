@@ -69,10 +69,15 @@ class FieldKeeper:
         self._worker: Thread | None = None
         self._is_stranger_touched = self._is_expectant = False
         self._heard: tuple[FieldInUse, tuple[str, ...], Reach] | None = None
-        self._n_answered = self._n_ordered = self._n_put = self.n_prepared = self.n_failed = 0
-        self.last_failure, self.latency_s, self._is_refused = "", 0.0, False
+        self._n_answered = self._n_ordered = self._n_put = 0
+        self.n_prepared: int = 0
+        self.n_failed: int = 0
+        self.last_failure: str = ""
+        self.latency_s: float = 0.0
+        self._is_refused = False
         before = self._situation(0, excitations)
-        self.in_use = self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
+        self._whole = Prepared(NoPropagation().prepare(ContactNetwork({}), excitations, bands), before)
+        self.in_use: Prepared = self._whole
         self._requested = before
         self.request(excitations)
         self.order()
@@ -217,13 +222,14 @@ class LiveKeeper:
     """
 
     is_current = True
-    age_s = latency_s = 0.0
+    age_s: float = 0.0
+    latency_s: float = 0.0
     n_failed = 0
     last_failure = ""
 
     def __init__(self, model: LiveModel, bands: Bands, state: SceneState, excitations: Sequence[Excitation]) -> None:
         self._model, self._bands, self._state = model, bands, state
-        self.n_prepared = 0
+        self.n_prepared: int = 0
         self._made_for: tuple[Mapping[str, Body], Sequence[Excitation]] | None = None
         self._mapped: tuple[int, PropagationField] | None = None
         self.request(excitations)

@@ -33,7 +33,7 @@ class LastField:
     present groups of connected objects; is_current : whether the field was prepared for the present state.
     """
 
-    most = math.inf
+    most: float = math.inf
 
     def __init__(
         self,
@@ -125,7 +125,7 @@ class FieldInUse:
     Parameters: as_now : makes a live field of a prepared one; note : called with the touches. Call `use` first.
     """
 
-    most = math.inf
+    most: float = math.inf
 
     def __init__(
         self,
@@ -133,7 +133,8 @@ class FieldInUse:
         as_now: Callable[[Prepared], LiveField],
         note: Callable[[Sequence[TouchedPoint]], None],
     ) -> None:
-        self.source_ids, self._as_now, self._note = source_ids, as_now, note
+        self.source_ids = source_ids
+        self._as_now, self._note = as_now, note
         self._prepared: Prepared | None = None
 
     def use(self, newest: Prepared, whole: Prepared) -> None:

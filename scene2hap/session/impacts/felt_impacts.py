@@ -115,7 +115,9 @@ class Impacts:
         self._waiting: list[Future[None]] = []
         self._ahead = self._prepared_ahead() if config.prepares_impacts else None
         self._recent: deque[Impact] = deque(maxlen=KEPT)
-        self.n_reported = self.n_felt = self.n_left_out = 0
+        self.n_reported: int = 0
+        self.n_felt: int = 0
+        self.n_left_out: int = 0
 
     def strike(
         self, strike: Strike, felt: Felt, hands: tuple[str, ...], profile: UserProfile | None, at_frame: int

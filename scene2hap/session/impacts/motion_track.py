@@ -55,15 +55,22 @@ class MotionTrack:
     )
 
     def __init__(self, update: int, time_s: float, pose: Pose, own_m: Vector) -> None:
-        self.steps, self.pose = [(update, time_s, pose)], pose
-        self.own_m, self.middle_m = own_m, in_world(own_m, pose)
-        self.gap, self.goes_on, self.stopped_m = 1.0, False, _ZERO
+        self.steps: list[tuple[int, float, Pose]] = [(update, time_s, pose)]
+        self.pose: Pose = pose
+        self.own_m: Vector = own_m
+        self.middle_m: Vector = in_world(own_m, pose)
+        self.gap: float = 1.0
+        self.goes_on: bool = False
+        self.stopped_m: Vector = _ZERO
         self.near: Mapping[str, Junction] = NOTHING
         self.turn(update)
 
     def turn(self, update: int) -> None:
         """Begin a motion in another direction."""
-        self.since, self.n_steps, self.origin_m, self.step_m = update, 0, self.middle_m, _ZERO
+        self.since: int = update
+        self.n_steps: int = 0
+        self.origin_m: Vector = self.middle_m
+        self.step_m: Vector = _ZERO
 
     def land(self, update: int) -> None:
         """Begin another motion after a landing, which the last step confirms or a missing one."""

@@ -48,9 +48,9 @@ class MixerInstance:
         # and not after `position`, or its hands and loops would be felt late: up to 10 ms at 44.1 kHz.
         unit = rate // math.gcd(rate, bank.sample_rate_hz)
         self._begin = position // unit * unit
-        self.bank = bank.shifted(self._begin * bank.sample_rate_hz // rate)
+        self.bank: SlotBank = bank.shifted(self._begin * bank.sample_rate_hz // rate)
         self.hands = hands
-        self.mixer = Mixer(
+        self.mixer: Mixer = Mixer(
             self.bank,
             len(hands),
             sample_rate_hz=rate,

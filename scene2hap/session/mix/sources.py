@@ -103,7 +103,7 @@ class Sources:
         self._need_contacts: bool | None = None
         self._switch_themselves: bool | None = None
         self._removed = RemovedIds()
-        self.user = Level()
+        self.user: Level = Level()
 
     def __contains__(self, object_id: object) -> bool:
         return object_id in self._sources

@@ -39,10 +39,10 @@ class Request:
         if document.get("version") != VERSION:
             raise RequestError(f"version is {document.get('version')!r}; this runner speaks version {VERSION}")
         try:
-            self.prompt = str(document["prompt"])
-            self.count = int(document["count"])
-            self.duration_s = float(document["duration_s"])
-            self.seed = int(document["seed"])
+            self.prompt: str = str(document["prompt"])
+            self.count: int = int(document["count"])
+            self.duration_s: float = float(document["duration_s"])
+            self.seed: int = int(document["seed"])
         except (KeyError, TypeError, ValueError) as cause:
             raise RequestError(f"the request lacks or misuses {cause}") from cause
         if not (1 <= self.count <= MOST and 0.0 < self.duration_s <= LONGEST_S):

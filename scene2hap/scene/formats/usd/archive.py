@@ -41,7 +41,7 @@ class Archive:
                 f"{path.name!r} promises {len(entries)} files of {total:,} bytes, and has {path.stat().st_size:,}."
             )
         limits.at_most(f"the number of files in {path.name!r}", len(entries), "MAX_NODES")
-        self.first = entries[0].filename
+        self.first: str = entries[0].filename
 
     def __contains__(self, name: str) -> bool:
         return name in self._sizes

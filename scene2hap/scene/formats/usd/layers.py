@@ -61,8 +61,9 @@ class Layers:
         textures: TextureFiles,
         allow: Callable[[int, int], None],
     ) -> None:
-        self._path, self._assets_root, self.textures, self._allow = path, assets_root, textures, allow
-        self.n_bytes = 0
+        self.textures = textures
+        self._path, self._assets_root, self._allow = path, assets_root, allow
+        self.n_bytes: int = 0
         # usd-core frees an anonymous layer with its last reference.
         self._kept: list[Any] = []
         self._homes: dict[str, _Home] = {}
