@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Hashable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,11 @@ def copy_key(item: SceneObject) -> Hashable:
         return ("id", item.id)
     size_mm = tuple(round(edge_m * _PER_MM) for edge_m in item.size_m)
     return (item.instance_key, name_words(item.name), material_names(item), size_mm)
+
+
+def as_copy(item: SceneObject) -> SceneObject:
+    """Return an object of unknown looks as a copy of all objects of equal mesh."""
+    return replace(item, instance_key=item.geometry.mesh.digest)
 
 
 def name_words(name: str) -> tuple[str, ...]:
