@@ -139,6 +139,16 @@ class Thing:
         rotation = np.array(self.rotation.to_matrix())
         self.world_m = self.vertices_m @ rotation.T + self.position_m
 
+    def material_names(self):
+        """The names of its materials, that of the largest area first."""
+        corners = self.vertices_m[self.faces]
+        doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        areas = {}
+        for material, area in zip(self.face_material, doubled.tolist(), strict=True):
+            if material:
+                areas[material.name] = areas.get(material.name, 0.0) + area
+        return sorted(areas, key=areas.get, reverse=True)
+
     def mass_kg(self, unit_kg):
         """What the rigid bodies say that it weighs: its own, or those of all its pieces; None if they do not."""
         own, all_of_them = mass_of(self.owner), [mass_of(body) for body in self.bodies]
@@ -216,6 +226,7 @@ def scene_json(name, things, unit_kg):
         w, x, y, z = thing.rotation
         pose = {"position_m": thing.position_m.tolist(), "rotation_xyzw": [x, y, z, w]}
         row = {"id": thing.id, "name": thing.name, "pose": pose, "geometry": thing.key, "instance_key": thing.key}
+        row["material_names"] = thing.material_names()
         mass = thing.mass_kg(unit_kg)
         objects.append(row if mass is None else {**row, "mass_kg": mass})
     head = {"format": "scene2hap/scene", "version": 1, "name": name, "up_axis": "z"}

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
+from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.shapes import TriMesh
 
 _HASH = re.compile(r"(?<![^\W_])(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])[0-9a-f]{6,}(?![^\W_])", re.IGNORECASE)
 """Serial numbers in base 16 at the end of names in kits ("Mug_3a2f91bc")."""
@@ -29,6 +32,11 @@ def copy_key(item: SceneObject) -> Hashable:
     return (item.instance_key, name_words(item.name), material_names(item), size_mm)
 
 
+def as_copy(item: SceneObject) -> SceneObject:
+    """Return an object of unknown looks as a copy of all objects of equal mesh."""
+    return replace(item, instance_key=item.geometry.mesh.digest)
+
+
 def name_words(name: str) -> tuple[str, ...]:
     """Return the words of an authored name in lower case: ("wooden", "table") of "woodenTable.012".
 
@@ -41,17 +49,26 @@ def name_words(name: str) -> tuple[str, ...]:
 
 
 def material_names(item: SceneObject) -> tuple[str, ...]:
-    """Return the authored names of an object's materials, each once. The material of the largest area comes first.
-
-    Faces are not counted: a round handle has more of them than the cabinet that it is on.
-    """
+    """Return the authored names of an object's materials, each once: its own, or else those of its looks."""
     looks = item.appearance
-    if looks is None:
+    if looks is None or item.material_names:
         return item.material_names
-    corners_m = item.geometry.mesh.vertices_m[item.geometry.mesh.faces]
+    return names_by_area(item.geometry.mesh, looks.face_material, [material.name for material in looks.materials])
+
+
+def names_by_area(mesh: TriMesh, face_rows: NDArray[np.integer], names: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of a mesh's materials, each once, that of the largest area first; "" is no name.
+
+    `face_rows` : (m,) the row in `names` of each face. Faces are not counted: a round handle has more of them than the
+    cabinet that it is on.
+    """
+    known = list(dict.fromkeys(names))
+    if known in ([], [""]):
+        return ()
+    areas_m2 = np.zeros(len(known))
+    corners_m = mesh.vertices_m[mesh.faces]
     sides_m = corners_m[:, 1:] - corners_m[:, :1]
-    areas_m2 = np.linalg.norm(np.cross(sides_m[:, 0], sides_m[:, 1]), axis=1) / 2
-    by_area = np.bincount(looks.face_material, weights=areas_m2, minlength=len(looks.materials))
-    order = np.argsort(-by_area, kind="stable").tolist()
-    used = frozenset(looks.face_material.tolist())
-    return tuple(dict.fromkeys(name for index in order if index in used and (name := looks.materials[index].name)))
+    rows = np.array([known.index(name) for name in names])[face_rows]
+    np.add.at(areas_m2, rows, np.linalg.norm(np.cross(sides_m[:, 0], sides_m[:, 1]), axis=1) / 2)
+    used = frozenset(rows.tolist())
+    return tuple(known[row] for row in np.argsort(-areas_m2, kind="stable").tolist() if row in used and known[row])

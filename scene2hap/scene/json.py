@@ -20,7 +20,7 @@ from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.printable import read_json
 from scene2hap.scene import limits
-from scene2hap.scene.copies import material_names
+from scene2hap.scene.copies import as_copy, material_names
 from scene2hap.scene.files import HABITAT_SUFFIX
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject, with_relative_heights
 from scene2hap.scene.pose import Pose
@@ -37,6 +37,8 @@ _SCENE_FIELDS = frozenset({"format", "version", "name", "up_axis", "objects", "c
 _OBJECT_FIELDS = frozenset(
     {"id", "name", "pose", "geometry", "surface", "relative_height_m", "instance_key", "mass_kg", "material_names"}
 )
+# Fields that are found from the geometry if a row lacks them.
+_FOUND_FIELDS = ("surface", "relative_height_m", "instance_key")
 _POSE_FIELDS = frozenset({"position_m", "rotation_xyzw"})
 # Placeholder for a surface until it is measured.
 _UNMEASURED = DominantSurface(Pose(), 0.0, 0.0, 0.0, ("zero-thickness",))
@@ -89,7 +91,8 @@ def to_document(scene: SceneData) -> dict[str, Any]:
 def from_document(document: dict[str, Any]) -> SceneData:
     """Return the scene in plain JSON values; objects may contain a key of the table `geometries`.
 
-    An object's `surface` and `relative_height_m` are measured if they are absent or null.
+    An object's `surface` and `relative_height_m` are measured if they are absent or null. Without `instance_key`,
+    objects of equal mesh are copies.
     """
     table = document.get("geometries", {})
     shared: dict[str, Geometry] = {}
@@ -113,8 +116,8 @@ def from_document(document: dict[str, Any]) -> SceneData:
     _warn_of_slips("the scene", _SCENE_FIELDS, [document])
     _warn_of_slips("an object", _OBJECT_FIELDS, rows)
     _warn_of_slips("a pose", _POSE_FIELDS, [row["pose"] for row in rows if isinstance(row["pose"], dict)])
-    is_whole = all(row.get(key) is not None for row in rows for key in ("surface", "relative_height_m"))
-    return scene if is_whole else _measured(scene, rows)
+    is_whole = all(row.get(key) is not None for row in rows for key in _FOUND_FIELDS)
+    return scene if is_whole else _completed(scene, rows)
 
 
 def _warn_of_slips(owner: str, known: frozenset[str], rows: Sequence[dict[str, Any]]) -> None:
@@ -180,8 +183,8 @@ def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
     return geometry.bounds_m
 
 
-def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
-    """Return the scene with surfaces and heights measured if its rows lack them."""
+def _completed(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
+    """Return the scene with the surfaces, heights and keys of copies that its rows lack."""
     # Imported only here, since files that this library wrote contain all measurements.
     from scene2hap.scene.surface.surfaces import Surfaces
 
@@ -189,7 +192,9 @@ def _measured(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:
     stored = {item.geometry.mesh.digest: len(item.geometry.mesh.vertices_m) for item in scene.objects}
     surfaces.work.stored = sum(stored.values())
     objects = []
-    for item in scene.objects:
+    for item, row in zip(scene.objects, rows, strict=True):
+        if row.get("instance_key") is None:
+            item = as_copy(item)
         if item.surface is _UNMEASURED:
             up = item.pose.rotation[VERTICAL[scene.up_axis]]
             item = replace(item, surface=surfaces.of(item.geometry.mesh, up, f"object {item.id!r}", turns=True))

@@ -88,8 +88,8 @@ class SceneObject:
     `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
     `mass_kg` is the mass from an engine or an author [kg], None if unknown. `material_names` are the authored names of
-    its materials, that of the largest area first; the names in `appearance` replace them. `appearance` is used for
-    these names and for pictures, None if unknown; `images` are the pictures from `capture_images`.
+    its materials, that of the largest area first; without them, the names in `appearance` count. `appearance` is used
+    for these names and for pictures, None if unknown; `images` are the pictures from `capture_images`.
     """
 
     id: str

@@ -66,7 +66,8 @@ _WORDS = {
     "SceneObject.mass_kg": "What the whole object weighs [kg]; null or missing if nobody knows.",
     "SceneObject.material_names": "The authored names of its materials, that of the largest area first. "
     "Inference reads them.",
-    "SceneObject.instance_key": "Equal for objects of equal mesh and materials; empty if unknown.",
+    "SceneObject.instance_key": "Equal for objects of equal mesh and materials; empty if unknown. "
+    "Leave it out to have it found from the mesh.",
 }
 _MEASURED = ("surface", "relative_height_m")
 

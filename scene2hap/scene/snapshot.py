@@ -18,6 +18,7 @@ from scene2hap.calls import clear_calls
 from scene2hap.counted import counted
 from scene2hap.errors import CallError, SceneError, UnknownObject
 from scene2hap.html_tables import html_table, number
+from scene2hap.scene.copies import as_copy
 from scene2hap.scene.images import ImageSet
 from scene2hap.scene.objects import (
     Contact,
@@ -127,9 +128,7 @@ class SceneSnapshot(SceneData):
             _require_object(item)
             if up_axis != "y" and item.is_measured_with_y_up:
                 item = replace(item, surface=measured_surface(item.geometry, item.pose, up_axis))
-            if not item.instance_key and item.appearance is None:
-                item = replace(item, instance_key=item.geometry.mesh.digest)
-            turned.append(item)
+            turned.append(as_copy(item) if not item.instance_key and item.appearance is None else item)
         if contacts is not None:
             contacts = checks.items("contacts", contacts, at_most=_MOST_CONTACTS, error=SceneError)
         scene = cls(name, up_axis, tuple(turned), contacts)

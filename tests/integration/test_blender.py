@@ -12,6 +12,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -146,6 +147,23 @@ def test_help_needs_no_blender() -> None:
     done = subprocess.run([sys.executable, str(SCRIPT), "--help"], capture_output=True, text=True)
     assert done.returncode == 0
     assert "--pictures" in done.stdout
+
+
+def test_json_names_the_materials_of_an_object() -> None:
+    spec = importlib.util.spec_from_file_location("export_scene2hap", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    oak, steel = SimpleNamespace(name="Oak"), SimpleNamespace(name="Steel")
+    thing = script.Thing.__new__(script.Thing)
+    thing.id = thing.name = thing.key = "table"
+    thing.vertices_m, thing.position_m = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2.0]]), np.zeros(3)
+    thing.faces, thing.face_material = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2]]), [steel, oak, None]
+    body = SimpleNamespace(rigid_body=None)
+    thing.rotation, thing.owner, thing.bodies = (1, 0, 0, 0), body, [body]
+    found = SceneSnapshot.from_json(json.dumps(script.scene_json("room", [thing], 1.0)))
+    assert found.object("table").material_names == ("Oak", "Steel")
 
 
 @needs_bpy

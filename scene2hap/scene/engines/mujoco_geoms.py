@@ -66,7 +66,9 @@ class GeomReader:
         key = (kind, int(model.geom_dataid[geom]), size, frame.position_m, frame.rotation_xyzw)
         self._drawn.spend(self._n_triangles(geom), f"geom {geom}")
         vertices, faces = self._shape(geom)
-        piece = Piece.checked(key, frame.to_world(vertices), faces, "", f"geom {geom}")
+        material = int(model.geom_matid[geom])
+        name = model.mat(material).name if material >= 0 else ""
+        piece = Piece.checked(key, frame.to_world(vertices), faces, name, f"geom {geom}")
         return replace(piece, appearance=self._appearance(geom, len(faces)), is_made=mesh is None)
 
     # -- shapes ------------------------------------------------------------------------------------------------------

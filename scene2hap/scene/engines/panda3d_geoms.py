@@ -50,7 +50,9 @@ class GeomReader:
             if not len(shape.faces):
                 continue
             place = f"node {path.get_name()!r}, geom {number}"
-            piece = Piece.checked(shape.key, shape.vertices, shape.faces, "", place)
+            material = self._material(state)
+            name = "" if material is None else str(material.get_name())
+            piece = Piece.checked(shape.key, shape.vertices, shape.faces, name, place)
             found.append(replace(piece, appearance=self._appearance(state, shape, texture)))
         return found
 
@@ -103,17 +105,19 @@ class GeomReader:
 
     def _colour(self, state: Any, shape: _Shape) -> NDArray[np.float64]:
         core = self.core
-        flat, paint, scale = (
-            state.get_attrib(kind) for kind in (core.ColorAttrib, core.MaterialAttrib, core.ColorScaleAttrib)
-        )
+        flat, scale = (state.get_attrib(kind) for kind in (core.ColorAttrib, core.ColorScaleAttrib))
         colour: Any = shape.colour if shape.colour is not None else _WHITE
         if flat is not None and flat.get_color_type() != core.ColorAttrib.T_vertex:
             colour = flat.get_color() if flat.get_color_type() == core.ColorAttrib.T_flat else _WHITE
-        material = None if paint is None else paint.get_material()
+        material = self._material(state)
         if material is not None and (material.has_base_color() or material.has_diffuse()):
             colour = material.get_base_color() if material.has_base_color() else material.get_diffuse()
         scaled = scale.get_scale() if scale is not None and scale.has_scale() else _WHITE
         return np.array(tuple(colour), dtype=np.float64) * np.array(tuple(scaled), dtype=np.float64)
+
+    def _material(self, state: Any) -> Any | None:
+        paint = state.get_attrib(self.core.MaterialAttrib)
+        return None if paint is None else paint.get_material()
 
     def _texture(self, state: Any) -> tuple[Any, Any]:
         """Return the first texture stage that changes the colour, and its texture; (None, None) without."""

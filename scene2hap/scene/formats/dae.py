@@ -112,7 +112,7 @@ class _Reader:
                 continue  # lines
             self._size.add_triangles(len(primitive.vertex_index))
             link = links.get(primitive.material)
-            material = str((primitive.material or "") if link is None else link.target.id)
+            material = str((primitive.material or "") if link is None else link.target.name or link.target.id)
             key = (drawn.geometry.id, i)
             piece = Piece.checked(key, primitive.vertex, primitive.vertex_index, material, place)
             if link is not None:

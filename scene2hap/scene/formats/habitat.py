@@ -8,10 +8,10 @@
    the centre of mass: `COM` of the configuration times its scale, or else the middle of the model's box. As in Habitat,
    that box joins the boxes of the model's nodes, each rotated by its node's transform. If nodes are rotated, the joined
    box is larger than the box of their vertices. An articulated object is placed by the origin of its URDF.
-4. Scale is that of the configuration times `uniform_scale` and `non_uniform_scale`. `mass` of a configuration is
-   multiplied by the product of this scale, unless `apply_scale_to_mass` is false, and by `mass_scale`. The mass is
-   unknown without `mass`; a mass in `default_attributes`, which all objects share, does not count. The mass of an
-   articulated object is the sum over its links, if all links with geometry have one.
+4. Scale is that of the configuration times `uniform_scale` and `non_uniform_scale`; a negative one mirrors the model.
+   `mass` of a configuration is multiplied by the volume of this scale, unless `apply_scale_to_mass` is false, and by
+   `mass_scale`. The mass is unknown without `mass`; a mass in `default_attributes`, which all objects share, does not
+   count. The mass of an articulated object is the sum over its links, if all links with geometry have one.
 5. Left out with a warning: shapes without a file, which Habitat generates. Left out without a warning: rows whose
    `is_instance_visible` is false. As in Habitat, a translation or rotation of the stage is not applied; it causes a
    warning, and so do joints that do not begin at 0.
@@ -41,7 +41,7 @@ from scene2hap.counted import first_of
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
-from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object
+from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object, scale_of
 from scene2hap.scene.formats.habitat_names import Names, ObjectNames
 from scene2hap.scene.geometry import Bounds, bounds_of, joined
 from scene2hap.scene.pose import Pose
@@ -169,7 +169,7 @@ class _Reader:
             origin = origin - rotation @ (scale * middle)
         matrix = transform(rotation @ (template.frame[:3, :3] * scale[:, None]), origin)
         name = self._names.of(row["template_name"])
-        mass_kg = _mass(row, place, template.mass_kg or _links_kg(model), float(np.prod(scale)))
+        mass_kg = _mass(row, place, template.mass_kg or _links_kg(model), abs(float(np.prod(scale))))
         return AuthoredNode(name, matrix, (), model.roots, is_object=True, mass_kg=mass_kg)
 
     def _middle(self, template: Template, model: _Model) -> NDArray[np.float64]:
@@ -283,9 +283,7 @@ def _scale(row: Json, place: str) -> NDArray[np.float64]:
     """Return the scale (3,) of a row, to be multiplied by its template's."""
     given = row.get("uniform_scale", 1.0)
     uniform = checks.number(f"{place}.uniform_scale", given, "-", above=0.0, error=SceneFormatError)
-    given = row.get("non_uniform_scale", (1.0, 1.0, 1.0))
-    each = checks.vector(f"{place}.non_uniform_scale", given, "-", size=3, above=0.0, error=SceneFormatError)
-    return uniform * np.array(each)
+    return uniform * scale_of(f"{place}.non_uniform_scale", row.get("non_uniform_scale", (1.0, 1.0, 1.0)))
 
 
 def _is_com(row: Json, place: str, default: bool | None) -> bool | None:

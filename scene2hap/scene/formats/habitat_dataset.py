@@ -273,10 +273,9 @@ class Dataset:
         return {key: value for key, value in given.items() if key != "mass"}
 
     def _template(self, kind: Kind, attributes: Json, folder: Path, place: str, name: str) -> Template:
-        def numbers(key: str, default: tuple[float, ...], **bounds: float) -> NDArray[np.float64]:
-            given = attributes.get(key, default)
+        def numbers(key: str, default: tuple[float, ...]) -> NDArray[np.float64]:
             return np.array(
-                checks.vector(f"{place}: {key}", given, "-", size=3, error=SceneFormatError, above=bounds.get("above"))
+                checks.vector(f"{place}: {key}", attributes.get(key, default), "-", size=3, error=SceneFormatError)
             )
 
         which = _key(kind) if attributes.get(_key(kind)) else "collision_asset"
@@ -301,7 +300,7 @@ class Dataset:
         return Template(
             place,
             file,
-            uniform * numbers("scale", (1.0, 1.0, 1.0), above=0.0),
+            uniform * scale_of(f"{place}: scale", attributes.get("scale", (1.0, 1.0, 1.0))),
             _frame(numbers("up", (0.0, 1.0, 0.0)), numbers("front", (0.0, 0.0, -1.0))),
             numbers("COM", (0.0, 0.0, 0.0)) if "COM" in attributes else None,
             mass_kg or None,
@@ -407,6 +406,14 @@ class _Index:
 def plain_name(template: str) -> str:
     """Return the name of a template without folders and suffix."""
     return _plain(template).rpartition("/")[2]
+
+
+def scale_of(place: str, given: object) -> NDArray[np.float64]:
+    """Return a scale (3,); as in Habitat, a negative one mirrors. Raises: SceneFormatError: it is 0 along an axis."""
+    scale = checks.vector(place, given, "-", size=3, error=SceneFormatError)
+    if 0.0 in scale:
+        raise SceneFormatError(f"{place}[{scale.index(0.0)}] is 0; a model without thickness cannot be touched.")
+    return np.array(scale)
 
 
 def read_object(file: Path) -> Json:

@@ -39,4 +39,5 @@ class ObjectMaker:
             instance_key=placed.instance_key,
             mass_kg=group.mass_kg,
             appearance=placed.appearance,
+            material_names=placed.material_names,
         )

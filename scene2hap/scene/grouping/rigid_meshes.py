@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from scene2hap.errors import SceneError
 from scene2hap.scene import limits
+from scene2hap.scene.copies import names_by_area
 from scene2hap.scene.grouping.groups import Group
 from scene2hap.scene.looks.appearance import Appearance, joined
 from scene2hap.scene.pose import Pose
@@ -33,12 +34,13 @@ _SAME_VERTEX_M = 1.5e-9
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """An object's mesh in its own frame, the pose of that frame, and a key that copies share."""
+    """An object's mesh in its own frame, the pose of that frame, a key that copies share, and its materials."""
 
     pose: Pose
     mesh: TriMesh
     instance_key: str
     appearance: Appearance | None = None
+    material_names: tuple[str, ...] = ()
 
 
 class MeshPool:
@@ -82,7 +84,11 @@ class MeshPool:
             mesh = self._bake(group, own)
             copies.add(moves, mesh)
         paints = hashlib.sha256("\0".join(piece.paint for piece in pieces).encode()).hexdigest()[:8]
-        return Placed(Pose.from_matrix(rigid), mesh, f"{mesh.digest}-{paints}", self._appearance(pieces, own))
+        # Looks do not name a material of which the file has no colour.
+        which = np.repeat(np.arange(len(pieces)), [len(piece.faces) for piece in pieces])
+        names = names_by_area(mesh, which, [piece.material for piece in pieces])
+        key = f"{mesh.digest}-{paints}"
+        return Placed(Pose.from_matrix(rigid), mesh, key, self._appearance(pieces, own), names)
 
     def _bake(self, group: Group, own: NDArray[np.float64]) -> TriMesh:
         pieces = [piece for _, piece in group.parts]

@@ -220,6 +220,19 @@ def test_scales_of_configuration_and_instance_multiply(dataset: Dataset) -> None
     assert low_and_high(loaded(dataset.scene(row)).object(CHAIR)) == [[0.0, 0.0, -2.0], [3.0, 2.0, 0.0]]
 
 
+def test_a_negative_scale_mirrors_and_keeps_the_mass(dataset: Dataset) -> None:
+    wedge = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    wedge.export(dataset.folder / "objects/f" / f"{CHAIR}.glb")
+    chair = loaded(dataset.scene(instance(non_uniform_scale=[-1, 1, 1]))).object(CHAIR)
+    assert low_and_high(chair) == [[-1.0, 0.0, 0.0], [0.0, 2.0, 3.0]]
+    a, b, c = np.moveaxis(chair.geometry.mesh.vertices_m[chair.geometry.mesh.faces], 1, 0)
+    assert (a * np.cross(b, c)).sum() / 6 == pytest.approx(1.0)  # turned outwards
+    assert chair.mass_kg == 6.0
+    config = {"render_asset": f"{CHAIR}.glb", "scale": [1, 1, -1]}
+    dataset.write(f"objects/f/{CHAIR}.object_config.json", config)
+    assert low_and_high(loaded(dataset.scene(instance())).object(CHAIR)) == [[0.0, 0.0, -3.0], [1.0, 2.0, 0.0]]
+
+
 def test_the_stage_is_scaled_and_not_moved(dataset: Dataset) -> None:
     dataset.write("stages/home.stage_config.json", {"render_asset": "home.glb", "scale": [2, 2, 2]})
     path = dataset.scene(stage_instance={"template_name": "stages/home", "translation": [9, 9, 9], "uniform_scale": 2})
@@ -519,7 +532,7 @@ def test_warning_of_missing_textures_names_the_model(dataset: Dataset) -> None:
         ({"translation": [1e9, 0, 0]}, f"object '{CHAIR}' is placed or scaled beyond 1e\\+06 m"),
         ({"uniform_scale": -1}, r"uniform_scale is -1; it must be above 0"),
         ({"uniform_scale": 1e300, "non_uniform_scale": [1e300] * 3}, "is placed or scaled beyond|mass"),
-        ({"non_uniform_scale": [1, 0, 1]}, r"non_uniform_scale\[1\] is 0; it must be above 0"),
+        ({"non_uniform_scale": [1, 0, 1]}, r"non_uniform_scale\[1\] is 0; a model without thickness"),
         ({"non_uniform_scale": 2}, r"non_uniform_scale is 2; it must be 3 numbers"),
         ({"translation_origin": "corner"}, r"translation_origin is 'corner'; it must be 'COM' or 'asset_local'"),
         ({"translation_origin": 3}, r"translation_origin is 3"),
@@ -542,7 +555,7 @@ def test_invalid_instance_row_is_refused(dataset: Dataset, fields: Json, sentenc
         ({"render_asset": "../../../../etc/passwd.glb"}, r"which lies outside .*; only files inside it are read"),
         ({"render_asset": "/etc/x.glb"}, "which lies outside"),
         ({"render_asset": "a\0b.glb"}, "no usable file name"),
-        ({"render_asset": f"{CHAIR}.glb", "scale": [1, 1, -1]}, r"scale\[2\] is -1; it must be above 0"),
+        ({"render_asset": f"{CHAIR}.glb", "scale": [1, 1, 0]}, r"scale\[2\] is 0; a model without thickness"),
         ({"render_asset": f"{CHAIR}.glb", "scale": 2}, "scale is 2; it must be 3 numbers"),
         ({"render_asset": f"{CHAIR}.glb", "COM": "middle"}, "COM is 'middle'"),
         ({"render_asset": f"{CHAIR}.glb", "mass": -2}, "mass is -2 kg; it must be at least 0"),

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from scene2hap.errors import SceneError
+from scene2hap.scene.copies import copy_key
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.scene_warning import SceneWarning
@@ -90,6 +91,18 @@ def test_instances_share_one_geometry_row() -> None:
     assert document["objects"][0]["geometry"] == document["objects"][1]["geometry"]
     again = SceneSnapshot.from_json(json.dumps(document))
     assert again.object("a").geometry is again.object("b").geometry
+
+
+def test_objects_of_equal_mesh_are_copies_as_in_python() -> None:
+    mug = (0.08, 0.1, 0.08)
+    objects = [box("mug 1", mug, (0, 0, 0)), box("mug 2", mug, (1, 0, 0)), box("pan", (0.3, 0.1, 0.3), (2, 0, 0))]
+    document = json.loads(scene(*objects).to_json())
+    for row in document["objects"]:
+        del row["instance_key"]
+    found = SceneSnapshot.from_json(json.dumps(document))
+    built = SceneSnapshot.build(objects)
+    assert [item.instance_key for item in found.objects] == [item.instance_key for item in built.objects]
+    assert copy_key(found.objects[0]) == copy_key(found.objects[1]) != copy_key(found.objects[2])
 
 
 def test_object_can_contain_its_geometry() -> None:

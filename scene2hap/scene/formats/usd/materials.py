@@ -19,7 +19,7 @@ from pxr import Sdf, Tf, UsdGeom, UsdShade
 from scene2hap.errors import SceneFormatError
 from scene2hap.scene.formats.usd.layers import Layers
 from scene2hap.scene.formats.usd.meshes import Triangles
-from scene2hap.scene.formats.usd.values import rest_time, value
+from scene2hap.scene.formats.usd.values import name_of, rest_time, value
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.vertex_colors import painted, srgb
 
@@ -111,7 +111,7 @@ class UsdMaterials:
         shader = bound.ComputeSurfaceSource()[0]
         if not shader or shader.GetIdAttr().Get() != "UsdPreviewSurface":
             return None
-        name, place = bound.GetPrim().GetName(), f"material {bound.GetPath()}"
+        name, place = name_of(bound.GetPrim()), f"material {bound.GetPath()}"
         opacity, opacity_source = _input(shader, "opacity", 1.0)
         color, source = _input(shader, "diffuseColor", (0.18, 0.18, 0.18))
         alpha = float(np.clip(opacity, 0.0, 1.0)) if opacity_source is None else 1.0

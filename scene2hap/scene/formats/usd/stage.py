@@ -28,7 +28,7 @@ from scene2hap.scene.formats.usd.layers import Layers, reason_of
 from scene2hap.scene.formats.usd.masses import Masses
 from scene2hap.scene.formats.usd.materials import UsdMaterials
 from scene2hap.scene.formats.usd.meshes import Triangles, mesh_triangles, shape_triangles, subsets
-from scene2hap.scene.formats.usd.values import integers, rest_time, value
+from scene2hap.scene.formats.usd.values import integers, name_of, rest_time, value
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.objects import UpAxis
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
@@ -156,7 +156,7 @@ class _Reader:
         self._n_bodies += is_body
         is_component = Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component)
         node = AuthoredNode(
-            prim.GetDisplayName() or prim.GetName(),
+            name_of(prim),
             matrix,
             pieces,
             children,
@@ -185,7 +185,7 @@ class _Reader:
         if painted not in self._pieces:
             pieces = []
             for number, ((_, rows), material) in enumerate(zip(parts, bound, strict=True)):
-                name = material.GetPrim().GetName() if material else ""
+                name = name_of(material.GetPrim()) if material else ""
                 piece = Piece.checked((key, number), found.points, found.vertices[rows], name, f"prim {prim.GetPath()}")
                 looks = self._materials.looks(prim, material, found, rows)
                 pieces.append(replace(piece, appearance=looks, is_made=found.is_made))

@@ -1,4 +1,4 @@
-"""Values of USD attributes at rest.
+"""Names of USD prims, and values of their attributes at rest.
 
 An attribute with a default value is read there. An attribute with only time samples is read at its first sample:
 animation exporters write such attributes even for objects at rest.
@@ -14,6 +14,11 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 _WEAK = (Usd.ResolveInfoSourceNone, Usd.ResolveInfoSourceFallback)
+
+
+def name_of(prim: Any) -> str:
+    """Return the display name of a prim, else its name, which has no spaces."""
+    return str(prim.GetDisplayName() or prim.GetName())
 
 
 def rest_time(attributes: Sequence[Any]) -> Any:
