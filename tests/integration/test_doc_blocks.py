@@ -221,7 +221,7 @@ def test_the_blocks_of_a_page_run(
 
 
 def test_each_kind_of_part_has_code_that_is_run() -> None:
-    """Every row of the table in docs/plugins.md has an example there; an engine's adapter has one in docs/engines.md."""
+    """Every row of the table in docs/plugins.md has an example there; an adapter has one in docs/engines.md."""
     page = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
     rows = page.partition("\n|---")[2].partition("\n\n")[0].splitlines()[1:]
     groups = {row.split("|")[4].strip(" `") for row in rows}
