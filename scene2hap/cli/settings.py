@@ -15,8 +15,6 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from pydantic.fields import FieldInfo
-
 from scene2hap.baking.config import BakeConfig
 from scene2hap.cli.console import Console
 from scene2hap.session import SessionConfig, UserProfile
@@ -55,7 +53,7 @@ def setting_rows(settings: type[Settings], within: str = "") -> Iterator[dict[st
         yield {
             "setting": within + name,
             "type": _type_name(kind),
-            "default": _default_name(field, default),
+            "default": _default_name(default),
             "meaning": meanings.get(name, ""),
         }
 
@@ -76,10 +74,10 @@ def _type_name(kind: Any) -> str:
     return {"Any": "a kind, its settings, or an instance"}.get(text, re.sub(r"\bscene2hap\.(?:\w+\.)*", "", text))
 
 
-def _default_name(field: FieldInfo, default: object) -> str:
+def _default_name(default: object) -> str:
     if isinstance(default, float):
         return f"{default:.3g}"
     if default is None or isinstance(default, str | int | tuple | dict):
         return str(default)
-    factory = getattr(field.default_factory, "__name__", "")
-    return str(getattr(default, "name", None) or factory or type(default).__name__)
+    # A kind or a name is a value that a file of settings takes.
+    return str(getattr(default, "kind", None) or getattr(default, "name", None) or type(default).__name__)

@@ -116,7 +116,7 @@ class Explanation:
 
     `felt` has the sources that arrive, the strongest first. `impacts` has the impacts of the last second, the latest
     first. `is_current` is false while a worker prepares a newer field. `reasons` are sentences that say why a touching
-    hand feels no source; empty if it feels one.
+    hand feels no source, or why the sink plays nothing; empty if it feels one.
     """
 
     hand: str

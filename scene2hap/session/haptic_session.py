@@ -78,6 +78,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
 
+_NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
+
+
 class _Progress:
     """Number of updates, and the position of the last one on `render`'s clock. They change in every update, and the
     attributes of the read-only session are slow to set."""
@@ -432,7 +435,9 @@ class HapticSession:
         felt = sorted(
             map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
         )
-        return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand))
+        waiting = (_NOT_STARTED,) if self._output.exists and not self._output.is_started else ()
+        reasons = (*waiting, *explained.reasons)
+        return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
 
     def _with_running(self, felt: FeltSource) -> FeltSource:
         """Add the amplitude of a start or stop that is under way."""

@@ -173,6 +173,8 @@ def test_every_setting_is_listed_with_its_meaning(capsys: pytest.CaptureFixture[
         for row in rows:
             assert row["meaning"], f"the docstring says nothing of {row['setting']}"
             assert row["type"]
+    named = {row["setting"]: row["default"] for row in shown["session"]}
+    SessionConfig(**{name: named[name] for name in ("propagation", "bands", "actuator")})  # kinds, not classes
 
 
 def test_the_page_of_the_command_line_is_up_to_date() -> None:

@@ -269,6 +269,18 @@ def test_explanation_says_why_nothing_is_felt() -> None:
     assert reasons() in s.explain("left").text
 
 
+def test_explanation_says_that_the_sink_was_not_started() -> None:
+    s = HapticSession(*shelf_on_table(), {"sample_rate_hz": RATE}, sink="memory")
+    s.update(touches=[ON_TABLE])
+    (why,) = s.explain("left").reasons
+    assert "call start()" in why
+    assert why in s.explain("left").text
+    with s:
+        s.update(touches=[ON_TABLE])
+        assert s.explain("left").reasons == ()
+    assert s.explain("left").reasons == (why,)
+
+
 def test_explanation_marks_sources_too_weak_to_be_felt() -> None:
     snapshot, bundle = shelf_on_table()
     loop = dataclasses.replace(bundle.loops["phone"]["ringing"], felt=Sensation(40.0, 40.0))

@@ -131,7 +131,7 @@ def test_index_with_a_field_of_a_megabyte_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("suffix", [".aif", ".aiff", ".caf", ".AU"])
 def test_library_finds_every_kind_of_sound_that_convert_finds(tmp_path: Path, suffix: str) -> None:
-    """Sounds of a recording program need not be converted before a bake; docs/audio.md lists the kinds."""
+    """Sounds of a recording program need not be converted before a bake; docs/sound-sources.md lists the kinds."""
     kind = {".aif": "AIFF", ".aiff": "AIFF", ".caf": "CAF", ".au": "AU"}[suffix.lower()]
     soundfile.write(tmp_path / f"desk fan{suffix}", 0.1 * np.ones(100), 8000, format=kind)
     assert titles(tmp_path, "fan", "fan whirring") == ["desk fan"]
