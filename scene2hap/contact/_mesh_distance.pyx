@@ -3,7 +3,7 @@
 import numpy as np
 
 from libc.math cimport INFINITY, fabs
-from libc.stdlib cimport free, malloc, realloc
+from libc.stdlib cimport free, realloc
 from libc.string cimport memcpy, memset
 
 from scene2hap.contact.geometry._boxes cimport Box, greater, is_within, lesser, squared_distance
@@ -69,7 +69,7 @@ cdef void descend(Nearest* search, const Nodes* nodes) noexcept:
     cdef Nodes halves[2]
     cdef double apart2[2]
     cdef int k
-    if not halve(halves, &search.guest, &search.host, nodes, 0):
+    if not halve(halves, &search.guest, &search.host, nodes):
         compare(search, nodes)
         return
     for k in range(2):
@@ -114,13 +114,12 @@ cdef void compare(Nearest* search, const Nodes* leaves) noexcept:
 # --- contact points ---------------------------------------------------------------------------------------------------
 
 cdef enum:
-    HEIGHT = 4  # of the nodes of a patch, 16 triangles each; 2 and 3 are slower in real scenes
+    HEIGHT = 6  # nodes of up to 64 triangles are measured whole, since bounds of smaller ones cost more than they save
 
 
-cdef struct Patch:
+cdef struct Part:
     Nodes nodes
-    Box around              # a box around the middles of their contact points
-    double most_apart2      # upper bound of the squared distance of these points from the nearest place
+    double most_apart2  # upper bound of the squared distance of the contact points below them from the nearest place
 
 
 cdef struct Points:
@@ -139,10 +138,8 @@ cdef struct Spreading:
     int n_places
     double most                   # distance of the farthest point found from the nearest place
     Points points
-    Patch* patches                # patches that were not measured at once
-    Py_ssize_t n_patches, patch_capacity
-    Patch** heap                  # (n_left,) patches that are not measured yet, the largest bound first
-    Py_ssize_t n_left
+    Part* heap                    # (n_left,) pairs of nodes that are not visited yet, the largest bound first
+    Py_ssize_t n_left, capacity
     bint is_out_of_memory
 
 
@@ -175,7 +172,6 @@ cdef points_without(host, guest, turn, shift, way, double within, double loose):
     finally:
         close_tree(&search.guest)
         close_tree(&search.host)
-        free(search.patches)
         free(search.heap)
         free(search.points.ends)
         free(search.points.middles)
@@ -185,36 +181,26 @@ cdef points_without(host, guest, turn, shift, way, double within, double loose):
 cdef int choose(double[6]* chosen, Spreading* search) noexcept:
     """Choose the ends of contact points: the farthest from the first place, then the farthest from all chosen ones.
 
-    The search is branch and bound and measures only patches that may have such a point. Two surfaces of 10,000
-    triangles in contact have thousands of contact points, but only four are chosen. Returns the number of chosen
-    points, -1 if out of memory.
+    The search is branch and bound and visits only nodes that may have such a point. Two surfaces of 10,000 triangles
+    in contact have thousands of contact points, but only four are chosen. Returns the number of chosen points, -1 if
+    out of memory.
     """
     cdef double least = -1.0
-    cdef Nodes roots
-    cdef Py_ssize_t row
-    cdef Patch* patch
+    cdef Nodes nodes
     cdef int count, axis
     search.n_places, search.most = 1, least
     if not (search.guest.m and search.host.m):
         return 0
-    roots = roots_of(&search.guest, &search.host)
-    if is_within(roots.of_guest, roots.of_host, search.within + ROUNDING_M):
-        find_patches(search, &roots)
-    search.n_left, search.heap = search.n_patches, <Patch**>malloc((search.n_patches + 1) * sizeof(Patch*))
-    if search.heap == NULL:
-        return -1
-    for row in range(search.n_patches):
-        search.heap[row] = search.patches + row
+    nodes = roots_of(&search.guest, &search.host)
+    if is_within(nodes.of_guest, nodes.of_host, search.within + ROUNDING_M):
+        visit(search, &nodes)
     for count in range(MAX_POINTS):
         if count:
             least, search.n_places = SPREAD_M, count
             measure_from_last_place(search, least)
-        while search.n_left and is_promising(search, search.heap[0]):
-            patch = search.heap[0]
-            search.n_left -= 1
-            search.heap[0] = search.heap[search.n_left]
-            sift_down(search, 0)
-            measure_patch(search, &patch.nodes)
+        while search.n_left and is_promising(search, search.heap[0].most_apart2):
+            nodes = pop(search)
+            visit(search, &nodes)
         if search.is_out_of_memory:
             return -1
         if search.most <= least:
@@ -225,81 +211,71 @@ cdef int choose(double[6]* chosen, Spreading* search) noexcept:
     return MAX_POINTS
 
 
-cdef void find_patches(Spreading* search, const Nodes* nodes) noexcept:
-    """Find the pairs of small nodes below two nodes whose boxes are within reach, first those far from the place."""
+cdef void visit(Spreading* search, const Nodes* nodes) noexcept:
+    """Collect the contact points below two nodes, the half with the larger bound first. Parts without a point that is
+    farther than those found are kept for later."""
     cdef Nodes halves[2]
-    cdef const double* place = search.places[0]
-    cdef int k
-    if not halve(halves, &search.guest, &search.host, nodes, HEIGHT):
-        add_patch(search, nodes)
+    cdef double most2[2]
+    cdef int k, i
+    if is_small(&search.guest, nodes.guest) and is_small(&search.host, nodes.host):
+        measure(search, nodes)
         return
-    if halves[0].host == halves[1].host:
-        k = most_apart2(halves[1].of_guest, place) > most_apart2(halves[0].of_guest, place)
-    else:
-        k = most_apart2(halves[1].of_host, place) > most_apart2(halves[0].of_host, place)
-    for _ in range(2):
+    halve(halves, &search.guest, &search.host, nodes)
+    for k in range(2):
+        most2[k] = -1.0
         if is_within(halves[k].of_guest, halves[k].of_host, search.within + ROUNDING_M):
-            find_patches(search, &halves[k])
+            most2[k] = INFINITY
+            for i in range(search.n_places):
+                most2[k] = lesser(most2[k], most_apart2(search, &halves[k], search.places[i]))
+    k = most2[1] > most2[0]
+    for _ in range(2):
+        if most2[k] >= 0:
+            if is_promising(search, most2[k]):
+                visit(search, &halves[k])
+            else:
+                push(search, &halves[k], most2[k])
         k = 1 - k
 
 
-cdef inline double most_apart2(const Box* box, const double* place) noexcept:
-    """Return the largest squared distance of a point of a box from a place."""
-    cdef double gap, total = 0
-    cdef int axis
-    for axis in range(3):
-        gap = greater(fabs(box.low[axis] - place[axis]), fabs(box.high[axis] - place[axis]))
-        total += gap * gap
-    return total
+cdef inline bint is_small(const Tree* tree, Py_ssize_t node) noexcept:
+    return node >= (tree.n_leaves >> HEIGHT) - 1
 
 
-cdef void add_patch(Spreading* search, const Nodes* nodes) noexcept:
-    """Measure a patch if it may have a farther point than those found; otherwise keep it for later."""
-    cdef const Box* a = nodes.of_guest
-    cdef const Box* b = nodes.of_host
-    cdef Patch patch
-    cdef Patch* patches
-    cdef double reach = search.within + ROUNDING_M
-    cdef int axis
-    for axis in range(3):
-        # Each end is within reach of the other box.
-        patch.around.low[axis] = (
-            greater(a.low[axis], b.low[axis] - reach) + greater(b.low[axis], a.low[axis] - reach) - search.way[axis]
-        ) / 2
-        patch.around.high[axis] = (
-            lesser(a.high[axis], b.high[axis] + reach) + lesser(b.high[axis], a.high[axis] + reach) - search.way[axis]
-        ) / 2
-    patch.nodes, patch.most_apart2 = nodes[0], most_apart2(&patch.around, search.places[0])
-    if is_promising(search, &patch):
-        measure_patch(search, nodes)
-        return
-    if search.n_patches == search.patch_capacity:
-        search.patch_capacity = 2 * search.patch_capacity + 64
-        patches = <Patch*>realloc(search.patches, search.patch_capacity * sizeof(Patch))
-        if patches == NULL:
-            search.is_out_of_memory, search.patch_capacity = True, search.n_patches
-            return
-        search.patches = patches
-    search.patches[search.n_patches] = patch
-    search.n_patches += 1
-
-
-cdef inline bint is_promising(const Spreading* search, const Patch* patch) noexcept:
-    """Return True if a patch may have a point that is farther than those found, or about as far."""
-    # Bounds have other rounding errors than distances.
-    return patch.most_apart2 >= greater(search.most - TIE_M - ROUNDING_M, 0.0) ** 2
-
-
-cdef void measure_patch(Spreading* search, const Nodes* nodes) noexcept:
+cdef void measure(Spreading* search, const Nodes* nodes) noexcept:
     """Collect the contact points below two nodes."""
     cdef Nodes halves[2]
     cdef int k
-    if not halve(halves, &search.guest, &search.host, nodes, 0):
+    if not halve(halves, &search.guest, &search.host, nodes):
         collect(search, nodes)
         return
     for k in range(2):
         if is_within(halves[k].of_guest, halves[k].of_host, search.within + ROUNDING_M):
-            measure_patch(search, &halves[k])
+            measure(search, &halves[k])
+
+
+cdef inline bint is_promising(const Spreading* search, double most_apart2) noexcept:
+    """Return True if nodes with this bound may have a point that is farther than those found, or about as far."""
+    # Bounds have other rounding errors than distances.
+    return most_apart2 >= greater(search.most - TIE_M - ROUNDING_M, 0.0) ** 2
+
+
+cdef double most_apart2(const Spreading* search, const Nodes* nodes, const double* place) noexcept:
+    """Return an upper bound of the squared distance of the contact points below two nodes from a place."""
+    cdef const Box* a = nodes.of_guest
+    cdef const Box* b = nodes.of_host
+    cdef double reach = search.within + ROUNDING_M, low, high, gap, total = 0
+    cdef int axis
+    for axis in range(3):
+        # The middles of the contact points are between these, since each end is within reach of the other box.
+        low = (
+            greater(a.low[axis], b.low[axis] - reach) + greater(b.low[axis], a.low[axis] - reach) - search.way[axis]
+        ) / 2
+        high = (
+            lesser(a.high[axis], b.high[axis] + reach) + lesser(b.high[axis], a.high[axis] + reach) - search.way[axis]
+        ) / 2
+        gap = greater(fabs(low - place[axis]), fabs(high - place[axis]))
+        total += gap * gap
+    return total
 
 
 cdef void collect(Spreading* search, const Nodes* leaves) noexcept:
@@ -347,29 +323,57 @@ cdef inline bint grow(double** array, Py_ssize_t n) noexcept:
     return True
 
 
+cdef void push(Spreading* search, const Nodes* nodes, double most_apart2) noexcept:
+    """Add a pair of nodes to the heap."""
+    cdef Part* heap
+    cdef Py_ssize_t row = search.n_left, parent
+    if row == search.capacity:
+        search.capacity = 2 * search.capacity + 64
+        heap = <Part*>realloc(search.heap, search.capacity * sizeof(Part))
+        if heap == NULL:
+            search.is_out_of_memory, search.capacity = True, row
+            return
+        search.heap = heap
+    search.n_left += 1
+    while row and search.heap[(row - 1) // 2].most_apart2 < most_apart2:
+        parent = (row - 1) // 2
+        search.heap[row] = search.heap[parent]
+        row = parent
+    search.heap[row] = Part(nodes[0], most_apart2)
+
+
+cdef Nodes pop(Spreading* search) noexcept:
+    """Remove the pair of nodes with the largest bound from the heap."""
+    cdef Nodes nodes = search.heap[0].nodes
+    search.n_left -= 1
+    search.heap[0] = search.heap[search.n_left]
+    sift_down(search, 0)
+    return nodes
+
+
 cdef void sift_down(Spreading* search, Py_ssize_t row) noexcept:
     """Restore the order of the heap below a row."""
-    cdef Patch* patch
-    cdef Patch** heap = search.heap
+    cdef Part* heap = search.heap
+    cdef Part part
     cdef Py_ssize_t child
     if row >= search.n_left:
         return
-    patch = heap[row]
+    part = heap[row]
     while True:
         child = 2 * row + 1
         if child + 1 < search.n_left and heap[child + 1].most_apart2 > heap[child].most_apart2:
             child += 1
-        if child >= search.n_left or heap[child].most_apart2 <= patch.most_apart2:
+        if child >= search.n_left or heap[child].most_apart2 <= part.most_apart2:
             break
         heap[row] = heap[child]
         row = child
-    heap[row] = patch
+    heap[row] = part
 
 
 cdef void measure_from_last_place(Spreading* search, double least) noexcept:
-    """Include the last place in the distances of points and patches. The first chosen place replaces the corner."""
+    """Include the last place in the distances of points and nodes. The first chosen place replaces the corner."""
     cdef Points* points = &search.points
-    cdef Patch* patch
+    cdef Part* part
     cdef const double* place = search.places[search.n_places - 1]
     cdef double apart
     cdef Py_ssize_t row
@@ -379,9 +383,9 @@ cdef void measure_from_last_place(Spreading* search, double least) noexcept:
         points.apart[row] = apart if search.n_places == 1 else lesser(points.apart[row], apart)
         search.most = greater(search.most, points.apart[row])
     for row in range(search.n_left):
-        patch = search.heap[row]
-        apart = most_apart2(&patch.around, place)
-        patch.most_apart2 = apart if search.n_places == 1 else lesser(patch.most_apart2, apart)
+        part = search.heap + row
+        apart = most_apart2(search, &part.nodes, place)
+        part.most_apart2 = apart if search.n_places == 1 else lesser(part.most_apart2, apart)
     for row in range(search.n_left // 2 - 1, -1, -1):
         sift_down(search, row)
 
@@ -468,7 +472,7 @@ cdef void drop_down(Falling* search, const Nodes* nodes) noexcept:
     cdef Nodes halves[2]
     cdef double falls[2]
     cdef int k
-    if not halve(halves, &search.guest, &search.host, nodes, 0):
+    if not halve(halves, &search.guest, &search.host, nodes):
         visit_drops(search, nodes)
         return
     for k in range(2):

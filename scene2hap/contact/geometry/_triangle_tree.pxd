@@ -93,15 +93,15 @@ cdef inline Nodes roots_of(Tree* guest, Tree* host) noexcept:
     return Nodes(0, 0, box_of(guest, 0), box_of(host, 0))
 
 
-cdef inline bint halve(Nodes* halves, Tree* guest, Tree* host, const Nodes* whole, int height) noexcept:
-    """Replace the longer of two nodes by its children. Returns False if both are at this height or below."""
-    cdef bint is_low_g = whole.guest >= (guest.n_leaves >> height) - 1
-    cdef bint is_low_h = whole.host >= (host.n_leaves >> height) - 1
+cdef inline bint halve(Nodes* halves, Tree* guest, Tree* host, const Nodes* whole) noexcept:
+    """Replace the longer of two nodes by its children. Returns False if both are leaves."""
+    cdef bint is_leaf_g = whole.guest >= guest.n_leaves - 1
+    cdef bint is_leaf_h = whole.host >= host.n_leaves - 1
     cdef int k
-    if is_low_g and is_low_h:
+    if is_leaf_g and is_leaf_h:
         return False
     halves[0] = halves[1] = whole[0]
-    if is_low_h or (not is_low_g and longest(whole.of_guest) > longest(whole.of_host)):
+    if is_leaf_h or (not is_leaf_g and longest(whole.of_guest) > longest(whole.of_host)):
         for k in range(2):
             halves[k].guest = 2 * whole.guest + 1 + k
             halves[k].of_guest = box_of(guest, halves[k].guest)
