@@ -81,7 +81,7 @@ def gains(same: Same, model: str, touched: list[tuple[str, np.ndarray]]) -> np.n
 def turned(objects: list[SceneObject], rng: random.Random) -> Same:
     far = (rng.uniform(-100.0, 100.0), rng.uniform(-5.0, 5.0), rng.uniform(-100.0, 100.0))
     motion = Pose.from_yaw(far, rng.choice([0.5, 1.0, 1.5, rng.random() * 2]) * math.pi)
-    return Same([_with(item, pose=motion.compose(item.pose)) for item in objects], motion=motion)
+    return Same([described_again(item, pose=motion.compose(item.pose)) for item in objects], motion=motion)
 
 
 def in_another_order(objects: list[SceneObject], rng: random.Random) -> Same:
@@ -89,8 +89,9 @@ def in_another_order(objects: list[SceneObject], rng: random.Random) -> Same:
 
 
 def renamed(objects: list[SceneObject], rng: random.Random) -> Same:
-    ids = dict(zip(THINGS, rng.sample("abcdefg", len(THINGS)), strict=True))
-    return Same([_with(item, id=ids[item.id]) for item in objects], ids.__getitem__)
+    new = [f"thing {k}" for k in range(len(objects))]
+    ids = dict(zip([item.id for item in objects], rng.sample(new, len(new)), strict=True))
+    return Same([described_again(item, id=ids[item.id]) for item in objects], ids.__getitem__)
 
 
 def with_unused_vertices(objects: list[SceneObject], rng: random.Random) -> Same:
@@ -104,7 +105,7 @@ def with_lines(objects: list[SceneObject], rng: random.Random) -> Same:
     """Triangles with a corner twice, as long as the sides and diagonals of faces."""
 
     def more(mesh: TriMesh) -> TriMesh:
-        some = mesh.faces[rng.sample(range(len(mesh.faces)), 4)]
+        some = mesh.faces[rng.choices(range(len(mesh.faces)), k=4)]
         return TriMesh(mesh.vertices_m, np.concatenate([some[:, [2, 0, 0]], mesh.faces]))
 
     return _meshed(objects, more)
@@ -130,23 +131,23 @@ def in_another_frame(objects: list[SceneObject], rng: random.Random) -> Same:
     for item in objects:
         frame = Pose.from_yaw((rng.uniform(-3, 3), rng.uniform(-3, 3), 0.0), rng.uniform(-3, 3))
         mesh = TriMesh(frame.to_own(item.geometry.mesh.vertices_m), item.geometry.mesh.faces)
-        same.append(_with(item, pose=item.pose.compose(frame), geometry=mesh))
+        same.append(described_again(item, pose=item.pose.compose(frame), geometry=mesh))
     return Same(same)
 
 
 def _meshed(objects: list[SceneObject], change: Callable[[TriMesh], TriMesh]) -> Same:
-    return Same([_with(item, geometry=change(item.geometry.mesh)) for item in objects])
+    return Same([described_again(item, geometry=change(item.geometry.mesh)) for item in objects])
 
 
-def _with(item: SceneObject, **changes: object) -> SceneObject:
+def described_again(item: SceneObject, **changes: object) -> SceneObject:
     """The object with its surface measured again."""
     return SceneObject(**{"id": item.id, "name": item.name, "pose": item.pose, "geometry": item.geometry} | changes)
 
 
-MODELS = ("exponential_plate", "infinite_plate", "modal_plate")
+ALIKE = (turned, in_another_order, renamed, with_unused_vertices, with_lines, cut_at_a_point)
+CHANGES = (*ALIKE, in_another_frame)
 CASES = [
-    *((one, model) for model in MODELS for one in (turned, in_another_order, renamed)),
-    *((one, model) for model in MODELS for one in (with_unused_vertices, with_lines, cut_at_a_point)),
+    *((one, model) for model in ("exponential_plate", "infinite_plate", "modal_plate") for one in ALIKE),
     # Where plates intersect at right angles, the coupled models depend on their frames (docs/physical-models.md).
     (in_another_frame, "exponential_plate"),
 ]
