@@ -6,6 +6,7 @@ import math
 import random
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
@@ -39,7 +40,7 @@ def room(rng: random.Random) -> list[SceneObject]:
     turn, top = rng.uniform(-0.5, 0.5), y + 0.015
     at = Pose.from_yaw((0.0, 0.0, 0.0), turn)
     phone = at.to_world([[rng.uniform(-0.3, 0.3), top + 0.005, rng.uniform(-0.15, 0.15)]])[0]
-    places = {
+    places: dict[str, tuple[Box | TriMesh, Pose]] = {
         "floor": (Box((4.0, 0.1, 3.0)), Pose((0.0, -0.05, 0.0))),
         "wall_back": (Box((4.0, 2.4, 0.1)), Pose((0.0, 1.2, -1.5))),
         "wall_left": (Box((0.1, 2.4, 2.95)), Pose((-2.0, 1.2, 0.025))),
@@ -139,9 +140,10 @@ def _meshed(objects: list[SceneObject], change: Callable[[TriMesh], TriMesh]) ->
     return Same([described_again(item, geometry=change(item.geometry.mesh)) for item in objects])
 
 
-def described_again(item: SceneObject, **changes: object) -> SceneObject:
+def described_again(item: SceneObject, **changes: Any) -> SceneObject:
     """The object with its surface measured again."""
-    return SceneObject(**{"id": item.id, "name": item.name, "pose": item.pose, "geometry": item.geometry} | changes)
+    own: dict[str, Any] = {"id": item.id, "name": item.name, "pose": item.pose, "geometry": item.geometry}
+    return SceneObject(**own | changes)
 
 
 ALIKE = (turned, in_another_order, renamed, with_unused_vertices, with_lines, cut_at_a_point)
