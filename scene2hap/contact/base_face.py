@@ -7,6 +7,7 @@ the two overlap in plan, no other parts of the two shapes are nearer.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ _FEET_M, _FEET_SIZES, _MOST_FEET_M = 0.0012, 1.2e-3, 0.0048
 # A level face smaller than this share of the outline of those corners is no base face: the lowest face of a vase may be
 # a tiny triangle. Nor is one of several feet if another foot bears as well, as that of a table with one short leg.
 _CRUMB = 0.5
+_COLLINEAR_M = 1e-6  # rounding of float32 for coordinates of some metres
 _COVER = 1e-3  # An outline is filled if the area of its triangles differs from its own by less than this share.
 
 
@@ -79,7 +81,8 @@ def base_face_of(corners: Floats, triangles: Floats, uneven: float, lowest: floa
         bearing, around = triples(face.corners_m), face.outline_m
     middle = (around.min(axis=0) + around.max(axis=0)) / 2
     radius = float(np.linalg.norm(around - middle, axis=1).max())
-    points = tuple([bearing[row] for row in spread(bearing)])
+    corners_m = triples(around)
+    points = tuple([corners_m[row] for row in spread(corners_m)])
     is_filled = face is not None and face.is_filled
     return BaseFace(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
 
@@ -155,6 +158,9 @@ def outline(points: Floats) -> list[int]:
     """Return the rows of the points (n, 2) on their convex hull, counter-clockwise, without collinear points. The hull
     of a single point is that point.
 
+    A point within `_COLLINEAR_M` of the line between its neighbours is collinear. So a side that is cut into pieces has
+    no corner where rounding bends it.
+
     Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
     """
     order = np.lexsort((points[:, 1], points[:, 0])).tolist()
@@ -163,7 +169,7 @@ def outline(points: Floats) -> list[int]:
     for rows in (order, order[::-1]):
         half: list[int] = []
         for row in rows:
-            while len(half) > 1 and _turn(at[half[-2]], at[half[-1]], at[row]) <= 0:
+            while len(half) > 1 and not _is_corner(at[half[-2]], at[half[-1]], at[row]):
                 half.pop()
             half.append(row)
         halves.append(half[:-1])
@@ -176,5 +182,7 @@ def polygon_area(corners: Floats) -> float:
     return abs(float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())) / 2
 
 
-def _turn(a: list[float], b: list[float], c: list[float]) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+def _is_corner(a: list[float], b: list[float], c: list[float]) -> bool:
+    """Return True if b is to the right of the line from a to c, by more than rounding."""
+    turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    return turn > _COLLINEAR_M * math.dist(a, c)

@@ -129,7 +129,21 @@ def shape_of(mesh: TriMesh) -> Shape:
     """Return the shape of a mesh; equal meshes share one."""
     shape = _shapes.get(mesh.digest)
     if shape is None:
-        triangles = np.ascontiguousarray(mesh.vertices_m[mesh.faces].transpose(2, 1, 0))
-        shape = Shape(triangles, mesh.corners_m)
+        solid = _without_lines(mesh)
+        triangles = np.ascontiguousarray(solid.vertices_m[solid.faces].transpose(2, 1, 0))
+        shape = Shape(triangles, solid.corners_m)
         _shapes[mesh.digest] = shape
     return shape
+
+
+def _without_lines(mesh: TriMesh) -> TriMesh:
+    """Return the mesh without triangles that have a corner twice, unless it has no others.
+
+    Files contain such triangles, and no surface is there. Their edges are often diagonals of a flat face, which would
+    become edges of it (`features`).
+    """
+    corners = mesh.vertices_m[mesh.faces]
+    is_line = (corners == np.roll(corners, 1, axis=1)).all(axis=2).any(axis=1)
+    if is_line.all() or not is_line.any():
+        return mesh
+    return TriMesh(mesh.vertices_m, mesh.faces[~is_line])

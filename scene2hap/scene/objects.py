@@ -158,19 +158,21 @@ class SceneObject:
         return (self.surface.length_m, self.surface.width_m, self.surface.thickness_m)
 
     def whole_size_m(self, up_axis: UpAxis) -> tuple[float, float, float]:
-        """Return longer and shorter side and height [m] of the object's box along its own axes.
+        """Return longer and shorter side and height [m] of the object's box along the axes of its dominant surface.
 
-        Height is along the axis nearest to the vertical, so the size does not change with rotation about the vertical.
+        Height is along the axis nearest to the vertical. So the size does not change with rotation about the vertical,
+        of the pose or of the vertices: many files store furniture turned, in world coordinates.
         """
-        edges = np.ptp(self.geometry.mesh.vertices_m, axis=0)
-        upright = int(np.abs(self.pose.rotation[VERTICAL[up_axis]]).argmax())
+        edges = np.ptp(self.surface.pose.to_own(self.geometry.mesh.corners_m), axis=0)
+        lift = self.pose.rotation[VERTICAL[up_axis]] @ self.surface.pose.rotation
+        upright = int(np.abs(lift).argmax())
         shorter, longer = sorted(float(edge) for edge in np.delete(edges, upright))
         return (longer, shorter, float(edges[upright]))
 
     @cached_property
     def bounds_m(self) -> NDArray[np.float64]:
         """Lowest and highest corner (2, 3) [m] in the world. Read-only."""
-        return frozen(bounds_of(self.pose.to_world(self.geometry.mesh.vertices_m)))
+        return frozen(bounds_of(self.pose.to_world(self.geometry.mesh.corners_m)))
 
     def plate_coordinates(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Return world points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.

@@ -89,6 +89,25 @@ def test_a_turned_scene_has_the_same_gains(model: ModalPlate | InfinitePlate, se
 
 
 @pytest.mark.parametrize("model", MODELS)
+def test_a_room_turned_by_quarters_has_the_same_gains(model: ModalPlate | InfinitePlate) -> None:
+    """Floor and two walls intersect at right angles, without known normals, and a source stands in their corner."""
+    z_up, x_up, y_up = (0, 0, 0, 1), (0, math.sqrt(0.5), 0, math.sqrt(0.5)), (-math.sqrt(0.5), 0, 0, math.sqrt(0.5))
+    bodies: dict[str, Body] = dict.fromkeys(("floor", "wall_x", "wall_y"), Plate(1.0, 0.8, 0.01, OAK))
+    poses = {name: Pose((0, 0, 0), way) for name, way in zip(bodies, (z_up, x_up, y_up), strict=True)}
+    pairs = (("floor", "wall_x", (0, 0.3, 0)), ("floor", "wall_y", (0.4, 0, 0)), ("wall_x", "wall_y", (0, 0, 0.2)))
+    contacts = [Contact(*pair) for pair in pairs] + [Contact("s0", "floor", (0.3, 0.2, 0), DOWN)]
+    at = {name: np.array([[0.2, 0.1, 0.3]]) for name in bodies}
+    expected = gains(model, (bodies, poses, contacts), at)
+    for quarters in (1, 2, 3):
+        turn = Rotation.from_rotvec([0, 0, quarters * math.pi / 2])
+        motion = Pose((1.0, 2.0, 0.0), tuple(turn.as_quat()))
+        turned = [replace(one, point_m=tuple(motion.to_world([one.point_m])[0])) for one in contacts]
+        after = (bodies, {name: motion.compose(pose) for name, pose in poses.items()}, turned)
+        found = gains(model, after, {name: motion.to_world(points) for name, points in at.items()})
+        np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("seed", range(8))
 def test_a_plate_may_be_described_from_either_side(model: ModalPlate | InfinitePlate, seed: int) -> None:
     """Its frame turned over: the same plate in the same place, with its normal the other way."""

@@ -181,13 +181,17 @@ def _directions(
 def _way(contact: Contact, axes: Mapping[str, Axes | None], level: Mapping[str, Direction]) -> Direction:
     """Direction of the spring at a contact, the same for both of its bodies.
 
-    Both signs give the same spring. That of the largest component is positive, so that a body without axes moves in
-    phase at contacts above and below it.
+    Both signs give the same spring, with two exceptions. A body without axes has to move in phase at contacts above and
+    below it, so that the largest component is positive. Without a contact's normal, a body perpendicular to this
+    direction is pushed along its own normal. Then the axes of the world must not decide on the sign, since the gains of
+    a turned scene would differ.
     """
     pair = (contact.a, contact.b)
-    normals = [contact.normal, *(level.get(x) for x in pair), *(own[2] for x in pair if (own := axes.get(x)))]
+    own_normals = [own[2] for x in pair if (own := axes.get(x))]
+    normals = [contact.normal, *(level.get(x) for x in pair), *own_normals]
     x, y, z = next((one for one in normals if one is not None), (0.0, 0.0, 1.0))
-    return (x, y, z) if max(x, y, z, key=abs) > 0 else (-x, -y, -z)
+    keeps_sign = contact.normal is None and len(own_normals) == len(pair)
+    return (x, y, z) if keeps_sign or max(x, y, z, key=abs) > 0 else (-x, -y, -z)
 
 
 def _merged(joints: Sequence[Joint]) -> list[Joint]:

@@ -78,6 +78,12 @@ def test_slender_and_empty_triangles_keep_their_edges() -> None:
     assert (n_edges, n_corners) == (7, 5)
 
 
+def test_triangles_with_a_corner_twice_add_no_edges() -> None:
+    mesh = Box((0.3, 0.2, 0.4)).mesh
+    lines = mesh.faces[:, [0, 2, 2]]
+    assert counts(shape(mesh.vertices_m, np.concatenate([lines, mesh.faces]))) == (12, 8)
+
+
 @pytest.mark.parametrize("n", [0, 1])
 def test_a_mesh_of_no_triangle_has_no_features_and_a_point_keeps_its_own(n: int) -> None:
     found = features_of(np.zeros((3, 3, n)))

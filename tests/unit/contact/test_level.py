@@ -14,7 +14,7 @@ from scene2hap.contact.graph import ContactGraph
 from scene2hap.contact.level import rest_on, rest_points
 from scene2hap.contact.pair import BodyPair
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.shapes import TriMesh
+from scene2hap.scene.shapes import Box, TriMesh
 from scene2hap.scene.snapshot import SceneSnapshot
 
 TURNS = st.floats(-3.0, 3.0)
@@ -65,6 +65,35 @@ def test_a_turned_block_beside_another_does_not_rest_on_it() -> None:
 def test_the_outline_of_a_grid_is_its_four_corners() -> None:
     grid = np.array([(x, y) for x in (0.0, 1.0, 2.0) for y in (0.0, 1.0, 2.0)])
     assert grid[outline(grid)].tolist() == [[0, 0], [2, 0], [2, 2], [0, 2]]
+
+
+def test_a_side_cut_into_pieces_has_no_corner_where_rounding_bends_it() -> None:
+    turn = np.array([[math.cos(0.3), -math.sin(0.3)], [math.sin(0.3), math.cos(0.3)]])
+    line = np.linspace(0.0, 1.0, 8)[:, None]
+    sides = np.concatenate([line * [1.0, 0.0], line * [0.0, 0.2], line * [1.0, 0.0] + [0.0, 0.2]])
+    points = np.concatenate([sides, [[1.0, 0.1]]]) @ turn
+    points = points.astype(np.float32).astype(np.float64)
+    assert {tuple(np.round(points[row] @ turn.T, 3) + 0.0) for row in outline(points)} == {
+        (0.0, 0.0),
+        (1.0, 0.0),
+        (1.0, 0.2),
+        (0.0, 0.2),
+    }
+
+
+def test_contact_points_of_a_level_face_do_not_depend_on_its_triangles() -> None:
+    """Four corners of a plank, although its middle is farther from two of them than the other two are."""
+    plank = Box((1.0, 0.05, 0.1)).mesh
+    corners = plank.vertices_m[plank.faces]
+    middles = corners.mean(axis=1)
+    cut = [np.stack([a, b, middles], axis=1) for a, b in ((corners[:, k], corners[:, k - 2]) for k in range(3))]
+    finer = TriMesh(np.concatenate(cut).reshape(-1, 3), np.arange(9 * len(corners)).reshape(-1, 3))
+    floor = box("floor", (3.0, 0.1, 3.0), (0.0, -0.05, 0.0))
+    plain, fine = (
+        ContactGraph(SceneSnapshot("planks", "y", (floor, thing("plank", mesh, Pose((0.2, 0.025, 0.1))))))
+        for mesh in (plank, finer)
+    )
+    assert [one.point_m for one in fine.contacts] == [one.point_m for one in plain.contacts]
 
 
 def test_a_clipped_square_loses_its_corner() -> None:

@@ -9,7 +9,7 @@ from scene2hap.scene.copies import copy_key, material_names, name_words
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.shapes import TriMesh
+from scene2hap.scene.shapes import Box, TriMesh
 from scenes import box
 
 CUBE = replace(box("chair_1", (0.4, 0.4, 0.4), (0, 0, 0)), instance_key="cube")
@@ -74,6 +74,16 @@ def test_whole_size_is_invariant_under_yaw() -> None:
     assert turned.whole_size_m("y") == pytest.approx((1.2, 0.6, 1.8))
     fallen = replace(one, pose=Pose((0, 0, 0), (2**-0.5, 0.0, 0.0, 2**-0.5)))
     assert fallen.whole_size_m("y") == pytest.approx((1.8, 0.6, 1.2))
+
+
+def test_whole_size_is_that_of_the_surface_wherever_the_vertices_are() -> None:
+    """Many files store vertices in world coordinates: turned, and with those of other objects in one buffer."""
+    cupboard = Box((0.6, 1.8, 1.2)).mesh
+    turn = Pose((3.0, 0.9, -2.0), (0.0, 0.38, 0.0, 0.92))
+    vertices = np.concatenate([turn.to_world(cupboard.vertices_m), [[-5.0, -3.0, 9.0]]])
+    item = SceneObject("cupboard", geometry=TriMesh(vertices, cupboard.faces))
+    assert item.whole_size_m("y") == pytest.approx((1.2, 0.6, 1.8))
+    assert item.bounds_m[0, 1] == pytest.approx(0.0)
 
 
 def test_material_of_the_largest_area_comes_first() -> None:
