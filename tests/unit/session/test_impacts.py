@@ -32,7 +32,7 @@ from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.impacts.felt_impacts import LEAST_INTERVAL_S, PEAK, Impact, struck_later
+from scene2hap.session.impacts.felt_impacts import LEAST_INTERVAL_S, MOST_PLAYING, PEAK, Impact, struck_later
 from scenes import table_with_two_phones
 
 RATE = 48_000
@@ -432,6 +432,22 @@ def test_impacts_in_fast_succession_are_merged() -> None:
     assert made.strike("table", STRUCK).felt
     stats = made.stats
     assert (stats.impacts, stats.impacts_felt, stats.impacts_left_out) == (4, 3, 1)
+
+
+def test_impacts_beyond_the_most_that_play_are_left_out_and_end_none_that_plays() -> None:
+    made = HapticSession(*table_with_two_phones())
+    made.update(touches=touches())
+    for i in range(MOST_PLAYING + 8):
+        made.add(SceneObject(f"cup {i}", pose=Pose((9.0, 0.1 * i, 9.0)), geometry=Box((0.05, 0.05, 0.05))))
+    for source_id in made.source_ids:
+        made.set_source(source_id, on=False)
+    made.update(touches=touches())
+    felt = [bool(made.strike("table", STRUCK, with_object=f"cup {i}").felt) for i in range(MOST_PLAYING + 8)]
+    assert felt == [True] * MOST_PLAYING + [False] * 8
+    assert made.stats.impacts_left_out == 8
+    rendered(made, 2.0)
+    made.update(touches=touches())
+    assert made.strike("table", STRUCK, with_object="cup 39").felt
 
 
 def test_many_impacts_stay_within_full_scale() -> None:
