@@ -37,3 +37,13 @@ def test_strongest_bands_are_sorted_and_faint_bands_left_out() -> None:
     x = np.fft.irfft(np.where((f > 143) & (f < 176), spectrum, 0.01 * spectrum), 5 * RATE)
     assert strongest_bands_hz(magnitudes(x), RATE, RANGE, -14.0) == [pytest.approx(158.5, abs=0.1)]
     assert strongest_bands_hz(magnitudes(np.zeros(RATE)), RATE, RANGE, -14.0) == []
+
+
+def test_bands_below_and_above_the_range_are_left_out() -> None:
+    """A rumble of 10 Hz and a hiss of 1.6 kHz are stronger than the band within the range."""
+    rng = np.random.default_rng(3)
+    spectrum = np.fft.rfft(rng.standard_normal(5 * RATE))
+    f = np.fft.rfftfreq(5 * RATE, 1 / RATE)
+    strength = np.select([f < 12, (f > 143) & (f < 176), f > 1500], [100.0, 1.0, 3.0], 0.001)
+    x = np.fft.irfft(spectrum * strength, 5 * RATE)
+    assert strongest_bands_hz(magnitudes(x), RATE, RANGE, -14.0) == [pytest.approx(158.5, abs=0.1)]
