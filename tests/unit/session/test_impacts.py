@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,7 @@ from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
 from scene2hap.session.deadline import Deadline
+from scene2hap.session.impacts import felt_impacts
 from scene2hap.session.impacts.felt_impacts import LEAST_INTERVAL_S, MOST_PLAYING, PEAK, Impact, struck_later
 from scenes import table_with_two_phones
 
@@ -432,6 +434,29 @@ def test_impacts_in_fast_succession_are_merged() -> None:
     assert made.strike("table", STRUCK).felt
     stats = made.stats
     assert (stats.impacts, stats.impacts_felt, stats.impacts_left_out) == (4, 3, 1)
+
+
+@pytest.mark.parametrize(("late_s", "is_felt"), [(0.2, True), (0.4, False)])
+def test_impact_that_a_worker_prepares_too_late_is_left_out(
+    late_s: float, is_felt: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A burst is late if its gains are; 0.4 s after the knock it would feel like another one."""
+    made, go_on = session(propagation=ModalPlate()), Event()
+
+    def held_up(*given: Any) -> Any:
+        prepared = struck_later(*given)
+        return lambda: prepared() if go_on.wait(10.0) else None
+
+    made._impacts._ahead = None
+    monkeypatch.setattr(felt_impacts, "struck_later", held_up)
+    made.update(touches=touches())
+    made.wait_prepared()
+    impact = made.strike("table", STRUCK)
+    assert not rendered(made, late_s).any()
+    go_on.set()
+    made.wait_prepared()
+    assert bool(impact.felt) == rendered(made, 0.2).any() == is_felt
+    assert made.stats.impacts_left_out == (not is_felt)
 
 
 def test_impacts_beyond_the_most_that_play_are_left_out_and_end_none_that_plays() -> None:
