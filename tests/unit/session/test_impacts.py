@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from scene2hap import (
+    ActuatorProfile,
     AutoFidelity,
     Box,
     ExponentialPlate,
@@ -434,6 +435,23 @@ def test_impacts_in_fast_succession_are_merged() -> None:
     assert made.strike("table", STRUCK).felt
     stats = made.stats
     assert (stats.impacts, stats.impacts_felt, stats.impacts_left_out) == (4, 3, 1)
+
+
+def test_impacts_are_compensated_for_the_actuators_response() -> None:
+    """Where the actuator is 9 dB weaker, the drive is 9 dB stronger relative to the other components."""
+    edges_hz, levels_db = (20.0, 120.0, 400.0, 1000.0), (0.0, 0.0, -9.0, -9.0)
+    weak_above = ActuatorProfile("weak above", response_db=tuple(zip(edges_hz, levels_db, strict=True)))
+    found = []
+    for actuator in (ActuatorProfile(), weak_above):
+        made = session(actuator=actuator)
+        made.update(touches=touches(STRUCK, STRUCK))
+        made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+        burst = burst_at(made, STRUCK)
+        found.append(amplitudes(rendered(made), burst)[0])
+    boost_db = -np.interp(np.log(burst.frequencies_hz), np.log(edges_hz), levels_db)
+    assert np.ptp(boost_db) > 3.0
+    strong = found[0] > 1e-3 * found[0].max()
+    np.testing.assert_allclose(20 * np.log10(found[1] / found[0])[strong], (boost_db - boost_db.max())[strong], atol=0.5)
 
 
 @pytest.mark.parametrize(("late_s", "is_felt"), [(0.2, True), (0.4, False)])
