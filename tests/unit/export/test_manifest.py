@@ -27,7 +27,11 @@ def test_objects_and_states_of_a_manifest_are_those_of_the_bundle(tmp_path: Path
     assert table["mass_kg"] == 12.5
     assert objects["phone"]["material"] == "glass"
     assert (objects["block"]["category"], objects["block"]["material"]) == ("thing", None)
-    assert (objects["cup"]["category"], objects["cup"]["material"], objects["cup"]["mass_kg"]) == ("unknown", None, None)
+    assert (objects["cup"]["category"], objects["cup"]["material"], objects["cup"]["mass_kg"]) == (
+        "unknown",
+        None,
+        None,
+    )
     sources = {one["object_id"]: one for one in manifest["sources"]}
     assert (sources["phone"]["gain_db"], sources["phone"]["muted"]) == (-3.0, False)
     states = {state["name"]: state for state in sources["phone"]["states"]}

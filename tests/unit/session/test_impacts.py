@@ -451,7 +451,9 @@ def test_impacts_are_compensated_for_the_actuators_response() -> None:
     boost_db = -np.interp(np.log(burst.frequencies_hz), np.log(edges_hz), levels_db)
     assert np.ptp(boost_db) > 3.0
     strong = found[0] > 1e-3 * found[0].max()
-    np.testing.assert_allclose(20 * np.log10(found[1] / found[0])[strong], (boost_db - boost_db.max())[strong], atol=0.5)
+    np.testing.assert_allclose(
+        20 * np.log10(found[1] / found[0])[strong], (boost_db - boost_db.max())[strong], atol=0.5
+    )
 
 
 @pytest.mark.parametrize(("late_s", "is_felt"), [(0.2, True), (0.4, False)])
