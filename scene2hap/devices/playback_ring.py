@@ -38,7 +38,7 @@ class PlaybackRing:
     def restart(self) -> None:
         """Reset the ring for another stream, except for the count of gaps."""
         self._written = self._read = self._place = 0
-        self._is_dry = self.closing = False
+        self.closing = False
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -20,7 +20,6 @@ ATTACK_S = 0.005
 """Length of a sine's attack [s], half a cosine: a step of its slope would click. Assumed: too short to be felt."""
 END_DB = -46.0
 """A wave ends at this level [dB], over a last half cosine; full scale is 45 dB over the threshold."""
-MOST_PLAYING = 32
 _STEP = 256
 _STRETCH = 4096
 """Frames of a burst that are summed at a time."""
@@ -105,7 +104,7 @@ class Bursts:
     """All bursts that wait or play."""
 
     def __init__(self) -> None:
-        self._incoming: deque[PlannedBurst] = deque(maxlen=MOST_PLAYING)
+        self._incoming: deque[PlannedBurst] = deque()
         self._playing: list[PlannedBurst] = []
         self._fade: tuple[int, int] | None = None
 
@@ -132,7 +131,6 @@ class Bursts:
         while self._incoming:
             burst = self._incoming.popleft()
             self._playing.append(burst.delayed(max(burst.begin, position)))
-        del self._playing[:-MOST_PLAYING]
         fade, n_frames = self._envelope(position, len(mix)), len(mix)
         for burst in self._playing:
             first = max(0, burst.begin - position)

@@ -77,7 +77,8 @@ class Pool:
         for pool in (self._own, self._alone):
             if pool is None:
                 continue
-            # Python would wait for running tasks at its exit. They have begun nothing that costs money.
+            # Python would wait for running tasks at its exit. They have begun nothing that costs money. Up to Python
+            # 3.13 no public call ends workers; `terminate_workers` of 3.14 reads the same attribute.
             workers = [] if error is None else list((pool._processes or {}).values())
             pool.shutdown(wait=error is None, cancel_futures=True)
             for worker in workers:

@@ -2,8 +2,8 @@
 
     impact ── propagation.impact ──► Burst (decaying sines) ── model in use ──► at each hand ──► the mix
 
-Bounds: a pair of objects strikes at most once in `LEAST_INTERVAL_S`, and at most `render.bursts.MOST_PLAYING` bursts
-play at once. At the struck point the peak is at most `PEAK`, as for a source of full intensity. Nothing is computed for
+Bounds: a pair of objects strikes at most once in `LEAST_INTERVAL_S`, and no impact is added while `MOST_PLAYING` bursts
+play. At the struck point the peak is at most `PEAK`, as for a source of full intensity. Nothing is computed for
 an impact that no hand could feel.
 """
 
@@ -24,7 +24,7 @@ from scene2hap.calls import clear_attributes
 from scene2hap.errors import Scene2HapError
 from scene2hap.propagation.impact import Burst, burst_of
 from scene2hap.propagation.live import PointField, TouchedPoint
-from scene2hap.render.bursts import MOST_PLAYING, Samples, peak_of, wave_of
+from scene2hap.render.bursts import Samples, peak_of, wave_of
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.hand_gains import Felt
@@ -45,6 +45,8 @@ LEAST_INTERVAL_S = 0.03
 """Impacts between the same two objects within this time count as one; assumed: most bursts last as long."""
 LEAST_GAIN = 10 ** (-60 / 20)
 """Gain below which an impact is not mixed at a hand: full scale is 45 dB over the threshold."""
+MOST_PLAYING = 32
+"""Bursts with which no further impact is added. None that plays is ended for another, since that would click."""
 MOST_WAITING = 4
 """Most impacts that may wait for a worker."""
 LATEST_S = 0.3

@@ -245,7 +245,6 @@ class Playback:
 
         Loops that are not prepared yet are added by `take_prepared`, unless preparing is set to block.
         """
-        self._routes.clear()
         wanted = set(rows)
         gone_rows = [row for row in self._places if row not in wanted]
         gone = [self._places.pop(row) for row in gone_rows]

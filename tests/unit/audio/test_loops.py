@@ -121,6 +121,12 @@ def test_a_loop_is_as_long_as_its_clip_allows(seconds: float, seed: int) -> None
     assert find_seam(x, RATE).length / RATE > 0.6 * seconds
 
 
+@pytest.mark.parametrize("frequency_hz", [50.0, 100.0])
+def test_loop_of_a_tone_is_the_longest_of_many_equal_ones(frequency_hz: float) -> None:
+    """Any whole number of periods is as good; a long loop repeats less often. A fade and both edges are cut off."""
+    assert find_seam(tone(frequency_hz, 2.0), RATE).length / RATE > 0.9 * (2.0 - 0.2 - 2 * 0.02)
+
+
 def test_loop_of_a_rhythm_has_a_whole_number_of_beats() -> None:
     t = np.arange(5 * RATE) / RATE
     ticks = np.sin(2 * np.pi * 300 * t) * np.exp(-(t % 0.5) / 0.01) + 0.02 * noise(5.0)

@@ -214,6 +214,37 @@ def test_the_folder_s_mode_stays(tmp_path: Path) -> None:
     assert folder.stat().st_mode & 0o777 == 0o750
 
 
+def test_a_write_protected_folder_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, both_ways: None) -> None:
+    """Root may write anywhere, so the mode is read where the old folder is removed."""
+    folder, modes = a_bundle().save(tmp_path / "room"), []
+    folder.chmod(0o500)
+    discard = folder_replacement.discard
+
+    def discard_and_tell(old: Path, new: Path) -> None:
+        modes.append(old.stat().st_mode & 0o700)
+        discard(old, new)
+
+    monkeypatch.setattr(folder_replacement, "discard", discard_and_tell)
+    a_bundle().save(folder)
+    assert modes == [0o700]
+    assert folder.stat().st_mode & 0o777 == 0o500
+    assert [path.name for path in tmp_path.iterdir()] == ["room"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="only POSIX writes folders to the disk")
+def test_the_new_name_is_on_the_disk_when_a_save_returns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    fsync, written = os.fsync, []
+
+    def fsync_and_tell(descriptor: int) -> None:
+        fsync(descriptor)
+        if os.path.samestat(os.fstat(descriptor), tmp_path.stat()):
+            written.append(sorted(path.name for path in tmp_path.iterdir()))
+
+    monkeypatch.setattr(os, "fsync", fsync_and_tell)
+    a_bundle().save(tmp_path / "room")
+    assert written[-1:] == [["room"]]
+
+
 # --- leftovers of earlier saves ---------------------------------------------------------------------------------------
 
 DIES = """

@@ -25,6 +25,13 @@ def test_silencing_override_removes_the_loops(bundle: HapticBundle) -> None:
     assert bundle.objects[source].vibrates
 
 
+def test_state_override_is_the_state_that_a_session_begins_with(bundle: HapticBundle) -> None:
+    changed = bundle.override("phone", state="alarm")
+    assert [state.name for state in bundle.objects["phone"].states] == ["ringing", "alarm"]
+    assert [state.name for state in changed.objects["phone"].states] == ["alarm", "ringing"]
+    assert HapticSession(changed).source("phone").state == "alarm"
+
+
 def test_material_override_accepts_a_name_or_constants(bundle: HapticBundle) -> None:
     assert bundle.override("table", material="steel").objects["table"].material == materials.lookup("steel")
     jelly = Material("jelly", 1000.0, 1e5, 0.49, 0.4)

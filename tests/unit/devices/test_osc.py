@@ -2,13 +2,15 @@
 
 import builtins
 import sys
+import time
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from scene2hap.devices.osc import encode, gains_of
+from scene2hap.devices.datagrams import Datagrams
+from scene2hap.devices.osc import OscLine, encode, gains_of
 from scene2hap.devices.serial_amp import SerialAmplifierSink
 from scene2hap.devices.udp import UdpSink
 from scene2hap.errors import ConfigError, MissingExtra
@@ -34,6 +36,38 @@ def test_gain_messages_are_sent_per_hand_and_clip() -> None:
         ("loops/radio.wav", 1, 0.25),
         ("kettle", 1, 1.0),
     ]
+
+
+class Wire(Datagrams):
+    """Datagrams that are kept instead of sent."""
+
+    def __init__(self) -> None:
+        super().__init__("nowhere", 1)
+        self.sent: list[bytes] = []
+
+    def send(self, data: bytes) -> None:
+        self.sent.append(data)
+
+
+def test_gains_are_sent_when_they_change_and_all_again_each_second(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A lost message is mended within a second."""
+    now_s = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now_s[0])
+    wire = Wire()
+    line = OscLine(wire, {})
+    line.latest = Frame(np.array([[[0.5], [0.0]], [[0.0], [0.25]]], dtype=np.float32))
+    gains = [encode("/scene2hap/gain", 0.5, "radio", 0), encode("/scene2hap/gain", 0.25, "kettle", 1)]
+    zeros = [encode("/scene2hap/gain", 0.0, "kettle", 0), encode("/scene2hap/gain", 0.0, "radio", 1)]
+
+    def sent_at(time_s: float) -> set[bytes]:
+        now_s[0], wire.sent[:] = time_s, []
+        line.wanted(0.0)
+        return set(wire.sent)
+
+    assert sent_at(100.0) >= set(gains)
+    assert sent_at(100.9) == set()
+    assert sent_at(101.1) == {*gains, *zeros}
+    assert sent_at(101.9) == set()
 
 
 @pytest.mark.parametrize(

@@ -41,6 +41,9 @@ def test_memory_keeps_all_blocks() -> None:
     sink.close()
     sink.close()
     assert len(sink.samples) == 111
+    sink.open(FORMAT)
+    assert sink.samples.shape == (0, 2)
+    assert sink.stats.frames == 0
 
 
 def test_wav_file_has_the_pulled_samples_with_24_bits(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from scene2hap.render.bursts import MOST_PLAYING, Bursts, PlannedBurst, Samples, peak_of, summed, wave_of
+from scene2hap.render.bursts import Bursts, PlannedBurst, Samples, peak_of, summed, wave_of
 
 RATE = 48_000
 
@@ -92,16 +92,6 @@ def test_late_burst_starts_with_the_next_frame() -> None:
     bursts.start(PlannedBurst(10, [wave], {0: [1.0]}))
     bursts.add_to(mix, 1000, (0,))
     np.testing.assert_array_equal(mix[:, 0], wave[:64])
-
-
-def test_number_of_simultaneous_bursts_is_limited() -> None:
-    wave, bursts, mix = np.ones(100, np.float32), Bursts(), np.zeros((10, 1), np.float32)
-    for _ in range(100):
-        bursts.start(PlannedBurst(0, [wave], {0: [1.0]}))
-    assert bursts.n_playing == MOST_PLAYING  # without a thread that renders, nothing accumulates
-    bursts.add_to(mix, 0, (0,))
-    assert mix.max() == MOST_PLAYING
-    assert bursts.n_playing == MOST_PLAYING
 
 
 def test_fade_ends_all_bursts_without_a_click() -> None:

@@ -103,6 +103,19 @@ def test_interrupted_passage_continues_from_the_felt_level(goes_up: bool, spins:
     assert one.running(one.end).amplitude == pytest.approx(float(goes_up), abs=1e-6)
 
 
+@pytest.mark.parametrize("after_samples", [1234, 3001, 5777])
+@pytest.mark.parametrize("spins", [True, False])
+@pytest.mark.parametrize("goes_up", [True, False])
+def test_interrupting_passage_continues_the_waveform(goes_up: bool, spins: bool, after_samples: int) -> None:
+    """A place elsewhere in the loop would be a jump of its phase: a click."""
+    steady, at = bank(163.0), 12_345 + after_samples
+    interrupted = Passage(steady, 12_345, 1.0, Course(not goes_up, spins), STEADY if goes_up else STILL)
+    since = interrupted.running(at)
+    following = Passage(steady, at, 1.0, Course(goes_up, spins), since, interrupted)
+    expected, found = played(interrupted, at, CELL), played(following, at, CELL)
+    assert np.abs(found - expected).max() < 0.05 * since.amplitude + 0.01
+
+
 def backwards(curve: RunCurve) -> RunCurve:
     return RunCurve(curve.lasts_s, curve.amplitude[::-1], curve.speed[::-1])
 

@@ -102,6 +102,15 @@ def test_readded_object_has_its_state_in_the_bundle() -> None:
     assert s.position_s("phone") == pytest.approx((RATE // 3) / RATE % 0.5)
 
 
+def test_object_of_an_earlier_id_has_its_own_plate() -> None:
+    """The corner of a plate is kept by the id of its object."""
+    state, point_m = session()._state, (1.5, 0.72, 0.5)
+    assert state.on_plate("table", point_m) == pytest.approx((1.5, 0.3))
+    state.remove("table")
+    state.add(box("table", (3.2, 0.02, 0.8), (2.0, 0.71, 0.4)), haptics("oak", (3.2, 0.8, 0.02)))
+    assert state.on_plate("table", point_m) == pytest.approx((1.5 - 0.4, 0.3))
+
+
 def test_passive_objects_can_be_added_and_removed() -> None:
     s = session()
     s.add(box("tray", (0.4, 0.01, 0.3), (0.8, 0.725, 0.4)), haptics("steel", (0.4, 0.3, 0.01)))

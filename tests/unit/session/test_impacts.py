@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from threading import Event
 from typing import Any
 
 import numpy as np
 import pytest
 
 from scene2hap import (
+    ActuatorProfile,
     AutoFidelity,
     Box,
     ExponentialPlate,
@@ -32,7 +34,8 @@ from scene2hap.propagation.impact import burst_of
 from scene2hap.propagation.plate import Plate
 from scene2hap.render.bursts import wave_of
 from scene2hap.session.deadline import Deadline
-from scene2hap.session.impacts.felt_impacts import LEAST_INTERVAL_S, PEAK, Impact, struck_later
+from scene2hap.session.impacts import felt_impacts
+from scene2hap.session.impacts.felt_impacts import LEAST_INTERVAL_S, MOST_PLAYING, PEAK, Impact, struck_later
 from scenes import table_with_two_phones
 
 RATE = 48_000
@@ -432,6 +435,64 @@ def test_impacts_in_fast_succession_are_merged() -> None:
     assert made.strike("table", STRUCK).felt
     stats = made.stats
     assert (stats.impacts, stats.impacts_felt, stats.impacts_left_out) == (4, 3, 1)
+
+
+def test_impacts_are_compensated_for_the_actuators_response() -> None:
+    """Where the actuator is 9 dB weaker, the drive is 9 dB stronger relative to the other components."""
+    edges_hz, levels_db = (20.0, 120.0, 400.0, 1000.0), (0.0, 0.0, -9.0, -9.0)
+    weak_above = ActuatorProfile("weak above", response_db=tuple(zip(edges_hz, levels_db, strict=True)))
+    found = []
+    for actuator in (ActuatorProfile(), weak_above):
+        made = session(actuator=actuator)
+        made.update(touches=touches(STRUCK, STRUCK))
+        made.strike("table", STRUCK, with_object="cup", speed_m_s=1.0)
+        burst = burst_at(made, STRUCK)
+        found.append(amplitudes(rendered(made), burst)[0])
+    boost_db = -np.interp(np.log(burst.frequencies_hz), np.log(edges_hz), levels_db)
+    assert np.ptp(boost_db) > 3.0
+    strong = found[0] > 1e-3 * found[0].max()
+    np.testing.assert_allclose(
+        20 * np.log10(found[1] / found[0])[strong], (boost_db - boost_db.max())[strong], atol=0.5
+    )
+
+
+@pytest.mark.parametrize(("late_s", "is_felt"), [(0.2, True), (0.4, False)])
+def test_impact_that_a_worker_prepares_too_late_is_left_out(
+    late_s: float, is_felt: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A burst is late if its gains are; 0.4 s after the knock it would feel like another one."""
+    made, go_on = session(propagation=ModalPlate()), Event()
+
+    def held_up(*given: Any) -> Any:
+        prepared = struck_later(*given)
+        return lambda: prepared() if go_on.wait(10.0) else None
+
+    made._impacts._ahead = None
+    monkeypatch.setattr(felt_impacts, "struck_later", held_up)
+    made.update(touches=touches())
+    made.wait_prepared()
+    impact = made.strike("table", STRUCK)
+    assert not rendered(made, late_s).any()
+    go_on.set()
+    made.wait_prepared()
+    assert bool(impact.felt) == rendered(made, 0.2).any() == is_felt
+    assert made.stats.impacts_left_out == (not is_felt)
+
+
+def test_impacts_beyond_the_most_that_play_are_left_out_and_end_none_that_plays() -> None:
+    made = HapticSession(*table_with_two_phones())
+    made.update(touches=touches())
+    for i in range(MOST_PLAYING + 8):
+        made.add(SceneObject(f"cup {i}", pose=Pose((9.0, 0.1 * i, 9.0)), geometry=Box((0.05, 0.05, 0.05))))
+    for source_id in made.source_ids:
+        made.set_source(source_id, on=False)
+    made.update(touches=touches())
+    felt = [bool(made.strike("table", STRUCK, with_object=f"cup {i}").felt) for i in range(MOST_PLAYING + 8)]
+    assert felt == [True] * MOST_PLAYING + [False] * 8
+    assert made.stats.impacts_left_out == 8
+    rendered(made, 2.0)
+    made.update(touches=touches())
+    assert made.strike("table", STRUCK, with_object="cup 39").felt
 
 
 def test_many_impacts_stay_within_full_scale() -> None:

@@ -37,6 +37,13 @@ def test_library_orders_files_by_shared_words(tmp_path: Path) -> None:
     assert titles(tmp_path, "computer fan", "computer fan humming") == ["computer-fan-hum", "Computer_Fans", "fan_1"]
 
 
+def test_library_takes_only_files_of_sound(tmp_path: Path) -> None:
+    """A file of another kind would come back as an unreadable sound, with a warning."""
+    fill(tmp_path, "fan.wav")
+    (tmp_path / "fan.txt").write_text("where the fan was recorded")
+    assert titles(tmp_path, "fan", "fan humming") == ["fan"]
+
+
 def test_library_ignores_files_that_share_only_a_verb_or_a_modifier(tmp_path: Path) -> None:
     fill(tmp_path, "fridge_humming.wav", "electric_toothbrush.wav")
     assert titles(tmp_path, "electric fan", "electric fan humming") == []

@@ -117,6 +117,16 @@ def test_tracked_pitch_does_not_alternate_between_equal_harmonics() -> None:
     assert np.ptp(np.array(hopping)) > 80.0
 
 
+@pytest.mark.parametrize("look_s", [0.25, 0.5, 1.0])
+def test_another_sound_is_tracked_without_a_trace_of_the_one_before(look_s: float) -> None:
+    anchor = TrackedAnchor(RATE, sensation_level_db(0.3), ActuatorProfile())
+    t = np.arange(round(look_s * RATE)) / RATE
+    for own_hz, other_hz in ((80.0, 200.0), (80.0, 200.0), (200.0, 80.0), (80.0, 200.0)):
+        assert anchor.look(0.3 * np.sin(2 * np.pi * own_hz * t)) == pytest.approx(own_hz, abs=0.1)
+        own, other = (anchor.share(lambda f, hz=hz: (np.abs(f - hz) < 30.0) * 1.0) for hz in (own_hz, other_hz))
+        assert other < 1e-3 * own
+
+
 def test_a_source_at_250_hz_gets_a_band_of_its_own() -> None:
     y = Adaptive().stream(RATE, ConversionContext(intensity=0.5)).process(tones(4, f250=0.2, f90=0.2, f700=0.2))
     assert amplitude(y, 90) < 0.1 * amplitude(y, 250)

@@ -1,0 +1,44 @@
+"""The manifest of an export: an engine places files by it, so each number is that of the scene and the bundle."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from scene2hap.export import export_bundle
+from scenes import table_with_two_phones
+
+
+def test_objects_and_states_of_a_manifest_are_those_of_the_bundle(tmp_path: Path) -> None:
+    _, bundle = table_with_two_phones()
+    bundle = bundle.override("table", mass_kg=12.5).override("phone", gain_db=-3.0, start_up_s={"alarm": 0.5})
+    known = {name: one for name, one in bundle.objects.items() if name != "cup"}
+    export_bundle(replace(bundle, objects=known), tmp_path, "pcm")
+    manifest = json.loads((tmp_path / "manifest.json").read_text(encoding="utf-8"))
+    objects = {one["id"]: one for one in manifest["objects"]}
+    table = objects["table"]
+    assert (table["category"], table["material"]) == ("thing", "oak")
+    assert table["position_m"] == pytest.approx([0.8, 0.71, 0.4])
+    assert table["size_m"] == pytest.approx([1.6, 0.8, 0.02])  # longest first
+    assert table["rotation_xyzw"] == [0.0, 0.0, 0.0, 1.0]
+    assert table["mass_kg"] == 12.5
+    assert objects["phone"]["material"] == "glass"
+    assert (objects["block"]["category"], objects["block"]["material"]) == ("thing", None)
+    assert (objects["cup"]["category"], objects["cup"]["material"], objects["cup"]["mass_kg"]) == (
+        "unknown",
+        None,
+        None,
+    )
+    sources = {one["object_id"]: one for one in manifest["sources"]}
+    assert (sources["phone"]["gain_db"], sources["phone"]["muted"]) == (-3.0, False)
+    states = {state["name"]: state for state in sources["phone"]["states"]}
+    assert {name: state["frequency_hz"] for name, state in states.items()} == pytest.approx(
+        {"ringing": 100.0, "alarm": 240.0}, abs=0.5
+    )
+    assert {name: state["start_up_s"] for name, state in states.items()} == {"ringing": 0.0, "alarm": 0.5}
+    for state in states.values():
+        header = json.loads((tmp_path / state["files"][0]["files"][0]).read_text(encoding="utf-8"))
+        assert header["frame_count"] / header["sample_rate_hz"] == pytest.approx(state["duration_s"])
