@@ -133,3 +133,25 @@ def test_surface_scales_with_the_object(seed: int, factor: float) -> None:
     large = dominant_surface(TriMesh(hull.vertices * factor, hull.faces))
     np.testing.assert_allclose(size(large), factor * size(small), rtol=1e-6)
     assert large.flags == small.flags
+
+
+@given(st.floats(0.6, 1.0), st.floats(0.6, 0.95), st.floats(0.2, 0.3), thin, st.permutations(range(3)), seeds)
+@common
+def test_a_cabinet_has_one_size_in_every_frame(
+    height: float, share: float, depth: float, door: float, order: list[int], seed: int
+) -> None:
+    """The door with a gap behind it, and a knob beside its middle. Axes are exchanged and mirrored."""
+    width = height * share
+    front = depth / 2 + 0.01 + door
+    assume(width > 1.05 * (depth / 2 + front + 0.03))
+    mesh = boxes(
+        ((width, height, depth), (0.0, 0.0, 0.0)),
+        ((width, height, door), (0.0, 0.0, front - door / 2)),
+        ((width / 9, height / 7, 0.03), (width / 5, 0.1, front + 0.015)),
+    )
+    mapping = np.eye(3)[order] * np.random.default_rng(seed).choice([-1.0, 1.0], size=3)[:, None]
+    faces = mesh.faces if np.linalg.det(mapping) > 0 else mesh.faces[:, ::-1]
+    surface = dominant_surface(TriMesh(mesh.vertices_m @ mapping.T, faces), up=mapping[:, 1])
+    np.testing.assert_allclose(size(surface), [height, width, door], atol=1e-9)
+    np.testing.assert_allclose(middle(surface) @ mapping, [0.0, 0.0, front - door / 2], atol=1e-9)
+    np.testing.assert_array_equal(size(surface), size(dominant_surface(mesh, up=(0.0, 1.0, 0.0))))

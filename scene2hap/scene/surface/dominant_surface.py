@@ -5,10 +5,11 @@
 2. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
    largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
    thin flat horizontal plate replaces it. The bottom of the object is no such plate.
-3. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
-   back-rests, so these do not change the median. A mesh that is open below has no such solid. Its thickness reaches
-   from its top, or from the sheet that forms most of the mesh, down to its lowest rim. If the surface is no rectangle
-   (a round top), its outline is the section through the middle of that solid.
+3. Thickness is the median length of the first solid that the rays meet from above. If the normal is level, the rays
+   come from both sides, and the thinner solid counts: a cabinet's door, wherever its front is. Few rays meet table
+   legs, knobs and back-rests, so these do not change the median. A mesh that is open below has no such solid. Its
+   thickness reaches from its top, or from the sheet that forms most of the mesh, down to its lowest rim. If the surface
+   is no rectangle (a round top), its outline is the section through the middle of that solid.
 4. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
    (`plate_edge`). If the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen along
    the normal.
@@ -21,7 +22,7 @@ Differs: the paper does not say in which frame or on which side the rays start; 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -52,6 +53,7 @@ _FILLED_OUTLINE = 0.5  # least area of an outline's rectangle, as a share of the
 _PAIRED_SHARE = 0.5  # a plate has a thickness if this share of its rays leaves the mesh again
 _OWN_FRAME_GAIN = 0.95  # another frame replaces the author's axes only if its box is smaller than this share
 _SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal is chosen
+_LIFTED = 0.1  # least cosine between the vertical and a normal that is not level (84 degrees)
 _UPRIGHT = 0.9  # least cosine between the vertical and a horizontal plate's normal (26 degrees)
 _THIN = 1 / 3  # greatest thickness of a horizontal plate, as a share of its width. It replaces the largest side ...
 _LYING_AREA = 0.6  # ... if its area is this share of that side's area (chairs 0.71-0.93) ...
@@ -74,6 +76,14 @@ class _Side(NamedTuple):
     area_m2: float
     own_to_plate: Floats
     hits: Hits
+
+    def from_behind(self) -> _Side:
+        """Return this side with the rays in the opposite direction."""
+        row, column = np.divmod(self.hits.ray, RAYS_PER_SIDE)
+        ray = (RAYS_PER_SIDE - 1 - row) * RAYS_PER_SIDE + column
+        order = np.lexsort((self.hits.w, ray))
+        hits = Hits(ray[order], -self.hits.w[order], -self.hits.side[order])
+        return _Side(self.area_m2, self.own_to_plate * [[-1], [1], [-1]], hits)
 
     def level_area_m2(self, size_m: float) -> float:
         """Return the area at one level, within half the plate's thickness; the whole area for a sheet [m2]."""
@@ -110,7 +120,7 @@ def dominant_surface(
     best: _Side | None = None
     most_upright: _Side | None = None
     for axis in _by_uprightness(axes, up):
-        own_to_plate = _facing(axes, axis)
+        own_to_plate = _facing(axes, axis, points)
         placed = own_to_plate @ points
         hits = cast_grid(placed[:, faces], RAYS_PER_SIDE, spend)
         area = float(np.prod(np.ptp(placed[:2], axis=1))) * len(hits.starts) / RAYS_PER_SIDE**2
@@ -122,11 +132,20 @@ def dominant_surface(
     flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if is_open else ()
     if best is None or most_upright is None:
         return _box(points, axes, flags)
-    plate = _side_plate(best, points, faces, flags)
+    sides = (best,) if _is_lifted(best, up) else (best, best.from_behind())
+    plate = min((_side_plate(side, points, faces, flags) for side in sides), key=_thinness)
     if up is None or most_upright is best:
         return plate
     is_upright = abs(float(most_upright.own_to_plate[2] @ np.asarray(up, dtype=np.float64))) > _UPRIGHT
-    return (is_upright and _lying_plate(most_upright, best, plate, points, faces)) or plate
+    return (is_upright and _lying_plate(most_upright, sides, plate, points, faces)) or plate
+
+
+def _is_lifted(side: _Side, up: ArrayLike | None) -> bool:
+    return up is not None and abs(float(side.own_to_plate[2] @ np.asarray(up, dtype=np.float64))) > _LIFTED
+
+
+def _thinness(plate: DominantSurface) -> tuple[bool, float]:
+    return bool({"zero-thickness", "box-fallback"} & set(plate.flags)), plate.thickness_m
 
 
 def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
@@ -134,7 +153,7 @@ def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFl
 
 
 def _lying_plate(
-    side: _Side, largest: _Side, standing: DominantSurface, points: Floats, faces: Ints
+    side: _Side, largest: Sequence[_Side], standing: DominantSurface, points: Floats, faces: Ints
 ) -> DominantSurface | None:
     """Return the horizontal plate of an object whose largest side is no plate, such as a chair's seat; else None.
 
@@ -143,9 +162,10 @@ def _lying_plate(
     which is not the bottom of the whole object, unlike the bottom of a cup.
     """
     size_m = float(np.ptp(points, axis=1).max())
-    is_plate = largest.level_area_m2(size_m) >= _FILLED_PLATE * standing.length_m * standing.width_m
+    least_m2 = _FILLED_PLATE * standing.length_m * standing.width_m
+    is_plate = all(one.level_area_m2(size_m) >= least_m2 for one in largest)
     is_flat = side.level_area_m2(size_m) >= _FLAT_SHARE * side.area_m2
-    if is_plate or not is_flat or side.area_m2 < _LYING_AREA * largest.area_m2:
+    if is_plate or not is_flat or side.area_m2 < _LYING_AREA * largest[0].area_m2:
         return None
     flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if "open-mesh" in standing.flags else ()
     plate = _side_plate(side, points, faces, flags)
@@ -165,7 +185,7 @@ def _cuboid(bounds_m: Floats, up: ArrayLike | None) -> DominantSurface:
     for axis in others:
         if areas[axis] > areas[best] * _SAME_AREA:
             best = axis
-    own_to_plate = _facing(axes, best)
+    own_to_plate = _facing(axes, best, np.array(bounds_m).T)
     return _placed(np.abs(own_to_plate @ edges), own_to_plate @ (low + high) / 2, own_to_plate, ())
 
 
@@ -262,7 +282,7 @@ def _spans(segments: Floats, at_least: float) -> tuple[Floats, Floats] | None:
 
 def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
     """Return the box around points (3, n) as a plate, for meshes that no ray meets: needles, triangles without area."""
-    own_to_plate = _facing(axes, int(np.argmin(np.ptp(axes @ points, axis=1))))
+    own_to_plate = _facing(axes, int(np.argmin(np.ptp(axes @ points, axis=1))), points)
     placed = own_to_plate @ points
     size, middle = np.ptp(placed, axis=1), (placed.min(axis=1) + placed.max(axis=1)) / 2
     flags = (*flags, "box-fallback")
@@ -373,9 +393,14 @@ def _largest_direction(normals: Floats, area: Floats) -> Floats:
     return direction / np.linalg.norm(direction)
 
 
-def _facing(axes: Floats, axis: int) -> Floats:
-    """Return the axes with `axis` as w, in right-handed order u, v, w, one per row."""
-    v, w = axes[axis - 1], axes[axis]
+def _facing(axes: Floats, axis: int, points: Floats) -> Floats:
+    """Return the axes with `axis` as w, in right-handed order u, v, w, one per row.
+
+    Points (3, n) extend at least as far along u as along v.
+    """
+    u, v, w = np.roll(axes, 2 - axis, axis=0)
+    if np.ptp(v @ points) > np.ptp(u @ points):
+        u, v = v, u
     return np.stack((np.cross(v, w), v, w))
 
 
@@ -383,7 +408,7 @@ def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
     """Return the axes, each signed so that it points up. A level axis points along the author's axes."""
     strongest = axes[np.arange(3), np.abs(axes).argmax(axis=1)]
     lift = np.zeros(3) if up is None else axes @ np.asarray(up, dtype=np.float64)
-    sign = np.where(np.abs(lift) > 0.1, np.sign(lift), np.sign(strongest))
+    sign = np.where(np.abs(lift) > _LIFTED, np.sign(lift), np.sign(strongest))
     return axes * sign[:, None]
 
 

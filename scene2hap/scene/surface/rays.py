@@ -29,6 +29,7 @@ _MAX_LAYERS, _MAX_PAIRS_PER_TRIANGLE = 1000, 4
 # Greatest offset of a ray from the centre of its cell, in cells. Without it, rays would run along the diagonals of
 # quads and meet both triangles or none. The fractions are powers of the plastic number, which fill the plane evenly.
 _JITTER = 0.25
+# The pattern is its own mirror image, so that a mesh has the same measures whichever way its axes point.
 _PLASTIC = (0.7548776662466927, 0.5698402909980532)
 # A mesh whose width is at most this share of its length counts as a line: rounding alone makes it that wide.
 _EDGE_ON = 1e-12
@@ -94,7 +95,8 @@ def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: in
     i = first[0][which] + nth // across
     j = first[1][which] + nth % across
     ray = i * n + j
-    at = np.stack((_off_centre(i, ray, _PLASTIC[0]), _off_centre(j, ray, _PLASTIC[1])))
+    mirrored = np.minimum(i, n - 1 - i) * n + np.minimum(j, n - 1 - j)
+    at = np.stack((_off_centre(i, mirrored, _PLASTIC[0], n), _off_centre(j, mirrored, _PLASTIC[1], n)))
     a, b, c = cells[:, 0, which], cells[:, 1, which], cells[:, 2, which]
     weight_a = _cross(c - b, at - b) / area[which]
     weight_c = _cross(b - a, at - a) / area[which]
@@ -105,8 +107,9 @@ def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: in
     return ray[inside], height, np.where(area[which] > 0, 1, -1)
 
 
-def _off_centre(cell: Ints, ray: Ints, fraction: float) -> Floats:
-    place: Floats = cell + (0.5 - _JITTER) + 2 * _JITTER * np.modf((ray + 1) * fraction)[0]
+def _off_centre(cell: Ints, mirrored: Ints, fraction: float, n: int) -> Floats:
+    off = _JITTER * (2 * np.modf((mirrored + 1) * fraction)[0] - 1)
+    place: Floats = cell + 0.5 + np.where(2 * cell < n, off, -off)
     return place
 
 
