@@ -27,7 +27,10 @@ HELP = "convert sound files into vibration"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``scene2hap convert``."""
     parser.add_argument(
-        "sources", metavar="IN", nargs="+", help="WAV, FLAC, Ogg, MP3 or AIFF files, or folders of them"
+        "sources",
+        metavar="IN",
+        nargs="+",
+        help="sound files (WAV, FLAC, Ogg, MP3, AIFF, AU, CAF, Opus), or folders of them",
     )
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a file for one file, otherwise a folder")
     parser.add_argument(
