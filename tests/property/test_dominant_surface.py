@@ -140,13 +140,16 @@ def test_surface_scales_with_the_object(seed: int, factor: float) -> None:
 def test_a_cabinet_has_one_size_in_every_frame(
     height: float, share: float, depth: float, door: float, order: list[int], seed: int
 ) -> None:
-    """The door with a gap behind it, and a knob beside its middle. Axes are exchanged and mirrored."""
+    """The door, with a gap and a body behind it and a knob on it, not the thinner back panel. Axes are exchanged and
+    mirrored."""
     width = height * share
     front = depth / 2 + 0.01 + door
-    assume(width > 1.05 * (depth / 2 + front + 0.03))
+    back = -depth / 2 - 0.01 - door / 4
+    assume(width > 1.05 * (front + 0.03 - back))
     mesh = boxes(
         ((width, height, depth), (0.0, 0.0, 0.0)),
         ((width, height, door), (0.0, 0.0, front - door / 2)),
+        ((width, height, door / 2), (0.0, 0.0, back)),
         ((width / 9, height / 7, 0.03), (width / 5, 0.1, front + 0.015)),
     )
     mapping = np.eye(3)[order] * np.random.default_rng(seed).choice([-1.0, 1.0], size=3)[:, None]

@@ -5,9 +5,9 @@
 2. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
    largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
    thin flat horizontal plate replaces it. The bottom of the object is no such plate.
-3. Thickness is the median length of the first solid that the rays meet from above. If the normal is level, the rays
-   come from both sides, and the thinner solid counts: a cabinet's door, wherever its front is. Few rays meet table
-   legs, knobs and back-rests, so these do not change the median. A mesh that is open below has no such solid. Its
+3. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
+   back-rests, so these do not change the median. If the normal is level, the rays come from both sides; a door counts
+   rather than a thinner back panel or a whole body (`_rank`). A mesh that is open below has no such solid. Its
    thickness reaches from its top, or from the sheet that forms most of the mesh, down to its lowest rim. If the surface
    is no rectangle (a round top), its outline is the section through the middle of that solid.
 4. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
@@ -133,7 +133,7 @@ def dominant_surface(
     if best is None or most_upright is None:
         return _box(points, axes, flags)
     sides = (best,) if _is_lifted(best, up) else (best, best.from_behind())
-    plate = min((_side_plate(side, points, faces, flags) for side in sides), key=_thinness)
+    plate = min((_side_plate(side, points, faces, flags) for side in sides), key=_rank)
     if up is None or most_upright is best:
         return plate
     is_upright = abs(float(most_upright.own_to_plate[2] @ np.asarray(up, dtype=np.float64))) > _UPRIGHT
@@ -144,8 +144,12 @@ def _is_lifted(side: _Side, up: ArrayLike | None) -> bool:
     return up is not None and abs(float(side.own_to_plate[2] @ np.asarray(up, dtype=np.float64))) > _LIFTED
 
 
-def _thinness(plate: DominantSurface) -> tuple[bool, float]:
-    return bool({"zero-thickness", "box-fallback"} & set(plate.flags)), plate.thickness_m
+def _rank(plate: DominantSurface) -> tuple[bool, bool, float]:
+    """Return a key that is least for the front of an object: a door rather than a thin back panel, and rather than the
+    whole body that rays from behind may meet."""
+    is_body = plate.thickness_m > _THIN * plate.width_m
+    is_no_solid = bool({"zero-thickness", "box-fallback"} & set(plate.flags))
+    return is_no_solid, is_body, plate.thickness_m if is_body else -plate.thickness_m
 
 
 def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
