@@ -158,3 +158,15 @@ def test_a_cabinet_has_one_size_in_every_frame(
     np.testing.assert_allclose(size(surface), [height, width, door], atol=1e-9)
     np.testing.assert_allclose(middle(surface) @ mapping, [0.0, 0.0, front - door / 2], atol=1e-9)
     np.testing.assert_array_equal(size(surface), size(dominant_surface(mesh, up=(0.0, 1.0, 0.0))))
+
+
+@given(st.integers(3, 12), st.floats(1.0, 3.0), st.floats(-1e-4, 1e-4), st.floats(-1e-4, 1e-4))
+@common
+def test_a_trembling_bottle_keeps_its_side(n: int, height: float, x: float, z: float) -> None:
+    """Two sides are equal and level but for the tilt, which must not choose between them."""
+    angle = np.pi / (2 * n) * np.arange(4 * n)
+    around = np.stack((np.cos(angle), np.full(4 * n, height), np.sin(angle)), axis=1)
+    bottle = trimesh.convex.convex_hull(np.concatenate((around, around * [1.0, -1.0, 1.0])))
+    mesh = TriMesh(bottle.vertices, bottle.faces)
+    still, tilted = (dominant_surface(mesh, up=up) for up in ((0.0, 1.0, 0.0), (x, 1.0, z)))
+    np.testing.assert_array_equal(tilted.pose.rotation, still.pose.rotation)

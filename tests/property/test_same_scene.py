@@ -136,6 +136,17 @@ def in_another_frame(objects: list[SceneObject], rng: random.Random) -> Same:
     return Same(same)
 
 
+def trembling(objects: list[SceneObject], rng: random.Random) -> Same:
+    """Poses as a physics engine gives them: up to 1e-5 m and 1e-5 rad off."""
+
+    def near(pose: Pose) -> Pose:
+        turn = Pose((0, 0, 0), (*(rng.uniform(-5e-6, 5e-6) for _ in range(3)), 1.0))
+        place = (x + rng.uniform(-1e-5, 1e-5) for x in pose.position_m)
+        return Pose(place, turn.compose(Pose((0, 0, 0), pose.rotation_xyzw)).rotation_xyzw)
+
+    return Same([described_again(item, pose=near(item.pose)) for item in objects])
+
+
 def _meshed(objects: list[SceneObject], change: Callable[[TriMesh], TriMesh]) -> Same:
     return Same([described_again(item, geometry=change(item.geometry.mesh)) for item in objects])
 
@@ -146,7 +157,7 @@ def described_again(item: SceneObject, **changes: Any) -> SceneObject:
     return SceneObject(**own | changes)
 
 
-ALIKE = (turned, in_another_order, renamed, with_unused_vertices, with_lines, cut_at_a_point)
+ALIKE = (turned, in_another_order, renamed, with_unused_vertices, with_lines, cut_at_a_point, trembling)
 CHANGES = (*ALIKE, in_another_frame)
 CASES = [
     *((one, model) for model in ("exponential_plate", "infinite_plate", "modal_plate") for one in ALIKE),
@@ -169,5 +180,5 @@ def test_the_same_scene_in_other_words_has_the_same_gains(
         touched.append((item.id, item.pose.to_world(corners).mean(axis=0)))
     expected = gains(Same(objects), model, touched)
     found = gains(change(objects, rng), model, touched)
-    np.testing.assert_allclose(found, expected, rtol=2e-3, atol=1e-6)
+    np.testing.assert_allclose(found, expected, rtol=2e-3, atol=5e-6)
     assert (expected[[item.id == "table" for item in objects]] > 0).all()

@@ -53,6 +53,7 @@ _FILLED_OUTLINE = 0.5  # least area of an outline's rectangle, as a share of the
 _PAIRED_SHARE = 0.5  # a plate has a thickness if this share of its rays leaves the mesh again
 _OWN_FRAME_GAIN = 0.95  # another frame replaces the author's axes only if its box is smaller than this share
 _SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal is chosen
+_LIFT_DIGITS = 3  # digits of the cosines between the vertical and axes, by which these are ordered
 _LIFTED = 0.1  # least cosine between the vertical and a normal that is not level (84 degrees)
 _UPRIGHT = 0.9  # least cosine between the vertical and a horizontal plate's normal (26 degrees)
 _THIN = 1 / 3  # greatest thickness of a horizontal plate, as a share of its width. It replaces the largest side ...
@@ -417,6 +418,9 @@ def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
 
 
 def _by_uprightness(axes: Floats, up: ArrayLike | None) -> list[int]:
-    """Return axis numbers, the least upright first. So among equal areas, the most upright axis comes last and wins."""
+    """Return axis numbers, the least upright first. So among equal areas, the most upright axis comes last and wins.
+
+    Axes about as upright as each other keep their order: a tilt of some microradians must not choose another side.
+    """
     lift = axes @ np.asarray((0.0, 0.0, 0.0) if up is None else up, dtype=np.float64)
-    return [int(axis) for axis in np.argsort(np.abs(lift), kind="stable")]
+    return [int(axis) for axis in np.argsort(np.abs(lift).round(_LIFT_DIGITS), kind="stable")]
