@@ -67,6 +67,26 @@ def test_the_outline_of_a_grid_is_its_four_corners() -> None:
     assert grid[outline(grid)].tolist() == [[0, 0], [2, 0], [2, 2], [0, 2]]
 
 
+@given(st.lists(st.tuples(st.integers(0, 3), st.floats(0.001, 0.999)), max_size=12), st.integers(0, 2**32 - 1))
+@settings(max_examples=300)
+def test_the_outline_of_a_square_is_its_corners_whatever_rounding_does_to_points_on_its_sides(
+    on_sides: list[tuple[int, float]], seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    sides = [square[k] * (1 - share) + square[k - 1] * share for k, share in on_sides]
+    points = np.array([*square, *sides]) + rng.uniform(-2e-8, 2e-8, (4 + len(sides), 2))
+    assert sorted(outline(points)) == [0, 1, 2, 3]
+
+
+@given(st.integers(2, 9), st.integers(0, 2**32 - 1))
+def test_the_outline_of_points_on_a_line_is_its_ends(n: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    share = np.array([0.0, 1.0, *rng.uniform(0.01, 0.99, n - 2)])[:, None]
+    points = share * rng.normal(size=2) + rng.uniform(-1e-8, 1e-8, (n, 2))
+    assert sorted(outline(points)) == [0, 1]
+
+
 def test_a_side_cut_into_pieces_has_no_corner_where_rounding_bends_it() -> None:
     turn = np.array([[math.cos(0.3), -math.sin(0.3)], [math.sin(0.3), math.cos(0.3)]])
     line = np.linspace(0.0, 1.0, 8)[:, None]
