@@ -59,7 +59,7 @@ def touches(objects: list[SceneObject], rng: random.Random) -> Touched:
 
 def levels_db(same: Same, touched: Touched) -> dict[tuple[str, str], NDArray[np.float64]]:
     """Bake the scene. Returns the levels of all touches (n_touches, n_bands) [dB] by model and new id of the source."""
-    scene = SceneSnapshot.build(same.objects)
+    scene = SceneSnapshot.build(same.objects, up_axis=same.up_axis)
     bundle, found = bake(scene, {"llm": "lexicon"}), {}
     at = [Touch("left", same.ids(name), same.motion.to_world([point])[0]) for name, point in touched]
     for kind in MODELS:

@@ -170,3 +170,25 @@ def test_a_trembling_bottle_keeps_its_side(n: int, height: float, x: float, z: f
     mesh = TriMesh(bottle.vertices, bottle.faces)
     still, tilted = (dominant_surface(mesh, up=up) for up in ((0.0, 1.0, 0.0), (x, 1.0, z)))
     np.testing.assert_array_equal(tilted.pose.rotation, still.pose.rotation)
+
+
+@given(st.floats(0.6, 1.0), st.floats(0.6, 0.95), st.floats(0.2, 0.3), thin, seeds)
+@common
+def test_rounding_does_not_choose_between_equal_front_and_back(
+    height: float, share: float, depth: float, door: float, seed: int
+) -> None:
+    """The back is a little smaller, so that a choice is seen; every triangle is cut at a point inside it."""
+    width, at = height * share, depth / 2 + 0.01 + door / 2
+    assume(width > 1.05 * (2 * at + door))
+    mesh = boxes(
+        ((width, height, depth), (0.0, 0.0, 0.0)),
+        ((width, height, door), (0.0, 0.0, at)),
+        ((0.99 * width, 0.99 * height, door), (0.0, 0.0, -at)),
+    )
+    n, share_of = len(mesh.vertices_m), np.random.default_rng(seed).dirichlet([3, 3, 3], len(mesh.faces))
+    inside = (mesh.vertices_m[mesh.faces] * share_of[..., None]).sum(axis=1)
+    rows = n + np.arange(len(mesh.faces))
+    pieces = [np.column_stack([mesh.faces[:, k], mesh.faces[:, k - 2], rows]) for k in range(3)]
+    cut = TriMesh(np.concatenate([mesh.vertices_m, inside]), np.concatenate(pieces))
+    up = (0.0, 1.0, 0.0)
+    np.testing.assert_allclose(size(dominant_surface(cut, up=up)), size(dominant_surface(mesh, up=up)), atol=1e-9)

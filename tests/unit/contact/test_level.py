@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import assume, given, settings, strategies as st
 
 from contact_scenes import box, boxes, thing
@@ -85,6 +86,24 @@ def test_the_outline_of_points_on_a_line_is_its_ends(n: int, seed: int) -> None:
     share = np.array([0.0, 1.0, *rng.uniform(0.01, 0.99, n - 2)])[:, None]
     points = share * rng.normal(size=2) + rng.uniform(-1e-8, 1e-8, (n, 2))
     assert sorted(outline(points)) == [0, 1]
+
+
+def test_contact_points_are_the_same_with_y_and_with_z_up() -> None:
+    """All corners of an octagonal base at the edge of a floor are as far from its middle."""
+    angle = (np.arange(8) + 0.5) * math.pi / 4
+    ring = np.stack([0.2 * np.cos(angle), np.zeros(8), 0.2 * np.sin(angle)], axis=1)
+    base = trimesh.convex.convex_hull(np.concatenate([ring, ring + np.array([0.0, 0.3, 0.0])]))
+    tub = thing("tub", TriMesh(base.vertices, base.faces), Pose((0.50001 - float(ring[0, 0]), 0.0, 0.0)))
+    floor = box("floor", (1.0, 0.1, 2.0), (0.0, -0.05, 0.0))
+    turn = Pose((0.0, 0.0, 0.0), (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)))
+    turned = [thing(one.id, one.geometry, turn.compose(one.pose)) for one in (tub, floor)]
+    still, lying = (
+        ContactGraph(SceneSnapshot(name, up, tuple(objects)))
+        for name, up, objects in (("y", "y", (tub, floor)), ("z", "z", turned))
+    )
+    expected = turn.to_world([one.point_m for one in still.contacts])
+    found = [one.point_m for one in lying.contacts]
+    np.testing.assert_allclose(sorted(np.round(found, 6).tolist()), sorted(np.round(expected, 6).tolist()), atol=2e-6)
 
 
 def test_a_side_cut_into_pieces_has_no_corner_where_rounding_bends_it() -> None:
