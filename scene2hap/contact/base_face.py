@@ -8,6 +8,7 @@ the two overlap in plan, no other parts of the two shapes are nearer.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -159,21 +160,29 @@ def outline(points: Floats) -> list[int]:
     of a single point is that point.
 
     A point within `_COLLINEAR_M` of the line between its neighbours is collinear. So a side that is cut into pieces has
-    no corner where rounding bends it.
+    no corner where rounding bends it. Collinear points are left out of the finished hull only: before, the neighbours
+    of the end of a side may lie on one side of it.
 
     Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
     """
-    order = np.lexsort((points[:, 1], points[:, 0])).tolist()
-    at = points.tolist()
-    halves: list[list[int]] = []
-    for rows in (order, order[::-1]):
-        half: list[int] = []
-        for row in rows:
-            while len(half) > 1 and not _is_corner(at[half[-2]], at[half[-1]], at[row]):
-                half.pop()
-            half.append(row)
-        halves.append(half[:-1])
-    return halves[0] + halves[1] or order[:1]
+    order, at = np.lexsort((points[:, 1], points[:, 0])).tolist(), points.tolist()
+    hull = _corners(order, at, _turns_left)[:-1] + _corners(order[::-1], at, _turns_left)[:-1]
+    if len(hull) < 3:
+        return hull or order[:1]
+    # The point farthest from the middle is no point of a side.
+    away = points[hull] - points[hull].mean(axis=0)
+    first = int((away * away).sum(axis=1).argmax())
+    return _corners([*hull[first:], *hull[: first + 1]], at, _is_beside)[:-1]
+
+
+def _corners(rows: list[int], at: list[list[float]], is_corner: Callable[..., bool]) -> list[int]:
+    """Return the rows of a path that are corners between those kept before and after them, and both ends."""
+    kept: list[int] = []
+    for row in rows:
+        while len(kept) > 1 and not is_corner(at[kept[-2]], at[kept[-1]], at[row]):
+            kept.pop()
+        kept.append(row)
+    return kept
 
 
 def polygon_area(corners: Floats) -> float:
@@ -182,7 +191,13 @@ def polygon_area(corners: Floats) -> float:
     return abs(float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())) / 2
 
 
-def _is_corner(a: list[float], b: list[float], c: list[float]) -> bool:
-    """Return True if b is to the right of the line from a to c, by more than rounding."""
-    turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    return turn > _COLLINEAR_M * math.dist(a, c)
+def _turns_left(a: list[float], b: list[float], c: list[float]) -> bool:
+    """Return True if b is to the right of the line from a to c."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0
+
+
+def _is_beside(a: list[float], b: list[float], c: list[float]) -> bool:
+    """Return True if b is off the straight line between a and c, by more than rounding."""
+    u, v, x, y = c[0] - a[0], c[1] - a[1], b[0] - a[0], b[1] - a[1]
+    share = min(max((u * x + v * y) / max(u * u + v * v, 1e-300), 0.0), 1.0)
+    return math.hypot(x - share * u, y - share * v) > _COLLINEAR_M

@@ -83,9 +83,11 @@ def rest_points(x: Body, y: Body, rest: Rest, slack_m: float) -> tuple[Triple, .
         top_face = y.stance.top_face
         assert top_face is not None
         ring = clipped(x.stance.base_outline, u - py[0], v - py[v_axis], top_face.edges, slack_m)
-        # Chosen in coordinates that rotate with y, so that a rotation of the whole scene does not change the result.
+        # Chosen in coordinates that rotate with y, so that a rotation of the whole scene does not change the result,
+        # nor another axis up: (u, v, h) is left-handed with y up, and right-handed with z up.
         c, s = y.stance.heading
-        level = [ring[k] for k in spread([(c * pu + s * pv, c * pv - s * pu) for pu, pv in ring])]
+        side = 1.0 if a == 1 else -1.0
+        level = [ring[k] for k in spread([(c * pu + s * pv, side * (c * pv - s * pu)) for pu, pv in ring])]
         u, v = py[0], py[v_axis]
     return points_at(level, u, v, height, a)
 

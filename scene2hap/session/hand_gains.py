@@ -88,7 +88,7 @@ class TouchGains:
         return prices
 
     def of(self, hands: Sequence[Sequence[Touch]], limits: Sequence[float] | None = None) -> NDArray[np.float64]:
-        """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 on a source.
+        """Gains (n_hands, n_sources, n_bands) [-], the largest over each hand's touches, capped; 1 or more on a source.
 
         Parameters: limits : for each source, the highest path cost of interest; a `PricedField` may give 0 beyond it.
         Raises: ModelDomainError: the field returns another shape.
@@ -101,7 +101,9 @@ class TouchGains:
         for i, touches in enumerate(hands):
             for touch in touches:
                 if touch.object_id in self._own:
-                    gains[i, self._own[touch.object_id]] = 1.0
+                    own = gains[i, self._own[touch.object_id]]
+                    # Another point of a resonant scene may vibrate more than the source.
+                    np.fmax(own, 1.0, out=own)
         return self.capped(gains)
 
     def capped(self, gains: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -158,3 +158,37 @@ def test_a_cabinet_has_one_size_in_every_frame(
     np.testing.assert_allclose(size(surface), [height, width, door], atol=1e-9)
     np.testing.assert_allclose(middle(surface) @ mapping, [0.0, 0.0, front - door / 2], atol=1e-9)
     np.testing.assert_array_equal(size(surface), size(dominant_surface(mesh, up=(0.0, 1.0, 0.0))))
+
+
+@given(st.integers(3, 12), st.floats(1.0, 3.0), st.floats(-1e-4, 1e-4), st.floats(-1e-4, 1e-4))
+@common
+def test_a_trembling_bottle_keeps_its_side(n: int, height: float, x: float, z: float) -> None:
+    """Two sides are equal and level but for the tilt, which must not choose between them."""
+    angle = np.pi / (2 * n) * np.arange(4 * n)
+    around = np.stack((np.cos(angle), np.full(4 * n, height), np.sin(angle)), axis=1)
+    bottle = trimesh.convex.convex_hull(np.concatenate((around, around * [1.0, -1.0, 1.0])))
+    mesh = TriMesh(bottle.vertices, bottle.faces)
+    still, tilted = (dominant_surface(mesh, up=up) for up in ((0.0, 1.0, 0.0), (x, 1.0, z)))
+    np.testing.assert_array_equal(tilted.pose.rotation, still.pose.rotation)
+
+
+@given(st.floats(0.6, 1.0), st.floats(0.6, 0.95), st.floats(0.2, 0.3), thin, seeds)
+@common
+def test_rounding_does_not_choose_between_equal_front_and_back(
+    height: float, share: float, depth: float, door: float, seed: int
+) -> None:
+    """The back is a little smaller, so that a choice is seen; every triangle is cut at a point inside it."""
+    width, at = height * share, depth / 2 + 0.01 + door / 2
+    assume(width > 1.05 * (2 * at + door))
+    mesh = boxes(
+        ((width, height, depth), (0.0, 0.0, 0.0)),
+        ((width, height, door), (0.0, 0.0, at)),
+        ((0.99 * width, 0.99 * height, door), (0.0, 0.0, -at)),
+    )
+    n, share_of = len(mesh.vertices_m), np.random.default_rng(seed).dirichlet([3, 3, 3], len(mesh.faces))
+    inside = (mesh.vertices_m[mesh.faces] * share_of[..., None]).sum(axis=1)
+    rows = n + np.arange(len(mesh.faces))
+    pieces = [np.column_stack([mesh.faces[:, k], mesh.faces[:, k - 2], rows]) for k in range(3)]
+    cut = TriMesh(np.concatenate([mesh.vertices_m, inside]), np.concatenate(pieces))
+    up = (0.0, 1.0, 0.0)
+    np.testing.assert_allclose(size(dominant_surface(cut, up=up)), size(dominant_surface(mesh, up=up)), atol=1e-9)

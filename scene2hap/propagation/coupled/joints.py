@@ -28,8 +28,9 @@ Axes = tuple[Direction, Direction, Direction]
 _PLACE_DIGITS = 6  # decimals of a position in metres, as `SAME_POINT_M`
 LEVEL = 0.9
 """A contact counts as normal to a plate if at least this part of its direction is, up to 26 degrees off."""
-_AGAINST = -1e-6
-"""A direction below this part of another is opposed to it; rounding does not oppose perpendicular ones."""
+_AGAINST = -1e-3
+"""A direction below this part of another is opposed to it (assumed). Perpendicular ones are not: poses that tremble by
+some microradians, as those of a physics engine, would turn them over."""
 
 
 def joints_of(

@@ -53,6 +53,8 @@ _FILLED_OUTLINE = 0.5  # least area of an outline's rectangle, as a share of the
 _PAIRED_SHARE = 0.5  # a plate has a thickness if this share of its rays leaves the mesh again
 _OWN_FRAME_GAIN = 0.95  # another frame replaces the author's axes only if its box is smaller than this share
 _SAME_AREA = 0.99  # sides this near in area are equal, and the more upright normal is chosen
+_RANK_DIGITS = 9  # digits of thicknesses [m] by which plates are ordered
+_LIFT_DIGITS = 3  # digits of the cosines between the vertical and axes, by which these are ordered
 _LIFTED = 0.1  # least cosine between the vertical and a normal that is not level (84 degrees)
 _UPRIGHT = 0.9  # least cosine between the vertical and a horizontal plate's normal (26 degrees)
 _THIN = 1 / 3  # greatest thickness of a horizontal plate, as a share of its width. It replaces the largest side ...
@@ -149,7 +151,9 @@ def _rank(plate: DominantSurface) -> tuple[bool, bool, float]:
     whole body that rays from behind may meet."""
     is_body = plate.thickness_m > _THIN * plate.width_m
     is_no_solid = bool({"zero-thickness", "box-fallback"} & set(plate.flags))
-    return is_no_solid, is_body, plate.thickness_m if is_body else -plate.thickness_m
+    # Rounding must not choose between a front and a back of the same thickness.
+    thickness_m = round(plate.thickness_m, _RANK_DIGITS)
+    return is_no_solid, is_body, thickness_m if is_body else -thickness_m
 
 
 def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
@@ -417,6 +421,9 @@ def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
 
 
 def _by_uprightness(axes: Floats, up: ArrayLike | None) -> list[int]:
-    """Return axis numbers, the least upright first. So among equal areas, the most upright axis comes last and wins."""
+    """Return axis numbers, the least upright first. So among equal areas, the most upright axis comes last and wins.
+
+    Axes about as upright as each other keep their order: a tilt of some microradians must not choose another side.
+    """
     lift = axes @ np.asarray((0.0, 0.0, 0.0) if up is None else up, dtype=np.float64)
-    return [int(axis) for axis in np.argsort(np.abs(lift), kind="stable")]
+    return [int(axis) for axis in np.argsort(np.abs(lift).round(_LIFT_DIGITS), kind="stable")]

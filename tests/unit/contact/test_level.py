@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import assume, given, settings, strategies as st
 
 from contact_scenes import box, boxes, thing
@@ -65,6 +66,42 @@ def test_a_turned_block_beside_another_does_not_rest_on_it() -> None:
 def test_the_outline_of_a_grid_is_its_four_corners() -> None:
     grid = np.array([(x, y) for x in (0.0, 1.0, 2.0) for y in (0.0, 1.0, 2.0)])
     assert grid[outline(grid)].tolist() == [[0, 0], [2, 0], [2, 2], [0, 2]]
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.floats(0.001, 0.999)), max_size=12), st.integers(0, 2**32 - 1))
+@settings(max_examples=300)
+def test_the_outline_of_a_square_is_its_corners_whatever_rounding_does_to_points_on_its_sides(
+    on_sides: list[tuple[int, float]], seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    sides = [square[k] * (1 - share) + square[k - 1] * share for k, share in on_sides]
+    points = np.array([*square, *sides]) + rng.uniform(-2e-8, 2e-8, (4 + len(sides), 2))
+    assert sorted(outline(points)) == [0, 1, 2, 3]
+
+
+@given(st.integers(2, 9), st.integers(0, 2**32 - 1))
+def test_the_outline_of_points_on_a_line_is_its_ends(n: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    share = np.array([0.0, 1.0, *rng.uniform(0.01, 0.99, n - 2)])[:, None]
+    points = share * rng.normal(size=2) + rng.uniform(-1e-8, 1e-8, (n, 2))
+    assert sorted(outline(points)) == [0, 1]
+
+
+def test_contact_points_are_the_same_with_y_and_with_z_up() -> None:
+    """All corners of an octagonal base at the edge of a floor are as far from its middle."""
+    angle = (np.arange(8) + 0.5) * math.pi / 4
+    ring = np.stack([0.2 * np.cos(angle), np.zeros(8), 0.2 * np.sin(angle)], axis=1)
+    base = trimesh.convex.convex_hull(np.concatenate([ring, ring + np.array([0.0, 0.3, 0.0])]))
+    tub = thing("tub", TriMesh(base.vertices, base.faces), Pose((0.50001 - float(ring[0, 0]), 0.0, 0.0)))
+    floor = box("floor", (1.0, 0.1, 2.0), (0.0, -0.05, 0.0))
+    turn = Pose((0.0, 0.0, 0.0), (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)))
+    turned = [thing(one.id, one.geometry, turn.compose(one.pose)) for one in (tub, floor)]
+    still = ContactGraph(SceneSnapshot("y", "y", (tub, floor)))
+    lying = ContactGraph(SceneSnapshot("z", "z", tuple(turned)))
+    expected = turn.to_world([one.point_m for one in still.contacts])
+    found = [one.point_m for one in lying.contacts]
+    np.testing.assert_allclose(sorted(np.round(found, 6).tolist()), sorted(np.round(expected, 6).tolist()), atol=2e-6)
 
 
 def test_a_side_cut_into_pieces_has_no_corner_where_rounding_bends_it() -> None:

@@ -120,6 +120,12 @@ def test_plugin_can_provide_a_live_field() -> None:
     assert s.stats.field_age_s == 0
 
 
+def test_a_touch_on_the_source_takes_nothing_from_a_stronger_one() -> None:
+    s = HapticSession(*table_with_two_phones(), {"propagation": Guest(2.0), "gain_limit_db": None})
+    frame = s.update(touches=[ON_TABLE, Touch("left", "alarm", (1.5, 0.73, 0.4))])
+    assert frame.gain("left", "alarm") == 2.0
+
+
 @pytest.mark.parametrize(("answer", "told"), [(3.0, 1.0), (math.nan, 0.0), (-1.0, 0.0)])
 def test_invalid_gains_of_a_plugin_are_not_rendered(answer: float, told: float) -> None:
     s = HapticSession(*table_with_two_phones(), {"sample_rate_hz": RATE, "propagation": Guest(answer)})
