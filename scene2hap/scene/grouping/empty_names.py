@@ -17,6 +17,7 @@ _WORDS = (
 _EMPTY = frozenset(_WORDS.split())
 """Words without information about an object. "box" is not among them: a box is a thing."""
 
+_LETTER_AND_NUMBER = re.compile(r"[A-Za-z][ ._-]?\d+")
 _EXPORTER_NODE = re.compile(
     r"(sketchfab_model|osg_scene|auxscene|gltf_sceneroot\w*|rootnode\b.*|root|scene|scene root|world|group|empty"
     r"|.*\.(fbx|obj|dae|3ds|gltf|glb|blend|max|stl|ply|skp|c4d|usdz?)(\..*)?)",
@@ -31,8 +32,8 @@ _PLACE = re.compile(
 
 
 def says_nothing(name: str) -> bool:
-    """Return True if no word of a name tells what the object is: "object", "base_link", "Cube.001", "world/body1"."""
-    return all(word in _EMPTY for word in name_words(name))
+    """Return True if no word of a name tells what the object is: "base_link", "Cube.001", "world/body1", "p3"."""
+    return bool(_LETTER_AND_NUMBER.fullmatch(name)) or all(word in _EMPTY for word in name_words(name))
 
 
 def names_a_thing(name: str) -> bool:
