@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from scene2hap.errors import SceneError, SceneFormatError
+from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf_accessors import vectors
 from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping
 from scene2hap.scene.pose import Pose
@@ -21,7 +22,8 @@ _DEFAULTS = {"TRANSLATION": (0.0, 0.0, 0.0), "ROTATION": (0.0, 0.0, 0.0, 1.0), "
 def instances(file: GltfFile, row: Json, place: str) -> list[Matrix] | None:
     """Return the transform of each copy in its node's frame; None if the node draws its mesh once.
 
-    Raises: SceneFormatError: attributes have different lengths, or values that are no transform.
+    Raises: SceneFormatError: attributes have different lengths, or values that are no transform. SceneError: there are
+    too many copies.
     """
     attributes = mapping(mapping(mapping(row.get("extensions")).get(INSTANCES)).get("attributes"))
     read = {
@@ -35,6 +37,7 @@ def instances(file: GltfFile, row: Json, place: str) -> list[Matrix] | None:
     if len(set(counts.values())) > 1:
         raise SceneFormatError(f"{place}: {INSTANCES} has {counts} values; it must have one of each for each copy.")
     n = next(iter(counts.values()))
+    limits.at_most(f"the number of copies of {place}", n, "MAX_NODES")
     moves, turns, scales = (read.get(name, np.tile(_DEFAULTS[name], (n, 1))) for name in _TYPES)
     if not (np.isfinite(moves).all() and np.isfinite(scales).all()):
         raise SceneFormatError(f"{place}: {INSTANCES} has numbers that are not finite.")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
-from scene2hap.errors import SceneFormatError
+from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.formats.gltf import read_gltf
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
@@ -376,3 +376,10 @@ def test_copies_below_a_node_without_a_mesh_are_objects(tmp_path: Path) -> None:
 def test_broken_copies_are_refused(tmp_path: Path, attributes: dict[str, list[list[float]]], sentence: str) -> None:
     with pytest.raises(SceneFormatError, match=sentence):
         load_scene(instanced(**attributes).write(tmp_path / "chairs.glb"))
+
+
+def test_too_many_copies_are_refused_before_they_are_made(tmp_path: Path) -> None:
+    gltf = instanced(TRANSLATION=[[0, 0, 0]])
+    gltf.header["accessors"][0] = {"componentType": 5126, "type": "VEC3", "count": 200_000}  # zeros, without a buffer
+    with pytest.raises(SceneError, match="number of copies of node 'chair' is 200,000"):
+        load_scene(gltf.write(tmp_path / "chairs.glb"))
