@@ -166,11 +166,13 @@ def read_scene(bpy):
     """All things of the open scene, in the order in which Blender has them."""
     scene, depsgraph = bpy.context.scene, bpy.context.evaluated_depsgraph_get()
     things = {}
+    # Blender lists a curve, a text, a surface or a metaball twice: itself, and the mesh that is made of it.
+    meshed = {one.object.original for one in depsgraph.object_instances if one.object.type == "MESH"}
     for instance in depsgraph.object_instances:  # with collection instances, particles and geometry nodes
         obj = instance.object
         shown = instance.parent if instance.is_instance else obj
         original = shown.original
-        if obj.type not in GEOMETRY or not instance.show_self:
+        if obj.type not in GEOMETRY or not instance.show_self or (obj.type != "MESH" and obj.original in meshed):
             continue
         if original.hide_render or obj.original.hide_render or obj.display_type in ("WIRE", "BOUNDS"):
             continue  # such as the cutters of booleans

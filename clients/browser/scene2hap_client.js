@@ -21,6 +21,7 @@
  * @property {{position_m: number[], rotation_xyzw?: number[]}} pose
  * @property {Geometry | string} geometry
  * @property {number} [mass_kg]
+ * @property {string[]} [material_names] that of the largest area first
  */
 /**
  * @typedef {object} SceneJson docs/scene-json.md of scene2hap
@@ -817,14 +818,17 @@ export function sceneFromThree(root, { name = root.name || "scene", isObject = (
   const objects = [];
   for (const { node, mark, meshes } of found) {
     const pose = poseOf(node);
-    const geometry = geometryOf(meshes, pose, mark.box === true);
+    const areas = new Map();
+    const geometry = geometryOf(meshes, pose, mark.box === true, areas);
     if (!geometry) continue;
     // GLTFLoader keeps the author's name in userData, and changes node.name.
     const authored = mark.name ?? (node.userData?.name || node.name || node.geometry?.name || "object");
     const id = unused(mark.id ?? (node.name || authored), nodes);
     nodes.set(id, node);
     const row = { id, name: authored, pose: { position_m: pose.slice(0, 3), rotation_xyzw: pose.slice(3) }, geometry };
-    objects.push(mark.mass_kg === undefined ? row : { ...row, mass_kg: mark.mass_kg });
+    if (mark.mass_kg !== undefined) row.mass_kg = mark.mass_kg;
+    if (areas.size > 0) row.material_names = [...areas.keys()].sort((a, b) => areas.get(b) - areas.get(a));
+    objects.push(row);
   }
   return {
     scene: { format: "scene2hap/scene", version: 1, name, up_axis: "y", objects, geometries: shareCopies(objects) },
@@ -909,22 +913,25 @@ function unused(wanted, taken) {
 /** Micrometres: finer digits would only make the JSON longer. The sum makes 0 of -0. */
 const micrometres = (value) => Math.round(value * 1e6) / 1e6 + 0;
 
-/** All meshes in the frame of a pose, as one mesh or, where it is one, a box. Null if nothing is left. */
-function geometryOf(meshes, pose, isBoxWanted) {
+/**
+ * All meshes in the frame of a pose, as one mesh or, where it is one, a box. Null if nothing is left. `areas` gets the
+ * area of each named material.
+ */
+function geometryOf(meshes, pose, isBoxWanted, areas) {
   const vertices_m = [];
   const faces = [];
   for (const mesh of meshes) {
     const matrices = mesh.isInstancedMesh ? mesh.instanceMatrix.array : null;
-    if (!matrices) addPiece(mesh, null, pose, vertices_m, faces);
+    if (!matrices) addPiece(mesh, null, pose, vertices_m, faces, areas);
     for (let k = 0; matrices && k < mesh.count; k += 1) {
-      addPiece(mesh, matrices.subarray(16 * k), pose, vertices_m, faces);
+      addPiece(mesh, matrices.subarray(16 * k), pose, vertices_m, faces, areas);
     }
   }
   if (faces.length === 0) return null;
   return boxOf(vertices_m, faces.length, isBoxWanted) ?? { kind: "mesh", vertices_m, faces };
 }
 
-function addPiece(mesh, copy, pose, vertices_m, faces) {
+function addPiece(mesh, copy, pose, vertices_m, faces, areas) {
   const world = mesh.matrixWorld.elements;
   const isMirrored = determinant(world) * (copy ? determinant(copy) : 1) < 0;
   const { geometry } = mesh;
@@ -956,7 +963,20 @@ function addPiece(mesh, copy, pose, vertices_m, faces) {
     const [a, b, c] = [0, 1, 2].map((k) => welded(index ? index.getX(i + k) : i + k));
     if (a === b || b === c || c === a) continue;
     faces.push(isMirrored ? [a, c, b] : [a, b, c]);
+    const name = materialOf(mesh, i)?.name;
+    if (name) areas.set(name, (areas.get(name) ?? 0) + areaOf(vertices_m[a], vertices_m[b], vertices_m[c]));
   }
+}
+
+/** The material of the triangle whose first corner is number i of the index. */
+function materialOf({ material, geometry }, i) {
+  if (!Array.isArray(material)) return material;
+  return material[geometry.groups.find(({ start, count }) => i >= start && i < start + count)?.materialIndex];
+}
+
+function areaOf(a, b, c) {
+  const [u, v] = [b, c].map((corner) => corner.map((value, i) => value - a[i]));
+  return Math.hypot(...cross(u, v)) / 2;
 }
 
 /** @param {ArrayLike<number>} m by columns @param {number[]} point */

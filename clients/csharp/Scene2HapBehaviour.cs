@@ -353,7 +353,8 @@ namespace Scene2Hap
                 Math.Max(most.z - least.z, ThinnestM),
             };
             Vector3 position = root.position + root.rotation * one.Center;
-            one.Json = SceneText.BoxObject(one.Id, NameOf(one.Root), Numbers(position), Numbers(root.rotation), size);
+            one.Json = SceneText.BoxObject(
+                one.Id, NameOf(one.Root), Numbers(position), Numbers(root.rotation), size, MaterialsOf(pieces));
         }
 
         static void DescribeMesh(Tracked one, List<MeshFilter> pieces)
@@ -377,7 +378,52 @@ namespace Scene2Hap
                 }
             }
             one.Json = SceneText.MeshObject(
-                one.Id, NameOf(one.Root), Numbers(root.position), Numbers(root.rotation), vertices, faces);
+                one.Id, NameOf(one.Root), Numbers(root.position), Numbers(root.rotation), vertices, faces,
+                MaterialsOf(pieces));
+        }
+
+        /// <summary>Names of materials, that of the largest area first. Meshes without Read/Write come last.</summary>
+        static List<string> MaterialsOf(List<MeshFilter> pieces)
+        {
+            Dictionary<string, float> areas = new Dictionary<string, float>();
+            List<string> names = new List<string>();
+            foreach (MeshFilter piece in pieces)
+            {
+                Renderer renderer = piece.GetComponent<Renderer>();
+                if (renderer == null)
+                    continue;
+                Material[] materials = renderer.sharedMaterials;
+                for (int i = 0; i < materials.Length && i < piece.sharedMesh.subMeshCount; i++)
+                {
+                    string name = materials[i] == null ? "" : materials[i].name.Replace(" (Instance)", "");
+                    if (name.Length == 0)
+                        continue;
+                    if (!areas.ContainsKey(name))
+                    {
+                        areas[name] = 0;
+                        names.Add(name);
+                    }
+                    if (piece.sharedMesh.isReadable)
+                        areas[name] += AreaOf(piece, i);
+                }
+            }
+            names.Sort((a, b) => areas[b].CompareTo(areas[a]));
+            return names;
+        }
+
+        static float AreaOf(MeshFilter piece, int subMesh)
+        {
+            Vector3[] vertices = piece.sharedMesh.vertices;
+            int[] corners = piece.sharedMesh.GetTriangles(subMesh);
+            float doubled = 0;
+            for (int i = 0; i + 2 < corners.Length; i += 3)
+            {
+                Vector3 a = piece.transform.TransformPoint(vertices[corners[i]]);
+                Vector3 b = piece.transform.TransformPoint(vertices[corners[i + 1]]);
+                Vector3 c = piece.transform.TransformPoint(vertices[corners[i + 2]]);
+                doubled += Vector3.Cross(b - a, c - a).magnitude;
+            }
+            return doubled / 2;
         }
 
         static double[] Numbers(Vector3 left)

@@ -369,20 +369,21 @@ namespace Scene2Hap
             return this;
         }
 
-        /// <summary>One object as JSON, for Client.Add.</summary>
+        /// <summary>One object as JSON, for Client.Add. Its materials: that of the largest area first.</summary>
         public static string BoxObject(
-            string id, string name, double[] positionM, double[] rotationXyzw, double[] sizeM)
+            string id, string name, double[] positionM, double[] rotationXyzw, double[] sizeM,
+            ICollection<string> materialNames = null)
         {
-            JsonText one = Begun(id, name, positionM, rotationXyzw);
+            JsonText one = Begun(id, name, positionM, rotationXyzw, materialNames);
             return one.Begin("geometry").Add("kind", "box").Add("size_m", sizeM).End().ToString();
         }
 
-        /// <summary>One object as JSON, for Client.Add.</summary>
+        /// <summary>One object as JSON, for Client.Add. Its materials: that of the largest area first.</summary>
         public static string MeshObject(
             string id, string name, double[] positionM, double[] rotationXyzw, IList<double> verticesM,
-            IList<int> faces)
+            IList<int> faces, ICollection<string> materialNames = null)
         {
-            JsonText one = Begun(id, name, positionM, rotationXyzw);
+            JsonText one = Begun(id, name, positionM, rotationXyzw, materialNames);
             one.Begin("geometry").Add("kind", "mesh").Begin("vertices_m", '[');
             for (int i = 0; i + 2 < verticesM.Count; i += 3)
                 one.Add(null, verticesM[i], verticesM[i + 1], verticesM[i + 2]);
@@ -392,9 +393,13 @@ namespace Scene2Hap
             return one.End(']').End().ToString();
         }
 
-        static JsonText Begun(string id, string name, double[] positionM, double[] rotationXyzw)
+        static JsonText Begun(
+            string id, string name, double[] positionM, double[] rotationXyzw, ICollection<string> materialNames)
         {
-            JsonText one = new JsonText().Add("id", id).Add("name", name).Begin("pose").Add("position_m", positionM);
+            JsonText one = new JsonText().Add("id", id).Add("name", name);
+            if (materialNames != null && materialNames.Count > 0)
+                one.Add("material_names", materialNames);
+            one.Begin("pose").Add("position_m", positionM);
             return one.Add("rotation_xyzw", rotationXyzw ?? new double[] { 0, 0, 0, 1 }).End();
         }
 

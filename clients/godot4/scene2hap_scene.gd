@@ -25,13 +25,17 @@ static func object_of(node, id, name, as_box = false, pieces = null):
 		geometry = _box(pieces, to_own)
 	else:
 		geometry = _mesh(pieces, to_own)
-	return {
+	var object = {
 		"id": id,
 		"name": name,
 		# As exactly as frames have it, while sizes are written with few decimals: hence no Vector3.
 		"pose": {"position_m": [world.origin.x, world.origin.y, world.origin.z], "rotation_xyzw": turned},
 		"geometry": geometry,
 	}
+	var names = _material_names(pieces)
+	if not names.is_empty():
+		object["material_names"] = names
+	return object
 
 
 # All visible MeshInstance3Ds at and below a node.
@@ -63,6 +67,41 @@ static func _mesh(pieces, to_own):
 			if face[0] != face[1] and face[1] != face[2] and face[2] != face[0]:
 				faces.append(face)
 	return {"kind": "mesh", "vertices_m": vertices, "faces": faces}
+
+
+# The resource names of the materials, that of the largest area first. Imported materials have the name in their file.
+static func _material_names(pieces):
+	var areas = {}
+	for piece in pieces:
+		for surface in range(piece.mesh.get_surface_count()):
+			var material = piece.get_active_material(surface)
+			if material != null and material.resource_name != "":
+				var area = areas.get(material.resource_name, 0.0) + _area(piece, surface)
+				areas[material.resource_name] = area
+	var rows = []
+	for name in areas:
+		rows.append([-areas[name], name])
+	rows.sort()
+	var names = []
+	for row in rows:
+		names.append(row[1])
+	return names
+
+
+static func _area(piece, surface):
+	var arrays = piece.mesh.surface_get_arrays(surface)
+	var vertices = arrays[Mesh.ARRAY_VERTEX]
+	var corners = arrays[Mesh.ARRAY_INDEX]
+	if corners == null:
+		corners = range(vertices.size())
+	var place = piece.global_transform
+	var doubled = 0.0
+	for i in range(0, corners.size() - 2, 3):
+		var face = []
+		for k in range(3):
+			face.append(place * vertices[corners[i + k]])
+		doubled += (face[1] - face[0]).cross(face[2] - face[0]).length()
+	return doubled / 2
 
 
 static func _box(pieces, to_own):

@@ -85,6 +85,16 @@ add("can", CUBE, (0, 0, 10), (16, 16, 20), kettle)
 add("spout", CUBE, (10, 0, 15), (4, 2, 2), kettle)
 cabinet = add("Cabinet", CUBE, (0, 500, 40), (60, 40, 80))
 door = add("door", CUBE, (0, -0.52, 0), (1, 0.04, 1), cabinet)
+rod = bpy.data.curves.new("rod", "CURVE")
+rod.dimensions, rod.extrude = "3D", 5  # a ribbon 10 cm high
+line = rod.splines.new("POLY")
+line.points.add(1)
+line.points[1].co = (40, 0, 0, 1)
+rod.materials.append(bpy.data.materials.new("Brass"))
+add("Towel ribbon", rod, (0, 0, 150))
+text = bpy.data.objects.new("Cutting text", bpy.data.curves.new("text", "FONT"))
+text.data.body, text.display_type = "A", "WIRE"
+scene.collection.objects.link(text)
 vase = add("Vase", CUBE, (0, 0, 0.625), (0.25, 0.25, 0.25), cabinet)
 vase["scene2hap"] = "object"
 add("Gizmo", CUBE, (0, 0, 500), (100, 100, 100))["scene2hap"] = "skip"
@@ -108,6 +118,7 @@ EXPECTED = {
     # The door is 1.6 cm thick; its middle is 20 cm + 0.8 cm in front of the middle of a cabinet of 40 cm.
     "Cabinet": ((0, 5.0, 0.4), (0.6, 0.416, 0.8), 0.6 * 0.4 * 0.8 + 0.6 * 0.016 * 0.8),
     "Vase": ((0, 5.0, 0.9), (0.15, 0.1, 0.2), 0.15 * 0.1 * 0.2),
+    "Towel ribbon": ((0, 0, 1.5), (0.4, 0, 0.1), 0),
 }
 
 
@@ -215,6 +226,15 @@ def test_linked_duplicates_are_copies(folder: Path, scenes: tuple[SceneSnapshot,
         assert keys["Stool"] == keys["Stool.001"] != ""
         assert len(set(keys.values())) == len(EXPECTED) - 1
     assert len(json.loads((folder / "scene.json").read_text(encoding="utf-8"))["geometries"]) == len(EXPECTED) - 1
+
+
+@needs_bpy
+def test_a_curve_is_written_once(scenes: tuple[SceneSnapshot, SceneSnapshot]) -> None:
+    for scene in scenes:
+        ribbon = scene.object("Towel ribbon")
+        assert len(ribbon.geometry.mesh.faces) == 2
+        assert ribbon.material_names == ("Brass",)
+        assert sorted(np.ptp(ribbon.bounds_m, axis=0)) == pytest.approx([0, 0.1, 0.4], abs=1e-6)
 
 
 PICTURED = (

@@ -44,6 +44,18 @@ test("a turned and scaled box in turned and scaled groups", options, () => {
   close(poseOf(nodes.get("crate")), [1, 4, -1, 0, Math.SQRT1_2, 0, Math.SQRT1_2]);
 });
 
+test("names of materials are written, that of the largest area first", options, () => {
+  const named = (name) => Object.assign(look(), { name });
+  const sides = ["Brass", "Brass", "Walnut", "Walnut", "", "Brass"].map(named); // +x, -x, +y, -y, +z, -z
+  const table = new THREE.Mesh(new THREE.BoxGeometry(2, 0.1, 1), sides);
+  table.name = "table";
+  const plain = new THREE.Mesh(new THREE.BoxGeometry(1, 1, 1), look());
+  plain.name = "plain";
+  const room = new THREE.Scene().add(table, plain);
+  const found = sceneFromThree(room).scene.objects.map((one) => one.material_names);
+  assert.deepEqual(found, [["Walnut", "Brass"], undefined]);
+});
+
 test("poses are those of getWorldPosition and getWorldQuaternion", options, () => {
   const parent = new THREE.Group();
   const child = new THREE.Mesh(new THREE.SphereGeometry(1, 8, 6), look());

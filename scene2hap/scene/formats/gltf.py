@@ -1,7 +1,8 @@
 """glTF and GLB files as authored trees.
 
 Nodes are identified by their number in the file, so an object stays the same on every load, even if its name changes.
-Cameras, lights, skins and animations are left out: a skinned mesh keeps the pose in which it was modelled.
+Cameras, lights, skins and animations are left out: a skinned mesh keeps the pose in which it was modelled. Each copy of
+an instanced mesh is a node.
 
 Source: glTF 2.0 specification, sections 3.5 (scenes and nodes) and 3.7 (meshes).
 """
@@ -21,6 +22,7 @@ from scene2hap.scene import limits
 from scene2hap.scene.formats.gltf_accessors import indices, vectors
 from scene2hap.scene.formats.gltf_container import GltfFile, Json, mapping, natural
 from scene2hap.scene.formats.gltf_draco import DRACO, draco
+from scene2hap.scene.formats.gltf_instances import INSTANCES, instances
 from scene2hap.scene.formats.gltf_materials import GltfMaterials, Paint
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
@@ -46,7 +48,7 @@ def read_gltf(path: Path, assets_root: Path) -> AuthoredScene:
     file = GltfFile(path, assets_root)
     textures = TextureFiles(path.parent, assets_root)
     reader = _Reader(file, GltfMaterials(file, textures))
-    roots = tuple(reader.node(number, 1) for number in _roots(file))
+    roots = tuple(node for number in _roots(file) for node in reader.nodes(number, 1))
     return AuthoredScene(roots, left_out=textures.left_out)
 
 
@@ -60,7 +62,8 @@ class _Reader:
         self._scaled_pieces: dict[tuple[object, bytes], Piece] = {}
         self._size = limits.TreeSize()
 
-    def node(self, number: int, depth: int) -> AuthoredNode:
+    def nodes(self, number: int, depth: int) -> tuple[AuthoredNode, ...]:
+        """Return one node, or one for each copy of an instanced mesh: those of the file before it was packed."""
         row = self._file.row("nodes", number, "a node or scene")
         if number in self._seen:
             raise SceneFormatError(f"nodes[{number}] hangs below itself or below two nodes; nodes must form a tree.")
@@ -75,15 +78,23 @@ class _Reader:
             name = name or _name(mesh)
             self._size.add_triangles(sum(len(piece.faces) for piece in pieces))
         below = _numbers(row.get("children", []), f"{place}.children")
-        children = tuple(self.node(child, depth + 1) for child in below)
+        rows = self._file.table("nodes")
+        found = [(rows[child], node) for child in below for node in self.nodes(child, depth + 1)]
+        matrix = _matrix(row, place)
         if "mesh" not in row:
-            rows = self._file.table("nodes")
-            only_scale = [self._only_scales(rows[number], child) for number, child in zip(below, children, strict=True)]
-            scaled = [child for child, is_one in zip(children, only_scale, strict=True) if is_one]
-            pieces = tuple(self._scaled(piece, child.matrix) for child in scaled for piece in child.pieces)
-            children = tuple(child for child, is_one in zip(children, only_scale, strict=True) if not is_one)
+            only_scale = [self._only_scales(child, node) for child, node in found]
+            scaled = [node for (_, node), is_one in zip(found, only_scale, strict=True) if is_one]
+            pieces = tuple(self._scaled(piece, node.matrix) for node in scaled for piece in node.pieces)
+            found = [each for each, is_one in zip(found, only_scale, strict=True) if not is_one]
             name = name or (scaled[0].name if len(scaled) == 1 else "")
-        return AuthoredNode(name, _matrix(row, place), pieces, children)
+        children = tuple(node for _, node in found)
+        if "mesh" in row and (places := instances(self._file, row, place)) is not None:
+            self._size.add_nodes(len(places))
+            self._size.add_triangles(sum(len(piece.faces) for piece in pieces) * len(places))
+            # Blender calls the node of all copies "chairs.0", and its mesh "chair".
+            copies = tuple(AuthoredNode(_name(mesh) or name, matrix @ each, pieces) for each in places)
+            return (*copies, AuthoredNode(name, matrix, (), children)) if children else copies
+        return (AuthoredNode(name, matrix, pieces, children),)
 
     def _only_scales(self, row: Json, node: AuthoredNode) -> bool:
         """Return True if a node only converts quantised positions (stored as whole numbers) to lengths.
@@ -92,6 +103,8 @@ class _Reader:
         cupboard would be part of another object than in the file before packing.
         """
         if node.children or not node.pieces or _name(row) or row.keys() & {"matrix", "rotation", "skin"}:
+            return False
+        if INSTANCES in mapping(row.get("extensions")):
             return False
         primitives = self._file.table("meshes")[row["mesh"]]["primitives"]
         return all(map(self._is_quantised, primitives)) and bool((np.diag(node.matrix) > 0).all())

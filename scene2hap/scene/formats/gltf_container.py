@@ -35,6 +35,7 @@ _UNDERSTOOD = (
     "KHR_draco_mesh_compression",
     "KHR_mesh_quantization",
     "KHR_animation_pointer",
+    "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "KHR_meshopt_compression",
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from scene2hap.scene.copies import name_words
@@ -16,10 +17,28 @@ _WORDS = (
 _EMPTY = frozenset(_WORDS.split())
 """Words without information about an object. "box" is not among them: a box is a thing."""
 
+_LETTER_AND_NUMBER = re.compile(r"[A-Za-z][ ._-]?\d+")
+_EXPORTER_NODE = re.compile(
+    r"(sketchfab_model|osg_scene|auxscene|gltf_sceneroot\w*|rootnode\b.*|root|scene|scene root|world|group|empty"
+    r"|.*\.(fbx|obj|dae|3ds|gltf|glb|blend|max|stl|ply|skp|c4d|usdz?)(\..*)?)",
+    re.IGNORECASE,
+)
+# Words for containers of objects: a group of that name is never one object.
+_PLACE = re.compile(
+    r"(level|map|environment|building|house|home|flat|apartment|room|floorplan|furniture|props"
+    r"|(living|bed|bath|dining|class)[ _-]?room|kitchen|office|hall|garage|workshop)[ _-]?\d*",
+    re.IGNORECASE,
+)
+
 
 def says_nothing(name: str) -> bool:
-    """Return True if no word of a name tells what the object is: "object", "base_link", "Cube.001", "world/body1"."""
-    return all(word in _EMPTY for word in name_words(name))
+    """Return True if no word of a name tells what the object is: "base_link", "Cube.001", "world/body1", "p3"."""
+    return bool(_LETTER_AND_NUMBER.fullmatch(name)) or all(word in _EMPTY for word in name_words(name))
+
+
+def names_a_thing(name: str) -> bool:
+    """Return False for the names of nodes that exporters add, and of places: their nodes are always containers."""
+    return bool(name) and not _EXPORTER_NODE.fullmatch(name) and not _PLACE.fullmatch(name)
 
 
 def named_after_file(snapshot: SceneSnapshot, stem: str) -> SceneSnapshot:

@@ -1,7 +1,8 @@
 """Grouping of an authored tree's nodes into objects that a user would point at.
 
 Authors do not mark objects. Exporters split one mesh by material into several leaves, put objects into groups and add
-their own nodes above. The rule "authored" undoes this:
+their own nodes above. The rule "authored" undoes this. A mesh that a tool has cut by material is first made whole again
+(`grouping.material_parts`). Then:
 
 a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
    child that has children is an object by itself.
@@ -20,7 +21,6 @@ f. A node that the file itself declares an object (`AuthoredNode.is_object`) is 
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -30,7 +30,8 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene.grouping.empty_names import says_nothing
+from scene2hap.scene.grouping.empty_names import names_a_thing, says_nothing
+from scene2hap.scene.grouping.material_parts import rejoined
 from scene2hap.scene.grouping.split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
@@ -43,18 +44,6 @@ The depth 0 is the scene itself: the whole file is one object, with the name of 
 mapping from a node's name to an object's name: that node and all below it belong to that object, and nodes mapped to
 one name make one object; the rest of the scene follows "authored".
 """
-
-_EXPORTER_NODE = re.compile(
-    r"(sketchfab_model|osg_scene|auxscene|gltf_sceneroot\w*|rootnode\b.*|root|scene|scene root|world|group|empty"
-    r"|.*\.(fbx|obj|dae|3ds|gltf|glb|blend|max|stl|ply|skp|c4d|usdz?)(\..*)?)",
-    re.IGNORECASE,
-)
-# Words for containers of objects: a group of that name is never one object.
-_PLACE = re.compile(
-    r"(level|map|environment|building|house|home|flat|apartment|room|floorplan|furniture|props"
-    r"|(living|bed|bath|dining|class)[ _-]?room|kitchen|office|hall|garage|workshop)[ _-]?\d*",
-    re.IGNORECASE,
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +68,7 @@ def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, 
     kept = [node for root in roots if (node := root.with_geometry()) is not None]
     origin = np.eye(4)
     if how == "authored":
-        return [group for root in kept for group in _authored(root, origin).groups]
+        return [group for root in kept for group in _authored(rejoined(root), origin).groups]
     if how == "leaf":
         return [group for root in kept for group in _leaves(root, origin)]
     if isinstance(how, int) and not isinstance(how, bool) and how >= 0:
@@ -145,7 +134,7 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
         items = [Group(item[0].name, item[0].frame, _parts(item)) for item in several]
         return _Subtree([*items, *others], has_head=bool(node.pieces))
     if len(below) == 1 and below[0].has_head:
-        if _names_a_thing(node) and (says_nothing(others[0].name) or not says_nothing(node.name)):
+        if names_a_thing(node.name) and (says_nothing(others[0].name) or not says_nothing(node.name)):
             others[0] = replace(others[0], name=node.name, frame=frame)
         if node.mass_kg is not None and len(others) == 1:
             others[0] = replace(others[0], mass_kg=node.mass_kg)
@@ -162,12 +151,12 @@ def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
         return False
     if node.pieces:
         return True
-    return _names_a_thing(node) and (not child.name or _continues(child.name, node.name))
+    return names_a_thing(node.name) and (not child.name or _continues(child.name, node.name))
 
 
 def _unnamed_parts(node: AuthoredNode, frame: Matrix) -> list[AuthoredNode]:
     """Return the children below which no name says what they are, if they are joined: an engine's own mesh nodes."""
-    if node.pieces or not _names_a_thing(node):
+    if node.pieces or not names_a_thing(node.name):
         return []
     found = [x for x in node.children if all(says_nothing(y.name) and not y.is_object for y in x.walk())]
     members = [member for child in found for member in _members(child, frame)]
@@ -181,10 +170,6 @@ def _members(node: AuthoredNode, above: Matrix) -> list[Member]:
 def _continues(name: str, start: str) -> bool:
     """Return True if `name` continues `start`: `Table_mat_0`, `Table.001`, `tableTop`, not `Tablet` after `Table`."""
     return name.startswith(start) and not name[len(start) :][:1].islower()
-
-
-def _names_a_thing(node: AuthoredNode) -> bool:
-    return bool(node.name) and not _EXPORTER_NODE.fullmatch(node.name) and not _PLACE.fullmatch(node.name)
 
 
 # -- the other groupings ---------------------------------------------------------------------------------------------

@@ -369,6 +369,12 @@ public static class CSharpTrials
         GameObject part = Made("Part", wedge.transform, new[] { 0f, 1, 0 }, new[] { 0, 0, 0.6f, 0.8f },
             new[] { -1f, 1, 1 });
         GiveTetrahedron(part);
+        Mesh cut = part.GetComponentsInChildren<MeshFilter>()[0].sharedMesh;
+        cut.SubMeshes = new[] { new[] { 0, 2, 1 }, new[] { 0, 3, 2, 0, 1, 3, 1, 2, 3 } };
+        part.AddComponent<Renderer>().sharedMaterials = new[]
+        {
+            new Material { name = "Brass" }, new Material { name = "Walnut (Instance)" }, null
+        };
         for (int i = 0; i < 2; i++)
         {
             GameObject mug = Made("Mug", room.transform, new[] { 0f, i, 0 }, new[] { 0f, 0, 0, 1 }, one);

@@ -641,12 +641,14 @@ def test_unity_scene_equals_the_matrix_conversion(trial: Callable[..., list[str]
     for piece in (faces[:4], faces[4:]):
         a, b, c = written[piece].transpose(1, 0, 2)
         assert (a * np.cross(b, c)).sum() / 6 == pytest.approx(1 / 6, rel=1e-5)
-    SceneSnapshot.from_json(text[0])
+    found = SceneSnapshot.from_json(text[0]).objects
+    assert [one.material_names for one in found] == [("Walnut", "Brass"), (), ()]  # the largest area first
 
 
 def test_unity_boxes_enclose_their_meshes(trial: Callable[..., list[str]]) -> None:
     scene = json.loads(trial("unity-scene", "boxes")[0])
     room = affine((0.5, 0, -1), (0, 0.6, 0, 0.8), (1, 1, 1))
+    assert scene["objects"][0]["material_names"] == ["Walnut", "Brass"]
     mug = scene["objects"][2]
     assert mug["geometry"]["kind"] == "box"
     np.testing.assert_allclose(mug["geometry"]["size_m"], (2, 1, 0.5), atol=1e-5)

@@ -448,6 +448,8 @@ def test_nodes_become_closed_meshes_and_boxes() -> None:
         np.testing.assert_allclose(box.vertices_m.max(axis=0), high, atol=1e-6)
         assert volume(box) == pytest.approx((high - low).prod(), rel=1e-5)
         centred = scene.object(name + " centred")
+        names = [scene.object(name + suffix).material_names for suffix in ("", " box", " centred")]
+        assert names == [("Walnut", "Brass"), ("Walnut", "Brass"), ("Walnut",)]  # the largest area first
         np.testing.assert_allclose(centred.geometry.size_m, size, rtol=1e-6)
         np.testing.assert_allclose(
             centred.pose.position_m, np.array((1, 2, 3)) + rotation @ np.array((0.5, 0, 0)), atol=1e-6

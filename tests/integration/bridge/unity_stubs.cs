@@ -44,6 +44,13 @@ namespace UnityEngine
         }
 
         public static Vector3 Max(Vector3 a, Vector3 b) { return -Min(-a, -b); }
+        public float magnitude { get { return (float)Math.Sqrt(x * x + y * y + z * z); } }
+
+        public static Vector3 Cross(Vector3 a, Vector3 b)
+        {
+            return new Vector3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+        }
+
         public static Vector3 operator +(Vector3 a, Vector3 b) { return new Vector3(a.x + b.x, a.y + b.y, a.z + b.z); }
         public static Vector3 operator -(Vector3 a) { return new Vector3(-a.x, -a.y, -a.z); }
         public static Vector3 operator -(Vector3 a, Vector3 b) { return a + -b; }
@@ -130,6 +137,7 @@ namespace UnityEngine
         public GameObject gameObject { get; set; }
         public Transform transform { get { return gameObject.transform; } }
         public bool CompareTag(string tag) { return gameObject.tag == tag; }
+        public T GetComponent<T>() where T : class { return gameObject.GetComponent<T>(); }
     }
 
     public class MonoBehaviour : Component { }
@@ -180,6 +188,16 @@ namespace UnityEngine
         public bool isReadable { get; set; }
         public Vector3[] vertices { get; set; }
         public int[] triangles { get; set; }
+        public int[][] SubMeshes { get; set; }
+        public int subMeshCount { get { return SubMeshes == null ? 1 : SubMeshes.Length; } }
+        public int[] GetTriangles(int subMesh) { return SubMeshes == null ? triangles : SubMeshes[subMesh]; }
+    }
+
+    public sealed class Material : Object { }
+
+    public sealed class Renderer : Component
+    {
+        public Material[] sharedMaterials { get; set; }
     }
 
     public sealed class MeshFilter : Component
@@ -209,6 +227,8 @@ namespace UnityEngine
             components.Add(made);
             return made;
         }
+
+        public T GetComponent<T>() where T : class { return components.Find(one => one is T) as T; }
 
         public T[] GetComponentsInChildren<T>()
         {

@@ -97,8 +97,8 @@ def setting(*path: str | int, to: Any) -> Callable[[Json], object]:
         (setting("buffers", 0, "uri", to="gone.bin"), "there is no file '.*gone.bin'"),
         (setting("buffers", 0, "uri", to="."), "is not a file"),
         (
-            setting("extensionsRequired", to=["EXT_mesh_gpu_instancing", "VRMC_vrm"]),
-            "EXT_mesh_gpu_instancing, VRMC_vrm",
+            setting("extensionsRequired", to=["EXT_mesh_gpu_instancing", "KHR_gone", "VRMC_vrm"]),
+            "requires KHR_gone, VRMC_vrm",
         ),
         (setting("extensionsRequired", to="x"), "extensionsRequired must be a list"),
         (setting("nodes", to=[{"name": "camera"}]), "holds no triangles"),

@@ -15,13 +15,13 @@ JOINT = '<joint name="j" type="fixed"><parent link="baseLink"/><child link="lid"
 
 
 @pytest.mark.parametrize(
-    "name", ["object", "base_link", "baseLink", "Cube.001", "world/body1", "Object_7", "mesh_0_3f2a9c1", "", "12"]
+    "name", ["object", "base_link", "baseLink", "Cube.001", "world/body1", "Object_7", "mesh_0_3f2a9c1", "p3", "", "12"]
 )
 def test_names_of_tools_say_nothing(name: str) -> None:
     assert says_nothing(name)
 
 
-@pytest.mark.parametrize("name", ["mug", "mug_base", "Box", "table.001", "panda_link0", "\u51b7\u8535\u5eab"])
+@pytest.mark.parametrize("name", ["mug", "mug_base", "Box", "table.001", "panda_link0", "\u51b7\u8535\u5eab", "\u673a"])
 def test_names_with_a_word_of_their_own_say_something(name: str) -> None:
     assert not says_nothing(name)
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from gltf_builder import CUBE, CUBE_FACES, Gltf, one_cube
+from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.scene.formats.gltf import read_gltf
 from scene2hap.scene.load import load_scene
 from scene2hap.scene.objects import SceneObject
@@ -315,3 +316,70 @@ def test_unit_scales_positions_and_keeps_rotations(tmp_path: Path) -> None:
     assert item.size_m == pytest.approx((0.5, 0.5, 0.5))
     np.testing.assert_allclose(item.pose.rotation_xyzw, [0.0, 0.0, 0.6, 0.8], atol=1e-12)
     assert isinstance(item.geometry, TriMesh)
+
+
+def instanced(**attributes: list[list[float]]) -> Gltf:
+    """A cube that a node draws at several places."""
+    gltf = Gltf()
+    rows = {name: gltf.accessor(values, "f4", f"VEC{len(values[0])}") for name, values in attributes.items()}
+    gltf.node(
+        "chair",
+        mesh=gltf.cube(),
+        root=True,
+        translation=(10, 0, 0),
+        extensions={"EXT_mesh_gpu_instancing": {"attributes": rows}},
+    )
+    gltf.header["extensionsRequired"] = ["EXT_mesh_gpu_instancing"]
+    return gltf
+
+
+def test_each_copy_of_an_instanced_mesh_is_an_object(tmp_path: Path) -> None:
+    half = np.sqrt(0.5)
+    gltf = instanced(
+        TRANSLATION=[[0, 0, 0], [5, 0, 0]], ROTATION=[[0, 0, 0, 1], [0, half, 0, half]], SCALE=[[1, 1, 1], [1, 1, 2]]
+    )
+    first, second = load_scene(gltf.write(tmp_path / "chairs.glb")).objects
+    assert (first.id, second.id) == ("chair", "chair#2")
+    np.testing.assert_allclose(first.bounds_m, [(10, 0, 0), (11, 1, 1)], atol=1e-6)
+    np.testing.assert_allclose(second.bounds_m, [(15, 0, -1), (17, 1, 0)], atol=1e-6)
+
+
+def test_legs_that_are_instances_are_parts_of_their_rack(tmp_path: Path) -> None:
+    """Blender writes children of one mesh as instances of a node that is called after their parent."""
+    gltf = instanced(TRANSLATION=[[0, -1, 0], [3, -1, 0]])
+    gltf.header["meshes"][0]["name"] = "leg"
+    (legs,) = gltf.header["scenes"][0]["nodes"]
+    gltf.header["scenes"][0]["nodes"] = []
+    gltf.node("rack", mesh=gltf.header["nodes"][legs]["mesh"], children=[legs], root=True)
+    (rack,) = load_scene(gltf.write(tmp_path / "rack.glb")).objects
+    np.testing.assert_allclose(rack.bounds_m, [(0, -1, 0), (14, 1, 1)], atol=1e-6)
+
+
+def test_copies_below_a_node_without_a_mesh_are_objects(tmp_path: Path) -> None:
+    gltf = instanced(TRANSLATION=[[0, 0, 0], [3, 0, 0]])
+    gltf.header["meshes"][0]["name"] = "stool"
+    (copies,) = gltf.header["scenes"][0]["nodes"]
+    gltf.header["scenes"][0]["nodes"] = []
+    gltf.node("chair", children=[copies], root=True)
+    assert [item.id for item in load_scene(gltf.write(tmp_path / "chairs.glb")).objects] == ["stool", "stool#2"]
+
+
+@pytest.mark.parametrize(
+    ("attributes", "sentence"),
+    [
+        ({"TRANSLATION": [[0, 0, 0]], "SCALE": [[1, 1, 1], [2, 2, 2]]}, "one of each for each copy"),
+        ({"ROTATION": [[0, 0, 0, 0]]}, "ROTATION: .*quaternion"),
+        ({"TRANSLATION": [[float("nan"), 0, 0]]}, "not finite"),
+        ({"TRANSLATION": [[0, 0]]}, "must be 'VEC3'"),
+    ],
+)
+def test_broken_copies_are_refused(tmp_path: Path, attributes: dict[str, list[list[float]]], sentence: str) -> None:
+    with pytest.raises(SceneFormatError, match=sentence):
+        load_scene(instanced(**attributes).write(tmp_path / "chairs.glb"))
+
+
+def test_too_many_copies_are_refused_before_they_are_made(tmp_path: Path) -> None:
+    gltf = instanced(TRANSLATION=[[0, 0, 0]])
+    gltf.header["accessors"][0] = {"componentType": 5126, "type": "VEC3", "count": 200_000}  # zeros, without a buffer
+    with pytest.raises(SceneError, match="number of copies of node 'chair' is 200,000"):
+        load_scene(gltf.write(tmp_path / "chairs.glb"))

@@ -76,6 +76,10 @@ def test_joined_children_whose_names_say_nothing_are_one_object() -> None:
     assert objects(group("table", mesh("Cube"), mesh("Cube.001", at=0.5))) == {"table": ["Cube", "Cube.001"]}
 
 
+def test_joined_children_that_are_only_numbered_are_one_object() -> None:
+    assert objects(group("table", mesh("p0"), mesh("p1", at=0.5))) == {"table": ["p0", "p1"]}
+
+
 def test_children_that_stand_apart_are_separate_objects_whatever_their_names() -> None:
     assert list(objects(group("table", mesh("Cube"), mesh("Cube.001", at=5.0)))) == ["Cube", "Cube.001"]
 

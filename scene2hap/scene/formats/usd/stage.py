@@ -6,7 +6,8 @@ instancers share their pieces.
 
 Three kinds of prims are one object with all prims below: a rigid body (`PhysicsRigidBodyAPI`) without another rigid
 body below it; a model of kind "component" with at most one rigid body below it, unless it holds the whole scene; each
-copy of a point instancer. Other prims become objects by the rules of `scene.grouping.groups`.
+copy of a point instancer. Other prims become objects by the rules of `scene.grouping.groups`. The mesh of an object of
+Blender is no node of its own.
 
 Source: OpenUSD 26.11, schemas Xformable, Imageable, PointInstancer, RigidBodyAPI; `UsdGeomGetStageMetersPerUnit`.
 """
@@ -28,7 +29,7 @@ from scene2hap.scene.formats.usd.layers import Layers, reason_of
 from scene2hap.scene.formats.usd.masses import Masses
 from scene2hap.scene.formats.usd.materials import UsdMaterials
 from scene2hap.scene.formats.usd.meshes import Triangles, mesh_triangles, shape_triangles, subsets
-from scene2hap.scene.formats.usd.values import integers, name_of, rest_time, value
+from scene2hap.scene.formats.usd.values import integers, is_data_of_parent, name_of, rest_time, value
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.objects import UpAxis
 from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece
@@ -100,6 +101,7 @@ class _Reader:
         self._triangles: dict[Hashable, Triangles | None] = {}
         self._pieces: dict[Hashable, tuple[Piece, ...]] = {}
         self._components: dict[int, AuthoredNode] = {}
+        self._data: dict[int, AuthoredNode] = {}
         self._size, self._n_bodies = limits.TreeSize(), 0
 
     def roots(self) -> tuple[AuthoredNode, ...]:
@@ -154,6 +156,10 @@ class _Reader:
             children = self._below(prim, within)
         is_single = self._n_bodies == n_bodies if is_body else self._n_bodies <= n_bodies + 1
         self._n_bodies += is_body
+        mass_kg = self._masses.of_all_below(prim) or _sum_kg(own_kg, children)
+        own = [child for child in children if id(child) in self._data]
+        pieces += tuple(piece for child in own for piece in child.pieces)
+        children = tuple(child for child in children if id(child) not in self._data)
         is_component = Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component)
         node = AuthoredNode(
             name_of(prim),
@@ -161,8 +167,10 @@ class _Reader:
             pieces,
             children,
             is_object=is_single and (is_body or is_component),
-            mass_kg=self._masses.of_all_below(prim) or _sum_kg(own_kg, children),
+            mass_kg=mass_kg,
         )
+        if is_data_of_parent(prim) and not children and prim.IsA(UsdGeom.Gprim) and (matrix == np.eye(4)).all():
+            self._data[id(node)] = node
         if is_component and not is_body:
             self._components[id(node)] = node
         return node

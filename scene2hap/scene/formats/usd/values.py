@@ -16,9 +16,22 @@ from pxr import Usd
 _WEAK = (Usd.ResolveInfoSourceNone, Usd.ResolveInfoSourceFallback)
 
 
+_BLENDER_OBJECT, _BLENDER_DATA = "userProperties:blender:object_name", "userProperties:blender:data_name"
+
+
 def name_of(prim: Any) -> str:
-    """Return the display name of a prim, else its name, which has no spaces."""
-    return str(prim.GetDisplayName() or prim.GetName())
+    """Return the display name of a prim, else its name in Blender, else its own name, which has no spaces."""
+    in_blender = value(prim.GetAttribute(_BLENDER_OBJECT)) or value(prim.GetAttribute(_BLENDER_DATA))
+    return str(prim.GetDisplayName() or in_blender or prim.GetName())
+
+
+def is_data_of_parent(prim: Any) -> bool:
+    """Return True if Blender wrote a prim as the mesh of the object above it.
+
+    Blender writes an object as a transform with its mesh and the objects that are parented to it.
+    """
+    has_data = prim.HasAttribute(_BLENDER_DATA) and not prim.HasAttribute(_BLENDER_OBJECT)
+    return has_data and prim.GetParent().HasAttribute(_BLENDER_OBJECT)
 
 
 def rest_time(attributes: Sequence[Any]) -> Any:

@@ -269,13 +269,16 @@ func scenes():
 	mesh.size = Vector3(0.2, 0.4, 0.6)
 	var prism = PrismMesh.new()
 	prism.size = Vector3(0.3, 0.2, 0.1)
+	for row in [[mesh, "Walnut"], [prism, "Brass"]]:
+		row[0].material = SpatialMaterial.new()
+		row[0].material.resource_name = row[1]
 	var objects = []
 	for row in [["plain", Vector3(1, 1, 1)], ["scaled", Vector3(2, 1, 0.5)], ["mirrored", Vector3(-1, 1, 1)]]:
 		var root = Spatial.new()
 		get_root().add_child(root)
 		root.translation = Vector3(1, 2, 3)
 		root.rotation = Vector3(0.3, 0.5, -0.2)
-		for piece in [[mesh, Vector3(0.5, 0, 0)], [prism, Vector3(-0.5, 0, 0)]]:
+		for piece in [[prism, Vector3(-0.5, 0, 0)], [mesh, Vector3(0.5, 0, 0)]]:
 			var part = MeshInstance.new()
 			part.mesh = piece[0]
 			part.translation = piece[1]
@@ -287,7 +290,7 @@ func scenes():
 		root.add_child(hidden)
 		objects.append(Scene.object_of(root, row[0], "Lamp"))
 		objects.append(Scene.object_of(root, row[0] + " box", "Lamp", true))
-		objects.append(Scene.object_of(root.get_child(0), row[0] + " centred", "Lamp", true))
+		objects.append(Scene.object_of(root.get_child(1), row[0] + " centred", "Lamp", true))
 	print(Client.json_text(Scene.scene_of("test", objects)))
 	quit()
 

@@ -198,6 +198,23 @@ def test_component_is_one_object_unless_it_contains_the_whole_scene(tmp_path: Pa
     assert ids(scene_of(fill, tmp_path)) == ["chair", "pot"]
 
 
+def test_an_object_of_blender_has_its_own_mesh_and_its_parts(tmp_path: Path) -> None:
+    def named(prim: Any, kind: str, name: str) -> None:
+        attribute = prim.CreateAttribute(f"userProperties:blender:{kind}_name", usd("Sdf").ValueTypeNames.String)
+        attribute.Set(name)
+
+    def fill(stage: Any) -> None:
+        for path, name, x in (("/root/Table", "Dining table", 0), ("/root/Table/leg_001", "leg.001", 1)):
+            place = usd("UsdGeom").Xform.Define(stage, path)
+            place.AddTranslateOp().Set((x, 0, 0))
+            named(place.GetPrim(), "object", name)
+            named(mesh(stage, f"{path}/Cube_012").GetPrim(), "data", "Cube.012")
+
+    (table,) = scene_of(fill, tmp_path).objects
+    assert table.id == "Dining table"
+    np.testing.assert_allclose(table.bounds_m, [[0, 0, 0], [2, 1, 1]], atol=1e-9)
+
+
 def test_a_rigid_body_is_one_object(tmp_path: Path) -> None:
     def fill(stage: Any) -> None:
         geom, bodies = usd("UsdGeom"), usd("UsdPhysics").RigidBodyAPI
