@@ -91,7 +91,8 @@ class SafetyLayer:
     """The safety layer of `n_channels` outputs.
 
     Parameters: watchdog_s : time without `feed` after which the output fades to zero [s], None for sinks that do not
-        follow wall-clock time; limits : see `hold`; clock : returns the time [s].
+        follow wall-clock time; limits : see `hold`; clock : returns the time [s]; on_trip : called in the sink's thread
+        when the watchdog expires.
     Raises: ConfigError: a budget or a watchdog that is out of bounds.
     """
 
@@ -104,6 +105,7 @@ class SafetyLayer:
         watchdog_s: float | None = None,
         limits: NDArray[np.float64] | None = None,
         clock: Callable[[], float] = time.monotonic,
+        on_trip: Callable[[], None] | None = None,
     ) -> None:
         from scipy.signal import butter, sosfilt
 
@@ -113,6 +115,7 @@ class SafetyLayer:
             watchdog_s = checks.number("watchdog_s", watchdog_s, "s", at_least=0.02, at_most=1.0, error=ConfigError)
         self._watchdog_s = watchdog_s
         self._clock = clock
+        self._on_trip = on_trip
         self._fed_at = -math.inf
         self._is_released = False
         self._is_tripped = True
@@ -206,8 +209,12 @@ class SafetyLayer:
         if self._watchdog_s is None:
             return True
         is_late = self._clock() - self._fed_at > self._watchdog_s
-        self._trips += is_late and not self._is_tripped
+        is_tripping = is_late and not self._is_tripped
         self._is_tripped = is_late
+        if is_tripping:
+            self._trips += 1
+            if self._on_trip is not None:
+                self._on_trip()
         return not is_late
 
     def _repair(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
