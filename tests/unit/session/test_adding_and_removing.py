@@ -183,6 +183,20 @@ def test_added_hand_has_the_gains_of_initial_hands() -> None:
     np.testing.assert_allclose(s.render(RATE)[:, 0], out[:, 2], atol=1e-6)
 
 
+def test_a_removed_hand_leaves_the_other_what_it_felt() -> None:
+    on_phone = Touch("left", "phone", (0.1, 0.73, 0.4))
+    removed, still = session(), session()
+    for s in (removed, still):
+        s.update(touches=[on_phone, RIGHT_TOO])
+        s.render(RATE)
+    removed.remove_hand("left")
+    removed.update(touches=[RIGHT_TOO])
+    out = removed.render(RATE)
+    assert out.shape == (RATE, 1)
+    assert out.any()
+    np.testing.assert_allclose(out[:, 0], still.render(RATE)[:, 1], atol=1e-6)
+
+
 def test_adding_a_hand_does_not_change_other_hands() -> None:
     changing, still = session(sample_rate_hz=44100), session(sample_rate_hz=44100)
     for s in (changing, still):
