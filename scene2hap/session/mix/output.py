@@ -103,8 +103,7 @@ class Output:
         """Send the samples of `fill` through the safety layer to the sink; does nothing if it is started already.
 
         A sink that cannot be opened or started is closed again.
-        Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session uses it;
-        ConfigError: the actuator's budget is out of bounds.
+        Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session uses it.
         """
         if self._sink is None:
             raise SessionError("this session has no sink; give one to HapticSession(..., sink=), or call render.")
