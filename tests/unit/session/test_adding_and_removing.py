@@ -1,5 +1,7 @@
 """Adding and removing objects, sources and hands while a session plays; pauses."""
 
+import weakref
+
 import numpy as np
 import pytest
 
@@ -339,12 +341,23 @@ def test_invalid_changes_are_refused() -> None:
     assert not s.render(100).any()
 
 
+def test_a_stopped_session_and_its_device_are_released() -> None:
+    """A game makes a session per level: none may wait for the end of the program."""
+    device = Device()
+    s = HapticSession(*table_with_two_phones(), CONFIG, sink=device)
+    with no_garbage_collection():
+        with s:
+            s.update(touches=[ON_TABLE])
+        gone = [weakref.ref(part) for part in (s, s._playback, device)]
+        del s, device
+        assert [one() for one in gone] == [None] * 3
+
+
 @pytest.mark.parametrize("kind", ["exponential_plate", "infinite_plate", "modal_plate", "auto", "full_propagation"])
 def test_deleted_sessions_release_memory_and_workers(kind: str) -> None:
     """Also without the garbage collector, which a game may switch off, or keep from its levels by `gc.freeze`."""
     import threading
     import time
-    import weakref
 
     before = set(threading.enumerate())
     s = session(propagation=kind)
