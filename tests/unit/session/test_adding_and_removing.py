@@ -262,6 +262,13 @@ def test_device_is_reopened_for_a_new_set_of_hands() -> None:
     assert device.opened == [("left", "right"), ("left", "right", "foot"), ("right", "foot")]
 
 
+def test_a_started_session_is_not_started_again() -> None:
+    device = Device()
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=device) as s:
+        s.start()
+    assert device.opened == [("left", "right")]
+
+
 def test_each_pause_fades_out() -> None:
     s = session()
     for _ in range(2):
