@@ -192,14 +192,6 @@ class VibrationDescription:
 _HERTZ = "It is in Hz, not in kHz."
 
 
-def check_actuator_limits(max_amplitude: float, max_rms: float, rms_window_s: float, max_frequency_hz: float) -> None:
-    """Check that the safety layer can keep the limits of an actuator. Raises: ConfigError."""
-    peak = checks.number("max_amplitude", max_amplitude, "-", above=0.0, at_most=1.0, error=ConfigError)
-    checks.number("max_rms", max_rms, "-", at_least=0.02 * peak, at_most=1.0, error=ConfigError)
-    checks.number("rms_window_s", rms_window_s, "s", at_least=0.1, at_most=3600.0, error=ConfigError)
-    checks.number("max_frequency_hz", max_frequency_hz, "Hz", at_least=20.0, error=ConfigError, hint=_HERTZ)
-
-
 @clear_construction
 @dataclass(frozen=True)
 class ActuatorProfile:
@@ -250,7 +242,10 @@ class ActuatorProfile:
                 raise ConfigError(
                     f"response_db has {other:g} Hz after {one:g} Hz; its points must have rising frequencies."
                 )
-        check_actuator_limits(self.max_amplitude, self.max_rms, self.rms_window_s, self.max_frequency_hz)
+        peak = checks.number("max_amplitude", self.max_amplitude, "-", above=0.0, at_most=1.0, error=ConfigError)
+        checks.number("max_rms", self.max_rms, "-", at_least=0.02 * peak, at_most=1.0, error=ConfigError)
+        checks.number("rms_window_s", self.rms_window_s, "s", at_least=0.1, at_most=3600.0, error=ConfigError)
+        checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", at_least=20.0, error=ConfigError, hint=_HERTZ)
         low = checks.number("min_frequency_hz", self.min_frequency_hz, "Hz", above=0.0, error=ConfigError)
         checks.number("max_frequency_hz", self.max_frequency_hz, "Hz", above=low, error=ConfigError)
         if self.resonance_hz is not None:

@@ -133,9 +133,6 @@ def _is_frozen(samples: object) -> bool:
 
 def _as_float32(samples: object) -> Samples:
     """Return a copy as float32; too large values become infinite. Raises: AudioError: they are not numbers."""
-    if isinstance(samples, np.ndarray) and type(samples) is np.ndarray and samples.dtype.kind == "f":
-        table = samples
-    else:
-        table = checks.floats("samples", samples, "-", error=AudioError)
+    table = checks.floats("samples", samples, "-", error=AudioError)
     with np.errstate(over="ignore"):
         return np.array(table, dtype=np.float32)

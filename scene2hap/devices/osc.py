@@ -1,10 +1,10 @@
 """Gains as Open Sound Control messages, as the paper's Unity scene sent them to Max/MSP.
 
     /scene2hap/hello  sample_rate_hz i                when the sink connects
-    /scene2hap/play   clip s                          when a clip is first felt: start its loop here
+    /scene2hap/play   clip s                          when a clip is felt, and once a second while it is
     /scene2hap/gain   gain f, clip s, hand i          whenever a gain changes, and all of them once a second
 
-The receiver plays and mixes the clips itself.
+The receiver plays and mixes the clips itself. It starts a clip's loop at the first play, and ignores the others.
 
 Source: the paper, section Audio Processing (a message with attenuation ratio, path of the audio file and hand index at
 every change; one when a file is first played); OSC 1.0.
@@ -26,7 +26,7 @@ from scene2hap.devices.protocol import Block, SinkFormat
 from scene2hap.errors import MissingExtra
 
 REPEAT_S = 1.0
-"""Interval at which all gains are sent again, since datagrams may be lost [s]."""
+"""Interval at which all plays and gains are sent again, since datagrams may be lost [s]."""
 
 _BLOCK_S = 0.02
 
@@ -95,6 +95,7 @@ class OscLine:
         now = time.monotonic()
         if now - self._repeated_s > REPEAT_S:
             self._repeated_s = now
+            self._playing.clear()
             self._sent_gains = dict.fromkeys(self._sent_gains, -1.0)
         if frame is None:
             return

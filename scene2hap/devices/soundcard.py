@@ -235,6 +235,10 @@ class _CardLine:
         level, now = self._ring.level, time.monotonic()
         free = max(0, self._ahead - level)
         if level >= self._ahead // 2:
+            if free < self._chunk:
+                # Time with a full ring does not count, or each burst would be rendered as one long block.
+                self._rendered_at = now
+                return 0
             free = min(free, int((now - self._rendered_at) * self._pace))
             if free < self._chunk:
                 return 0

@@ -7,10 +7,10 @@
 3. A fourth-order Butterworth low-pass half an octave above the actuator's f_max: -0.26 dB at f_max, so that a source
    has its level in the whole band of the actuator; -12 dB at 2 f_max, and 24 dB an octave beyond.
 4. The gate fades in at the start. It fades out when the session stops or its game stops updating (the watchdog).
-5. Peak, power and slew are limited to the actuator's budget for any input (`scene2hap.render.guards`).
+5. Peak, power and slew are held within the actuator's limits for any input (`scene2hap.render.guards`).
 
-Only steps 2 to 4 change a mix within the budget. The output does not depend on the sizes of input blocks; only the gate
-depends on the clock, and changes at the beginning of a block.
+Only steps 2 to 4 change a mix within these limits. The output does not depend on the sizes of input blocks; only the
+gate depends on the clock, and changes at the beginning of a block.
 
 Threads: call `feed`, `hold` and `release` on the game's thread, and `process` on the thread that pulls samples; neither
 waits for the other.
@@ -22,14 +22,14 @@ import math
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError
-from scene2hap.haptics import ActuatorProfile, check_actuator_limits
+from scene2hap.haptics import ActuatorProfile
 from scene2hap.render.guards import Gate, PeakGuard, PowerGuard, SlewGuard
 
 Block = NDArray[np.float32]
@@ -50,32 +50,6 @@ _ROUNDING = 2.0**-23
 
 
 @dataclass(frozen=True)
-class Budget:
-    """The limits of an actuator, from its profile.
-
-    Parameters:
-    max_amplitude : largest sample, 0..1 [-]; max_rms : largest root mean square over any window of `rms_window_s` [-],
-        no limit if it is at least max_amplitude; rms_window_s : time over which the actuator warms up [s].
-    max_frequency_hz : highest frequency of the band that the low-pass lets through [Hz].
-    Raises: ConfigError: out of bounds.
-    """
-
-    max_amplitude: float = 1.0
-    max_rms: float = 1.0
-    rms_window_s: float = 1.0
-    max_frequency_hz: float = 1000.0
-
-    def __post_init__(self) -> None:
-        check_actuator_limits(self.max_amplitude, self.max_rms, self.rms_window_s, self.max_frequency_hz)
-
-    @classmethod
-    def of(cls, profile: ActuatorProfile) -> Budget:
-        """Return the budget of a profile; fields that it lacks keep their defaults."""
-        known = {item.name: getattr(profile, item.name) for item in fields(cls) if hasattr(profile, item.name)}
-        return cls(**known)
-
-
-@dataclass(frozen=True)
 class SafetyStats:
     """Numbers of samples that the safety layer changed, by reason, and of closings by the watchdog."""
 
@@ -91,35 +65,36 @@ class SafetyLayer:
     """The safety layer of `n_channels` outputs.
 
     Parameters: watchdog_s : time without `feed` after which the output fades to zero [s], None for sinks that do not
-        follow wall-clock time; limits : see `hold`; clock : returns the time [s].
-    Raises: ConfigError: a budget or a watchdog that is out of bounds.
+        follow wall-clock time; limits : see `hold`; clock : returns the time [s]; on_trip : called in the sink's thread
+        when the watchdog expires.
+    Raises: ConfigError: a watchdog that is out of bounds.
     """
 
     def __init__(
         self,
-        profile: ActuatorProfile | Budget,
+        actuator: ActuatorProfile,
         sample_rate_hz: float,
         n_channels: int,
         *,
         watchdog_s: float | None = None,
         limits: NDArray[np.float64] | None = None,
         clock: Callable[[], float] = time.monotonic,
+        on_trip: Callable[[], None] | None = None,
     ) -> None:
         from scipy.signal import butter, sosfilt
 
-        budget = profile if isinstance(profile, Budget) else Budget.of(profile)
-        self.budget: Budget = budget
         if watchdog_s is not None:
             watchdog_s = checks.number("watchdog_s", watchdog_s, "s", at_least=0.02, at_most=1.0, error=ConfigError)
         self._watchdog_s = watchdog_s
         self._clock = clock
+        self._on_trip = on_trip
         self._fed_at = -math.inf
         self._is_released = False
         self._is_tripped = True
         self.silent: threading.Event = threading.Event()
         """Set once the gate has closed after `release`."""
-        peak = budget.max_amplitude
-        corner_hz = min(math.sqrt(2) * budget.max_frequency_hz, 0.45 * sample_rate_hz)
+        peak = self._peak_limit = actuator.max_amplitude
+        corner_hz = min(math.sqrt(2) * actuator.max_frequency_hz, 0.45 * sample_rate_hz)
         self._sos = np.concatenate(
             [
                 butter(1, DC_BLOCK_HZ, "highpass", fs=sample_rate_hz, output="sos"),
@@ -131,11 +106,11 @@ class SafetyLayer:
         self._gate = Gate(round(FADE_IN_S * sample_rate_hz), round(FADE_OUT_S * sample_rate_hz))
         self._peak = PeakGuard(peak if limits is None else np.minimum(limits, peak), sample_rate_hz, n_channels)
         self._power = (
-            PowerGuard(budget.max_rms, budget.rms_window_s, peak, sample_rate_hz, n_channels)
-            if budget.max_rms < peak
+            PowerGuard(actuator.max_rms, actuator.rms_window_s, peak, sample_rate_hz, n_channels)
+            if actuator.max_rms < peak
             else None
         )
-        slew = 2 * math.pi * budget.max_frequency_hz * peak / sample_rate_hz
+        slew = 2 * math.pi * actuator.max_frequency_hz * peak / sample_rate_hz
         self._slew = SlewGuard(slew - _ROUNDING * peak, n_channels)
         self._repaired = self._clipped = self._trips = 0
 
@@ -145,7 +120,7 @@ class SafetyLayer:
 
     def hold(self, limits: NDArray[np.float64]) -> None:
         """Limit each channel to (n_channels,) [-] from now on; the actuator's own limit still applies."""
-        self._peak.limit = np.minimum(limits, self.budget.max_amplitude)
+        self._peak.limit = np.minimum(limits, self._peak_limit)
 
     def release(self) -> None:
         """Fade out permanently; `silent` is set at the end."""
@@ -206,8 +181,12 @@ class SafetyLayer:
         if self._watchdog_s is None:
             return True
         is_late = self._clock() - self._fed_at > self._watchdog_s
-        self._trips += is_late and not self._is_tripped
+        is_tripping = is_late and not self._is_tripped
         self._is_tripped = is_late
+        if is_tripping:
+            self._trips += 1
+            if self._on_trip is not None:
+                self._on_trip()
         return not is_late
 
     def _repair(self, x: NDArray[np.float64]) -> NDArray[np.float64]:

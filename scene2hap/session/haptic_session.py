@@ -584,8 +584,8 @@ class HapticSession:
     def start(self) -> None:
         """Send the mix through the safety layer to the sink.
 
-        Raises: SessionError: the session has no sink; DeviceError: the sink cannot be opened; ConfigError: the
-        actuator's budget is out of bounds. Warns: SceneWarning: nothing vibrates.
+        Raises: SessionError: the session has no sink; DeviceError: the sink cannot be opened. Warns: SceneWarning:
+        nothing vibrates.
         """
         self._output.require_own_process()
         self._mistakes.in_sources(self._sources.ids)

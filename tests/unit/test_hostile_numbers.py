@@ -93,6 +93,7 @@ REFUSED: dict[str, Callable[[], object]] = {
     "poses of huge numbers": lambda: PoseTable(["a"], [[10**400, 0, 0]], [[0, 0, 0, 1]]),
     "samples of texts": lambda: AudioClip(np.array(["a"]), 48_000),
     "masked samples": lambda: AudioClip(np.ma.masked_all(9), 48_000),
+    "complex samples": lambda: AudioClip(np.array([1.0, 2.0j]), 48_000),
     "an id that is a list": lambda: playing(lambda session: session.snapshot.object([])),
     "a contact of numbers": lambda: Contact(1, 2, (0, 0, 0)),
     "an axis of 5000 digits": lambda: SceneSnapshot("a", 10**5000, ()),

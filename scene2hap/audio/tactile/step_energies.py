@@ -18,16 +18,10 @@ class StepEnergies:
 
     def next(self, x: Floats) -> Floats:
         """Return the mean squares (n,) of the steps that the next samples complete."""
-        if self._left.size == 0 and len(x) % self._step == 0:  # as in live streams
-            return mean_squares(x, self._step)
-        n_first = -len(self._left) % self._step
-        if len(x) < n_first:
-            self._left = np.concatenate([self._left, x])
-            return np.empty(0)
-        first, whole = np.concatenate([self._left, x[:n_first]]), x[n_first:]
+        whole = np.concatenate([self._left, x]) if self._left.size else x
         n = len(whole) // self._step * self._step
         self._left = whole[n:].copy()
-        return np.concatenate([mean_squares(first, self._step), mean_squares(whole[:n], self._step)])
+        return mean_squares(whole[:n], self._step)
 
 
 @compiled

@@ -73,9 +73,8 @@ def struck_later(
         for row, hand in zip(gains, hands, strict=True):
             for touched_id, touched_m in hand:
                 np.fmax(row, field.attenuation(touched_id, np.array([touched_m]))[0, :, 0], out=row)
-        passes = itself > 0
-        gains[:, passes] /= itself[passes]
-        gains[:, ~passes] = 0.0
+        # Without vibration on the struck point itself, no gain is relative to it.
+        gains = np.divide(gains, itself, out=np.zeros_like(gains), where=itself > 0)
         return at_least_itself(gains, object_id, hands)
 
     return prepared

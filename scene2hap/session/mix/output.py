@@ -48,6 +48,7 @@ class Output:
         self._safety: SafetyLayer | None = None
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
+        self._shown: HapticFrame | None = None
 
     def require_own_process(self) -> None:
         """Raises: SessionError: this is a fork of the process that made the session."""
@@ -90,14 +91,19 @@ class Output:
         if self._safety is not None and self._show is not None:
             # Computed here: the sink reads the gains in its own thread, while the scene continues to change.
             _ = frame.gains
+            self._shown = frame
             self._show(frame)
+
+    def _show_silence(self) -> None:
+        """Pass gains of 0 to the sink: a receiver that plays gains gets no samples, and so no fade of the watchdog."""
+        if self._shown is not None and self._show is not None:
+            self._show(HapticFrame(np.zeros_like(self._shown.gains), self._shown.hands, self._shown.sources))
 
     def start(self, fill: Fill, hands: Sequence[str]) -> None:
         """Send the samples of `fill` through the safety layer to the sink; does nothing if it is started already.
 
         A sink that cannot be opened or started is closed again.
-        Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session uses it;
-        ConfigError: the actuator's budget is out of bounds.
+        Raises: SessionError: there is no sink; DeviceError: it cannot be opened, or another session uses it.
         """
         if self._sink is None:
             raise SessionError("this session has no sink; give one to HapticSession(..., sink=), or call render.")
@@ -105,7 +111,14 @@ class Output:
             return
         rate = self._config.sample_rate_hz
         watchdog_s = self._config.watchdog_s if has_clock(self._sink) else None
-        safety = SafetyLayer(self._config.actuator, rate, len(hands), watchdog_s=watchdog_s, limits=self._limits)
+        safety = SafetyLayer(
+            self._config.actuator,
+            rate,
+            len(hands),
+            watchdog_s=watchdog_s,
+            limits=self._limits,
+            on_trip=self._show_silence,
+        )
         claim_sink(self._sink, self)
         try:
             self._sink.open(SinkFormat(rate, tuple(hands)))

@@ -34,9 +34,7 @@ class Switching:
         self._turns: dict[str, tuple[int, Source]] = {}
         self._known: tuple[str, ...] | None = None
 
-    def switched(
-        self, source_id: str, was_running: bool, now: int, *, by_hand: bool = True, at_once: bool = False
-    ) -> None:
+    def switched(self, source_id: str, was_running: bool, now: int, *, by_hand: bool, at_once: bool) -> None:
         """Start or stop a source if it was switched. A person who switches it on, or to another state, begins a new
         on-time. `at_once` leaves out the start or stop itself."""
         source = self._sources[source_id]
@@ -64,7 +62,7 @@ class Switching:
             was_running = source.is_running
             source.is_resting = not source.is_resting
             self._begin_turn(source_id, source, now, 0.0)
-            self.switched(source_id, was_running, now, by_hand=False)
+            self.switched(source_id, was_running, now, by_hand=False, at_once=False)
         return bool(over or due)
 
     def running(self, source_id: str, now: int) -> Running:

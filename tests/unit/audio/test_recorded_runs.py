@@ -45,6 +45,10 @@ def test_start_and_stop_of_a_synthetic_machine_are_found(name: str, seed: int) -
             assert level_db < 3.0
             assert speed < 0.05
             assert curve.keeps_pitch == (told.get("spins") is False)
+            # Any step between rest and steady running would be felt.
+            rising = curve.amplitude if curve is found.start_up else curve.amplitude[::-1]
+            assert (rising[0], rising[-1]) == (0.0, 1.0)
+            assert list(rising) == sorted(rising)
     steady = take.amplitude[found.first : found.end]
     assert len(steady) >= 0.9 * told.get("steady_s", 5.0) * RATE_HZ
     assert steady.min() > 0.8

@@ -9,6 +9,7 @@ from hypothesis import given, settings, strategies as st
 
 from scene2hap.audio.levels import drive_db, sensation_level_db
 from scene2hap.audio.spreading import Placement, SpreadLimits, Voice, spread
+from scene2hap.audio.spreading.placements import LEVEL_STEP_DB, Outcome, Problem
 from scene2hap.errors import ConfigError
 from scene2hap.haptics import ActuatorProfile
 
@@ -30,6 +31,18 @@ def test_spread_moves_equal_voices_to_the_least_distinct_distance() -> None:
     low, high = sorted(place.target_hz for place in places)
     assert high / low == pytest.approx(1.25**2, rel=0.01)
     assert [place.level_db for place in places] == [20.0, 20.0]
+
+
+@pytest.mark.parametrize(
+    ("apart_jnds", "apart_steps", "lacks_jnds"),
+    [(0.0, 0.0, 2.0), (1.5, 0.0, 0.5), (2.0, 0.0, 0.0), (1.0, 2.0, 0.0), (0.4, 2.0, 0.6), (1.0, 1.5, 0.5)],
+)
+def test_outcome_lacks_what_a_pair_needs_for_two_jnds(apart_jnds: float, apart_steps: float, lacks_jnds: float) -> None:
+    """Two in frequency, or one in frequency and two in level; whichever is nearer."""
+    problem = Problem.of([Voice(100.0, 25.0), Voice(100.0, 25.0)], ActuatorProfile(), SpreadLimits(), 0.2)
+    x = problem.x0 + np.array([0.0, apart_jnds]) * problem.jnd_oct
+    level_db = np.array([25.0, 25.0 - apart_steps * LEVEL_STEP_DB])
+    assert Outcome(problem, x, level_db).shortage_oct == pytest.approx(lacks_jnds * problem.jnd_oct)
 
 
 def test_spread_keeps_voices_that_are_distinct() -> None:

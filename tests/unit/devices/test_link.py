@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from scene2hap.devices.link import LiveSink
 from scene2hap.devices.protocol import ActuatorSink, SinkEvent, SinkFormat
 from scene2hap.errors import DeviceError, DeviceLost, DeviceNotFound
-from scene2hap.render.safety import Budget, SafetyLayer
+from scene2hap.haptics import ActuatorProfile
+from scene2hap.render.safety import SafetyLayer
 from serial_bench import eventually
 
 FORMAT = SinkFormat(1000, ("left", "right"))
@@ -144,7 +145,7 @@ def test_lost_device_is_reconnected_with_a_fade(bench: Bench, error: Exception) 
 def test_a_device_of_another_rate_gets_the_whole_fade_out(bench: Bench, rate_hz: int) -> None:
     """A tone of 100 Hz fades out over 8 ms. Every frame of it arrives, so no step is larger than those of the tone."""
     bench.line.rate_hz = rate_hz
-    safety = SafetyLayer(Budget(), 48000, 1)
+    safety = SafetyLayer(ActuatorProfile(), 48000, 1)
     n_asked = 0
 
     def tone(n_frames: int) -> NDArray[np.float32]:

@@ -49,7 +49,7 @@ class Wire(Datagrams):
         self.sent.append(data)
 
 
-def test_gains_are_sent_when_they_change_and_all_again_each_second(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_plays_and_gains_are_sent_when_they_change_and_all_again_each_second(monkeypatch: pytest.MonkeyPatch) -> None:
     """A lost message is mended within a second."""
     now_s = [100.0]
     monkeypatch.setattr(time, "monotonic", lambda: now_s[0])
@@ -64,10 +64,13 @@ def test_gains_are_sent_when_they_change_and_all_again_each_second(monkeypatch: 
         line.wanted(0.0)
         return set(wire.sent)
 
-    assert sent_at(100.0) >= set(gains)
+    plays = [encode("/scene2hap/play", "radio"), encode("/scene2hap/play", "kettle")]
+    assert sent_at(100.0) == {*plays, *gains}
     assert sent_at(100.9) == set()
-    assert sent_at(101.1) == {*gains, *zeros}
+    assert sent_at(101.1) == {*plays, *gains, *zeros}
     assert sent_at(101.9) == set()
+    line.latest = Frame(np.array([[[0.0], [0.0]], [[0.0], [0.25]]], dtype=np.float32))
+    assert sent_at(102.2) == {plays[1], gains[1], encode("/scene2hap/gain", 0.0, "radio", 0), *zeros}
 
 
 @pytest.mark.parametrize(

@@ -1,15 +1,23 @@
-"""Settings of the sound card sink, tested without a sound card."""
+"""The sound card sink, tested without a sound card: its settings, and its pace with a driver that is replaced."""
 
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
 import pytest
 
-from scene2hap.devices import SINKS
+from scene2hap.devices import SINKS, portaudio
 from scene2hap.devices.clocked_sink import has_clock
 from scene2hap.devices.memory import MemorySink
 from scene2hap.devices.protocol import ActuatorSink, SinkFormat
 from scene2hap.devices.soundcard import SoundCardSink
-from scene2hap.errors import ConfigError, MissingExtra
+from scene2hap.errors import ConfigError, DeviceError, MissingExtra
 
-FORMAT = SinkFormat(48000, ("left", "right"))
+RATE = 48000
+FORMAT = SinkFormat(RATE, ("left", "right"))
 
 
 @pytest.fixture(autouse=True)
@@ -84,3 +92,79 @@ def test_tee_has_a_clock_if_one_of_its_sinks_has() -> None:
 
     assert has_clock(tee(MemorySink(), SoundCardSink()))
     assert not has_clock(tee(MemorySink(), MemorySink()))
+
+
+@dataclass
+class Driver:
+    """One card, and its stream while it is open; PortAudio lists the card under `listed` until it is restarted."""
+
+    n_channels: int = 2
+    latency: float = 0.1
+    index: int = 0
+    listed: int = 0
+    active: bool = True
+    play: Callable[..., None] = field(default=lambda *_: None)
+
+    def find_card(self, wanted: object) -> portaudio.Card:
+        return portaudio.Card(self.listed, "pad", "ALSA", self.n_channels, RATE)
+
+    def open_stream(self, card: portaudio.Card, n: int, rate: int, latency: float, frames: int, play: Any) -> "Driver":
+        if card.index != self.index:
+            raise DeviceError("the device has another number now")
+        self.play = play
+        return self
+
+    def restart_if_idle(self) -> None:
+        self.listed = self.index
+
+    def take(self, n_frames: int) -> None:
+        out = np.empty((n_frames, self.n_channels), dtype=np.float32)
+        self.play(out, n_frames, None, SimpleNamespace(output_underflow=False))
+
+    def use(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        for name in ("find_card", "open_stream", "restart_if_idle"):
+            monkeypatch.setattr(portaudio, name, getattr(self, name))
+        monkeypatch.setattr(portaudio, "accepts", lambda *_: True)
+
+
+@pytest.mark.parametrize(("latency_s", "burst_s", "block_s"), [(0.1, 0.02, 0.005), (0.004, 0.005, 0.002)])
+def test_blocks_are_short_although_the_driver_takes_bursts(
+    latency_s: float, burst_s: float, block_s: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Gains and the watchdog act between two blocks. A block is due at 105 % of the rate, looked for each millisecond.
+
+    With 4 ms of latency and 12 ms ahead, a block is an eighth of 16 ms.
+    """
+    driver, now_s = Driver(latency=latency_s), [100.0]
+    driver.use(monkeypatch)
+    monkeypatch.setattr(time, "monotonic", lambda: now_s[0])
+    line = SoundCardSink(latency=latency_s)._card_line
+    line.connect(FORMAT, lambda: True)
+    blocks, taken_s = [], 100.0
+    for _ in range(500):
+        n_frames = line.wanted(0.0)
+        line.send(np.zeros((n_frames, 2), dtype=np.float32))
+        blocks.append(n_frames)
+        now_s[0] += 0.001
+        if now_s[0] - taken_s > burst_s:
+            taken_s = now_s[0]
+            driver.take(round(burst_s * RATE))
+    assert blocks[0] == round((latency_s + 0.012) * RATE)
+    later = blocks[1:]
+    assert max(later) <= (block_s + 1.05 * 0.001) * RATE + 1
+    assert min(n for n in later if n) >= 0.9 * block_s * RATE
+    assert line.underruns == 0
+
+
+def test_a_card_that_came_back_under_another_number_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    driver = Driver(index=3, listed=1)
+    driver.use(monkeypatch)
+    assert SoundCardSink()._card_line.connect(FORMAT, lambda: True) == RATE
+    driver.take(64)
+
+
+def test_a_hand_beyond_the_cards_channels_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    driver = Driver(n_channels=2)
+    driver.use(monkeypatch)
+    with pytest.raises(DeviceError, match="has 2 channels; a hand is on 4"):
+        SoundCardSink(channels={"left": 1, "right": 4})._card_line.connect(FORMAT, lambda: True)

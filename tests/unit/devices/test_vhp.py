@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from scene2hap.devices.framing import vhp
+from scene2hap.devices.vhp_amp import VhpLine
 from scene2hap.errors import DeviceError
 
 
@@ -52,3 +53,9 @@ def test_blocks_and_messages_of_wrong_size_are_refused() -> None:
         vhp.Message(1, b"x" * 129)
     with pytest.raises(DeviceError, match="96 bytes"):
         vhp.from_bytes(b"abc")
+
+
+def test_a_board_that_was_never_reached_is_left_without_an_error() -> None:
+    line = VhpLine("/dev/none", slim=True)
+    line.disconnect()
+    line.disconnect()

@@ -11,11 +11,16 @@ from scipy.signal import butter, sosfiltfilt
 from scene2hap import ActuatorProfile
 from scene2hap.errors import ConfigError
 from scene2hap.render.guards import PeakGuard
-from scene2hap.render.safety import FADE_OUT_S, Budget, SafetyLayer
+from scene2hap.render.safety import FADE_OUT_S, SafetyLayer
 
 RATE = 48000
-WEAK = Budget(max_amplitude=0.5, max_rms=0.15, rms_window_s=0.5, max_frequency_hz=200.0)
-BUDGETS = {"default": Budget(), "weak": WEAK, "wide": Budget(max_frequency_hz=5000.0), "cool": Budget(max_rms=0.1)}
+WEAK = ActuatorProfile(max_amplitude=0.5, max_rms=0.15, rms_window_s=0.5, max_frequency_hz=200.0)
+LIMITS = {
+    "default": ActuatorProfile(),
+    "weak": WEAK,
+    "wide": ActuatorProfile(max_frequency_hz=5000.0),
+    "cool": ActuatorProfile(max_rms=0.1),
+}
 
 
 def column(x: NDArray[np.float64]) -> NDArray[np.float32]:
@@ -39,16 +44,16 @@ def gain_jumps(seed: int, n: int) -> NDArray[np.float32]:
     return column(gains * np.sin(2 * np.pi * 150 * np.arange(n) / RATE))
 
 
-def assert_safe(y: NDArray[np.float32], budget: Budget, rate: int = RATE) -> None:
+def assert_safe(y: NDArray[np.float32], limits: ActuatorProfile, rate: int = RATE) -> None:
     assert y.dtype == np.float32
     assert np.isfinite(y).all()
     exact = y.astype(np.float64)
-    assert np.abs(exact).max() <= budget.max_amplitude
+    assert np.abs(exact).max() <= limits.max_amplitude
     slew = np.abs(np.diff(exact, axis=0, prepend=0.0)).max() * rate
-    assert slew <= 2 * math.pi * budget.max_frequency_hz * budget.max_amplitude
-    window = round(budget.rms_window_s * rate)
+    assert slew <= 2 * math.pi * limits.max_frequency_hz * limits.max_amplitude
+    window = round(limits.rms_window_s * rate)
     energy = np.cumsum(np.pad(exact**2, ((window, 0), (0, 0))), axis=0)
-    assert (energy[window:] - energy[:-window]).max() / window <= budget.max_rms**2
+    assert (energy[window:] - energy[:-window]).max() / window <= limits.max_rms**2
 
 
 HOSTILE = {
@@ -68,55 +73,55 @@ HOSTILE = {
 }
 
 
-@pytest.mark.parametrize("budget", BUDGETS.values(), ids=BUDGETS)
+@pytest.mark.parametrize("limits", LIMITS.values(), ids=LIMITS)
 @pytest.mark.parametrize("x", HOSTILE.values(), ids=HOSTILE)
-def test_any_input_gives_finite_output_within_full_scale(x: NDArray[np.float32], budget: Budget) -> None:
-    assert_safe(SafetyLayer(budget, RATE, 1).process(x), budget)
+def test_any_input_gives_finite_output_within_full_scale(x: NDArray[np.float32], limits: ActuatorProfile) -> None:
+    assert_safe(SafetyLayer(limits, RATE, 1).process(x), limits)
 
 
 def test_a_million_random_gain_jumps() -> None:
-    for budget in (Budget(), WEAK):
-        layer = SafetyLayer(budget, RATE, 1)
+    for limits in (ActuatorProfile(), WEAK):
+        layer = SafetyLayer(limits, RATE, 1)
         x = gain_jumps(4, 1_000_000)
-        assert_safe(np.concatenate([layer.process(x[i : i + 4801]) for i in range(0, len(x), 4801)]), budget)
+        assert_safe(np.concatenate([layer.process(x[i : i + 4801]) for i in range(0, len(x), 4801)]), limits)
 
 
 @settings(max_examples=40)
 @given(
     st.sampled_from([1000, 2000, 8000, 44100, 96000]),
-    st.sampled_from(list(BUDGETS.values())),
+    st.sampled_from(list(LIMITS.values())),
     st.lists(st.tuples(st.floats(-2.0, 2.0), st.integers(1, 3000)), min_size=1, max_size=12),
     st.lists(st.booleans(), min_size=1, max_size=8),
 )
 def test_steps_and_deaths_at_any_rate(
-    rate: int, budget: Budget, steps: list[tuple[float, int]], alive: list[bool]
+    rate: int, limits: ActuatorProfile, steps: list[tuple[float, int]], alive: list[bool]
 ) -> None:
     x = column(np.concatenate([np.full(n, level) for level, n in steps]))
     now = 0.0
-    layer = SafetyLayer(budget, rate, 1, watchdog_s=0.02, clock=lambda: now)
+    layer = SafetyLayer(limits, rate, 1, watchdog_s=0.02, clock=lambda: now)
     parts = []
     for i, begin in enumerate(range(0, len(x), 311)):
         now += 311 / rate
         if alive[i % len(alive)]:
             layer.feed()
         parts.append(layer.process(x[begin : begin + 311]))
-    assert_safe(np.concatenate(parts), budget, rate)
+    assert_safe(np.concatenate(parts), limits, rate)
 
 
 @settings(max_examples=30)
 @given(
     st.integers(0, 2**32 - 1),
     st.lists(st.integers(0, 5000), min_size=1, max_size=6).filter(any),
-    st.sampled_from(list(BUDGETS.values())),
+    st.sampled_from(list(LIMITS.values())),
 )
-@example(0, [0, 1], Budget(max_amplitude=0.5, max_rms=0.15))
-def test_any_blocks_give_the_same_bits(seed: int, blocks: list[int], budget: Budget) -> None:
+@example(0, [0, 1], ActuatorProfile(max_amplitude=0.5, max_rms=0.15))
+def test_any_blocks_give_the_same_bits(seed: int, blocks: list[int], limits: ActuatorProfile) -> None:
     draw = np.random.default_rng(seed)
     loudness = np.repeat(draw.uniform(0, 1.5, 13), 1000)[:, None]
     x = (draw.standard_normal((13000, 2)) * loudness).astype(np.float32)
     x[draw.random(x.shape) < 1e-3] = np.nan
-    whole = SafetyLayer(budget, RATE, 2).process(x)
-    layer, parts, done = SafetyLayer(budget, RATE, 2), [], 0
+    whole = SafetyLayer(limits, RATE, 2).process(x)
+    layer, parts, done = SafetyLayer(limits, RATE, 2), [], 0
     while done < len(x):
         n = blocks[len(parts) % len(blocks)]
         parts.append(layer.process(x[done : done + n]))
@@ -140,7 +145,7 @@ def test_a_full_scale_sine_passes(frequency_hz: float, phase: float) -> None:
 @pytest.mark.parametrize(("most", "passes"), [(0.8, 0.64), (0.5, 0.35), (0.1, 0.07)])
 def test_a_sine_passes_other_actuators(f_max: float, most: float, passes: float) -> None:
     """Up to 3 dB below the limit, or as far below as full scale is above it: -1.9 dB for -1.9 dB."""
-    layer = SafetyLayer(Budget(max_amplitude=most, max_frequency_hz=f_max), RATE, 1)
+    layer = SafetyLayer(ActuatorProfile(max_amplitude=most, max_frequency_hz=f_max), RATE, 1)
     for f in (20.0, f_max / 2):
         y = layer.process(sine(f, 3.0, passes))[RATE:, 0].astype(np.float64)
         assert 20 * math.log10(y.max() / passes) > -0.5
@@ -187,7 +192,7 @@ def test_a_limit_that_changes_does_not_click_and_is_kept() -> None:
 def test_the_whole_band_of_an_actuator_keeps_its_level(f_max: float, rate: int) -> None:
     """A loop's stated level is that at the actuator, also for an LRA, whose sources are all near its upper end."""
     for f in (f_max, 0.85 * f_max):
-        layer = SafetyLayer(Budget(max_frequency_hz=f_max), rate, 1)
+        layer = SafetyLayer(ActuatorProfile(max_frequency_hz=f_max), rate, 1)
         t = np.arange(3 * rate) / rate
         y = layer.process(column(0.5 * np.sin(2 * np.pi * f * t)))[rate:, 0].astype(np.float64)
         assert 20 * math.log10(math.sqrt(2 * np.mean(y**2)) / 0.5) > -0.3
@@ -196,7 +201,7 @@ def test_the_whole_band_of_an_actuator_keeps_its_level(f_max: float, rate: int) 
 
 def test_the_low_pass_falls_beyond_the_band() -> None:
     for f, at_most_db in ((460.0, -12.0), (920.0, -36.0)):
-        y = SafetyLayer(Budget(max_frequency_hz=230.0), RATE, 1).process(sine(f, 3.0, 0.2))[RATE:, 0]
+        y = SafetyLayer(ActuatorProfile(max_frequency_hz=230.0), RATE, 1).process(sine(f, 3.0, 0.2))[RATE:, 0]
         assert 20 * math.log10(math.sqrt(2 * np.mean(y.astype(np.float64) ** 2)) / 0.2) < at_most_db
 
 
@@ -231,18 +236,19 @@ def test_hands_are_processed_independently() -> None:
     np.testing.assert_array_equal(both[:, :1], SafetyLayer(WEAK, RATE, 1).process(left))
 
 
-def test_power_guard_settles_and_passes_power_within_the_budget() -> None:
-    budget = Budget(max_rms=0.2)
-    layer = SafetyLayer(budget, RATE, 1)
+def test_power_guard_settles_and_passes_power_within_the_limits() -> None:
+    limits = ActuatorProfile(max_rms=0.2)
+    layer = SafetyLayer(limits, RATE, 1)
     y = layer.process(sine(100.0, 6.0))[-RATE:, 0].astype(np.float64)
     rms = math.sqrt(np.mean(y**2))
-    # tau / T = 1/4 and the knee use at most 1.3 dB of the budget.
+    # tau / T = 1/4 and the knee use at most 1.3 dB of the limits.
     assert 0.2 * 10 ** (-1.3 / 20) < rms <= 0.2
     assert layer.stats.power_limited > 0
-    quiet = SafetyLayer(budget, RATE, 1)
+    quiet = SafetyLayer(limits, RATE, 1)
     amplitude = 0.7 * 0.2 * math.sqrt(2)
     np.testing.assert_array_equal(
-        quiet.process(sine(100.0, 3.0, amplitude)), SafetyLayer(Budget(), RATE, 1).process(sine(100.0, 3.0, amplitude))
+        quiet.process(sine(100.0, 3.0, amplitude)),
+        SafetyLayer(ActuatorProfile(), RATE, 1).process(sine(100.0, 3.0, amplitude)),
     )
     assert quiet.stats.power_limited == 0
 
@@ -282,7 +288,7 @@ def test_output_fades_out_when_updates_stop() -> None:
         # The gate changes only at the start of a block of 5 ms.
         assert watchdog_s <= last / RATE <= watchdog_s + FADE_OUT_S + 0.005 + 1e-9
         assert layer.stats.watchdog_trips == 1
-        assert_safe(np.concatenate([before, y]), Budget())
+        assert_safe(np.concatenate([before, y]), ActuatorProfile())
         back = play(layer, clock, 0.2)
         assert np.abs(back).max() > 0.9
         assert np.abs(np.diff(back[:, 0])).max() < 1.05 * 2 * math.pi * 125 / RATE
@@ -316,7 +322,7 @@ def test_release_fades_out_within_ten_milliseconds() -> None:
     y = layer.process(sine(100.0, 0.5))
     assert y[:200].any()
     assert not y[round(FADE_OUT_S * RATE) :].any()
-    assert_safe(np.concatenate([before, y]), Budget())
+    assert_safe(np.concatenate([before, y]), ActuatorProfile())
     assert layer.silent.is_set()
 
 
@@ -339,7 +345,7 @@ def test_failing_fill_is_faded_out_before_the_error_is_reported() -> None:
         while True:
             parts.append(safe(240))
     y = np.concatenate(parts)
-    assert_safe(y, Budget())
+    assert_safe(y, ActuatorProfile())
     assert y[-1, 0] == 0.0
     assert np.abs(y[20000:24000]).max() > 0.9
 
@@ -352,7 +358,7 @@ def test_without_a_clock_a_failure_is_raised_at_once() -> None:
         SafetyLayer(ActuatorProfile(), RATE, 1).guard(fill)(10)
 
 
-def test_budgets_out_of_bounds() -> None:
+def test_limits_and_watchdogs_out_of_bounds_are_refused() -> None:
     for wrong in (
         {"max_amplitude": 0.0},
         {"max_amplitude": 1.1},
@@ -361,11 +367,7 @@ def test_budgets_out_of_bounds() -> None:
         {"max_frequency_hz": math.nan},
     ):
         with pytest.raises(ConfigError, match=next(iter(wrong))):
-            Budget(**wrong)
+            ActuatorProfile(**wrong)
     for watchdog_s in (0.0, 0.019, 1.01, math.nan):
         with pytest.raises(ConfigError, match=r"watchdog_s is .*\[s\]"):
             SafetyLayer(ActuatorProfile(), RATE, 1, watchdog_s=watchdog_s)
-
-
-def test_the_budget_comes_from_the_profile() -> None:
-    assert Budget.of(ActuatorProfile(max_frequency_hz=230.0)).max_frequency_hz == 230.0

@@ -1,5 +1,7 @@
 """Adding and removing objects, sources and hands while a session plays; pauses."""
 
+import weakref
+
 import numpy as np
 import pytest
 
@@ -183,6 +185,20 @@ def test_added_hand_has_the_gains_of_initial_hands() -> None:
     np.testing.assert_allclose(s.render(RATE)[:, 0], out[:, 2], atol=1e-6)
 
 
+def test_a_removed_hand_leaves_the_other_what_it_felt() -> None:
+    on_phone = Touch("left", "phone", (0.1, 0.73, 0.4))
+    removed, still = session(), session()
+    for s in (removed, still):
+        s.update(touches=[on_phone, RIGHT_TOO])
+        s.render(RATE)
+    removed.remove_hand("left")
+    removed.update(touches=[RIGHT_TOO])
+    out = removed.render(RATE)
+    assert out.shape == (RATE, 1)
+    assert out.any()
+    np.testing.assert_allclose(out[:, 0], still.render(RATE)[:, 1], atol=1e-6)
+
+
 def test_adding_a_hand_does_not_change_other_hands() -> None:
     changing, still = session(sample_rate_hz=44100), session(sample_rate_hz=44100)
     for s in (changing, still):
@@ -244,6 +260,13 @@ def test_device_is_reopened_for_a_new_set_of_hands() -> None:
         s.add_hand("foot")
         s.remove_hand("left")
     assert device.opened == [("left", "right"), ("left", "right", "foot"), ("right", "foot")]
+
+
+def test_a_started_session_is_not_started_again() -> None:
+    device = Device()
+    with HapticSession(*table_with_two_phones(), CONFIG, sink=device) as s:
+        s.start()
+    assert device.opened == [("left", "right")]
 
 
 def test_each_pause_fades_out() -> None:
@@ -325,12 +348,23 @@ def test_invalid_changes_are_refused() -> None:
     assert not s.render(100).any()
 
 
+def test_a_stopped_session_and_its_device_are_released() -> None:
+    """A game makes a session per level: none may wait for the end of the program."""
+    device = Device()
+    s = HapticSession(*table_with_two_phones(), CONFIG, sink=device)
+    with no_garbage_collection():
+        with s:
+            s.update(touches=[ON_TABLE])
+        gone = [weakref.ref(part) for part in (s, s._playback, device)]
+        del s, device
+        assert [one() for one in gone] == [None] * 3
+
+
 @pytest.mark.parametrize("kind", ["exponential_plate", "infinite_plate", "modal_plate", "auto", "full_propagation"])
 def test_deleted_sessions_release_memory_and_workers(kind: str) -> None:
     """Also without the garbage collector, which a game may switch off, or keep from its levels by `gc.freeze`."""
     import threading
     import time
-    import weakref
 
     before = set(threading.enumerate())
     s = session(propagation=kind)

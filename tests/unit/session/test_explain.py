@@ -258,6 +258,11 @@ def test_explanation_says_why_nothing_is_felt() -> None:
     s.set_source("phone", on=True, mute=True)
     assert "muted: 'phone'; call set_source(id, mute=False)" in reasons()
     s.set_source("phone", mute=False)
+    s._sources["phone"].is_resting = True  # as a thermostat does
+    s._hand_frames.levels_changed()
+    assert "in its off-time: 'phone'; call set_source(id, on=True)" in reasons()
+    s.set_source("phone", on=True)
+    assert reasons() == "", "who switches it on ends its off-time"
     s.set_user(mute=True)
     assert "set_user(mute=False)" in reasons()
     s.set_user(mute=False)

@@ -117,6 +117,25 @@ def test_impact_gain_follows_the_physical_model(model: ModalPlate | InfinitePlat
             assert 20 * abs(math.log10(found / (one / itself))) < 1.0
 
 
+class StillWhereStruck:
+    """A guest's model and field: nothing at the struck point, half on the block."""
+
+    def prepare(self, network: object, excitations: Any, bands: object) -> Any:
+        self.n = len(excitations)
+        return self
+
+    def attenuation(self, object_id: str, points_m: np.ndarray) -> np.ndarray:
+        return np.full((len(points_m), self.n, 1), 0.5 if object_id == "block" else 0.0)
+
+
+def test_impact_without_vibration_at_the_struck_point_is_felt_on_the_struck_object_alone() -> None:
+    """Gains are relative to the struck point. Without vibration there is no ratio, but the knock itself is felt."""
+    state, f = session()._state, np.array([100.0, 200.0])
+    hands = [[("table", NEAR)], [("block", FAR)]]
+    gains = struck_later(StillWhereStruck(), state, "table", STRUCK, hands, f)()
+    np.testing.assert_array_equal(gains, [[1.0, 1.0], [0.0, 0.0]])
+
+
 @pytest.mark.parametrize("model", [ModalPlate(), InfinitePlate()])
 def test_prepared_touched_object_feels_an_impact_with_the_next_block(
     model: ModalPlate | InfinitePlate,
@@ -430,11 +449,12 @@ def test_impacts_in_fast_succession_are_merged() -> None:
     made.strike("table", STRUCK)
     assert made.strike("table", STRUCK).felt == {}
     assert made.strike("table", STRUCK, with_object="cup").felt  # another pair
-    made.render_s(LEAST_INTERVAL_S)
-    made.update(touches=touches())
-    assert made.strike("table", STRUCK).felt
+    for share, is_felt in ((0.9, False), (0.1, True)):
+        made.render_s(share * LEAST_INTERVAL_S)
+        made.update(touches=touches())
+        assert bool(made.strike("table", STRUCK).felt) == is_felt
     stats = made.stats
-    assert (stats.impacts, stats.impacts_felt, stats.impacts_left_out) == (4, 3, 1)
+    assert (stats.impacts, stats.impacts_felt, stats.impacts_left_out) == (5, 3, 2)
 
 
 def test_impacts_are_compensated_for_the_actuators_response() -> None:

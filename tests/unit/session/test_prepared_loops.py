@@ -74,6 +74,23 @@ def test_a_loop_is_found_as_long_as_its_own_clip_lives(notes: Notes, monkeypatch
     assert not prepared_loops._OF_CLIP
 
 
+def test_newest_loops_are_kept_for_objects_that_come_again(notes: Notes, monkeypatch: pytest.MonkeyPatch) -> None:
+    def n_made(*frequencies_hz: float) -> int:
+        before = len(notes.contents)
+        for frequency_hz in frequencies_hz:  # each clip is gone after its call
+            prepared_loops.prepare(tone_loop(frequency_hz).tactile, Bands.dominant(), RATE)
+        gc.collect()
+        return len(notes.contents) - before
+
+    one = prepared_loops.prepare(tone_loop(150.0).tactile, Bands.dominant(), RATE).bank.nbytes
+    assert n_made(160.0, 170.0) == 2
+    assert n_made(150.0, 160.0, 170.0) == 0
+    monkeypatch.setattr(prepared_loops, "KEPT_BYTES", round(2.5 * one))
+    assert n_made(160.0) == 0  # and the oldest goes
+    assert n_made(160.0, 170.0) == 0
+    assert n_made(150.0) == 1
+
+
 @pytest.mark.parametrize("skip", [True, False])
 @pytest.mark.parametrize("bands", ["dominant", "third-octaves"])
 def test_loops_are_prepared_on_the_worker_and_played_later(notes: Notes, bands: str, skip: bool) -> None:

@@ -124,6 +124,7 @@ def test_a_thousand_copies_leak_no_memory() -> None:
         if n >= 5:
             s.remove(f"fan_{n - 5}")
         s.update(touches=ON_TABLE)
+        s.strike(f"fan_{n}", (0.3 * (n % 5), 0.82, 0.2))
         s.render(400)
     assert s.source_ids == ("phone", "alarm", *(f"fan_{n}" for n in range(995, 1000)))
     s.update()

@@ -12,6 +12,7 @@ from scene2hap.audio.protocol import ConversionContext
 from scene2hap.audio.tactile import CONVERTERS
 from scene2hap.audio.tactile.following import MOST_LIFTED_DB, Following
 from scene2hap.audio.tactile.stages import Stage
+from scene2hap.audio.tactile.step_energies import StepEnergies
 from scene2hap.haptics import ActuatorProfile
 from sound_draws import band_noise, coloured_noise
 
@@ -213,3 +214,13 @@ def test_a_resonant_actuator_moves_as_far_beside_its_resonance_live(
         moved.append(float(np.median(levels_db(np.fft.irfft(np.fft.rfft(drive) * gain, len(T))))))
         assert np.abs(drive).max() < 0.5
     assert np.ptp(moved) < 3.0
+
+
+def test_energy_of_a_step_is_known_with_its_last_sample() -> None:
+    rng, steps, found, n_given = np.random.default_rng(4), StepEnergies(50), [], 0
+    x = rng.standard_normal(5000)
+    for n in [50, 20, 30, 7, 0, 143, 49, 1, 1, *rng.integers(0, 120, 40).tolist()]:
+        found += steps.next(x[n_given : n_given + n]).tolist()
+        n_given += n
+        assert len(found) == n_given // 50
+    assert found == pytest.approx([float(np.mean(x[50 * k : 50 * k + 50] ** 2)) for k in range(len(found))])
