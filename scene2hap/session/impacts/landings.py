@@ -162,7 +162,7 @@ class Landings:
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
         for other, junction in (self._graph.beside.get(object_id) or track.near).items():
             point = _middle(junction)
-            normal = self._normal(object_id, other, point, junction)
+            normal = self._normal(object_id, other, point, junction, first)
             came = self._nearing(object_id, other, point, first, last)
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
@@ -222,15 +222,27 @@ class Landings:
         x, y, z = (end.to_world(own) - begin.to_world(own))[0].tolist()
         return x, y, z
 
-    def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction) -> Vector:
+    def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction, since: int) -> Vector:
         """Normal from the object to the other: the contact's, else that of its points if they span a plane, else the
-        direction from the object's middle to the contact."""
+        direction from the object's middle to the contact.
+
+        Engines let small objects sink into others. Once the middle of an object is below the surface, the contact seems
+        to be on its other side. The side from which the object came, since an update, is then the right one.
+        """
+        middle = self._graph.pose(object_id).to_world([self._middle_m(object_id)])[0]
+        outward = np.array(point_m) - middle
+        normal = self._given_normal(object_id, other, outward, junction)
+        x, y, z = middle.tolist()
+        came = self._nearing(object_id, other, (x, y, z), since, self._n_updates)
+        if dot(outward.tolist(), normal) > 0 > dot((outward + came).tolist(), normal):
+            return -normal[0], -normal[1], -normal[2]
+        return normal
+
+    def _given_normal(self, object_id: str, other: str, outward: NDArray[np.float64], junction: Junction) -> Vector:
         for normal in junction.normals:
             if normal is not None:
                 x, y, z = normal
                 return normal if object_id < other else (-x, -y, -z)
-        middle = self._graph.pose(object_id).to_world([self._middle_m(object_id)])[0]
-        outward = np.array(point_m) - middle
         across = _normal_of_plane(junction.points_m)
         if across is not None and (height := float(across @ outward)):
             outward = across * height
