@@ -217,8 +217,8 @@ class Explainer:
             yield "No source touches it, directly or over other objects."
         silent: dict[tuple[str, str], list[str]] = {}
         for source_id in near:
-            if (why := self._why_silent(source_id)) is not None:
-                silent.setdefault(why, []).append(source_id)
+            if (cause := self._why_silent(source_id)) is not None:
+                silent.setdefault(cause, []).append(source_id)
         for (why, remedy), several in silent.items():
             yield f"Connected, but {why}: {first_of([*map(repr, several)], MOST_NAMED)}; {remedy}."
 
