@@ -160,7 +160,8 @@ class Landings:
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
-        for other, junction in (self._graph.beside.get(object_id) or track.near).items():
+        near = self._graph.beside.get(object_id) or track.near
+        for other, junction in [(x, side) for x, whole in near.items() for side in _sides(whole)]:
             point = _middle(junction)
             normal = self._normal(object_id, other, point, junction, first)
             came = self._nearing(object_id, other, point, first, last)
@@ -269,6 +270,22 @@ def _change(one: Vector, other: Vector) -> float:
     (x, y, z), (u, v, w) = one, other
     x, y, z = x - u, y - v, z - w
     return x * x + y * y + z * z
+
+
+def _sides(junction: Junction) -> list[Junction]:
+    """Split a contact by its normals, as of an object that slides on a tray and meets its rim."""
+    if len(set(junction.normals)) < 2:
+        return [junction]
+    sides: dict[tuple[float, ...] | None, list[int]] = {}
+    for row, normal in enumerate(junction.normals):
+        # Engines round the normals of one face differently.
+        side = None if normal is None else tuple(round(x, 1) for x in normal)
+        sides.setdefault(side, []).append(row)
+    points_m, weights, normals = junction.points_m, junction.weights, junction.normals
+    return [
+        Junction(tuple(points_m[row] for row in rows), tuple(weights[row] for row in rows), (normals[rows[0]],))
+        for rows in sides.values()
+    ]
 
 
 def _middle(junction: Junction) -> Vector:

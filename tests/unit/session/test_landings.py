@@ -10,7 +10,7 @@ import pytest
 
 from contact_scenes import Triple, box, boxes, scene, thing
 from scene2hap.contact.graph import ContactGraph
-from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import TriMesh
 from scene2hap.session.impacts.landings import Landing, Landings
@@ -330,6 +330,24 @@ def test_coin_that_sinks_into_the_table_lands_once() -> None:
     graph = room(thing("coin", can(0.012, 0.002), poses[0]))
     found = landings_in(graph, [(i * PERIOD_S, {"coin": pose}) for i, pose in enumerate(poses)])
     assert [(one.object_id, one.onto) for one in found] == [("coin", "table")]
+
+
+def test_block_that_slides_on_a_tray_lands_on_its_rim() -> None:
+    graph = ContactGraph(
+        scene(box("block", (0.06, 0.06, 0.06), (0.0, 0.03, 0.0)), box("tray", (0.8, 0.02, 0.6), (0, -0.01, 0)))
+    )
+    landings, found = Landings(graph, _middle, PERIOD_S), list[Landing]()
+    for frame in range(45):
+        x = min(0.01 * frame, 0.35)
+        contacts = [Contact("block", "tray", (x + dx, 0.0, 0.0), (0.0, -1.0, 0.0)) for dx in (-0.03, 0.03)]
+        if x == 0.35:
+            contacts.append(Contact("block", "tray", (0.38, 0.03, 0.0), (1.0, 0.0, 0.0)))
+        poses = {"block": Pose((x, 0.03, 0.0))}
+        landings.begin(poses, frame * PERIOD_S)
+        graph.update(poses, contacts=contacts)
+        found += landings.look(poses, frame * PERIOD_S)
+    assert [(one.object_id, one.onto, one.point_m) for one in found] == [("block", "tray", (0.38, 0.03, 0.0))]
+    assert found[0].speed_m_s == pytest.approx(0.9)
 
 
 @pytest.mark.parametrize("speed_m_s", [0.2, 0.8, 2.0])
