@@ -156,7 +156,7 @@ class Landings:
         """The landing on the touched object that was approached the fastest; empty if there is none."""
         run = track.run()
         (first, begin_s), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
-        best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates
+        best, most_m, turned_m, turns_m, now = None, LEAST_TRAVEL_M, 0.0, 0.0, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
@@ -173,11 +173,15 @@ class Landings:
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
+                    turned_m = dot(self._turning(object_id, point, first, last), normal)
+                    turns_m = dot(self._spin(object_id, point, before, last), normal)
         if best is None:
             return []
         n_updates, elapsed_s = last - first, end_s - begin_s
         stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)
-        speed = most_m / (n_updates * self._period_s if stands_still else elapsed_s)
+        period_s = self._period_s if stands_still else elapsed_s / n_updates
+        # The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
+        speed = ((most_m - turned_m) / n_updates + turns_m / (last - before)) / period_s
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
 
     def _stops_suddenly(
@@ -203,6 +207,24 @@ class Landings:
         (x, y, z), (u, v, w) = in_world(track.own_m, end), in_world(track.own_m, begin)
         a, b, c = self._travel(other, point_m, since, self._n_updates)
         return dot((x - u - a, y - v - b, z - w - c), normal) < ROLLS * closing_m
+
+    def _turning(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+        """Travel between two updates of the part of an object that is now at a point, relative to its middle [m]."""
+        x, y, z = self._travel(object_id, point_m, since, until)
+        track = self._tracks[object_id]
+        a, b, c = in_world(track.own_m, track.pose_at(since))
+        u, v, w = in_world(track.own_m, track.pose_at(until))
+        return x + a - u, y + b - v, z + c - w
+
+    def _spin(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+        """Product of the sine of the turn between two updates and the arm from the object's middle to a point [m]."""
+        track = self._tracks[object_id]
+        begin, end = track.pose_at(since), track.pose_at(until)
+        if begin.rotation_xyzw == end.rotation_xyzw:
+            return _STILL
+        turn = end.rotation @ begin.rotation.T
+        x, y, z = ((turn - turn.T) / 2 @ (np.array(point_m) - in_world(track.own_m, end))).tolist()
+        return x, y, z
 
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
         """Travel of a point of an object between two updates, relative to another object [m]."""

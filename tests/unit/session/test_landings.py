@@ -332,6 +332,15 @@ def test_coin_that_sinks_into_the_table_lands_once() -> None:
     assert [(one.object_id, one.onto) for one in found] == [("coin", "table")]
 
 
+@pytest.mark.parametrize("spin_rad_s", [0.0, 15.0, 50.0])
+def test_spin_of_a_round_object_does_not_add_to_its_speed(spin_rad_s: float) -> None:
+    roll = thing("roll", can(0.06, 0.2), Pose((0.0, 0.91, 0.0)))
+    heights_m = [y for _, y, _ in fall(0.15, PERIOD_S, 0.76)]
+    poses = [Pose((0.0, y, 0.0), about_z(spin_rad_s * i * PERIOD_S)) for i, y in enumerate(heights_m)]
+    (found,) = landings_in(room(roll, without="cup"), [(i * PERIOD_S, {"roll": one}) for i, one in enumerate(poses)])
+    assert found.speed_m_s == pytest.approx(math.sqrt(2 * 9.81 * 0.15), rel=0.25)
+
+
 def test_block_that_slides_on_a_tray_lands_on_its_rim() -> None:
     graph = ContactGraph(
         scene(box("block", (0.06, 0.06, 0.06), (0.0, 0.03, 0.0)), box("tray", (0.8, 0.02, 0.6), (0, -0.01, 0)))
