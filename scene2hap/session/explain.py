@@ -26,7 +26,7 @@ from scene2hap.propagation.protocol import Carrier, CarryingField
 from scene2hap.session.frame import HapticFrame, Touch
 from scene2hap.session.hand_gains import TouchGains
 from scene2hap.session.impacts.felt_impacts import Impact
-from scene2hap.session.mix.sources import Source, Sources
+from scene2hap.session.mix.sources import Sources
 from scene2hap.session.scene_state import SceneState
 
 LEAST_SHARE = 0.01
@@ -215,13 +215,25 @@ class Explainer:
         near = [source_id for column, source_id in enumerate(ids) if column in columns or source_id in on]
         if not near:
             yield "No source touches it, directly or over other objects."
-        silent: dict[str, list[str]] = {}
+        silent: dict[tuple[str, str], list[str]] = {}
         for source_id in near:
-            silent.setdefault(_why_silent(self._sources[source_id]), []).append(source_id)
-        for why, remedy in _REMEDIES.items():
-            if several := silent.get(why):
-                named = first_of([*map(repr, several)], MOST_NAMED)
-                yield f"Connected, but {why}: {named}; call set_source(id, {remedy})."
+            if (cause := self._why_silent(source_id)) is not None:
+                silent.setdefault(cause, []).append(source_id)
+        for (why, remedy), several in silent.items():
+            yield f"Connected, but {why}: {first_of([*map(repr, several)], MOST_NAMED)}; {remedy}."
+
+    def _why_silent(self, source_id: str) -> tuple[str, str] | None:
+        """Return why a source is silent, and the remedy; None if it is not silent."""
+        source, state = self._sources[source_id], self._state
+        if not source.is_on:
+            return "off", "call set_source(id, on=True)"
+        if source.level.is_muted:
+            return "muted", "call set_source(id, mute=False)"
+        if source.is_resting:
+            return "in its off-time", "call set_source(id, on=True)"
+        if not self._sources.has_contact(source_id, state.graph.neighbours, state.category):
+            return f"without contact with {source.needs[source.state]!r}, switched on", "move it there"
+        return None
 
     def _felt(self, source_id: str, band: int, touch: Touch, gain: float) -> FeltSource:
         """Return the report of a source whose gain is highest at a touch."""
@@ -260,18 +272,6 @@ class Explainer:
                 costs.price_per_m, contacts, costs.crossing_cost, costs.max_hops, on, point_m
             )
         return self._paths[on, point_m]
-
-
-_REMEDIES = {"off": "on=True", "muted": "mute=False", "in its off-time": "on=True"}
-
-
-def _why_silent(source: Source) -> str:
-    """Return why a source is silent, a key of `_REMEDIES`; empty if it is not silent."""
-    if not source.is_on:
-        return "off"
-    if source.level.is_muted:
-        return "muted"
-    return "in its off-time" if source.is_resting else ""
 
 
 def decibels(gain: float) -> float:

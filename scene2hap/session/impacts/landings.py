@@ -156,13 +156,14 @@ class Landings:
         """The landing on the touched object that was approached the fastest; empty if there is none."""
         run = track.run()
         (first, begin_s), (before, before_s), (last, end_s) = run[0], run[-2], run[-1]
-        best, most_m, now = None, LEAST_TRAVEL_M, self._n_updates
+        best, most_m, turned_m, turns_m, now = None, LEAST_TRAVEL_M, 0.0, 0.0, self._n_updates
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
-        for other, junction in (self._graph.beside.get(object_id) or track.near).items():
+        near = self._graph.beside.get(object_id) or track.near
+        for other, junction in [(x, side) for x, whole in near.items() for side in _sides(whole)]:
             point = _middle(junction)
-            normal = self._normal(object_id, other, point, junction)
+            normal = self._normal(object_id, other, point, junction, first)
             came = self._nearing(object_id, other, point, first, last)
             closing = dot(came, normal)
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
@@ -172,11 +173,15 @@ class Landings:
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
+                    turned_m = dot(self._turning(object_id, point, first, last), normal)
+                    turns_m = dot(self._spin(object_id, point, before, last), normal)
         if best is None:
             return []
         n_updates, elapsed_s = last - first, end_s - begin_s
         stands_still = elapsed_s <= 0 or (n_updates > 1 and run[1][1] == end_s)
-        speed = most_m / (n_updates * self._period_s if stands_still else elapsed_s)
+        period_s = self._period_s if stands_still else elapsed_s / n_updates
+        # The chord of a fast turn is no measure of its speed: the bottom of a spinning ball was lately its top.
+        speed = ((most_m - turned_m) / n_updates + turns_m / (last - before)) / period_s
         return [Landing(object_id, *best, speed)] if LEAST_SPEED_M_S <= speed <= FASTEST_M_S else []
 
     def _stops_suddenly(
@@ -203,6 +208,24 @@ class Landings:
         a, b, c = self._travel(other, point_m, since, self._n_updates)
         return dot((x - u - a, y - v - b, z - w - c), normal) < ROLLS * closing_m
 
+    def _turning(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+        """Travel between two updates of the part of an object that is now at a point, relative to its middle [m]."""
+        x, y, z = self._travel(object_id, point_m, since, until)
+        track = self._tracks[object_id]
+        a, b, c = in_world(track.own_m, track.pose_at(since))
+        u, v, w = in_world(track.own_m, track.pose_at(until))
+        return x + a - u, y + b - v, z + c - w
+
+    def _spin(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:
+        """Product of the sine of the turn between two updates and the arm from the object's middle to a point [m]."""
+        track = self._tracks[object_id]
+        begin, end = track.pose_at(since), track.pose_at(until)
+        if begin.rotation_xyzw == end.rotation_xyzw:
+            return _STILL
+        turn = end.rotation @ begin.rotation.T
+        x, y, z = ((turn - turn.T) / 2 @ (np.array(point_m) - in_world(track.own_m, end))).tolist()
+        return x, y, z
+
     def _nearing(self, object_id: str, other: str, point_m: Vector, since: int, until: int) -> Vector:
         """Travel of a point of an object between two updates, relative to another object [m]."""
         x, y, z = self._travel(object_id, point_m, since, until)
@@ -222,15 +245,27 @@ class Landings:
         x, y, z = (end.to_world(own) - begin.to_world(own))[0].tolist()
         return x, y, z
 
-    def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction) -> Vector:
+    def _normal(self, object_id: str, other: str, point_m: Vector, junction: Junction, since: int) -> Vector:
         """Normal from the object to the other: the contact's, else that of its points if they span a plane, else the
-        direction from the object's middle to the contact."""
+        direction from the object's middle to the contact.
+
+        Engines let small objects sink into others. Once the middle of an object is below the surface, the contact seems
+        to be on its other side. The side from which the object came, since an update, is then the right one.
+        """
+        middle = self._graph.pose(object_id).to_world([self._middle_m(object_id)])[0]
+        outward = np.array(point_m) - middle
+        normal = self._given_normal(object_id, other, outward, junction)
+        x, y, z = middle.tolist()
+        came = self._nearing(object_id, other, (x, y, z), since, self._n_updates)
+        if dot(outward.tolist(), normal) > 0 > dot((outward + came).tolist(), normal):
+            return -normal[0], -normal[1], -normal[2]
+        return normal
+
+    def _given_normal(self, object_id: str, other: str, outward: NDArray[np.float64], junction: Junction) -> Vector:
         for normal in junction.normals:
             if normal is not None:
                 x, y, z = normal
                 return normal if object_id < other else (-x, -y, -z)
-        middle = self._graph.pose(object_id).to_world([self._middle_m(object_id)])[0]
-        outward = np.array(point_m) - middle
         across = _normal_of_plane(junction.points_m)
         if across is not None and (height := float(across @ outward)):
             outward = across * height
@@ -257,6 +292,22 @@ def _change(one: Vector, other: Vector) -> float:
     (x, y, z), (u, v, w) = one, other
     x, y, z = x - u, y - v, z - w
     return x * x + y * y + z * z
+
+
+def _sides(junction: Junction) -> list[Junction]:
+    """Split a contact by its normals, as of an object that slides on a tray and meets its rim."""
+    if len(set(junction.normals)) < 2:
+        return [junction]
+    sides: dict[tuple[float, ...] | None, list[int]] = {}
+    for row, normal in enumerate(junction.normals):
+        # Engines round the normals of one face differently.
+        side = None if normal is None else tuple(round(x, 1) for x in normal)
+        sides.setdefault(side, []).append(row)
+    points_m, weights, normals = junction.points_m, junction.weights, junction.normals
+    return [
+        Junction(tuple(points_m[row] for row in rows), tuple(weights[row] for row in rows), (normals[rows[0]],))
+        for rows in sides.values()
+    ]
 
 
 def _middle(junction: Junction) -> Vector:

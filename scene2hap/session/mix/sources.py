@@ -217,28 +217,30 @@ class Sources:
             self._switch_themselves = any(state.on_s is not None for state in states)
         return self._switch_themselves
 
-    def factors(
-        self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
-    ) -> NDArray[np.float64]:
-        """Present factor of each source's signal: 0 when off, muted, or without the contact that it needs.
+    def has_contact(
+        self, source_id: str, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
+    ) -> bool:
+        """Whether a source has the contact that its state needs, if any.
 
         A contact with a source that is switched off does not count: no pan sizzles on a cold stove.
         """
+        needed = self._sources[source_id].needs.get(self._sources[source_id].state)
+        return needed is None or any(
+            meets(needed, other, category(other))
+            for other in neighbours(source_id)
+            if other not in self._sources or self._sources[other].is_on
+        )
 
-        def is_off(object_id: str) -> bool:
-            return object_id in self._sources and not self._sources[object_id].is_on
-
-        def has_needed(source_id: str, source: Source) -> bool:
-            needed = source.needs.get(source.state)
-            return needed is None or any(
-                meets(needed, other, category(other)) for other in neighbours(source_id) if not is_off(other)
-            )
-
+    def factors(
+        self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
+    ) -> NDArray[np.float64]:
+        """Present factor of each source's signal: 0 when off, muted, or without the contact that it needs."""
         user = self.user.factor
         return np.array(
             [
                 source.level.factor * user
-                if (source.is_running or source.passing is not None) and has_needed(source_id, source)
+                if (source.is_running or source.passing is not None)
+                and self.has_contact(source_id, neighbours, category)
                 else 0.0
                 for source_id, source in self._sources.items()
             ]

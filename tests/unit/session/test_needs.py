@@ -55,3 +55,11 @@ def test_pan_plays_on_a_muted_stove() -> None:
 def test_a_pan_that_is_lifted_is_silent() -> None:
     touch = [Touch("left", "pan", (0.0, 1.5, 0.0))]
     assert kitchen("hob", "stove").update({"pan": Pose((0.0, 1.5, 0.0))}, touch).gain("left", "pan") == 0.0
+
+
+def test_explanation_says_which_contact_a_lifted_pan_lacks() -> None:
+    session = kitchen("hob", "stove")
+    session.update({"pan": Pose((0.0, 1.5, 0.0))}, [Touch("left", "pan", (0.0, 1.5, 0.0))])
+    assert session.explain("left").reasons == (
+        "Connected, but without contact with 'stove', switched on: 'pan'; move it there.",
+    )
