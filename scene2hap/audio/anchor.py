@@ -7,10 +7,12 @@ without lines, the strongest bands of noise. If no component within 14 dB of the
 
 - If the actuator does not render the strongest, its band is shifted to the frequency at which the actuator is felt
   best.
-- If the strongest is below 60 Hz, its band is shifted there as well, and its rate is kept as roughness.
+- If the strongest is below 60 Hz, its band is shifted there as well.
 - If the strongest is higher, and would be felt more than 6 dB better there, as a beep of 900 Hz, it is shifted. So is
   the strongest of all frequencies that are heard, if the best component in the range of touch is that much weaker.
 - Otherwise the component that comes nearest to the level keeps its frequency and is weaker than planned.
+
+A strongest line of 20 to 80 Hz that is not felt at its own frequency is kept as roughness, at its rate.
 
 If the pitch moves out of the band around the anchor, as that of an engine that revs, a band that holds the moving pitch
 is used (`moving_pitch`). The same rules apply to the middle of that band.
@@ -60,8 +62,10 @@ CARRIED_DB = 6.0
 """A component that is too high is shifted down if it is felt better there by more than this [dB]. Touch is 4 dB less
 sensitive at 350 Hz than at 250, 19 dB at 500, and feels nothing at 900. A component that is too low keeps its
 frequency, by which an engine is recognized."""
-ROUGH_HZ = (20.0, 60.0)
-"""Modulation rates that are felt as roughness, not as single pulses and not as another tone."""
+ROUGH_HZ = (20.0, 80.0)
+"""Modulation rates that are felt as roughness, not as single pulses and not as another tone; the highest is assumed."""
+_SLOW_HZ = 60.0
+"""Highest frequency of a component that is rather felt as roughness alone than as a tone that misses its level."""
 RANGE_HZ = (20.0, 1000.0)
 _HIGHEST_HZ = 10_000.0
 CARRIER_RANGE_HZ = (100.0, 300.0)
@@ -130,8 +134,8 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
             bands = strongest_bands_hz(magnitude, sample_rate_hz, RANGE_HZ, FAINTEST_DB)
             lowest, highest = rendered_hz(sample_rate_hz, actuator)
             candidates += [hz for hz in bands if lowest <= hz <= highest] or [one.hz for one in near]
-    # A slow one would be kept as roughness alone; rather take a line that reaches the level.
-    identity_hz = strongest.hz if strongest.hz > ROUGH_HZ[1] else 0.0
+    # A slow one is kept as the roughness of a line that reaches the level.
+    identity_hz = strongest.hz if strongest.hz > _SLOW_HZ else 0.0
     found, missed_db = needs.first_met(candidates, strongest_hz=identity_hz)
     loudest = audible[0]
     if not loudest.is_line:  # the highest peak of noise is anywhere
@@ -149,8 +153,7 @@ def anchor_of(samples: ArrayLike, sample_rate_hz: float, level_db: float, actuat
         carried = needs.carried(loudest.hz)
         if loudest.hz > carried.felt_hz and needs.missed_db(found) - needs.missed_db(carried) > CARRIED_DB:
             found, strongest = carried, loudest
-    rough_hz = _rough_hz(strongest, found, magnitude, sample_rate_hz)
-    return replace(found, rough_hz=rough_hz, band_db=needs.band_db(found))
+    return replace(found, rough_hz=_rough_hz(strongest, found), band_db=needs.band_db(found))
 
 
 def fast_length(n: int) -> int:
@@ -254,7 +257,7 @@ class _Needs:
         if found is not None and missed_db <= MISSED_DB:
             return found
         carried = self.carried(strongest.hz, None if found is None else found.band_q)
-        is_slow = strongest.is_line and strongest.hz <= ROUGH_HZ[1]
+        is_slow = strongest.is_line and strongest.hz <= _SLOW_HZ
         is_rendered = found is not None and float(response_db(self._actuator, found.frequency_hz)) >= -MAX_BOOST_DB
         is_too_high = strongest.hz > carried.felt_hz and missed_db - self.missed_db(carried) > CARRIED_DB
         return carried if found is None or is_slow or not is_rendered or is_too_high else found
@@ -322,16 +325,14 @@ class _Needs:
         return end
 
 
-def _rough_hz(strongest: Component, found: Anchor, magnitude: Signal, sample_rate_hz: float) -> float | None:
-    """Return the strongest component if it is not the anchor, and slow enough to be felt as the anchor's roughness."""
+def _rough_hz(strongest: Component, found: Anchor) -> float | None:
+    """Return the strongest component if it is not the anchor, and slow enough to be felt as the anchor's roughness.
+
+    However strong the anchor is: two lines of equal strength are one engine's, and its rate is that of the lower one.
+    """
     low, high = ROUGH_HZ
-    if not strongest.is_line or not low <= strongest.hz <= high or found.felt_hz < strongest.hz * _OTHER_RATIO:
-        return None
-    if found.carrier_hz is not None:
-        return strongest.hz
-    n = 2 * (len(magnitude) - 1)
-    felt_db = 20.0 * float(np.log10(max(magnitude[round(found.frequency_hz * n / sample_rate_hz)], 1e-300)))
-    return strongest.hz if strongest.level_db - felt_db >= MISSED_DB else None
+    is_other = found.felt_hz >= strongest.hz * _OTHER_RATIO
+    return strongest.hz if strongest.is_line and low <= strongest.hz <= high and is_other else None
 
 
 def _peak(x: Signal) -> float:

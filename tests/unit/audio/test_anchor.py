@@ -83,7 +83,10 @@ def test_anchors_of_recordings_are_within_14_db_of_the_strongest_component(
     ("amplitudes", "felt_hz", "rough_hz"),
     [
         ({"f40": 0.5, "f150": 0.3}, 150.0, 40.0),  # an engine whose firing cannot be felt as a tone
-        ({"f40": 0.3, "f150": 0.4}, 150.0, None),  # the strongest component is felt as a tone
+        ({"f40": 0.5, "f160": 0.45}, 160.0, 40.0),  # in an earlier version an almost equal line had no roughness
+        ({"f66": 0.5, "f198": 0.3}, 198.0, 66.0),  # in an earlier version rates above 60 Hz were lost
+        ({"f100": 0.5, "f200": 0.3}, 100.0, None),  # the strongest component is felt as a tone, if weaker
+        ({"f40": 0.3, "f150": 0.4}, 150.0, None),
         ({"f200": 0.5, "f320": 0.3}, 200.0, None),
         ({"f12": 0.5, "f150": 0.3}, 150.0, None),  # too slow for roughness
     ],
@@ -102,7 +105,8 @@ def test_tone_too_low_to_be_felt_is_rendered_as_roughness(
     [
         ({"f30": 0.5}, "flat", 30.0, 250.0, 30.0),  # too weak as a tone, and slow enough for roughness
         ({"f80": 0.5}, "flat", 80.0, None, None),  # the actuator plays it, but weaker than requested
-        ({"f80": 0.5}, "lra", 80.0, 175.0, None),
+        ({"f70": 0.5}, "lra", 70.0, 175.0, 70.0),
+        ({"f90": 0.5}, "lra", 90.0, 175.0, None),  # too fast for roughness
         ({"f50": 0.5, "f180": 0.05}, "lra", 50.0, 175.0, 50.0),  # a component 20 dB below is not the anchor
         ({"f50": 0.5, "f180": 0.2}, "lra", 180.0, None, 50.0),
         ({"f3000": 0.5}, "flat", 3000.0, 250.0, None),
