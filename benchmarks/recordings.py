@@ -79,7 +79,7 @@ def above_around_db(f: Signal, level: Signal, k: int) -> float:
 
 
 def strongest_lines_hz(heard: Signal, rate: int) -> list[float]:
-    """Strongest component, and those that cannot be told from it by level; none if it is no line [Hz]."""
+    """Frequencies of the strongest line and of lines that feel as strong [Hz]; none if the strongest is no line."""
     f, level = amplitudes_db(heard, rate)
     inside = np.flatnonzero((f >= 20.0) & (f <= min(1000.0, 0.45 * rate)))
     k = int(inside[np.argmax(level[inside])])
