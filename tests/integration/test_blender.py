@@ -293,3 +293,39 @@ def pixels(file: bytes) -> np.ndarray:
     with Image.open(io.BytesIO(file)) as image:
         assert image.size == (SIZE_PX, SIZE_PX)
         return np.asarray(image.convert("RGB")).astype(int)
+
+
+PLAIN = (
+    HEAD.replace("0.01", "1.0")
+    + """
+chair, setting = (bpy.data.collections.new(name) for name in ("Chair", "Place setting"))
+add("seat", CUBE, (0, 0, 0.45), (0.4, 0.4, 0.04), into=chair)
+for x, y in ((-0.18, -0.18), (0.18, -0.18), (-0.18, 0.18), (0.18, 0.18)):
+    add("leg", CUBE, (x, y, 0.215), (0.04, 0.04, 0.43), into=chair)
+add("backrest", CUBE, (0, 0.18, 0.7), (0.4, 0.04, 0.46), into=chair)
+add("plate", CUBE, (0, 0, 0.01), (0.25, 0.25, 0.02), into=setting)
+add("fork", CUBE, (-0.2, 0, 0.005), (0.02, 0.2, 0.01), into=setting)
+for name, collection, x in (("Chair", chair, 0), ("Chair", chair, 1), ("Place setting", setting, 3)):
+    shown = add(name, None, (x, 0, 0))
+    shown.instance_type, shown.instance_collection = "COLLECTION", collection
+bpy.ops.export_scene.gltf(filepath=sys.argv[-1] + ".glb")
+bpy.ops.wm.usd_export(filepath=sys.argv[-1] + ".usdc")
+bpy.ops.wm.usd_export(filepath=sys.argv[-1] + "_shared.usdc", use_instancing=True)
+"""
+)
+
+
+@needs_bpy
+@pytest.mark.parametrize("ending", [".glb", ".usdc", "_shared.usdc"])
+def test_a_collection_instance_in_a_plain_export_is_one_object(ending: str, tmp_path: Path) -> None:
+    if ending != ".glb":
+        pytest.importorskip("pxr")
+    (tmp_path / "build.py").write_text(PLAIN, encoding="utf-8")
+    built = run(tmp_path / "build.py", tmp_path / "made")
+    assert (tmp_path / f"made{ending}").exists(), built.stdout + built.stderr
+    found = load_scene(tmp_path / f"made{ending}").objects
+    assert sorted(item.name for item in found) == ["Chair", "Chair.001", "fork", "plate"]
+    first, second = (item for item in found if item.name.startswith("Chair"))
+    np.testing.assert_allclose(first.size_m, second.size_m, atol=1e-6)
+    if ending != ".usdc":  # where each copy is stored, rounded to float32
+        assert first.instance_key == second.instance_key

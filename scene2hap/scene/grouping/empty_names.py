@@ -12,6 +12,7 @@ _WORDS = (
     "object objects obj body link base root world node mesh geom geometry group default scene model main visual "
     "vis collision col part entity untitled unnamed noname polygon poly surface shape primitive "
     "pivot offset locator null empty game transform wrapper "
+    "instance instanced component static rigid id nurbs csg p d "  # Unreal, SketchUp, Maya's pCube1, Godot's Node3D
     "cube sphere icosphere uvsphere cylinder plane circle cone torus capsule"
 )
 _EMPTY = frozenset(_WORDS.split())
@@ -32,8 +33,8 @@ _PLACE = re.compile(
 
 
 def says_nothing(name: str) -> bool:
-    """Return True if no word of a name tells what the object is: "base_link", "Cube.001", "world/body1", "p3"."""
-    return bool(_LETTER_AND_NUMBER.fullmatch(name)) or all(word in _EMPTY for word in name_words(name))
+    """Return True if no word of a name tells what the object is: "base_link", "pCube1", "world/body1", "p3"."""
+    return bool(_LETTER_AND_NUMBER.fullmatch(name)) or _EMPTY.issuperset(name_words(name))
 
 
 def names_a_thing(name: str) -> bool:

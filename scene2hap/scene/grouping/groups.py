@@ -7,8 +7,9 @@ their own nodes above. The rule "authored" undoes this. A mesh that a tool has c
 a. A node with a mesh of its own is an object. Its leaf children with meshes (a door, a drawer, a lid) are part of it. A
    child that has children is an object by itself.
 b. A node without a mesh, and its leaf children without names or with names that begin with the node's name, are one
-   object: `Cooktop` with `Cooktop_Burner_mat`. So are its children whose names say nothing (`cube` over `mesh_geom`),
-   if they are joined. Rules (a) to (d) apply to all other children, such as the knobs `Controller` below `Cooktop`.
+   object: `Cooktop` with `Cooktop_Burner_mat`. So are its children below which all names say nothing (`cube` over
+   `mesh_geom`) or name parts (`seat`, `leg`, `door` over `handle`), if they are joined: prefabs, instanced collections
+   and components. Rules (a) to (d) apply to all other children, such as the knobs `Controller` below `Cooktop`.
 c. A node without a mesh that contains only one object, directly or through other such nodes, gives that object its name
    and place (`washing_machine` over `washer(Clone)`). The name of the outermost such node is used. Names that exporters
    give to their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never used,
@@ -32,6 +33,7 @@ from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.grouping.empty_names import names_a_thing, says_nothing
 from scene2hap.scene.grouping.material_parts import rejoined
+from scene2hap.scene.grouping.part_names import names_part, names_structure
 from scene2hap.scene.grouping.split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
@@ -116,15 +118,14 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
     if node.is_object:
         return _Subtree([Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)], has_head=True)
     members = [Member(node.name, frame, node.pieces)] if node.pieces else []
-    unnamed = _unnamed_parts(node, frame)
+    joined = _joined_parts(node, frame)
     below = []
     for child in node.children:
-        if child in unnamed:
-            members += _members(child, frame)
-        elif _is_part(child, node):
+        if _is_part(child, node):
             members.append(Member(child.name, frame @ child.matrix, child.pieces))
-        else:
+        elif child not in joined:
             below.append(_authored(child, frame))
+    members += [member for child in joined for member in _members(child, frame)]
     others = [group for subtree in below for group in subtree.groups]
     if members:
         several = split(node.name, members)
@@ -154,13 +155,31 @@ def _is_part(child: AuthoredNode, node: AuthoredNode) -> bool:
     return names_a_thing(node.name) and (not child.name or _continues(child.name, node.name))
 
 
-def _unnamed_parts(node: AuthoredNode, frame: Matrix) -> list[AuthoredNode]:
-    """Return the children below which no name says what they are, if they are joined: an engine's own mesh nodes."""
-    if node.pieces or not names_a_thing(node.name):
+def _joined_parts(node: AuthoredNode, frame: Matrix) -> list[AuthoredNode]:
+    """Return the children below which no name is that of a thing, if they are joined.
+
+    A group with walls or a floor joins none: a door in a wall is a thing. Below a node with a mesh of its own, a part
+    with children is another object, as by rule (a). A single child with the name of a part keeps its name.
+    """
+    if node.pieces or not names_a_thing(node.name) or any(names_structure(x.name) for x in node.children):
         return []
-    found = [x for x in node.children if all(says_nothing(y.name) and not y.is_object for y in x.walk())]
+    has_own_mesh = any(_is_part(child, node) for child in node.children)
+    found = [child for child in node.children if _is_no_thing(child, node, has_own_mesh)]
+    if len(found) == 1 and not says_nothing(found[0].name):
+        return []
     members = [member for child in found for member in _members(child, frame)]
-    return [] if stand_apart(members, members) else found
+    if stand_apart(members, members):
+        return []
+    # By name, since Blender writes the children of each copy into USD in another order.
+    return sorted((child for child in found if not _is_part(child, node)), key=lambda child: child.name)
+
+
+def _is_no_thing(child: AuthoredNode, node: AuthoredNode, has_own_mesh: bool) -> bool:
+    may_be_part = not (child.children and has_own_mesh)
+    return all(
+        not each.is_object and (says_nothing(each.name) or (may_be_part and names_part(each.name, node.name)))
+        for each in child.walk()
+    )
 
 
 def _members(node: AuthoredNode, above: Matrix) -> list[Member]:

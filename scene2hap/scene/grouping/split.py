@@ -9,7 +9,6 @@ burners have no separate items, and stay one object.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,28 +18,11 @@ from numpy.typing import NDArray
 
 from scene2hap.scene import limits
 from scene2hap.scene.geometry import Bounds, bounds_of, distances, joined
+from scene2hap.scene.grouping.part_names import has_own_noun
 from scene2hap.scene.tree import Matrix, Piece
 
 # Two boxes are separate if the gap exceeds this share of the group's diagonal (assumed).
 _APART = 0.002
-
-_PARTS = """
-    arm armrest axle back backrest base basket bezel blade board body bottom bulb burner button cable cap case casing
-    chain control cord corner cover cushion dial display door drawer edge eye face fan feet foot frame front glass grate
-    grid grill grip handle hinge holder hood hose inlay inside interior key knob label leaf led leg lens lever lid light
-    lock mirror neck outlet outside pane panel part pedal pin pipe plug pole post rack rail rim ring rod roof screen
-    screw seat shade shaft shelf shell side sill spout spring stand strap strip string surface switch tail top trim tube
-    valve vent wall wheel window wing wire
-"""
-# Words for the place or the material of a piece, or words that a program gave it.
-_NO_NOUNS = """
-    left right upper lower middle center centre inner outer rear small big large long short up down mat material
-    mesh node object obj geo geometry geom poly polygon primitive prim surface lod collision collider cube box
-    sphere cylinder plane circle cone torus default none wood metal steel chrome plastic fabric leather glass
-    rubber ceramic porcelain stone marble paper black white red green blue grey gray brown yellow dark bright
-    clone copy instance shape group sub model item element piece
-"""
-_PART_WORDS, _OTHER_WORDS = frozenset(_PARTS.split()), frozenset(_NO_NOUNS.split())
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,14 +54,6 @@ def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
         if id(member) not in is_item:
             found[int(distances(boxes, member.box).argmin())].append(member)
     return found
-
-
-def has_own_noun(name: str, group_name: str) -> bool:
-    """Return True if a name ends in a noun that names no part (see the module). The group's name is ignored."""
-    rest = name[len(group_name) :] if name.startswith(group_name) else name
-    words = [word.lower() for word in re.findall(r"[A-Z]?[^\W\d_A-Z]+|[A-Z]+(?![^\W\d_A-Z])", rest)]
-    nouns = [word for word in words if len(word) > 2 and word not in _OTHER_WORDS]
-    return bool(nouns) and not {nouns[-1], nouns[-1].removesuffix("s"), nouns[-1].removesuffix("es")} & _PART_WORDS
 
 
 def stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:

@@ -1,0 +1,64 @@
+"""Names of parts: the head noun of "Cabinet_door_L.001" is "door", which is no thing of its own."""
+
+from __future__ import annotations
+
+import re
+
+_PARTS = """
+    apron arm armrest axle back backrest bar base basket battery bezel blade board body bolt bottom bracket bulb
+    burner button cable cage cap case casing caster castor chain control cord corner cover crossbar cushion dial
+    display door drawer edge eye face fan feet foot footboard footrest frame front gear glass globe grate grid grill
+    grip handle headboard headrest hinge holder hood hose housing hub inlay inside interior key knob label lampshade
+    leaf led leg lens lever lid light lock mirror motor neck nozzle nut outlet outside pane panel part pedal pin pipe
+    plank plug pole post rack rail rim ring rod roof screen screw seat seatback shade shaft shelf shell shelves side
+    sill slat spoke spout spring stand stem strap string strip support surface switch tabletop tail top trigger trim
+    tube valve vent wheel window wing wire
+"""
+# Words for the place or the material of a piece, or words that a program gave it.
+_NO_NOUNS = """
+    left right upper lower middle center centre inner outer rear small big large long short up down mat material
+    mesh node object obj geo geometry geom poly polygon primitive prim surface lod collision collider cube box
+    sphere cylinder plane circle cone torus default none wood metal steel chrome plastic fabric leather glass
+    rubber ceramic porcelain stone marble paper black white red green blue grey gray brown yellow dark bright
+    clone copy instance shape group sub model item element piece pivot joint
+"""
+_PART_WORDS, _OTHER_WORDS = frozenset(_PARTS.split()), frozenset(_NO_NOUNS.split())
+_STRUCTURE = frozenset(("wall", "floor", "ceiling"))
+_WORD = re.compile(r"[A-Z]?[^\W\d_A-Z]+|[A-Z]+(?![^\W\d_A-Z])")
+
+
+def has_own_noun(name: str, group_name: str) -> bool:
+    """Return True if a name ends in a noun that names no part. The group's name is ignored."""
+    head = _head(_words(name[len(group_name) :] if name.startswith(group_name) else name))
+    return bool(head) and not _singulars(head) & _PART_WORDS
+
+
+def names_part(name: str, group_name: str) -> bool:
+    """Return True if a name is that of a part or a material, or repeats the group's noun: `chair.001` of `Desk Chair`.
+
+    `Door.001` below `Doors` is no part, but one of several doors. A short word such as `TV` is no part.
+    """
+    words, above = _words(name), _head(_words(group_name))
+    head = _head(words)
+    if not head:
+        return bool(words) and _OTHER_WORDS.issuperset(words)
+    is_one_of_several = head != above and head in _singulars(above)
+    return not is_one_of_several and (head == above or bool(_singulars(head) & _PART_WORDS))
+
+
+def names_structure(name: str) -> bool:
+    """Return True if a name is that of a wall, a floor or a ceiling."""
+    return bool(_singulars(_head(_words(name))) & _STRUCTURE)
+
+
+def _words(name: str) -> list[str]:
+    return [word.lower() for word in _WORD.findall(name)]
+
+
+def _head(words: list[str]) -> str:
+    """Return the last noun, "" if there is none."""
+    return next((word for word in reversed(words) if len(word) > 2 and word not in _OTHER_WORDS), "")
+
+
+def _singulars(word: str) -> frozenset[str]:
+    return frozenset((word, word.removesuffix("s"), word.removesuffix("es")))
