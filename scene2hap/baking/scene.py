@@ -269,9 +269,9 @@ async def arebake(
 
 def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None:
     """Warn about probable mistakes. Units are left out, since `load_scene` has warned about them."""
-    for found in scene.check():
-        if found.kind != "units":
-            warn_of(str(found))
+    doubts = [found for found in scene.check() if found.kind != "units"]
+    for found in doubts:
+        warn_of(str(found))
     unknown = [key for key, haptics in objects.items() if is_unknown(haptics.object_category)]
     if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
         is_one_model = 2 * len(unknown) > len(objects)
@@ -281,10 +281,11 @@ def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None
             f"say what they are, let a model look at them (llm), or override(id, vibrates=True).{parts}"
         )
     elif len(objects) == 1 and unknown:
+        is_merged = any(found.kind == "merged" for found in doubts)
+        merges = "" if is_merged else " If it merges several objects, load it with group='loose' or group='leaf'."
         warn_of(
-            f"{scene.name!r} is one object, {scene.objects[0].name!r}, which is unknown; nothing will be felt. If it "
-            "merges several objects, separate them in the program that made it, or try group='leaf'. Otherwise give it "
-            "a name that says what it is, or let a model look at it (llm)."
+            f"{scene.name!r} is one object, {scene.objects[0].name!r}, which is unknown; nothing will be felt.{merges} "
+            "If it is one object, give it a name that says what it is, or let a model look at it (llm)."
         )
 
 

@@ -76,7 +76,7 @@ def add_scene_arguments(parser: argparse.ArgumentParser) -> None:
         "--group",
         default="authored",
         metavar="RULE",
-        help="authored (default), leaf, or a depth in the node tree (0: one object)",
+        help="authored (default), leaf, loose, or a depth in the node tree (0: one object)",
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Concatenate, ParamSpec, TypeVar
 
@@ -16,7 +17,7 @@ from scene2hap.errors import SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
 from scene2hap.scene.files import HABITAT_SUFFIX, is_habitat, read_bytes, scene_stem
-from scene2hap.scene.grouping.empty_names import named_after_file
+from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Grouping, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
 from scene2hap.scene.looks.texture_files import TextureFiles
@@ -136,7 +137,7 @@ def _loaded(
             warn_of(message, TextureWarning)
         unit = unit_m or authored.metres_per_unit(path.name)
         snapshot = _snapshot(writable(scene_stem(path)), authored, up_axis or authored.up_axis, unit, group)
-    snapshot = named_after_file(snapshot, writable(scene_stem(path)))
+    snapshot = _named_after_file(snapshot, writable(scene_stem(path)))
     if unit_m is None:
         warn_if_implausible(snapshot, unit)
     return snapshot
@@ -209,3 +210,11 @@ def _snapshot(name: str, authored: AuthoredScene, up_axis: UpAxis, unit_m: float
     maker = ObjectMaker(up_axis, unit_m)
     objects = list(map(maker.make, unique_ids([item.name for item in groups]), groups))
     return SceneSnapshot(name, up_axis, with_relative_heights(objects, up_axis))
+
+
+def _named_after_file(snapshot: SceneSnapshot, stem: str) -> SceneSnapshot:
+    """Give the only object of a file the file's name, if its own says nothing. Its id stays, for links to engines."""
+    item = snapshot.objects[0]
+    if len(snapshot.objects) > 1 or not says_nothing(item.name) or says_nothing(stem):
+        return snapshot
+    return replace(snapshot, objects=(replace(item, name=stem),))

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 from scene2hap.scene.copies import name_words
-from scene2hap.scene.snapshot import SceneSnapshot
 
 _WORDS = (
     "object objects obj body link base root world node mesh geom geometry group default scene model main visual "
@@ -39,12 +37,9 @@ def says_nothing(name: str) -> bool:
 
 def names_a_thing(name: str) -> bool:
     """Return False for the names of nodes that exporters add, and of places: their nodes are always containers."""
-    return bool(name) and not _EXPORTER_NODE.fullmatch(name) and not _PLACE.fullmatch(name)
+    return bool(name) and not _EXPORTER_NODE.fullmatch(name) and not names_a_place(name)
 
 
-def named_after_file(snapshot: SceneSnapshot, stem: str) -> SceneSnapshot:
-    """Give the only object of a file the file's name, if its own says nothing. Its id stays, for links to engines."""
-    item = snapshot.objects[0]
-    if len(snapshot.objects) > 1 or not says_nothing(item.name) or says_nothing(stem):
-        return snapshot
-    return replace(snapshot, objects=(replace(item, name=stem),))
+def names_a_place(name: str) -> bool:
+    """Return True for the name of a room, a building or a level."""
+    return bool(_PLACE.fullmatch(name))

@@ -32,19 +32,21 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.errors import SceneError
 from scene2hap.scene.grouping.empty_names import names_a_thing, says_nothing
+from scene2hap.scene.grouping.loose_parts import loose_parts
 from scene2hap.scene.grouping.material_parts import rejoined
 from scene2hap.scene.grouping.part_names import names_part, names_structure
 from scene2hap.scene.grouping.split import Member, split, stand_apart
 from scene2hap.scene.tree import AuthoredNode, Matrix, Piece
 
-Grouping = Literal["authored", "leaf"] | int | Mapping[str, str]
+Grouping = Literal["authored", "leaf", "loose"] | int | Mapping[str, str]
 """The rule by which nodes become objects.
 
-"authored": the rule above. "leaf": every node with a mesh is an object. An int from 0: every node at that depth below
-the scene is one object with all nodes below it; the scene's own nodes have depth 1, and each mesh above is an object.
-The depth 0 is the scene itself: the whole file is one object, with the name of the file. A
-mapping from a node's name to an object's name: that node and all below it belong to that object, and nodes mapped to
-one name make one object; the rest of the scene follows "authored".
+"authored": the rule above. "leaf": every node with a mesh is an object. "loose": every connected surface of a mesh is
+an object, for rooms that were merged into one mesh. An int from 0: every node at that depth below the scene is one
+object with all nodes below it; the scene's own nodes have depth 1, and each mesh above is an object. The depth 0 is the
+scene itself: the whole file is one object, with the name of the file. A mapping from a node's name to an object's name:
+that node and all below it belong to that object, and nodes mapped to one name make one object; the rest of the scene
+follows "authored".
 """
 
 
@@ -73,13 +75,16 @@ def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, 
         return [group for root in kept for group in _authored(rejoined(root), origin).groups]
     if how == "leaf":
         return [group for root in kept for group in _leaves(root, origin)]
+    if how == "loose":
+        return list(_loose([group for root in kept for group in _leaves(root, origin)]))
     if isinstance(how, int) and not isinstance(how, bool) and how >= 0:
         scene = AuthoredNode(scene_name, origin, children=tuple(kept))
         return list(_at_depth(scene, origin, how)) if kept else []
     if isinstance(how, Mapping):
         return _mapped(kept, how)
     raise SceneError(
-        f"group is {how!r}; it must be 'authored', 'leaf', a depth from 0, or a mapping of node names to object names."
+        f"group is {how!r}; it must be 'authored', 'leaf', 'loose', a depth from 0, or a mapping of node names to "
+        "object names."
     )
 
 
@@ -201,6 +206,20 @@ def _leaves(node: AuthoredNode, above: Matrix) -> Iterator[Group]:
         yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces), mass_kg)
     for child in node.children:
         yield from _leaves(child, frame)
+
+
+def _loose(leaves: Sequence[Group]) -> Iterator[Group]:
+    # Copies share their pieces, so that each mesh is taken apart once.
+    known: dict[tuple[int, ...], list[tuple[Piece, ...]]] = {}
+    for leaf in leaves:
+        pieces = [piece for _, piece in leaf.parts]
+        which = tuple(map(id, pieces))
+        if which not in known:
+            known[which] = loose_parts(leaf.name, pieces)
+        found = known[which]
+        for part in found:
+            mass_kg = leaf.mass_kg if len(found) == 1 else None
+            yield Group(leaf.name, leaf.frame, tuple((leaf.frame, piece) for piece in part), mass_kg)
 
 
 def _at_depth(node: AuthoredNode, above: Matrix, depth: int) -> Iterator[Group]:

@@ -101,6 +101,12 @@ class Appearance:
         content.update(b"" if self.uv is None else self.uv.tobytes())
         return content.hexdigest()[:16]
 
+    def of_faces(self, rows: NDArray[np.intp]) -> Appearance:
+        """Return the looks of some faces, without the materials that these do not have."""
+        used, own = np.unique(self.face_material[rows], return_inverse=True)
+        materials = tuple(self.materials[row] for row in used)
+        return Appearance(materials, own.astype(np.int32), None if self.uv is None else self.uv[rows])
+
     @property
     def turned(self) -> Appearance:
         """The looks of the same faces with their corners in reverse order."""

@@ -1,4 +1,4 @@
-"""Find likely mistakes in a scene: units, quaternions, masses, the up axis, floating or sunken objects.
+"""Find likely mistakes in a scene: units, quaternions, masses, the up axis, merged, floating or sunken objects.
 
 Each finding is a sentence with the value, the bound and the remedy. The checks use AABBs, so a scene takes
 milliseconds; only the ground below objects that seem to be sunk is measured in its mesh. All bounds are wide, since a
@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 from scene2hap.counted import first_of
 from scene2hap.scene.copies import name_words
 from scene2hap.scene.geometry import cross_2d, distances
+from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
 
-Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass"]
+Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass", "merged"]
 
 _FLOATS_M = 0.25
 """A floating object is farther than this from all others and above the lowest (assumed: objects rest within 0.06 m)."""
@@ -74,6 +75,7 @@ def findings(scene: SceneData) -> Iterator[Finding]:
             f"all {len(ids)} rotation_xyzw tip objects over, as quaternions do that begin with w: the first is "
             f"{scene.objects[0].pose.rotation_xyzw}. Make poses by Pose.from_wxyz(position_m, rotation_wxyz).",
         )
+    yield from _merged(scene, ids)
     for item in scene.objects:
         heavy = None if item.mass_kg is None else too_heavy(item, item.mass_kg)
         if heavy:
@@ -96,6 +98,24 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     if not room:
         yield from _floating(boxes, ids, up)
         yield from _sunk(scene, boxes, ids, up)
+
+
+def _merged(scene: SceneData, ids: tuple[str, ...]) -> Iterator[Finding]:
+    """Find a room that is one object, since its file was merged into one mesh."""
+    if len(ids) > 1 or not names_a_place(scene.objects[0].name):
+        return
+    # Imported here, since few scenes need scipy.sparse for this.
+    from scene2hap.scene.grouping.loose_parts import n_loose_parts
+
+    n_parts = n_loose_parts(scene.objects[0].geometry.mesh)
+    if n_parts > 1:
+        yield Finding(
+            "merged",
+            ids,
+            f"{scene.name!r} is one object, {ids[0]!r}, of {n_parts} loose parts. Separate and name them in the "
+            "program that made it (Blender: Edit Mode, P, By Loose Parts), or load the file with group='loose' "
+            "(--group loose): then each part is an object, which `scene2hap edit BUNDLE name` or a model (llm) names.",
+        )
 
 
 def too_heavy(item: SceneObject, mass_kg: float) -> str | None:

@@ -231,7 +231,7 @@ def test_mapping_error_names_the_nearest_node() -> None:
 
 @pytest.mark.parametrize("how", ["", "auto", -1, False, True, 1.5, None, ["table"]])
 def test_unknown_grouping_is_refused(how: Any) -> None:
-    with pytest.raises(SceneError, match="must be 'authored', 'leaf', a depth from 0, or a mapping"):
+    with pytest.raises(SceneError, match="must be 'authored', 'leaf', 'loose', a depth from 0, or a mapping"):
         group_objects([mesh("table")], how)
 
 
