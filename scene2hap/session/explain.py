@@ -215,12 +215,27 @@ class Explainer:
         near = [source_id for column, source_id in enumerate(ids) if column in columns or source_id in on]
         if not near:
             yield "No source touches it, directly or over other objects."
+            inside = [source_id for source_id in ids if any(self._is_inside(source_id, x) for x in on)]
+            if inside:
+                named = first_of([*map(repr, inside)], MOST_NAMED)
+                yield (
+                    f"Inside it, too far from its surface to touch: {named}; move it to the surface, or add an object "
+                    "that touches both."
+                )
         silent: dict[tuple[str, str], list[str]] = {}
         for source_id in near:
             if (cause := self._why_silent(source_id)) is not None:
                 silent.setdefault(cause, []).append(source_id)
         for (why, remedy), several in silent.items():
             yield f"Connected, but {why}: {first_of([*map(repr, several)], MOST_NAMED)}; {remedy}."
+
+    def _is_inside(self, object_id: str, other_id: str) -> bool:
+        """Return True if the box of an object is inside the box around another one, in the other's frame."""
+        boxes_m = [self._state.objects[x].geometry.mesh.bounds_m for x in (object_id, other_id)]
+        pose = self._state.graph.pose
+        corners_m = np.stack(np.meshgrid(*boxes_m[0].T), axis=-1).reshape(-1, 3)
+        own_m = pose(other_id).to_own(pose(object_id).to_world(corners_m))
+        return bool(((own_m >= boxes_m[1][0]) & (own_m <= boxes_m[1][1])).all())
 
     def _why_silent(self, source_id: str) -> tuple[str, str] | None:
         """Return why a source is silent, and the remedy; None if it is not silent."""

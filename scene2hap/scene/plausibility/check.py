@@ -24,6 +24,9 @@ Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass", "m
 
 _FLOATS_M = 0.25
 """A floating object is farther than this from all others and above the lowest (assumed: objects rest within 0.06 m)."""
+# No object touches another that is farther away than this [m], and than this share of its own diagonal: a little more
+# than the contact rule allows (assumed).
+_REACH_M, _REACH_SIZES = 0.1, 0.3
 _SUNK_M = 0.1
 """An object is sunk if its top is this far below the floor's top (assumed: the thickness of a floor)."""
 _RESTS_M = 0.06  # Largest gap below an object at rest, about that of the contact rule.
@@ -93,6 +96,8 @@ def findings(scene: SceneData) -> Iterator[Finding]:
             f"up_axis is probably {letter!r}. Give up_axis={letter!r}.",
         )
         return
+    if sizes is None:
+        yield from _floating_inside(scene, boxes, ids)
     room = list(_room(scene, boxes, ids, up))
     yield from room
     if not room:
@@ -192,6 +197,80 @@ def _floating(boxes: NDArray[np.float64], ids: tuple[str, ...], up: int) -> Iter
             f"from the nearest other object, more than {_FLOATS_M} m. Move {_them(alone)} onto something, or touch "
             f"{_them(alone)} alone.",
         )
+
+
+def _floating_inside(scene: SceneData, boxes: NDArray[np.float64], ids: tuple[str, ...]) -> Iterator[Finding]:
+    """Find objects that another one surrounds, such as a motor in its housing, and that no surface is near.
+
+    Rooms are left out.
+
+    Boxes of triangles stand for surfaces, so that an object that may touch something is never named.
+    """
+    reach_m = np.minimum(_REACH_M, _REACH_SIZES * np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1))
+    holds = _holds(boxes)
+    n_held = holds.sum(axis=1)
+    is_room = (n_held >= _FEW) & (n_held > (len(ids) - 1) / 2)
+    triangles: dict[int, NDArray[np.float64]] = {}
+    found: list[tuple[int, int, float]] = []
+    for row in np.flatnonzero(holds[~is_room].any(axis=0)).tolist():
+        near = distances(boxes, boxes[row]) <= reach_m[row]
+        near[row] = False
+        if (near & ~holds[:, row]).any():
+            continue
+        hosts = np.flatnonzero(holds[:, row]).tolist()
+        for host in hosts:
+            if host not in triangles:
+                triangles[host] = _triangle_boxes(scene.objects[host])
+        around = [x for x in hosts if not is_room[x] and _surrounds(triangles[x], boxes[row])]
+        if around and not any(_is_near(triangles[x], boxes[row], reach_m[row]) for x in hosts):
+            gaps_m = [float(distances(triangles[x], boxes[row]).min()) for x in around]
+            found.append((row, around[int(np.argmin(gaps_m))], min(gaps_m)))
+    if found:
+        rows = np.array([row for row, _, _ in found])
+        row, host, gap_m = found[0]
+        yield Finding(
+            "floating",
+            tuple(ids[k] for k in rows),
+            f"{_named(ids, rows)} {'float' if len(rows) > 1 else 'floats'} inside another object: {ids[row]!r} is "
+            f"at least {gap_m:.2g} m from the surface of {ids[host]!r}, so no vibration passes between them. Move "
+            f"{_them(rows)} to the surface, add an object that touches both, such as a bracket, or make both one "
+            "object (group=).",
+        )
+
+
+def _holds(boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return whether each box (n, 2, 3) holds each other one (n, n), and is larger."""
+    holds = np.empty((len(boxes), len(boxes)), dtype=bool)
+    for some in _batches(len(boxes)):
+        one, other = boxes[some, None], boxes[None]
+        holds[some] = ((one[..., 0, :] <= other[..., 0, :]) & (one[..., 1, :] >= other[..., 1, :])).all(axis=2)
+    return holds & ~holds.T
+
+
+def _surrounds(boxes: NDArray[np.float64], box: NDArray[np.float64]) -> bool:
+    """Return True if any of the boxes (m, 2, 3) is on each of the six sides of a box (2, 3)."""
+    overlaps = (boxes[:, 0] <= box[1]) & (boxes[:, 1] >= box[0])
+    for axis in range(3):
+        beside = boxes[np.delete(overlaps, axis, axis=1).all(axis=1), :, axis]
+        if not ((beside[:, 0] <= box[0, axis]).any() and (beside[:, 1] >= box[1, axis]).any()):
+            return False
+    return True
+
+
+def _is_near(boxes: NDArray[np.float64], box: NDArray[np.float64], reach_m: float) -> bool:
+    """Return True if any box (m, 2, 3) meets a box (2, 3) that is enlarged by a reach."""
+    # One axis after the other: the first leaves few of the triangles of a room.
+    for axis in range(3):
+        is_low, is_high = boxes[:, 0, axis] <= box[1, axis] + reach_m, boxes[:, 1, axis] >= box[0, axis] - reach_m
+        boxes = boxes[is_low & is_high]
+    return len(boxes) > 0
+
+
+def _triangle_boxes(item: SceneObject) -> NDArray[np.float64]:
+    """Return the boxes (m, 2, 3) of an object's triangles in the world."""
+    mesh = item.geometry.mesh
+    corners = item.pose.to_world(mesh.vertices_m)[mesh.faces]
+    return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
 
 
 def _floor(boxes: NDArray[np.float64], up: int) -> tuple[int, NDArray[np.bool_]] | None:

@@ -264,6 +264,40 @@ def test_real_scenes_pass_the_check_and_fail_with_another_up_axis(name: str) -> 
     assert "up-axis" in {found.kind for found in other.check()}
 
 
+FRIDGE = SceneObject("fridge", pose=Pose((1.0, 0.9, -1.5)), geometry=Box((0.6, 1.8, 0.6)))
+
+
+def milk_at(x: float, y: float) -> SceneObject:
+    return SceneObject("milk", pose=Pose((x, y, -1.5)), geometry=Box((0.1, 0.2, 0.1)))
+
+
+def test_an_object_that_floats_inside_another_is_found() -> None:
+    scene = SceneSnapshot.build([*ROOM, FRIDGE, milk_at(1.0, 1.0)])
+    (found,) = scene.check()
+    assert (found.kind, found.object_ids) == ("floating", ("milk",))
+    assert "at least 0.25 m from the surface of 'fridge'" in str(found)
+    assert not list(ContactGraph(scene).neighbours("milk"))
+
+
+@pytest.mark.parametrize(
+    ("others", "why"),
+    [
+        ([FRIDGE, milk_at(1.0, 0.15)], "near the bottom"),
+        ([FRIDGE, milk_at(1.22, 1.0)], "near a side"),
+        ([FRIDGE, milk_at(1.0, 1.0), SceneObject("rack", pose=Pose((1.0, 0.85, -1.5)), geometry=Box((0.7, 0.1, 0.5)))],
+         "on a rack"),
+        ([SceneObject("desk", pose=Pose((1.0, 0.7, -1.5)), geometry=trimesh.creation.box((0.9, 0.04, 0.6))),
+          SceneObject("legs", pose=Pose((1.0, 0.35, -1.5)), geometry=trimesh.util.concatenate(
+              [trimesh.creation.box((0.04, 0.7, 0.6)).apply_translation((x, 0, 0)) for x in (-0.4, 0.4)])),
+          milk_at(1.0, 0.4)], "open at the front"),
+    ],
+)  # fmt: skip
+def test_an_object_that_is_near_a_surface_or_in_the_open_does_not_float_inside(
+    others: list[SceneObject], why: str
+) -> None:
+    assert SceneSnapshot.build([*ROOM, *others]).check() == (), why
+
+
 def test_bake_warns_of_floating_objects_and_scenes_without_sources() -> None:
     objects = [*ROOM[:3], moved(ROOM[3], pose=Pose((-0.3, 1.9, 0.1))), ROOM[4]]
     with pytest.warns(SceneWarning, match="'mug' floats"):

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from scene2hap import Contact, HapticBundle, HapticSession, SceneSnapshot, Touch, materials
+from scene2hap import Contact, HapticBundle, HapticSession, Pose, SceneSnapshot, Touch, materials
 from scene2hap.audio.haptic_loop import Sensation
 from scene2hap.errors import SessionError
 from scene2hap.propagation import MODELS
@@ -314,3 +314,22 @@ def test_a_source_behind_an_unknown_material_is_not_connected() -> None:
 
 def test_no_level_is_minus_zero() -> None:
     assert str(PathStep("mat", 0.001, -0.01)) == "mat (0.00 m, +0.0 dB)"
+
+
+def test_explanation_names_a_source_inside_the_touched_object() -> None:
+    snapshot = scene(
+        box("housing", (0.4, 0.4, 0.4), (0.0, 0.2, 0.0)), box("motor", (0.08, 0.08, 0.08), (0.0, 0.2, 0.0))
+    )
+    inferred = {
+        "housing": haptics("steel", (0.4, 0.4, 0.4)),
+        "motor": haptics("steel", (0.08, 0.08, 0.08), "running"),
+    }
+    bundle = HapticBundle(snapshot, "room", inferred, {"motor": {"running": tone_loop(180)}})
+    s = HapticSession(snapshot, bundle, {"sample_rate_hz": RATE})
+    touch = Touch("left", "housing", (0.0, 0.4, 0.0))
+    s.update(touches=[touch])
+    nothing, inside = s.explain("left").reasons
+    assert nothing == "No source touches it, directly or over other objects."
+    assert inside.startswith("Inside it, too far from its surface to touch: 'motor'; ")
+    s.update({"motor": Pose((0.0, 0.2, 1.0))}, [touch])
+    assert s.explain("left").reasons == (nothing,)
