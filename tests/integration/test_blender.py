@@ -327,5 +327,5 @@ def test_a_collection_instance_in_a_plain_export_is_one_object(ending: str, tmp_
     assert sorted(item.name for item in found) == ["Chair", "Chair.001", "fork", "plate"]
     first, second = (item for item in found if item.name.startswith("Chair"))
     np.testing.assert_allclose(first.size_m, second.size_m, atol=1e-6)
-    if ending != ".usdc":  # where each copy is stored, rounded to float32
+    if ending == ".glb":  # USD may store each copy, rounded to float32
         assert first.instance_key == second.instance_key

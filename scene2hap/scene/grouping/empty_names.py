@@ -10,7 +10,8 @@ _WORDS = (
     "object objects obj body link base root world node mesh geom geometry group default scene model main visual "
     "vis collision col part entity untitled unnamed noname polygon poly surface shape primitive "
     "pivot offset locator null empty game transform wrapper "
-    "instance instanced component static rigid id nurbs csg p d "  # Unreal, SketchUp, Maya's pCube1, Godot's Node3D
+    # Of Unreal, SketchUp, Maya (pCube1) and Godot (Node3D).
+    "instance instanced component static section lod rigid id nurbs csg p d "
     "cube sphere icosphere uvsphere cylinder plane circle cone torus capsule"
 )
 _EMPTY = frozenset(_WORDS.split())

@@ -124,11 +124,12 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
         return _Subtree([Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)], has_head=True)
     members = [Member(node.name, frame, node.pieces)] if node.pieces else []
     joined = _joined_parts(node, frame)
+    is_joined = frozenset(joined)
     below = []
     for child in node.children:
         if _is_part(child, node):
             members.append(Member(child.name, frame @ child.matrix, child.pieces))
-        elif child not in joined:
+        elif child not in is_joined:
             below.append(_authored(child, frame))
     members += [member for child in joined for member in _members(child, frame)]
     others = [group for subtree in below for group in subtree.groups]

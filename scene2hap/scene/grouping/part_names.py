@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 _PARTS = """
     apron arm armrest axle back backrest bar base basket battery bezel blade board body bolt bottom bracket bulb
@@ -29,7 +30,7 @@ _WORD = re.compile(r"[A-Z]?[^\W\d_A-Z]+|[A-Z]+(?![^\W\d_A-Z])")
 
 def has_own_noun(name: str, group_name: str) -> bool:
     """Return True if a name ends in a noun that names no part. The group's name is ignored."""
-    head = _head(_words(name[len(group_name) :] if name.startswith(group_name) else name))
+    head = _head(name[len(group_name) :] if name.startswith(group_name) else name)
     return bool(head) and not _singulars(head) & _PART_WORDS
 
 
@@ -38,9 +39,9 @@ def names_part(name: str, group_name: str) -> bool:
 
     `Door.001` below `Doors` is no part, but one of several doors. A short word such as `TV` is no part.
     """
-    words, above = _words(name), _head(_words(group_name))
-    head = _head(words)
+    head, above = _head(name), _head(group_name)
     if not head:
+        words = _words(name)
         return bool(words) and _OTHER_WORDS.issuperset(words)
     is_one_of_several = head != above and head in _singulars(above)
     return not is_one_of_several and (head == above or bool(_singulars(head) & _PART_WORDS))
@@ -48,16 +49,18 @@ def names_part(name: str, group_name: str) -> bool:
 
 def names_structure(name: str) -> bool:
     """Return True if a name is that of a wall, a floor or a ceiling."""
-    return bool(_singulars(_head(_words(name))) & _STRUCTURE)
+    return bool(_singulars(_head(name)) & _STRUCTURE)
 
 
 def _words(name: str) -> list[str]:
     return [word.lower() for word in _WORD.findall(name)]
 
 
-def _head(words: list[str]) -> str:
-    """Return the last noun, "" if there is none."""
-    return next((word for word in reversed(words) if len(word) > 2 and word not in _OTHER_WORDS), "")
+# A name is read once for each node above it.
+@lru_cache(4096)
+def _head(name: str) -> str:
+    """Return the last noun of a name, "" if it has none."""
+    return next((word for word in reversed(_words(name)) if len(word) > 2 and word not in _OTHER_WORDS), "")
 
 
 def _singulars(word: str) -> frozenset[str]:

@@ -15,7 +15,26 @@ JOINT = '<joint name="j" type="fixed"><parent link="baseLink"/><child link="lid"
 
 
 @pytest.mark.parametrize(
-    "name", ["object", "base_link", "baseLink", "Cube.001", "world/body1", "Object_7", "mesh_0_3f2a9c1", "p3", "", "12"]
+    "name",
+    [
+        "object",
+        "base_link",
+        "baseLink",
+        "Cube.001",
+        "world/body1",
+        "Object_7",
+        "mesh_0_3f2a9c1",
+        "p3",
+        "",
+        "12",
+        "pCube1",
+        "MeshInstance3D2",
+        "StaticMeshComponent0",
+        "Section1",
+        "instance_0",
+        "component_3",
+        "GameObject (1)",
+    ],
 )
 def test_names_of_tools_say_nothing(name: str) -> None:
     assert says_nothing(name)

@@ -91,7 +91,7 @@ SCENES = {
             "World",
             group(
                 "BP_Chair_C_1",
-                group("DefaultSceneRoot", box("StaticMeshComponent0", *SEAT), box("StaticMeshComponent1", *BACK)),
+                group("DefaultSceneRoot", box("StaticMeshComponent0", *SEAT), box("Section1", *BACK)),
             ),
             group("BP_Lamp_C_3", group("Root", *lamp("Base", "Pole", "Shade"))),
             group("Floor_4", box("StaticMeshComponent0", (-5, -0.1, -5), (5, 0, 5))),
