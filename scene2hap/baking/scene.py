@@ -33,6 +33,7 @@ from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.wrappers import reports
 from scene2hap.scene.arguments import given_scene
+from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.objects import SceneObject, UpAxis
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.snapshot import SceneSnapshot
@@ -274,7 +275,9 @@ def _warn_of(scene: SceneSnapshot, objects: Mapping[str, ObjectHaptics]) -> None
         warn_of(str(found))
     unknown = [key for key, haptics in objects.items() if is_unknown(haptics.object_category)]
     if len(objects) > 1 and not any(haptics.vibrates for haptics in objects.values()):
-        is_one_model = 2 * len(unknown) > len(objects)
+        # The loose parts of a merged room have its name.
+        is_room = any(names_a_place(item.name) for item in scene.objects)
+        is_one_model = 2 * len(unknown) > len(objects) and not is_room
         parts = " If the file is one model of many parts, load it with group=0." if is_one_model else ""
         warn_of(
             f"none of {len(objects)} objects of {scene.name!r} vibrates; nothing will be felt. Give objects names that "

@@ -87,6 +87,9 @@ def test_a_merged_room_is_found_and_its_remedy_helps(tmp_path: Path) -> None:
     apart = load_scene(tmp_path / "bathroom.obj", group="loose")
     assert [item.id for item in apart.objects] == ["Bathroom", "Bathroom#2", "Bathroom#3"]
     assert not any(each.kind == "merged" for each in apart.check())
+    with pytest.warns(SceneWarning, match="none of 3 objects") as warned:
+        bake(apart)
+    assert not any("group=0" in str(each.message) for each in warned), "which would merge it again"
 
 
 def test_a_shell_of_one_part_is_not_merged(tmp_path: Path) -> None:
