@@ -147,8 +147,7 @@ class HapticSession:
         self._shapes = PreparedShapes(is_wanted=finds_contacts and self.config.prepare == "background")
         self._shapes.order(item.geometry.mesh for item in scene.objects)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._switching: Switching | None = None
-        self._updated_ids: tuple[str, ...] = ()  # the sources of the last update, which a hand may have felt
+        self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
         self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
@@ -223,16 +222,14 @@ class HapticSession:
             moved, touches = given_frame(moved, touches)
         felt = self._by_hand(touches)
         stamp = self._stamp(at_sample)
-        if self._switching is None and self._sources.switch_themselves:
-            self._switching = self._new_switching()
-        if self._switching is not None and self._switching.advance(stamp):
-            self._hand_frames.levels_changed()
         if self._playback.take_prepared():
             self._hand_frames.loops_came()
         if moved and self._follows_landings:
             self._landings.begin(moved, stamp / self.config.sample_rate_hz)
         if moved or contacts is not None:
             self._hand_frames.apply(self._changed(moved or {}, contacts))
+        if self._switching.advance(stamp):
+            self._hand_frames.levels_changed()
         frame, gained = self._hand_frames.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
@@ -243,7 +240,6 @@ class HapticSession:
         if self._prepares_impacts:
             self._impacts.expect(felt)
         self._progress.n_updates += 1
-        self._updated_ids = self._sources.ids
         self._output.feed(frame)
         if felt:
             self._mistakes.in_sources(self._sources.ids)
@@ -385,14 +381,8 @@ class HapticSession:
         Before the first update with the source, it is switched without a start or stop: a scene may begin with it off.
         Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
         """
-        was_running = self._sources[source_id].is_running
-        is_other_state = self._sources.set(source_id, on, state, gain_db, mute)
+        is_other_state = self._switching.set(source_id, self._now, on, state, gain_db, mute)
         self._hand_frames.levels_changed(is_other_state)
-        self._switching = self._switching or self._new_switching()
-        # The turn of a state must not outlive it: another one may run all the time.
-        by_hand = on is not None or is_other_state
-        at_once = source_id not in self._updated_ids
-        self._switching.switched(source_id, was_running, self._now, by_hand=by_hand, at_once=at_once)
 
     def set_user(
         self,
@@ -441,7 +431,7 @@ class HapticSession:
 
     def _with_running(self, felt: FeltSource) -> FeltSource:
         """Add the amplitude of a start or stop that is under way."""
-        if self._switching is None or self._sources[felt.source_id].passing is None:
+        if self._sources[felt.source_id].passing is None:
             return felt
         return felt.while_passing(
             self._switching.running(felt.source_id, self._now).amplitude,
@@ -468,6 +458,7 @@ class HapticSession:
         """
         given = given_touches(touches)
         self._by_hand(given)
+        self._follow_contacts()
         return self._hand_frames.would_feel(self.hands, given)
 
     @overload
@@ -514,6 +505,7 @@ class HapticSession:
         if up_to_m is not None:
             up_to_m = checks.number("up_to_m", up_to_m, "m", error=SessionError)
         frames = self._hand_frames
+        self._follow_contacts()
 
         def gains_of(touches: Sequence[Touch]) -> NDArray[np.float64]:
             gains: NDArray[np.float64] = frames.would_feel(self.hands, touches)[:, column].max(axis=1)
@@ -647,9 +639,6 @@ class HapticSession:
     def _whole(self) -> WholeFrames:
         return WholeFrames(self.config.sample_rate_hz)
 
-    def _new_switching(self) -> Switching:
-        return Switching(self._sources, self._playback, self.config.sample_rate_hz)
-
     @property
     def _now(self) -> int:
         return max(self._playback.position, self._progress.last_stamp)
@@ -687,6 +676,10 @@ class HapticSession:
             now = given_stamp(at_sample, self._progress.last_stamp, self._playback.position, self.config.sample_rate_hz)
         self._progress.last_stamp = now
         return now
+
+    def _follow_contacts(self) -> None:
+        if self._switching.follow_contacts(self._now):
+            self._hand_frames.levels_changed()
 
     def _use_profile(self, user: UserProfile) -> None:
         self._user = user
