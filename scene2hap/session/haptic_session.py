@@ -60,6 +60,7 @@ from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts, Strike
 from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.likely_mistakes import (
+    NOT_STARTED,
     LikelyMistakes,
     warn_if_not_baked,
     warn_if_other_actuator,
@@ -76,9 +77,6 @@ from scene2hap.session.user_profile import UserProfile
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
-
-
-_NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
 
 
 class _Progress:
@@ -213,7 +211,7 @@ class HapticSession:
         at_sample : the position on `render`'s clock from which the gains change; None for the next block.
         Returns: the gains of the frame.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
-        vibrates; normals of contacts that point from `b` to `a`.
+        vibrates; normals of contacts that point from `b` to `a`; many touches, and the sink was never started.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
         before that of the last update, or another type than poses, touches and contacts.
         """
@@ -244,6 +242,8 @@ class HapticSession:
         if felt:
             self._mistakes.in_sources(self._sources.ids)
             self._mistakes.in_touches(felt)
+            if self._output.is_unused and not self._playback.position:
+                self._mistakes.in_output()
         return frame
 
     def strike(
@@ -425,7 +425,7 @@ class HapticSession:
         felt = sorted(
             map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
         )
-        waiting = (_NOT_STARTED,) if self._output.exists and not self._output.is_started else ()
+        waiting = (NOT_STARTED,) if self._output.exists and not self._output.is_started else ()
         reasons = (*waiting, *explained.reasons)
         return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
 
