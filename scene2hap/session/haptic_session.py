@@ -29,7 +29,7 @@ from scene2hap.contact.graph import ContactChange
 from scene2hap.counted import counted
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
-from scene2hap.errors import SceneError, SessionError, UnknownObject
+from scene2hap.errors import SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.render.guards import PeakGuard
 from scene2hap.render.safety import SafetyStats
@@ -49,14 +49,13 @@ from scene2hap.session.arguments import (
     require_pose,
     require_prefab,
     require_settings,
-    swapped_hint,
+    touches_by_hand,
 )
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explanation, FeltSource
 from scene2hap.session.frame import GivenTouches, HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.hand_frames import HandFrames
-from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts, Strike
 from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.likely_mistakes import (
@@ -218,7 +217,7 @@ class HapticSession:
         self._output.require_own_process()
         if moved is not None and type(moved) is not dict and not isinstance(moved, Mapping):
             moved, touches = given_frame(moved, touches)
-        felt = self._by_hand(touches)
+        felt = touches_by_hand(touches, self._hands, self._state)
         stamp = self._stamp(at_sample)
         if self._playback.take_prepared():
             self._hand_frames.loops_came()
@@ -457,8 +456,9 @@ class HapticSession:
         Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
         """
         given = given_touches(touches)
-        self._by_hand(given)
-        self._follow_contacts()
+        touches_by_hand(given, self.hands, self._state)
+        if self._switching.follow_contacts(self._now):
+            self._hand_frames.levels_changed()
         return self._hand_frames.would_feel(self.hands, given)
 
     @overload
@@ -498,28 +498,18 @@ class HapticSession:
         """
         from scene2hap.session.plots import plot_felt  # by need: the extra `plots`
 
-        column = self._sources.ids.index(self._sources[source_id].row.source_id)
+        self._sources.info(source_id)
         hand = self.hands[0] if hand is None else hand
         self._require_hand(hand)
-        cells = checks.whole("cells", cells, "-", at_least=4, at_most=2000, error=SessionError)
-        if up_to_m is not None:
-            up_to_m = checks.number("up_to_m", up_to_m, "m", error=SessionError)
-        frames = self._hand_frames
-        self._follow_contacts()
+        column, is_current = self.source_ids.index(source_id), self.is_current
 
         def gains_of(touches: Sequence[Touch]) -> NDArray[np.float64]:
-            gains: NDArray[np.float64] = frames.would_feel(self.hands, touches)[:, column].max(axis=1)
+            gains: NDArray[np.float64] = self.would_feel(touches)[:, column].max(axis=1)
             return gains
 
+        scene = self.snapshot
         return plot_felt(
-            self.snapshot,
-            source_id,
-            hand,
-            gains_of,
-            is_current=self.is_current,
-            cells=cells,
-            up_to_m=up_to_m,
-            axes=axes,
+            scene, source_id, hand, gains_of, is_current=is_current, cells=cells, up_to_m=up_to_m, axes=axes
         )
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
@@ -677,10 +667,6 @@ class HapticSession:
         self._progress.last_stamp = now
         return now
 
-    def _follow_contacts(self) -> None:
-        if self._switching.follow_contacts(self._now):
-            self._hand_frames.levels_changed()
-
     def _use_profile(self, user: UserProfile) -> None:
         self._user = user
         self._hand_frames.use_profile(user)
@@ -700,29 +686,6 @@ class HapticSession:
     def _require_hand(self, hand: object) -> None:
         if not isinstance(hand, str) or hand not in self.hands:
             raise SessionError(unknown_hand(hand, self.hands))
-
-    def _by_hand(self, touches: Any) -> Felt:
-        if type(touches) is not list and type(touches) is not tuple:
-            touches = given_touches(touches)
-        try:
-            by_hand = self._grouped(touches)
-        except UnknownObject:
-            raise
-        except Exception:  # an object of another type may raise any error
-            by_hand = self._grouped(given_touches(touches))
-        hands = self._hands
-        for hand in by_hand:
-            if hand not in hands:
-                raise SessionError(unknown_hand(hand, hands))
-        return {i: by_hand[hand] for i, hand in enumerate(hands) if hand in by_hand}
-
-    def _grouped(self, touches: Sequence[Touch]) -> dict[str, list[Touch]]:
-        by_hand: dict[str, list[Touch]] = {}
-        for touch in touches:
-            if touch.object_id not in self._state.objects:
-                self._state.require(touch.object_id, swapped_hint(touch, self.hands))
-            by_hand.setdefault(touch.hand, []).append(touch)
-        return by_hand
 
     def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
         self._mistakes.in_moves(moved)
