@@ -1,7 +1,6 @@
 """Conversion of a session's arguments: accept an unexpected type if its meaning is clear, else raise.
 
-An ordinary frame runs only the check of its stamp and `touches_by_hand` from this module, so the other conversions cost
-it nothing.
+An ordinary frame runs only `given_stamp`, `touches_by_hand` and `given_frames`, each on its shortest way.
 """
 
 from __future__ import annotations
@@ -196,6 +195,8 @@ def require_addable(item: object, haptics: object, loops: object) -> None:
 
 def given_frames(n_frames: object) -> int:
     """A number of frames to render. Raises: SessionError: out of bounds."""
+    if type(n_frames) is int and 0 <= n_frames <= MAX_RENDERED_FRAMES:
+        return n_frames
     hint = "For a time give seconds: `render_s`, or `pull_s` of a sink."
     bounds = {"at_least": 0, "at_most": MAX_RENDERED_FRAMES}
     return checks.whole("n_frames", n_frames, "-", **bounds, error=SessionError, hint=hint)

@@ -31,13 +31,11 @@ from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
 from scene2hap.errors import SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
-from scene2hap.render.guards import PeakGuard
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.arguments import (
-    MAX_RENDERED_FRAMES,
     given_contacts,
     given_frame,
     given_frames,
@@ -151,7 +149,6 @@ class HapticSession:
         self._follows_landings, self._prepares_impacts = self.config.impacts, self.config.prepares_impacts
         self._output = Output(sink, self.config)
         self._user: UserProfile | None = None
-        self._limit: PeakGuard | None = None
         if user is not None:
             self._use_profile(UserProfile.parse(user))
         self._progress = _Progress()
@@ -397,9 +394,6 @@ class HapticSession:
         other = None if profile is None else UserProfile.parse(profile)
         self._sources.user.set(gain_db, mute)
         if other is not None:
-            if self._limit is None:
-                # The limits begin at full scale, so that they do not click.
-                self._limit = PeakGuard(1.0, self.config.sample_rate_hz, len(self._hands))
             self._use_profile(other)
         self._hand_frames.levels_changed()
 
@@ -534,9 +528,7 @@ class HapticSession:
                 "the sink of this session renders, and would miss the samples that you take with `render`. Use the "
                 "sink's own samples, such as `sink.pull`, or a session without a sink."
             )
-        mix, limit = self._mixed(n_frames), self._limit
-        # A sink has the limits of a profile in its safety layer.
-        return mix if limit is None else limit.pass_through(mix.astype(np.float64)).astype(np.float32)
+        return self._playback.render_held(given_frames(n_frames))
 
     def render_s(self, seconds: float) -> Block:
         """Return the next `seconds` [s] of the mix. See `render`.
@@ -547,9 +539,7 @@ class HapticSession:
         return self.render(self._whole.of(seconds))
 
     def _mixed(self, n_frames: int) -> Block:
-        if type(n_frames) is not int or not 0 <= n_frames <= MAX_RENDERED_FRAMES:
-            n_frames = given_frames(n_frames)
-        return self._playback.render(n_frames)
+        return self._playback.render(given_frames(n_frames))
 
     @property
     def position(self) -> int:
@@ -671,9 +661,7 @@ class HapticSession:
         self._user = user
         self._hand_frames.use_profile(user)
         limits = user.limits(self._hands, self.config.actuator.name)
-        if self._limit is None or self._limit.n_channels != len(limits):
-            self._limit = PeakGuard(limits, self.config.sample_rate_hz, len(limits))
-        self._limit.limit = limits
+        self._playback.hold(limits)
         self._output.hold(limits)
         warn_if_other_hands(tuple(user.hands), self._hands)
 
