@@ -1,6 +1,7 @@
 """Sources that need contact: a pan that needs a stove, on objects of different categories."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -63,7 +64,7 @@ def test_a_pan_that_is_lifted_is_silent() -> None:
     assert kitchen("hob", "stove").update({"pan": Pose((0.0, 1.5, 0.0))}, touch).gain("left", "pan") == 0.0
 
 
-def stove_and_pan(**times: float) -> HapticSession:
+def stove_and_pan(**times: Any) -> HapticSession:
     """A pan on a humming stove, and the time that it takes to start and stop."""
     snapshot, bundle = kitchen_of("hob", "stove", hob_is_source=True)
     pan = bundle.objects["pan"]
@@ -79,7 +80,7 @@ def levels(session: HapticSession, seconds: float, height_m: float) -> np.ndarra
     for _ in range(round(seconds * 100)):
         session.update({"pan": Pose((0.0, height_m, 0.0))}, touch)
         blocks.append(session.render(480))
-    return np.sqrt((np.concatenate(blocks)[:, 0].reshape(-1, 2400) ** 2).mean(axis=1))
+    return np.asarray(np.sqrt((np.concatenate(blocks)[:, 0].reshape(-1, 2400) ** 2).mean(axis=1)))
 
 
 @pytest.mark.parametrize("way", ["lifted", "stove switched off", "switched off"])
