@@ -7,6 +7,7 @@ n_channels).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +74,6 @@ class PeakGuard:
         from scipy.signal import lfilter
 
         self.limit = limit
-        self.n_channels = n_channels
         self._now = np.broadcast_to(limit, n_channels)
         self._step = 1.0 / (FULL_SCALE_S * sample_rate_hz)
         self._release, self._attack = limiter.decays(sample_rate_hz, 1)[:, 0]
@@ -82,6 +82,16 @@ class PeakGuard:
         self._held, self._applied = np.zeros((2, n_channels))
         self._frame = 0
         self.n_limited: int = 0
+
+    def rearrange(self, former: Sequence[int | None], limit: Signal) -> None:
+        """Change the channels: each continues a former one, by index, or is new (None), with its limit at once."""
+
+        def kept(state: Signal, new: Signal) -> Signal:
+            return np.array([new[i] if one is None else state[one] for i, one in enumerate(former)])
+
+        nothing = np.zeros(len(former))
+        self._held, self._applied = kept(self._held, nothing), kept(self._applied, nothing)
+        self._now, self.limit = kept(self._now, limit), limit
 
     def pass_through(self, x: Signal) -> Signal:
         """Return the signal within the limit."""

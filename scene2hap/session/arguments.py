@@ -1,23 +1,25 @@
 """Conversion of a session's arguments: accept an unexpected type if its meaning is clear, else raise.
 
-An ordinary frame runs only the check of its stamp from this module, so these conversions cost it nothing.
+An ordinary frame runs only `given_stamp`, `touches_by_hand` and `given_frames`, each on its shortest way.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from scene2hap import checks
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.bundle import HapticBundle
 from scene2hap.devices.protocol import ActuatorSink
-from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError
+from scene2hap.errors import BundleError, ConfigError, SceneError, SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
-from scene2hap.session.frame import Touch
+from scene2hap.session.frame import Touch, unknown_hand
+from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.felt_impacts import KNOCK_M_S, Strike
+from scene2hap.session.scene_state import SceneState
 
 MAX_RENDERED_FRAMES = 1 << 24
 """Most frames of one call; assumed: minutes, while a sink takes milliseconds at a time."""
@@ -91,7 +93,35 @@ def _refuse_touches(touches: object) -> NoReturn:
     )
 
 
-def swapped_hint(touch: Touch, hands: Collection[str]) -> str:
+def touches_by_hand(touches: Any, hands: Sequence[str], state: SceneState) -> Felt:
+    """Group touches, in any form that `given_touches` accepts, by the number of their hand.
+
+    Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
+    """
+    if type(touches) is not list and type(touches) is not tuple:
+        touches = given_touches(touches)
+    try:
+        by_hand = _grouped(touches, hands, state)
+    except UnknownObject:
+        raise
+    except Exception:  # an object of another type may raise any error
+        by_hand = _grouped(given_touches(touches), hands, state)
+    for hand in by_hand:
+        if hand not in hands:
+            raise SessionError(unknown_hand(hand, hands))
+    return {i: by_hand[hand] for i, hand in enumerate(hands) if hand in by_hand}
+
+
+def _grouped(touches: Sequence[Touch], hands: Collection[str], state: SceneState) -> dict[str, list[Touch]]:
+    by_hand: dict[str, list[Touch]] = {}
+    for touch in touches:
+        if touch.object_id not in state.objects:
+            state.require(touch.object_id, _swapped_hint(touch, hands))
+        by_hand.setdefault(touch.hand, []).append(touch)
+    return by_hand
+
+
+def _swapped_hint(touch: Touch, hands: Collection[str]) -> str:
     """Return a hint if a touch has hand and object swapped."""
     is_hand = isinstance(touch.object_id, str) and touch.object_id in hands
     return f" {touch.object_id!r} is a hand; a touch is {_TOUCH}." if is_hand else ""
@@ -165,6 +195,8 @@ def require_addable(item: object, haptics: object, loops: object) -> None:
 
 def given_frames(n_frames: object) -> int:
     """A number of frames to render. Raises: SessionError: out of bounds."""
+    if type(n_frames) is int and 0 <= n_frames <= MAX_RENDERED_FRAMES:
+        return n_frames
     hint = "For a time give seconds: `render_s`, or `pull_s` of a sink."
     bounds = {"at_least": 0, "at_most": MAX_RENDERED_FRAMES}
     return checks.whole("n_frames", n_frames, "-", **bounds, error=SessionError, hint=hint)

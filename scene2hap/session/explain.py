@@ -239,14 +239,14 @@ class Explainer:
 
     def _why_silent(self, source_id: str) -> tuple[str, str] | None:
         """Return why a source is silent, and the remedy; None if it is not silent."""
-        source, state = self._sources[source_id], self._state
+        source = self._sources[source_id]
         if not source.is_on:
             return "off", "call set_source(id, on=True)"
         if source.level.is_muted:
             return "muted", "call set_source(id, mute=False)"
         if source.is_resting:
             return "in its off-time", "call set_source(id, on=True)"
-        if not self._sources.has_contact(source_id, state.graph.neighbours, state.category):
+        if not source.has_contact:
             return f"without contact with {source.needs[source.state]!r}, switched on", "move it there"
         return None
 

@@ -76,8 +76,6 @@ class HandFrames:
         if change.appeared or change.vanished:
             self._reach.follow(change)
             self._n_unreachable = None
-            if self._sources.need_contacts:
-                self._are_levels_known = self._is_fresh = False
         if not change:
             return
         if concerns_sources or self._reach.concerns(change):
@@ -292,7 +290,7 @@ class HandFrames:
     def _known_levels(self) -> NDArray[np.float64]:
         """The factor of each source's signal (n_sources,) [-]."""
         if not self._are_levels_known:
-            levels = self._sources.factors(self._state.graph.neighbours, self._state.category)
+            levels = self._sources.factors()
             self._personal = None
             if self._profile is not None:
                 config, rows = self._config, self._sources.active_rows()

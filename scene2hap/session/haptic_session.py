@@ -29,15 +29,13 @@ from scene2hap.contact.graph import ContactChange
 from scene2hap.counted import counted
 from scene2hap.devices.protocol import ActuatorSink, Block
 from scene2hap.devices.whole_frames import WholeFrames
-from scene2hap.errors import SceneError, SessionError, UnknownObject
+from scene2hap.errors import SceneError, SessionError
 from scene2hap.haptics import ObjectHaptics
-from scene2hap.render.guards import PeakGuard
 from scene2hap.render.safety import SafetyStats
 from scene2hap.scene.objects import Contact, SceneObject
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.snapshot import SceneSnapshot
 from scene2hap.session.arguments import (
-    MAX_RENDERED_FRAMES,
     given_contacts,
     given_frame,
     given_frames,
@@ -49,17 +47,17 @@ from scene2hap.session.arguments import (
     require_pose,
     require_prefab,
     require_settings,
-    swapped_hint,
+    touches_by_hand,
 )
 from scene2hap.session.config import SessionConfig
 from scene2hap.session.deadline import Deadline
 from scene2hap.session.explain import Explanation, FeltSource
 from scene2hap.session.frame import GivenTouches, HapticFrame, SessionStats, Touch, unknown_hand
 from scene2hap.session.hand_frames import HandFrames
-from scene2hap.session.hand_gains import Felt
 from scene2hap.session.impacts.felt_impacts import Impact, Impacts, Strike
 from scene2hap.session.impacts.landings import Landings
 from scene2hap.session.likely_mistakes import (
+    NOT_STARTED,
     LikelyMistakes,
     warn_if_not_baked,
     warn_if_other_actuator,
@@ -76,9 +74,6 @@ from scene2hap.session.user_profile import UserProfile
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
-
-
-_NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
 
 
 class _Progress:
@@ -147,15 +142,13 @@ class HapticSession:
         self._shapes = PreparedShapes(is_wanted=finds_contacts and self.config.prepare == "background")
         self._shapes.order(item.geometry.mesh for item in scene.objects)
         self._playback = Playback(self.config, self._sources.rows(), len(self.hands))
-        self._switching: Switching | None = None
-        self._updated_ids: tuple[str, ...] = ()  # the sources of the last update, which a hand may have felt
+        self._switching = Switching(self._sources, self._playback, self._state, self.config.sample_rate_hz)
         self._hand_frames = HandFrames(self.config, self._state, self._sources, self._playback.peaks, self._hands)
         self._mistakes = LikelyMistakes(self._state)
         self._landings = Landings(self._state.graph, self._state.middle_m, self.config.control_period_s)
         self._follows_landings, self._prepares_impacts = self.config.impacts, self.config.prepares_impacts
         self._output = Output(sink, self.config)
         self._user: UserProfile | None = None
-        self._limit: PeakGuard | None = None
         if user is not None:
             self._use_profile(UserProfile.parse(user))
         self._progress = _Progress()
@@ -214,25 +207,23 @@ class HapticSession:
         at_sample : the position on `render`'s clock from which the gains change; None for the next block.
         Returns: the gains of the frame.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
-        vibrates; normals of contacts that point from `b` to `a`.
+        vibrates; normals of contacts that point from `b` to `a`; many touches, and the sink was never started.
         Raises: UnknownObject: a touched or moved object is not in the scene; SessionError: an unknown hand, a position
         before that of the last update, or another type than poses, touches and contacts.
         """
         self._output.require_own_process()
         if moved is not None and type(moved) is not dict and not isinstance(moved, Mapping):
             moved, touches = given_frame(moved, touches)
-        felt = self._by_hand(touches)
+        felt = touches_by_hand(touches, self._hands, self._state)
         stamp = self._stamp(at_sample)
-        if self._switching is None and self._sources.switch_themselves:
-            self._switching = self._new_switching()
-        if self._switching is not None and self._switching.advance(stamp):
-            self._hand_frames.levels_changed()
         if self._playback.take_prepared():
             self._hand_frames.loops_came()
         if moved and self._follows_landings:
             self._landings.begin(moved, stamp / self.config.sample_rate_hz)
         if moved or contacts is not None:
             self._hand_frames.apply(self._changed(moved or {}, contacts))
+        if self._switching.advance(stamp):
+            self._hand_frames.levels_changed()
         frame, gained = self._hand_frames.frame(self.hands, felt, moved or (), is_paused=self._playback.is_paused)
         if gained is not None:
             self._playback.set_gains(gained.mixed, self._sources.active_rows(), stamp, gained.columns)
@@ -243,11 +234,12 @@ class HapticSession:
         if self._prepares_impacts:
             self._impacts.expect(felt)
         self._progress.n_updates += 1
-        self._updated_ids = self._sources.ids
         self._output.feed(frame)
         if felt:
             self._mistakes.in_sources(self._sources.ids)
             self._mistakes.in_touches(felt)
+            if self._output.is_unused and not self._playback.position:
+                self._mistakes.in_output()
         return frame
 
     def strike(
@@ -385,14 +377,8 @@ class HapticSession:
         Before the first update with the source, it is switched without a start or stop: a scene may begin with it off.
         Raises: UnknownObject: not a source; SessionError: it has no such state, or the gain is out of bounds.
         """
-        was_running = self._sources[source_id].is_running
-        is_other_state = self._sources.set(source_id, on, state, gain_db, mute)
+        is_other_state = self._switching.set(source_id, self._now, on, state, gain_db, mute)
         self._hand_frames.levels_changed(is_other_state)
-        self._switching = self._switching or self._new_switching()
-        # The turn of a state must not outlive it: another one may run all the time.
-        by_hand = on is not None or is_other_state
-        at_once = source_id not in self._updated_ids
-        self._switching.switched(source_id, was_running, self._now, by_hand=by_hand, at_once=at_once)
 
     def set_user(
         self,
@@ -408,9 +394,6 @@ class HapticSession:
         other = None if profile is None else UserProfile.parse(profile)
         self._sources.user.set(gain_db, mute)
         if other is not None:
-            if self._limit is None:
-                # The limits begin at full scale, so that they do not click.
-                self._limit = PeakGuard(1.0, self.config.sample_rate_hz, len(self._hands))
             self._use_profile(other)
         self._hand_frames.levels_changed()
 
@@ -435,13 +418,13 @@ class HapticSession:
         felt = sorted(
             map(self._with_running, explained.felt), key=lambda one: -(one.gain_db + one.level_db + one.running_db)
         )
-        waiting = (_NOT_STARTED,) if self._output.exists and not self._output.is_started else ()
+        waiting = (NOT_STARTED,) if self._output.exists and not self._output.is_started else ()
         reasons = (*waiting, *explained.reasons)
         return replace(explained, felt=tuple(felt), impacts=self._impacts.felt_by(hand), reasons=reasons)
 
     def _with_running(self, felt: FeltSource) -> FeltSource:
         """Add the amplitude of a start or stop that is under way."""
-        if self._switching is None or self._sources[felt.source_id].passing is None:
+        if self._sources[felt.source_id].passing is None:
             return felt
         return felt.while_passing(
             self._switching.running(felt.source_id, self._now).amplitude,
@@ -467,7 +450,9 @@ class HapticSession:
         Raises: UnknownObject: an object is not in the scene; SessionError: an unknown hand, or another type.
         """
         given = given_touches(touches)
-        self._by_hand(given)
+        touches_by_hand(given, self.hands, self._state)
+        if self._switching.follow_contacts(self._now):
+            self._hand_frames.levels_changed()
         return self._hand_frames.would_feel(self.hands, given)
 
     @overload
@@ -507,27 +492,18 @@ class HapticSession:
         """
         from scene2hap.session.plots import plot_felt  # by need: the extra `plots`
 
-        column = self._sources.ids.index(self._sources[source_id].row.source_id)
+        self._sources.info(source_id)
         hand = self.hands[0] if hand is None else hand
         self._require_hand(hand)
-        cells = checks.whole("cells", cells, "-", at_least=4, at_most=2000, error=SessionError)
-        if up_to_m is not None:
-            up_to_m = checks.number("up_to_m", up_to_m, "m", error=SessionError)
-        frames = self._hand_frames
+        column, is_current = self.source_ids.index(source_id), self.is_current
 
         def gains_of(touches: Sequence[Touch]) -> NDArray[np.float64]:
-            gains: NDArray[np.float64] = frames.would_feel(self.hands, touches)[:, column].max(axis=1)
+            gains: NDArray[np.float64] = self.would_feel(touches)[:, column].max(axis=1)
             return gains
 
+        scene = self.snapshot
         return plot_felt(
-            self.snapshot,
-            source_id,
-            hand,
-            gains_of,
-            is_current=self.is_current,
-            cells=cells,
-            up_to_m=up_to_m,
-            axes=axes,
+            scene, source_id, hand, gains_of, is_current=is_current, cells=cells, up_to_m=up_to_m, axes=axes
         )
 
     def wait_prepared(self, timeout_s: float | None = None) -> bool:
@@ -552,9 +528,7 @@ class HapticSession:
                 "the sink of this session renders, and would miss the samples that you take with `render`. Use the "
                 "sink's own samples, such as `sink.pull`, or a session without a sink."
             )
-        mix, limit = self._mixed(n_frames), self._limit
-        # A sink has the limits of a profile in its safety layer.
-        return mix if limit is None else limit.pass_through(mix.astype(np.float64)).astype(np.float32)
+        return self._playback.render_held(given_frames(n_frames))
 
     def render_s(self, seconds: float) -> Block:
         """Return the next `seconds` [s] of the mix. See `render`.
@@ -565,9 +539,7 @@ class HapticSession:
         return self.render(self._whole.of(seconds))
 
     def _mixed(self, n_frames: int) -> Block:
-        if type(n_frames) is not int or not 0 <= n_frames <= MAX_RENDERED_FRAMES:
-            n_frames = given_frames(n_frames)
-        return self._playback.render(n_frames)
+        return self._playback.render(given_frames(n_frames))
 
     @property
     def position(self) -> int:
@@ -647,9 +619,6 @@ class HapticSession:
     def _whole(self) -> WholeFrames:
         return WholeFrames(self.config.sample_rate_hz)
 
-    def _new_switching(self) -> Switching:
-        return Switching(self._sources, self._playback, self.config.sample_rate_hz)
-
     @property
     def _now(self) -> int:
         return max(self._playback.position, self._progress.last_stamp)
@@ -692,9 +661,7 @@ class HapticSession:
         self._user = user
         self._hand_frames.use_profile(user)
         limits = user.limits(self._hands, self.config.actuator.name)
-        if self._limit is None or self._limit.n_channels != len(limits):
-            self._limit = PeakGuard(limits, self.config.sample_rate_hz, len(limits))
-        self._limit.limit = limits
+        self._playback.hold(limits)
         self._output.hold(limits)
         warn_if_other_hands(tuple(user.hands), self._hands)
 
@@ -707,29 +674,6 @@ class HapticSession:
     def _require_hand(self, hand: object) -> None:
         if not isinstance(hand, str) or hand not in self.hands:
             raise SessionError(unknown_hand(hand, self.hands))
-
-    def _by_hand(self, touches: Any) -> Felt:
-        if type(touches) is not list and type(touches) is not tuple:
-            touches = given_touches(touches)
-        try:
-            by_hand = self._grouped(touches)
-        except UnknownObject:
-            raise
-        except Exception:  # an object of another type may raise any error
-            by_hand = self._grouped(given_touches(touches))
-        hands = self._hands
-        for hand in by_hand:
-            if hand not in hands:
-                raise SessionError(unknown_hand(hand, hands))
-        return {i: by_hand[hand] for i, hand in enumerate(hands) if hand in by_hand}
-
-    def _grouped(self, touches: Sequence[Touch]) -> dict[str, list[Touch]]:
-        by_hand: dict[str, list[Touch]] = {}
-        for touch in touches:
-            if touch.object_id not in self._state.objects:
-                self._state.require(touch.object_id, swapped_hint(touch, self.hands))
-            by_hand.setdefault(touch.hand, []).append(touch)
-        return by_hand
 
     def _changed(self, moved: Mapping[str, Pose], contacts: Sequence[Contact] | None) -> ContactChange:
         self._mistakes.in_moves(moved)

@@ -6,6 +6,7 @@
 - Touches and strikes far from the box around their object. Almost always the point is in other units, in the object's
   own frame, or from another frame of the game.
 - Added objects that will not be felt, a scene in which nothing vibrates, a user's profile for other hands.
+- A sink that is never started.
 """
 
 from __future__ import annotations
@@ -41,6 +42,12 @@ wrong points continues to do so."""
 MOST_NAMED = 10
 """Most silent objects that a session names: a game may spawn thousands, and Python stores the text of each warning."""
 
+NOT_STARTED = "The sink plays nothing: call start(), or use the session in a `with` block."
+
+UNPLAYED = 50
+"""Updates with touches before a sink that was never started is named: a second of a slow game. A game may update a few
+times before it starts the sink."""
+
 Point = tuple[float, float, float]
 
 _MOST_POSES = 100
@@ -63,6 +70,7 @@ class LikelyMistakes:
         self._hands_named: set[str] = set()
         self._n_updates = 0
         self._n_silent_named = 0
+        self._n_unplayed = 0
         self._has_moved = self._is_silence_named = self._knows_normals = self._is_strike_named = False
         self.n_touches_off: int = 0
 
@@ -119,6 +127,15 @@ class LikelyMistakes:
                     if touch.hand not in self._hands_named:
                         self._hands_named.add(touch.hand)
                         self._warn_of_touch(touch, off_m)
+
+    def in_output(self) -> None:
+        """Warn once of a sink that was never started. Call it for each update with touches until then.
+
+        Warns: SceneWarning.
+        """
+        self._n_unplayed += 1
+        if self._n_unplayed == UNPLAYED:
+            warn_of(f"{UNPLAYED} updates had touches, and the sink of the session was never started. {NOT_STARTED}")
 
     def in_strike(self, object_id: str, point_m: Point) -> None:
         """Warn about the first strike that is too far off. Warns: SceneWarning."""

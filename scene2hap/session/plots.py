@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap import checks
+from scene2hap.errors import SessionError
 from scene2hap.plots import TOUCH, add_legend, new_figure, plain, set_title
 from scene2hap.scene.from_above import NOTHING, TopView
 from scene2hap.scene.plots import EMPTY, LINES, draw_edges, draw_values
@@ -40,7 +42,11 @@ def plot_felt(
     """Colour the uppermost surfaces by level. See `HapticSession.plot_felt`.
 
     Parameters: gains_of : returns the gains (n_points,) [-] of that source at that hand for touches.
+    Raises: SessionError: fewer than 4 cells or more than 2000, or `up_to_m` is no height.
     """
+    cells = checks.whole("cells", cells, "-", at_least=4, at_most=2000, error=SessionError)
+    if up_to_m is not None:
+        up_to_m = checks.number("up_to_m", up_to_m, "m", error=SessionError)
     figure = new_figure(8.0, 5.0) if axes is None else axes.figure
     axes = figure.add_subplot() if axes is None else axes
     view = TopView.of(scene, cells, up_to_m)

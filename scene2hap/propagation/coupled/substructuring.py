@@ -258,7 +258,7 @@ class CoupledField:
         solved = self.reach.get(object_id)
         if solved is None or object_id == source_id or source_id not in self.source_ids:
             return ()
-        shares = solved.shares_of_power(self.source_ids.index(source_id), band, self.sampling)
+        shares = solved.shares_of_power(source_id, self.source_ids.index(source_id), band, self.sampling)
         pose = self.network.poses.get(object_id, Pose())
         at_m = solved.ends.points_m[:, :2]
         points = pose.to_world(np.column_stack([at_m, np.zeros(len(at_m))]))

@@ -49,6 +49,8 @@ class Output:
         self._limits: NDArray[np.float64] | None = None
         self._show: Callable[[HapticFrame], None] | None = getattr(built, "show", None)
         self._shown: HapticFrame | None = None
+        self.is_unused: bool = built is not None
+        """Whether a sink is set that was never started."""
 
     def require_own_process(self) -> None:
         """Raises: SessionError: this is a fork of the process that made the session."""
@@ -127,7 +129,7 @@ class Output:
             with contextlib.suppress(Exception):  # the first error says what is wrong
                 self._release(self._sink, _discard(self._sink))
             raise
-        self._safety = safety
+        self._safety, self.is_unused = safety, False
         if has_clock(self._sink):
             # A program may end without `stop`: by an error, by Ctrl-C, or at the end of its code. Called before the
             # sink's own end, which does not fade.

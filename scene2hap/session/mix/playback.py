@@ -25,6 +25,7 @@ from scene2hap.render.mixer import Mixer
 from scene2hap.render.passage import Course, Passage, Running
 from scene2hap.session.config import MIN_RAMP_S, SessionConfig
 from scene2hap.session.deadline import Deadline
+from scene2hap.session.mix.hand_limits import HandLimits
 from scene2hap.session.mix.prepared_loops import PreparedLoop, find, order, prepare
 from scene2hap.session.mix.sources import LoopRow
 
@@ -146,6 +147,7 @@ class Playback:
         self._mixers = [MixerInstance(config, self._banks[0], tuple(self._hands), 0)]
         self._plan = self._new_plan()
         self._bursts: Bursts | None = None  # at the first impact
+        self._limits: HandLimits | None = None
         # Twice the ramp, since gain changes in quick succession may have to wait.
         fade_s = 2 * max(config.control_period_s, MIN_RAMP_S) + self._mixers[0].mixer.delay_s + 0.01
         self._fade_frames = round(fade_s * config.sample_rate_hz)
@@ -335,9 +337,27 @@ class Playback:
         """Continue the clock; gains must be set again."""
         self._paused_from = None
 
+    def hold(self, limits: NDArray[np.float64]) -> None:
+        """Hold each output within a limit (n_hands,) [-] in `render_held`, see `HandLimits`."""
+        by_hand = dict(zip(self._hands, limits.tolist(), strict=True))
+        if self._limits is None:
+            # Limits that come while the mix plays begin at full scale, so that they do not click.
+            first = {} if self._position else by_hand
+            self._limits = HandLimits(self._config.sample_rate_hz, self._hands, first)
+        self._limits.hold(by_hand)
+
     def render(self, n_frames: int) -> Block:
         """The next samples (n_frames, n_hands) float32 in [-1, 1]."""
-        plan, paused_from = self._plan, self._paused_from
+        return self._rendered(self._plan, n_frames)
+
+    def render_held(self, n_frames: int) -> Block:
+        """The next samples as `render` gives them, each output within its limit, if any."""
+        plan, limits = self._plan, self._limits
+        mix = self._rendered(plan, n_frames)
+        return mix if limits is None else limits.pass_through(mix, plan.hands)
+
+    def _rendered(self, plan: _Plan, n_frames: int) -> Block:
+        paused_from = self._paused_from
         if paused_from is None:
             self._frozen_at = None
             return self._render(plan, n_frames)

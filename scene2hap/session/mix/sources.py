@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,7 +12,6 @@ from scene2hap import checks
 from scene2hap.audio.gain_warning import warn_if_percent
 from scene2hap.audio.haptic_loop import HapticLoop
 from scene2hap.calls import clear_attributes
-from scene2hap.contact_needs import meets
 from scene2hap.errors import SessionError, UnknownObject
 from scene2hap.haptics import ObjectHaptics, SourceState
 from scene2hap.session.config import MAX_GAIN_DB
@@ -69,7 +68,8 @@ class Source:
     """A vibrating object; `needs` is the contact that each state needs, by id or in words.
 
     inferred : its inferred states, by name; is_resting : whether it is in the off-time of its own cycle (thermostat);
-    passing : the row that is played while it starts or stops.
+    has_contact : whether it has the contact that its state needs; is_new : before its first update; passing : the row
+    that is played while it starts or stops. `Switching` sets the last four.
     """
 
     rows: Mapping[str, LoopRow]
@@ -79,6 +79,8 @@ class Source:
     level: Level = field(default_factory=Level)
     inferred: Mapping[str, SourceState] = field(default_factory=dict)
     is_resting: bool = False
+    has_contact: bool = True
+    is_new: bool = True
     passing: LoopRow | None = None
 
     @property
@@ -88,8 +90,8 @@ class Source:
 
     @property
     def is_running(self) -> bool:
-        """Whether it is switched on, and not in the off-time of its cycle."""
-        return self.is_on and not self.is_resting
+        """Whether it is switched on, not in the off-time of its cycle, and has the contact that it needs."""
+        return self.is_on and not self.is_resting and self.has_contact
 
 
 class Sources:
@@ -100,8 +102,6 @@ class Sources:
         # Derived from the sources on demand, since many may come and go between two frames.
         self._ids: tuple[str, ...] | None = None
         self._active_rows: tuple[LoopRow, ...] | None = None
-        self._need_contacts: bool | None = None
-        self._switch_themselves: bool | None = None
         self._removed = RemovedIds()
         self.user: Level = Level()
 
@@ -136,12 +136,15 @@ class Sources:
         return self._sources.get(object_id)
 
     def go_on(self, source_id: str, before: Source) -> None:
-        """Restore switch, level and state of a source whose loops were exchanged. A source in its first state takes the
-        new first state."""
+        """Restore switch, level, state and off-time of a source whose loops were exchanged. A source in its first state
+        takes the new first state."""
         source = self._sources[source_id]
         source.is_on, source.level = before.is_on, before.level
+        source.has_contact, source.is_new = before.has_contact, before.is_new
         if before.state != next(iter(before.rows)) and before.state in source.rows:
             source.state = before.state
+        inferred = source.inferred.get(source.state)
+        source.is_resting = before.is_resting and inferred is not None and inferred.off_s is not None
         self._list()
 
     def __getitem__(self, source_id: str) -> Source:
@@ -193,7 +196,7 @@ class Sources:
 
     def _list(self) -> None:
         """Drop all values derived from the sources and their states."""
-        self._ids = self._active_rows = self._need_contacts = self._switch_themselves = None
+        self._ids = self._active_rows = None
 
     @property
     def ids(self) -> tuple[str, ...]:
@@ -202,46 +205,12 @@ class Sources:
             self._ids = tuple(self._sources)
         return self._ids
 
-    @property
-    def need_contacts(self) -> bool:
-        """Whether any source, in its present state, vibrates only while it touches something."""
-        if self._need_contacts is None:
-            self._need_contacts = any(one.needs.get(one.state) is not None for one in self._sources.values())
-        return self._need_contacts
-
-    @property
-    def switch_themselves(self) -> bool:
-        """Whether any source has a state in which it switches itself on and off in cycles (thermostat)."""
-        if self._switch_themselves is None:
-            states = (state for one in self._sources.values() for state in one.inferred.values())
-            self._switch_themselves = any(state.on_s is not None for state in states)
-        return self._switch_themselves
-
-    def has_contact(
-        self, source_id: str, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
-    ) -> bool:
-        """Whether a source has the contact that its state needs, if any.
-
-        A contact with a source that is switched off does not count: no pan sizzles on a cold stove.
-        """
-        needed = self._sources[source_id].needs.get(self._sources[source_id].state)
-        return needed is None or any(
-            meets(needed, other, category(other))
-            for other in neighbours(source_id)
-            if other not in self._sources or self._sources[other].is_on
-        )
-
-    def factors(
-        self, neighbours: Callable[[str], Iterable[str]], category: Callable[[str], str]
-    ) -> NDArray[np.float64]:
-        """Present factor of each source's signal: 0 when off, muted, or without the contact that it needs."""
+    def factors(self) -> NDArray[np.float64]:
+        """Present factor of each source's signal: 0 when muted, or neither running nor about to stop."""
         user = self.user.factor
         return np.array(
             [
-                source.level.factor * user
-                if (source.is_running or source.passing is not None)
-                and self.has_contact(source_id, neighbours, category)
-                else 0.0
-                for source_id, source in self._sources.items()
+                source.level.factor * user if source.is_running or source.passing is not None else 0.0
+                for source in self._sources.values()
             ]
         )

@@ -9,9 +9,11 @@ from __future__ import annotations
 import zlib
 from dataclasses import dataclass
 
+from scene2hap.contact_needs import meets
 from scene2hap.render.passage import STEADY, STILL, Course, Passage, Running
 from scene2hap.session.mix.playback import Playback
 from scene2hap.session.mix.sources import LoopRow, Source, Sources
+from scene2hap.session.scene_state import SceneState
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,34 +23,48 @@ class _Passing:
 
 
 class Switching:
-    """Starts and stops the sources of a session.
+    """Starts and stops the sources of a session: by hand, in cycles, and with the contacts that they need.
 
     A source with cycles begins within its on-time, at a point that depends on its id alone, so that two refrigerators
-    do not start together.
+    do not start together. A new source, before its first update, is switched at once.
     """
 
-    def __init__(self, sources: Sources, playback: Playback, sample_rate_hz: int) -> None:
-        self._sources, self._playback, self._rate_hz = sources, playback, sample_rate_hz
+    def __init__(self, sources: Sources, playback: Playback, state: SceneState, sample_rate_hz: int) -> None:
+        self._sources, self._playback, self._state, self._rate_hz = sources, playback, state, sample_rate_hz
         self._passing: dict[str, _Passing] = {}
         # The frame at which a source's on-time or off-time ends, and the source, since another may get the same id.
         self._turns: dict[str, tuple[int, Source]] = {}
         self._known: tuple[str, ...] | None = None
+        self._updated: tuple[str, ...] | None = None
+        # Sources with a state that needs a contact, and the contacts for which they were last checked, None if they
+        # must be checked again.
+        self._needing: list[str] = []
+        self._topology: int | None = None
 
-    def switched(self, source_id: str, was_running: bool, now: int, *, by_hand: bool, at_once: bool) -> None:
-        """Start or stop a source if it was switched. A person who switches it on, or to another state, begins a new
-        on-time. `at_once` leaves out the start or stop itself."""
+    def set(
+        self, source_id: str, now: int, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None
+    ) -> bool:
+        """Set the arguments that are not None. A person who switches a source on, or to another state, begins a new
+        on-time. Returns true if this changed the state of the source. Raises: see `Sources.set`."""
         source = self._sources[source_id]
-        if by_hand and source.is_on and source.is_resting:
+        was_running = source.is_running
+        is_other_state = self._sources.set(source_id, on, state, gain_db, mute)
+        if is_other_state:
+            source.has_contact = self._has_contact(source_id, source)
+            # A state that lacks its contact has not run, so it does not stop.
+            was_running = was_running and source.has_contact
+        # The turn of a state must not outlive it: another one may run all the time.
+        if source.is_on and (on is not None or is_other_state):
             source.is_resting = False
-        if by_hand and source.is_on:
             self._begin_turn(source_id, source, now, 0.0)
-        if source.is_running != was_running:
-            self._pass(source_id, source, now, at_once=at_once)
+        self._topology = None  # other sources may need a contact with this one, switched on
+        self._follow(source_id, source, was_running, now)
+        return is_other_state
 
     def advance(self, now: int) -> bool:
-        """End finished starts and stops, and switch sources whose on-time or off-time is over. True if any changed."""
-        if self._known is not self._sources.ids:
-            self._look_around(now)
+        """Apply an update: end finished starts and stops, and switch sources whose contacts have changed, or whose
+        on-time or off-time is over. Returns true if any changed."""
+        is_other_contact = self.follow_contacts(now)
         over = [source_id for source_id, one in self._passing.items() if now >= one.end_frame]
         for source_id in over:
             del self._passing[source_id]
@@ -62,8 +78,29 @@ class Switching:
             was_running = source.is_running
             source.is_resting = not source.is_resting
             self._begin_turn(source_id, source, now, 0.0)
-            self.switched(source_id, was_running, now, by_hand=False, at_once=False)
-        return bool(over or due)
+            self._follow(source_id, source, was_running, now)
+        if self._updated is not self._known:
+            self._updated = self._known
+            for source_id in self._sources.ids:
+                self._sources[source_id].is_new = False
+        return is_other_contact or bool(over or due)
+
+    def follow_contacts(self, now: int) -> bool:
+        """Start and stop sources that got or lost the contact that they need. Returns true if there are any."""
+        if self._known is not self._sources.ids:
+            self._look_around(now)
+        topology = self._state.graph.topology
+        if self._topology == topology:
+            return False
+        self._topology = topology
+        is_any = False
+        for source_id in self._needing:
+            source = self._sources[source_id]
+            was_running = source.is_running
+            source.has_contact = self._has_contact(source_id, source)
+            is_any = is_any or source.is_running != was_running
+            self._follow(source_id, source, was_running, now)
+        return is_any
 
     def running(self, source_id: str, now: int) -> Running:
         """Speed and amplitude of a source that is on, or that still stops."""
@@ -72,7 +109,8 @@ class Switching:
 
     def _look_around(self, now: int) -> None:
         """Update the stored data after sources were added or removed."""
-        self._known = self._sources.ids
+        self._known, self._topology = self._sources.ids, None
+        self._needing = [x for x in self._known if any(self._sources[x].needs.values())]
         self._passing = {x: one for x, one in self._passing.items() if x in self._sources and self._sources[x].passing}
         before, self._turns = self._turns, {}
         for source_id in self._known:
@@ -91,14 +129,31 @@ class Switching:
         else:
             self._turns[source_id] = (now + round((1 - share) * lasts_s * self._rate_hz), source)
 
-    def _pass(self, source_id: str, source: Source, now: int, *, at_once: bool) -> None:
-        """Begin a start or a stop."""
-        inferred, goes_up = source.inferred.get(source.state), source.is_running
+    def _has_contact(self, source_id: str, source: Source) -> bool:
+        """Whether a source has the contact that its state needs, if any.
+
+        A contact with a source that is switched off does not count: no pan sizzles on a cold stove.
+        """
+        needed = source.needs.get(source.state)
+        return needed is None or any(
+            meets(needed, other, self._state.category(other))
+            for other in self._state.graph.beside.get(source_id, ())
+            if other not in self._sources or self._sources[other].is_on
+        )
+
+    def _follow(self, source_id: str, source: Source, was_running: bool, now: int) -> None:
+        """Begin a start or a stop if a source was switched."""
+        goes_up = source.is_running
+        if goes_up == was_running or source.is_new:
+            return
         before = self._passing.pop(source_id, None)
+        if source.passing is None:
+            before = None  # that of another state, which ended with it
         at_rest = STILL if goes_up else STEADY
         since = at_rest if before is None else self._playback.running(before.passage, now)
         self._sources.let_pass(source_id, None)
-        lasts_s = 0.0 if inferred is None or at_once else inferred.start_up_s if goes_up else inferred.wind_down_s
+        inferred = source.inferred.get(source.state)
+        lasts_s = 0.0 if inferred is None else inferred.start_up_s if goes_up else inferred.wind_down_s
         is_there = since.amplitude >= 1.0 if goes_up else since.amplitude <= 0.0
         if inferred is not None and lasts_s > 0.0 and not is_there:
             steady = source.row

@@ -93,3 +93,28 @@ def test_adding_a_carrier_or_a_source_does_not_warn(bundle: HapticBundle) -> Non
         warnings.simplefilter("ignore", SceneWarning)
         prefab = bake_object(replace(VASE, id="oak table", name="oak table"))
     session.spawn(prefab, "table 2", Pose((3.0, 0.0, 0.0)))
+
+
+def silence_warnings(session: HapticSession, n_updates: int) -> list[str]:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        for _ in range(n_updates):
+            session.update(touches=ON_TABLE)
+    return [str(one.message) for one in caught]
+
+
+def test_a_sink_that_is_never_started_is_named_once(bundle: HapticBundle) -> None:
+    (said,) = silence_warnings(HapticSession(bundle, sink=MemorySink()), 300)
+    assert "never started" in said
+    assert "call start()" in said
+
+
+def test_a_session_that_plays_or_has_played_is_not_named(bundle: HapticBundle) -> None:
+    assert not silence_warnings(HapticSession(bundle), 100)
+    assert not silence_warnings(HapticSession(bundle, sink=MemorySink()), 10)  # before the start
+    rendered = HapticSession(bundle, sink=MemorySink())
+    rendered.render(100)
+    assert not silence_warnings(rendered, 100)
+    with HapticSession(bundle, sink=MemorySink()) as started:
+        assert not silence_warnings(started, 100)
+    assert not silence_warnings(started, 100)

@@ -10,7 +10,7 @@ import pytest
 
 from scene2hap import HapticSession, SourceState, Touch
 from scene2hap.errors import ConfigError
-from scenes import table_with_two_phones
+from scenes import table_with_two_phones, tone_loop
 
 RATE = 48_000
 TOUCH = [Touch("left", "phone", (0.1, 0.73, 0.4))]
@@ -279,3 +279,18 @@ def test_explain_reports_starts_and_stops(on: bool, running: str) -> None:
     assert f"phone (ringing, {running}: {felt.running_db:+.1f} dB)" in made.explain("left").text
     envelope(made, 2.5)
     assert "phone (ringing)" in made.explain("left").text if on else not made.explain("left").felt
+
+
+@pytest.mark.parametrize("has_cycles", [True, False])
+def test_use_bundle_leaves_a_source_in_its_off_time(has_cycles: bool) -> None:
+    """Unless the new bundle says that it runs all the time."""
+    made = session({"on_s": 0.3, "off_s": 100.0})
+    made.set_source("alarm", on=False)
+    full = envelope(made, 0.5).max()
+    bundle = made._bundle
+    phone = bundle.objects["phone"]
+    states = phone.states if has_cycles else tuple(replace(one, on_s=None, off_s=None) for one in phone.states)
+    loops = {**bundle.loops, "phone": {"ringing": tone_loop(120), "alarm": tone_loop(240)}}
+    made.use_bundle(replace(bundle, loops=loops, objects={**bundle.objects, "phone": replace(phone, states=states)}))
+    level = envelope(made, 0.5)
+    assert level.max() == 0.0 if has_cycles else level[-1] > 0.9 * full

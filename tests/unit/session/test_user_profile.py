@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -188,3 +189,41 @@ def test_code_of_the_profile_page_runs(tmp_path: Path, monkeypatch: pytest.Monke
     (code,) = re.findall(r"```python\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)
     exec(compile(code, str(DOCS), "exec"), {})
     assert json.loads((tmp_path / "ada.json").read_text(encoding="utf-8"))["user"]["gain_db"] == -3.0
+
+
+def test_a_hand_that_comes_leaves_the_limiter_of_the_others_alone() -> None:
+    session, blocks = HapticSession(*table_with_two_phones(), user={"max_amplitude": 0.05}), []
+    session.wait_prepared()
+    for k in range(60):
+        session.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))])
+        if k == 30:
+            session.add_hand("third")
+        if k == 45:
+            session.remove_hand("right")
+        blocks.append(session.render(480)[:, 0])
+    bends = np.abs(np.diff(np.concatenate(blocks), 2))
+    assert bends[9600:].max() < 2 * bends[9600:14000].max()
+
+
+def test_limits_hold_while_hands_come_and_go_on_another_thread() -> None:
+    """A block may be rendered at any moment, such as when there is a new hand that has no limit yet."""
+    session, failed = HapticSession(*table_with_two_phones(), user={"max_amplitude": 0.05}), []
+    session.wait_prepared()
+    is_over = threading.Event()
+
+    def play() -> None:
+        while not is_over.is_set():
+            try:
+                assert np.abs(session.render(64)).max() <= 0.0501
+            except Exception as error:
+                failed.append(error)
+
+    thread = threading.Thread(target=play)
+    thread.start()
+    for _ in range(40):
+        session.update(touches=[Touch("left", "phone", (0.1, 0.73, 0.4))])
+        session.add_hand("third")
+        session.remove_hand("third")
+    is_over.set()
+    thread.join()
+    assert not failed
