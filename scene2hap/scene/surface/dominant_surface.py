@@ -1,22 +1,23 @@
 """The dominant surface of a mesh: the plate that a person would name first, such as the top of a table.
 
-1. Fit a bounding box to the mesh in a frame of its own (`_frame`). So a shelf authored at 30 degrees has the measures
+1. Count triangles that are drawn twice once, and wind all of them alike (`winding`).
+2. Fit a bounding box to the mesh in a frame of its own (`_frame`). So a shelf authored at 30 degrees has the measures
    of a straight one.
-2. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
+3. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
    largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
    thin flat horizontal plate replaces it. The bottom of the object is no such plate.
-3. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
+4. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
    back-rests, so these do not change the median. If the normal is level, the rays come from both sides; a door counts
    rather than a thinner back panel or a whole body (`_rank`). A mesh that is open below has no such solid. Its
    thickness reaches from its top, or from the sheet that forms most of the mesh, down to its lowest rim. If the surface
    is no rectangle (a round top), its outline is the section through the middle of that solid.
-4. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
+5. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
    (`plate_edge`). If the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen along
    the normal.
 
 Source: Scene2Hap, section "Automatic Data Extraction": the size of an object is that of its dominant surface, "by
 raycasting within the 3D mesh's bounding box and calculating its median values".
-Differs: the paper does not say in which frame or on which side the rays start; steps 1, 3 and 4 define both.
+Differs: the paper does not say in which frame or on which side the rays start; steps 2, 4 and 5 define both.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
 from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.surface.section import section_outline
+from scene2hap.scene.surface.winding import well_wound
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -117,6 +119,7 @@ def dominant_surface(
     spend(_WORK_OF_A_MESH + _WORK_OF_A_FACE * len(mesh.faces))
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
+    faces = well_wound(points, faces)
     axes = _pointing(_frame(points, faces), up)
     is_open = False
     best: _Side | None = None
