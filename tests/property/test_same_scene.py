@@ -196,8 +196,10 @@ def described_again(item: SceneObject, **changes: Any) -> SceneObject:
     return SceneObject(**own | changes)
 
 
-ALIKE = (turned, with_z_up, in_another_order, renamed, with_unused_vertices, with_lines, cut_at_a_point, trembling)
-ALIKE = (*ALIKE, with_backs, partly_drawn_twice, of_mixed_winding, in_loose_triangles)
+PLACED_AGAIN = (turned, with_z_up, in_another_order, renamed, trembling)
+DRAWN_AGAIN = (with_unused_vertices, with_lines, cut_at_a_point)
+MESSY = (with_backs, partly_drawn_twice, of_mixed_winding, in_loose_triangles)
+ALIKE = (*PLACED_AGAIN, *DRAWN_AGAIN, *MESSY)
 CHANGES = (*ALIKE, in_another_frame)
 CASES = [
     *((one, model) for model in ("exponential_plate", "infinite_plate", "modal_plate") for one in ALIKE),
