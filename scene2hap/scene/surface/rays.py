@@ -31,6 +31,9 @@ _MAX_LAYERS, _MAX_PAIRS_PER_TRIANGLE = 1000, 4
 _JITTER = 0.25
 # The pattern is its own mirror image, so that a mesh has the same measures whichever way its axes point.
 _PLASTIC = (0.7548776662466927, 0.5698402909980532)
+# A label is a face without a back at most this far in front of a face that looks the same way [m] (assumed: authors
+# lift decals by 0.1 to 1 mm, so that both faces do not flicker).
+_LABEL_M = 1e-3
 # A mesh whose width is at most this share of its length counts as a line: rounding alone makes it that wide.
 _EDGE_ON = 1e-12
 
@@ -129,9 +132,11 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
 
     The winding number joins parts that overlap (legs that extend into a table top) to one solid. Surfaces closer than
     `tolerance` [m] are one. A sheet drawn from both sides is ignored if a solid follows, else it is a solid of no
-    thickness. If the number never returns to zero (inconsistent faces, or an open mesh), the solid ends at the second
-    surface.
+    thickness. Labels are ignored. If the number never returns to zero (inconsistent faces, or an open mesh), the solid
+    ends at the second surface.
     """
+    if not len(hits.ray):
+        return Solids(hits.w, hits.w)
     new_ray = np.zeros(len(hits.ray), dtype=bool)
     new_ray[hits.starts] = True
     layers = np.flatnonzero(new_ray | (-np.diff(hits.w, prepend=np.inf) > tolerance))
@@ -139,6 +144,7 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
     side = np.add.reduceat(hits.side, layers)
     start = np.flatnonzero(new_ray[layers])
     stop = np.append(start[1:], len(layers))
+    side = np.where(_are_labels(w, side, start, stop), 0, side)
     before = np.cumsum(side) - side
     is_out = before + side == np.repeat(before[start], stop - start)
 
@@ -148,6 +154,16 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
     left = np.where(left < stop, left, np.where(entered + 1 < stop, entered + 1, len(w)))
     top = np.where(has_solid, entered, start)
     return Solids(w[top], np.append(w, np.nan)[np.where(has_solid, left, start)])
+
+
+def _are_labels(w: Floats, side: Ints, start: Ints, stop: Ints) -> NDArray[np.bool_]:
+    """Mark the layers (n,) that are labels: the outer of two near faces that look the same way, one without a back."""
+    net = np.repeat(np.add.reduceat(side, start), stop - start)
+    is_first = np.repeat(side[start] * net[start] > 0, stop - start)
+    is_pair = (side[1:] == side[:-1]) & (side * net > 0)[1:] & (w[:-1] - w[1:] <= _LABEL_M)
+    is_pair[start[1:] - 1] = False
+    upper, lower = np.append(is_pair, [False]), np.append([False], is_pair)
+    return np.where(is_first, upper, lower)
 
 
 def _next(is_wanted: NDArray[np.bool_], start: Ints) -> Ints:

@@ -260,6 +260,18 @@ def test_a_rim_that_stands_above_an_open_sheet_counts() -> None:
     assert size(dominant_surface(hob(*rims), up=(0, 0, 1)))[2] == pytest.approx(0.1)
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_label_does_not_count_as_the_top_of_its_board(side: int) -> None:
+    """A decal of two triangles, half a millimetre above or below a board of 18 mm."""
+    board = Box((0.7, 0.6, 0.018)).mesh
+    label = [(x, y, side * 0.0095) for x, y in ((-0.3, -0.25), (0.3, -0.25), (0.3, 0.25), (-0.3, 0.25))]
+    faces = np.array([(0, 1, 2), (0, 2, 3)])[:, ::side] + 8
+    mesh = TriMesh(np.concatenate((board.vertices_m, label)), np.concatenate((board.faces, faces)))
+    for pose in (Pose(), TURN):
+        surface = dominant_surface(turned(mesh, pose), up=pose.rotation[:, 2])
+        assert size(surface) == pytest.approx([0.7, 0.6, 0.018], rel=1e-6)
+
+
 def test_l_shape_is_measured_by_its_box_and_flagged() -> None:
     sofa = boxes(((2.4, 0.8, 0.4), (0.0, 0.0, 0.2)), ((0.8, 1.6, 0.4), (-0.8, 1.2, 0.2)))
     surface = dominant_surface(sofa)

@@ -90,6 +90,12 @@ def _doubled(p: Floats, q: Floats, at: tuple[float, float]) -> float:
         ([(1.0, 1), (1.0, -1)], 1.0, 1.0),
         ([(1.0, 1), (1.0, -1), (0.5, -1), (0.5, 1)], 1.0, 1.0),
         ([(1.0, 1), (1.0, -1), (0.5, 1), (0.3, -1)], 0.5, 0.3),
+        ([(1.0, 1), (0.9995, 1), (0.5, -1)], 0.9995, 0.5),
+        ([(1.0, 1), (0.9995, 1), (0.5, -1), (0.3, 1), (0.0, -1)], 0.9995, 0.5),
+        ([(1.0, 1), (0.5, -1), (0.4995, -1)], 1.0, 0.5),
+        ([(1.0, 1), (0.9995, 1), (0.5, -1), (0.4, -1)], 1.0, 0.4),
+        ([(1.0, -1), (0.9995, -1), (0.5, 1)], 0.9995, 0.5),
+        ([(1.0, 1), (0.9995, 1)], 0.9995, None),
     ],
     ids=[
         "solid",
@@ -103,6 +109,12 @@ def _doubled(p: Floats, q: Floats, at: tuple[float, float]) -> float:
         "sheet",
         "two sheets",
         "sheet before a solid",
+        "label above",
+        "label above two solids",
+        "label below",
+        "no label but overlapping",
+        "label of a mesh that faces inwards",
+        "label of a sheet",
     ],
 )
 def test_first_solids_returns_the_first_closed_interval_of_each_ray(
