@@ -36,7 +36,7 @@ from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
 from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.surface.section import section_outline
-from scene2hap.scene.surface.winding import well_wound
+from scene2hap.scene.surface.winding import SAME_PLACE, well_wound
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -46,7 +46,6 @@ RAYS_PER_SIDE = 32
 """Rays along each side of the bounding box. The resolution is about 1/32 of the box (tuned: 5 ms an object)."""
 
 # All of these bounds are tuned on real scenes; a factor of two in any of them matters little.
-_SAME_DEPTH = 1e-6  # surfaces closer than this share of the object's size are one
 _OPEN_SHARE = 0.02  # a mesh is open if more than this share of rays enters and does not leave
 _FLAT_SHARE = 0.5  # a plate is flat if this share of its rays meets it at one height
 _SAME_LEVEL = 0.1  # an open plate is flat if its rays meet it within this share of its box's height
@@ -91,7 +90,7 @@ class _Side(NamedTuple):
 
     def level_area_m2(self, size_m: float) -> float:
         """Return the area at one level, within half the plate's thickness; the whole area for a sheet [m2]."""
-        solids = first_solids(self.hits, _SAME_DEPTH * size_m)
+        solids = first_solids(self.hits, SAME_PLACE * size_m)
         thickness = (solids.top - solids.bottom)[np.isfinite(solids.bottom)]
         if len(thickness) < _PAIRED_SHARE * len(solids.top):
             return self.area_m2
@@ -113,7 +112,7 @@ def dominant_surface(
         fits, so length and width are the box's.
     """
     bounds_m = cuboid_bounds_m(mesh)
-    if bounds_m is not None and np.ptp(bounds_m, axis=0).min() > _SAME_DEPTH * np.ptp(bounds_m, axis=0).max():
+    if bounds_m is not None and np.ptp(bounds_m, axis=0).min() > SAME_PLACE * np.ptp(bounds_m, axis=0).max():
         return _cuboid(bounds_m, up)
     spend = spend or (lambda work: None)
     spend(_WORK_OF_A_MESH + _WORK_OF_A_FACE * len(mesh.faces))
@@ -205,7 +204,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
     corners = triangles.reshape(3, -1)
     low, high = corners.min(axis=1), corners.max(axis=1)
     size = float((high - low).max())
-    solids = first_solids(hits, _SAME_DEPTH * size)
+    solids = first_solids(hits, SAME_PLACE * size)
     paired = np.isfinite(solids.bottom)
     cell = float(np.prod(high[:2] - low[:2])) / RAYS_PER_SIDE**2
     spans, outline_m = None, None
@@ -221,9 +220,9 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
     else:
         bottom, top = float(low[2]), _open_top(solids.top, hits.ray[hits.starts], low, high)
         thickness, middle = top - bottom, (top + bottom) / 2
-        if thickness > _SAME_DEPTH * size:
+        if thickness > SAME_PLACE * size:
             flags = (*flags, "box-fallback")
-    if thickness <= _SAME_DEPTH * size:
+    if thickness <= SAME_PLACE * size:
         thickness, middle = 0.0, float(np.median(solids.top))
         flags = (*flags, "zero-thickness")
     spans = spans or _spans(outline(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
@@ -297,7 +296,7 @@ def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> Domina
     placed = own_to_plate @ points
     size, middle = np.ptp(placed, axis=1), (placed.min(axis=1) + placed.max(axis=1)) / 2
     flags = (*flags, "box-fallback")
-    if size[2] <= _SAME_DEPTH * size.max():
+    if size[2] <= SAME_PLACE * size.max():
         size[2] = 0.0
         flags = (*flags, "zero-thickness")
     return _placed(size, middle, own_to_plate, flags)

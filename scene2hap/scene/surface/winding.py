@@ -21,8 +21,9 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
-_SAME_POINT = 1e-5
-"""Corners this close are one, as a share of the mesh's size (assumed: 20 um at a table; float32 at 200 m: 8 um)."""
+SAME_PLACE = 1e-5
+"""Corners and surfaces this close are one, as a share of the mesh's size (assumed: 20 um at a table; float32 rounds by
+8 um 200 m from the origin)."""
 
 
 def well_wound(points: Floats, faces: Ints) -> Ints:
@@ -108,7 +109,7 @@ def _distinct(corners: Ints) -> tuple[Ints, Ints]:
 def _welded(points: Floats) -> Ints:
     """Return a number (n,) for each of the points (3, n), equal for points at the same place."""
     low = points.min(axis=1, keepdims=True)
-    cell = max(_SAME_POINT * float(np.ptp(points, axis=1).max()), np.finfo(np.float64).tiny)
+    cell = max(SAME_PLACE * float(np.ptp(points, axis=1).max()), np.finfo(np.float64).tiny)
     x, y, z = np.round((points - low) / cell).astype(np.int64)
     _, number = np.unique((x << 40) | (y << 20) | z, return_inverse=True)
     return number.astype(np.int64)

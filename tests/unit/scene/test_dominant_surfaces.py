@@ -260,6 +260,14 @@ def test_a_rim_that_stands_above_an_open_sheet_counts() -> None:
     assert size(dominant_surface(hob(*rims), up=(0, 0, 1)))[2] == pytest.approx(0.1)
 
 
+def test_parts_that_touch_are_one_where_the_file_rounds() -> None:
+    """A board under a smaller cushion, stored turned and as float32, 90 m from the origin: some um are between them."""
+    mesh = boxes(((1.0, 0.6, 0.018), (0.0, 0.0, 0.0)), ((0.97, 0.58, 0.025), (0.0, 0.0, 0.0215)))
+    far = Pose((50.0, 3.0, 80.0), TURN.rotation_xyzw)
+    rounded = TriMesh(turned(mesh, far).vertices_m.astype(np.float32), mesh.faces)
+    assert dominant_surface(rounded, up=far.rotation[:, 2]).thickness_m == pytest.approx(0.043, abs=2e-5)
+
+
 @pytest.mark.parametrize("side", [1, -1])
 def test_a_label_does_not_count_as_the_top_of_its_board(side: int) -> None:
     """A decal of two triangles, half a millimetre above or below a board of 18 mm."""
