@@ -118,7 +118,7 @@ def dominant_surface(
     spend(_WORK_OF_A_MESH + _WORK_OF_A_FACE * len(mesh.faces))
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
-    faces = well_wound(points, faces)
+    faces = well_wound(points, faces, spend)
     axes = _pointing(_frame(points, faces), up)
     is_open = False
     best: _Side | None = None

@@ -62,12 +62,33 @@ def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n
     There are no hits for a line, or for more than some thousand layers of triangles. `spend` is called with the number
     of ray-triangle pairs before they are tested, and may raise to prevent the tests.
     """
+    ray, w, side, _ = _hits(triangles, n, spend)
+    return Hits(ray, w, side)
+
+
+def free_space(triangles: Floats, n: int, spend: Callable[[int], None]) -> Floats:
+    """Return how much more free space is before each of the triangles (3, 3, m) than behind it [m3].
+
+    It sums, over the hits of n x n rays along w, the way to the next surface before the triangle less the way behind.
+    """
+    ray, w, side, triangle = _hits(triangles, n, spend)
+    extent_m = np.ptp(triangles, axis=(1, 2))
+    is_within = np.diff(ray, prepend=-1, append=-1) == 0
+    gap_m = np.where(is_within, -np.diff(w, prepend=0.0, append=0.0), 2 * float(extent_m.max()))
+    free_m = np.bincount(triangle, side * (gap_m[:-1] - gap_m[1:]), minlength=triangles.shape[2])
+    free_m3: Floats = free_m * float(np.prod(extent_m[:2])) / n**2
+    return free_m3
+
+
+def _hits(triangles: Floats, n: int, spend: Callable[[int], None]) -> tuple[Ints, Floats, Ints, Ints]:
+    """Return the ray, w, side and triangle of each hit, in the order of `Hits`."""
+    none = np.empty(0, np.int64)
     corners = triangles.reshape(3, -1)
     low = corners.min(axis=1)
     size = corners.max(axis=1) - low
     low, extent = low[:2], size[:2]
     if (extent <= _EDGE_ON * size.max()).any():
-        return Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
+        return none, np.empty(0), none, none
     cells = (triangles[:2] - low[:, None, None]) * (n / extent)[:, None, None]
     a, b, c = cells[:, 0], cells[:, 1], cells[:, 2]
     # Twice the signed area; edge-on triangles meet no ray.
@@ -77,21 +98,24 @@ def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n
     span = (last - first + 1).clip(0) * (area != 0)
     pairs = span[0] * span[1]
     if pairs.sum() > _MAX_LAYERS * n * n + _MAX_PAIRS_PER_TRIANGLE * len(pairs):
-        return Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
+        return none, np.empty(0), none, none
     spend(int(pairs.sum()))
     drawn = np.flatnonzero(pairs)
     breaks = np.flatnonzero(np.diff(np.cumsum(pairs[drawn]) // _MAX_PAIRS)) + 1
     found = [
-        _draw(cells[:, :, some], triangles[2][:, some], area[some], first[:, some], span[:, some], n)
+        _draw(cells[:, :, some], triangles[2][:, some], area[some], first[:, some], span[:, some], some, n)
         for some in np.split(drawn, breaks)
     ]
-    ray, w, side = (np.concatenate(columns) for columns in zip(*found, strict=True))
+    ray, w, side, triangle = (np.concatenate(columns) for columns in zip(*found, strict=True))
     order = np.lexsort((-w, ray))
-    return Hits(ray[order], w[order], side[order])
+    return ray[order], w[order], side[order], triangle[order]
 
 
-def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: int) -> tuple[Ints, Floats, Ints]:
-    """Return rays, heights and sides of the hits of some triangles, unsorted; u and v are in cells of the grid."""
+def _draw(
+    cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, triangle: Ints, n: int
+) -> tuple[Ints, Floats, Ints, Ints]:
+    """Return rays, heights, sides and triangles of the hits of some triangles, unsorted; u and v are in cells of the
+    grid."""
     pairs = span[0] * span[1]
     which, nth = counted_up(pairs)
     across = span[1][which]
@@ -107,7 +131,7 @@ def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: in
     inside = np.flatnonzero((weight_a >= 0) & (weight_b >= 0) & (weight_c >= 0))
     which = which[inside]
     height = weight_a[inside] * w[0][which] + weight_b[inside] * w[1][which] + weight_c[inside] * w[2][which]
-    return ray[inside], height, np.where(area[which] > 0, 1, -1)
+    return ray[inside], height, np.where(area[which] > 0, 1, -1), triangle[which]
 
 
 def _off_centre(cell: Ints, mirrored: Ints, fraction: float, n: int) -> Floats:

@@ -90,7 +90,7 @@ def test_well_wound_meshes_are_left_alone() -> None:
         np.testing.assert_array_equal(wound(mesh), mesh.faces)
 
 
-def test_mixed_patches_face_outwards_and_triangles_are_kept_once() -> None:
+def test_mixed_patches_of_solids_face_outwards_and_triangles_are_kept_once() -> None:
     for again in (with_backs, shuffled_with_backs, partly_twice, partly_turned):
         for mesh in (TABLE, TUB):
             faces = wound(again(mesh))
@@ -103,6 +103,14 @@ def test_a_cavity_that_faces_inwards_keeps_its_winding_beside_mixed_parts() -> N
     inner.invert()
     outer.faces[::3] = outer.faces[::3, ::-1]
     surface = dominant_surface(tri_mesh(trimesh.util.concatenate([outer, inner])), up=(0.0, 0.0, 1.0))
+    assert edges(surface) == pytest.approx([1.8, 0.6, 0.02])
+
+
+@pytest.mark.parametrize("again", [shuffled_with_backs, partly_turned])
+def test_a_cavity_of_mixed_winding_stays_a_cavity(again: Callable[[TriMesh], TriMesh]) -> None:
+    outer, inner = trimesh.creation.box((0.6, 0.5, 1.8)), trimesh.creation.box((0.56, 0.46, 1.76))
+    inner.invert()
+    surface = dominant_surface(again(tri_mesh(trimesh.util.concatenate([outer, inner]))), up=(0.0, 0.0, 1.0))
     assert edges(surface) == pytest.approx([1.8, 0.6, 0.02])
 
 
