@@ -133,6 +133,38 @@ def cut_at_a_point(objects: list[SceneObject], rng: random.Random) -> Same:
     return _meshed(objects, finer)
 
 
+def with_backs(objects: list[SceneObject], rng: random.Random) -> Same:
+    """Each triangle drawn a second time with the other winding, to be seen from both sides."""
+
+    def both(mesh: TriMesh) -> TriMesh:
+        return TriMesh(mesh.vertices_m, rng.sample([*mesh.faces, *mesh.faces[:, ::-1]], 2 * len(mesh.faces)))
+
+    return _meshed(objects, both)
+
+
+def partly_drawn_twice(objects: list[SceneObject], rng: random.Random) -> Same:
+    def more(mesh: TriMesh) -> TriMesh:
+        return TriMesh(mesh.vertices_m, [*mesh.faces, *rng.sample([*mesh.faces], len(mesh.faces) // 3)])
+
+    return _meshed(objects, more)
+
+
+def of_mixed_winding(objects: list[SceneObject], rng: random.Random) -> Same:
+    def mixed(mesh: TriMesh) -> TriMesh:
+        return TriMesh(mesh.vertices_m, [face[:: rng.choice((1, 1, -1))] for face in mesh.faces])
+
+    return _meshed(objects, mixed)
+
+
+def in_loose_triangles(objects: list[SceneObject], rng: random.Random) -> Same:
+    """No two triangles share a vertex, and their winding is mixed."""
+
+    def loose(mesh: TriMesh) -> TriMesh:
+        return TriMesh(mesh.vertices_m[mesh.faces.ravel()], np.arange(mesh.faces.size).reshape(-1, 3))
+
+    return of_mixed_winding(_meshed(objects, loose).objects, rng)
+
+
 def in_another_frame(objects: list[SceneObject], rng: random.Random) -> Same:
     """Vertices turned and shifted, as in a file in world coordinates; poses undo it."""
     same = []
@@ -164,7 +196,10 @@ def described_again(item: SceneObject, **changes: Any) -> SceneObject:
     return SceneObject(**own | changes)
 
 
-ALIKE = (turned, with_z_up, in_another_order, renamed, with_unused_vertices, with_lines, cut_at_a_point, trembling)
+PLACED_AGAIN = (turned, with_z_up, in_another_order, renamed, trembling)
+DRAWN_AGAIN = (with_unused_vertices, with_lines, cut_at_a_point)
+MESSY = (with_backs, partly_drawn_twice, of_mixed_winding, in_loose_triangles)
+ALIKE = (*PLACED_AGAIN, *DRAWN_AGAIN, *MESSY)
 CHANGES = (*ALIKE, in_another_frame)
 CASES = [
     *((one, model) for model in ("exponential_plate", "infinite_plate", "modal_plate") for one in ALIKE),

@@ -1,22 +1,23 @@
 """The dominant surface of a mesh: the plate that a person would name first, such as the top of a table.
 
-1. Fit a bounding box to the mesh in a frame of its own (`_frame`). So a shelf authored at 30 degrees has the measures
+1. Count triangles that are drawn twice once, and wind all of them alike (`winding`).
+2. Fit a bounding box to the mesh in a frame of its own (`_frame`). So a shelf authored at 30 degrees has the measures
    of a straight one.
-2. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
+3. Cast a grid of parallel rays through the box along each of the three axes. The plate's normal is the axis with the
    largest projected area. Exception: a chair's seat. If that side is level in less than two thirds of its rectangle, a
    thin flat horizontal plate replaces it. The bottom of the object is no such plate.
-3. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
+4. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
    back-rests, so these do not change the median. If the normal is level, the rays come from both sides; a door counts
    rather than a thinner back panel or a whole body (`_rank`). A mesh that is open below has no such solid. Its
    thickness reaches from its top, or from the sheet that forms most of the mesh, down to its lowest rim. If the surface
    is no rectangle (a round top), its outline is the section through the middle of that solid.
-4. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
+5. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
    (`plate_edge`). If the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen along
    the normal.
 
 Source: Scene2Hap, section "Automatic Data Extraction": the size of an object is that of its dominant surface, "by
 raycasting within the 3D mesh's bounding box and calculating its median values".
-Differs: the paper does not say in which frame or on which side the rays start; steps 1, 3 and 4 define both.
+Differs: the paper does not say in which frame or on which side the rays start; steps 2, 4 and 5 define both.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
 from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.surface.section import section_outline
+from scene2hap.scene.surface.winding import SAME_PLACE, well_wound
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -44,7 +46,6 @@ RAYS_PER_SIDE = 32
 """Rays along each side of the bounding box. The resolution is about 1/32 of the box (tuned: 5 ms an object)."""
 
 # All of these bounds are tuned on real scenes; a factor of two in any of them matters little.
-_SAME_DEPTH = 1e-6  # surfaces closer than this share of the object's size are one
 _OPEN_SHARE = 0.02  # a mesh is open if more than this share of rays enters and does not leave
 _FLAT_SHARE = 0.5  # a plate is flat if this share of its rays meets it at one height
 _SAME_LEVEL = 0.1  # an open plate is flat if its rays meet it within this share of its box's height
@@ -89,7 +90,7 @@ class _Side(NamedTuple):
 
     def level_area_m2(self, size_m: float) -> float:
         """Return the area at one level, within half the plate's thickness; the whole area for a sheet [m2]."""
-        solids = first_solids(self.hits, _SAME_DEPTH * size_m)
+        solids = first_solids(self.hits, SAME_PLACE * size_m)
         thickness = (solids.top - solids.bottom)[np.isfinite(solids.bottom)]
         if len(thickness) < _PAIRED_SHARE * len(solids.top):
             return self.area_m2
@@ -111,12 +112,13 @@ def dominant_surface(
         fits, so length and width are the box's.
     """
     bounds_m = cuboid_bounds_m(mesh)
-    if bounds_m is not None and np.ptp(bounds_m, axis=0).min() > _SAME_DEPTH * np.ptp(bounds_m, axis=0).max():
+    if bounds_m is not None and np.ptp(bounds_m, axis=0).min() > SAME_PLACE * np.ptp(bounds_m, axis=0).max():
         return _cuboid(bounds_m, up)
     spend = spend or (lambda work: None)
     spend(_WORK_OF_A_MESH + _WORK_OF_A_FACE * len(mesh.faces))
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
+    faces = well_wound(points, faces, spend)
     axes = _pointing(_frame(points, faces), up)
     is_open = False
     best: _Side | None = None
@@ -202,7 +204,7 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
     corners = triangles.reshape(3, -1)
     low, high = corners.min(axis=1), corners.max(axis=1)
     size = float((high - low).max())
-    solids = first_solids(hits, _SAME_DEPTH * size)
+    solids = first_solids(hits, SAME_PLACE * size)
     paired = np.isfinite(solids.bottom)
     cell = float(np.prod(high[:2] - low[:2])) / RAYS_PER_SIDE**2
     spans, outline_m = None, None
@@ -218,9 +220,9 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
     else:
         bottom, top = float(low[2]), _open_top(solids.top, hits.ray[hits.starts], low, high)
         thickness, middle = top - bottom, (top + bottom) / 2
-        if thickness > _SAME_DEPTH * size:
+        if thickness > SAME_PLACE * size:
             flags = (*flags, "box-fallback")
-    if thickness <= _SAME_DEPTH * size:
+    if thickness <= SAME_PLACE * size:
         thickness, middle = 0.0, float(np.median(solids.top))
         flags = (*flags, "zero-thickness")
     spans = spans or _spans(outline(triangles), at_least=_FILLED_OUTLINE * cell * len(paired))
@@ -294,7 +296,7 @@ def _box(points: Floats, axes: Floats, flags: tuple[SurfaceFlag, ...]) -> Domina
     placed = own_to_plate @ points
     size, middle = np.ptp(placed, axis=1), (placed.min(axis=1) + placed.max(axis=1)) / 2
     flags = (*flags, "box-fallback")
-    if size[2] <= _SAME_DEPTH * size.max():
+    if size[2] <= SAME_PLACE * size.max():
         size[2] = 0.0
         flags = (*flags, "zero-thickness")
     return _placed(size, middle, own_to_plate, flags)

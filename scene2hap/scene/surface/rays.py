@@ -31,6 +31,9 @@ _MAX_LAYERS, _MAX_PAIRS_PER_TRIANGLE = 1000, 4
 _JITTER = 0.25
 # The pattern is its own mirror image, so that a mesh has the same measures whichever way its axes point.
 _PLASTIC = (0.7548776662466927, 0.5698402909980532)
+# A label is a face without a back at most this far in front of a face that looks the same way [m] (assumed: authors
+# lift decals by 0.1 to 1 mm, so that both faces do not flicker).
+_LABEL_M = 1e-3
 # A mesh whose width is at most this share of its length counts as a line: rounding alone makes it that wide.
 _EDGE_ON = 1e-12
 
@@ -59,12 +62,33 @@ def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n
     There are no hits for a line, or for more than some thousand layers of triangles. `spend` is called with the number
     of ray-triangle pairs before they are tested, and may raise to prevent the tests.
     """
+    ray, w, side, _ = _hits(triangles, n, spend)
+    return Hits(ray, w, side)
+
+
+def free_space(triangles: Floats, n: int, spend: Callable[[int], None]) -> Floats:
+    """Return how much more free space is before each of the triangles (3, 3, m) than behind it [m3].
+
+    It sums, over the hits of n x n rays along w, the way to the next surface before the triangle less the way behind.
+    """
+    ray, w, side, triangle = _hits(triangles, n, spend)
+    extent_m = np.ptp(triangles, axis=(1, 2))
+    is_within = np.diff(ray, prepend=-1, append=-1) == 0
+    gap_m = np.where(is_within, -np.diff(w, prepend=0.0, append=0.0), 2 * float(extent_m.max()))
+    free_m = np.bincount(triangle, side * (gap_m[:-1] - gap_m[1:]), minlength=triangles.shape[2])
+    free_m3: Floats = free_m * float(np.prod(extent_m[:2])) / n**2
+    return free_m3
+
+
+def _hits(triangles: Floats, n: int, spend: Callable[[int], None]) -> tuple[Ints, Floats, Ints, Ints]:
+    """Return the ray, w, side and triangle of each hit, in the order of `Hits`."""
+    none = np.empty(0, np.int64)
     corners = triangles.reshape(3, -1)
     low = corners.min(axis=1)
     size = corners.max(axis=1) - low
     low, extent = low[:2], size[:2]
     if (extent <= _EDGE_ON * size.max()).any():
-        return Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
+        return none, np.empty(0), none, none
     cells = (triangles[:2] - low[:, None, None]) * (n / extent)[:, None, None]
     a, b, c = cells[:, 0], cells[:, 1], cells[:, 2]
     # Twice the signed area; edge-on triangles meet no ray.
@@ -74,21 +98,24 @@ def cast_grid(triangles: Floats, n: int, spend: Callable[[int], None] = lambda n
     span = (last - first + 1).clip(0) * (area != 0)
     pairs = span[0] * span[1]
     if pairs.sum() > _MAX_LAYERS * n * n + _MAX_PAIRS_PER_TRIANGLE * len(pairs):
-        return Hits(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
+        return none, np.empty(0), none, none
     spend(int(pairs.sum()))
     drawn = np.flatnonzero(pairs)
     breaks = np.flatnonzero(np.diff(np.cumsum(pairs[drawn]) // _MAX_PAIRS)) + 1
     found = [
-        _draw(cells[:, :, some], triangles[2][:, some], area[some], first[:, some], span[:, some], n)
+        _draw(cells[:, :, some], triangles[2][:, some], area[some], first[:, some], span[:, some], some, n)
         for some in np.split(drawn, breaks)
     ]
-    ray, w, side = (np.concatenate(columns) for columns in zip(*found, strict=True))
+    ray, w, side, triangle = (np.concatenate(columns) for columns in zip(*found, strict=True))
     order = np.lexsort((-w, ray))
-    return Hits(ray[order], w[order], side[order])
+    return ray[order], w[order], side[order], triangle[order]
 
 
-def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: int) -> tuple[Ints, Floats, Ints]:
-    """Return rays, heights and sides of the hits of some triangles, unsorted; u and v are in cells of the grid."""
+def _draw(
+    cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, triangle: Ints, n: int
+) -> tuple[Ints, Floats, Ints, Ints]:
+    """Return rays, heights, sides and triangles of the hits of some triangles, unsorted; u and v are in cells of the
+    grid."""
     pairs = span[0] * span[1]
     which, nth = counted_up(pairs)
     across = span[1][which]
@@ -104,7 +131,7 @@ def _draw(cells: Floats, w: Floats, area: Floats, first: Ints, span: Ints, n: in
     inside = np.flatnonzero((weight_a >= 0) & (weight_b >= 0) & (weight_c >= 0))
     which = which[inside]
     height = weight_a[inside] * w[0][which] + weight_b[inside] * w[1][which] + weight_c[inside] * w[2][which]
-    return ray[inside], height, np.where(area[which] > 0, 1, -1)
+    return ray[inside], height, np.where(area[which] > 0, 1, -1), triangle[which]
 
 
 def _off_centre(cell: Ints, mirrored: Ints, fraction: float, n: int) -> Floats:
@@ -129,9 +156,11 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
 
     The winding number joins parts that overlap (legs that extend into a table top) to one solid. Surfaces closer than
     `tolerance` [m] are one. A sheet drawn from both sides is ignored if a solid follows, else it is a solid of no
-    thickness. If the number never returns to zero (inconsistent faces, or an open mesh), the solid ends at the second
-    surface.
+    thickness. Labels are ignored. If the number never returns to zero (inconsistent faces, or an open mesh), the solid
+    ends at the second surface.
     """
+    if not len(hits.ray):
+        return Solids(hits.w, hits.w)
     new_ray = np.zeros(len(hits.ray), dtype=bool)
     new_ray[hits.starts] = True
     layers = np.flatnonzero(new_ray | (-np.diff(hits.w, prepend=np.inf) > tolerance))
@@ -139,6 +168,7 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
     side = np.add.reduceat(hits.side, layers)
     start = np.flatnonzero(new_ray[layers])
     stop = np.append(start[1:], len(layers))
+    side = np.where(_are_labels(w, side, start, stop), 0, side)
     before = np.cumsum(side) - side
     is_out = before + side == np.repeat(before[start], stop - start)
 
@@ -148,6 +178,16 @@ def first_solids(hits: Hits, tolerance: float) -> Solids:
     left = np.where(left < stop, left, np.where(entered + 1 < stop, entered + 1, len(w)))
     top = np.where(has_solid, entered, start)
     return Solids(w[top], np.append(w, np.nan)[np.where(has_solid, left, start)])
+
+
+def _are_labels(w: Floats, side: Ints, start: Ints, stop: Ints) -> NDArray[np.bool_]:
+    """Mark the layers (n,) that are labels: the outer of two near faces that look the same way, one without a back."""
+    net = np.repeat(np.add.reduceat(side, start), stop - start)
+    is_first = np.repeat(side[start] * net[start] > 0, stop - start)
+    is_pair = (side[1:] == side[:-1]) & (side * net > 0)[1:] & (w[:-1] - w[1:] <= _LABEL_M)
+    is_pair[start[1:] - 1] = False
+    upper, lower = np.append(is_pair, [False]), np.append([False], is_pair)
+    return np.where(is_first, upper, lower)
 
 
 def _next(is_wanted: NDArray[np.bool_], start: Ints) -> Ints:

@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from scene2hap.scene.surface.outline import MOST_CORNERS, Outline
 from scene2hap.scene.surface.rays import cut
+from scene2hap.scene.surface.winding import SAME_PLACE
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-_SAME_POINT = 1e-6  # of the size: vertices this close are one, since a file may store a vertex once for each face
 _TOLERANCE = 1e-3  # of the size: corners whose removal changes the ring by less are left out
 
 
@@ -24,7 +24,7 @@ def section_outline(triangles_m: Floats, level_m: float) -> Outline | None:
     if not len(ends):
         return None
     size = float(np.ptp(triangles_m, axis=(1, 2)).max())
-    corners, number = np.unique(np.round(ends / (_SAME_POINT * size)), axis=0, return_inverse=True)
+    corners, number = np.unique(np.round(ends / (SAME_PLACE * size)), axis=0, return_inverse=True)
     rings = _rings(number.reshape(2, -1).astype(np.intp), len(corners))
     if not rings:
         return None

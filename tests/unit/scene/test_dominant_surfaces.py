@@ -171,7 +171,7 @@ def test_size_of_a_bowl_is_its_rim_chord_and_wall_thickness() -> None:
     [
         (TABLE, ()),
         (SHEET, ("open-mesh", "zero-thickness")),
-        (TriMesh(SHEET.vertices_m, [*SHEET.faces, *SHEET.faces[:, ::-1]]), ("zero-thickness",)),
+        (TriMesh(SHEET.vertices_m, [*SHEET.faces, *SHEET.faces[:, ::-1]]), ("open-mesh", "zero-thickness")),
         (TriMesh(_outer.vertices_m, _outer.faces[2:]), ("open-mesh",)),
         (
             TriMesh([[0, 0, 0], [4, 0, 1], [4, 5, 0], [0, 5, 0]], SHEET.faces),
@@ -258,6 +258,26 @@ def test_a_rim_that_stands_above_an_open_sheet_counts() -> None:
     rims = [((0.5, 0.02, 0.06), (0.0, s * 0.215, 0.05)) for s in (-1, 1)]
     rims += [((0.02, 0.45, 0.06), (s * 0.24, 0.0, 0.05)) for s in (-1, 1)]
     assert size(dominant_surface(hob(*rims), up=(0, 0, 1)))[2] == pytest.approx(0.1)
+
+
+def test_parts_that_touch_are_one_where_the_file_rounds() -> None:
+    """A board under a smaller cushion, stored turned and as float32, 90 m from the origin: some um are between them."""
+    mesh = boxes(((1.0, 0.6, 0.018), (0.0, 0.0, 0.0)), ((0.97, 0.58, 0.025), (0.0, 0.0, 0.0215)))
+    far = Pose((50.0, 3.0, 80.0), TURN.rotation_xyzw)
+    rounded = TriMesh(turned(mesh, far).vertices_m.astype(np.float32), mesh.faces)
+    assert dominant_surface(rounded, up=far.rotation[:, 2]).thickness_m == pytest.approx(0.043, abs=2e-5)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_label_does_not_count_as_the_top_of_its_board(side: int) -> None:
+    """A decal of two triangles, half a millimetre above or below a board of 18 mm."""
+    board = Box((0.7, 0.6, 0.018)).mesh
+    label = [(x, y, side * 0.0095) for x, y in ((-0.3, -0.25), (0.3, -0.25), (0.3, 0.25), (-0.3, 0.25))]
+    faces = np.array([(0, 1, 2), (0, 2, 3)])[:, ::side] + 8
+    mesh = TriMesh(np.concatenate((board.vertices_m, label)), np.concatenate((board.faces, faces)))
+    for pose in (Pose(), TURN):
+        surface = dominant_surface(turned(mesh, pose), up=pose.rotation[:, 2])
+        assert size(surface) == pytest.approx([0.7, 0.6, 0.018], rel=1e-6)
 
 
 def test_l_shape_is_measured_by_its_box_and_flagged() -> None:

@@ -7,7 +7,16 @@ import pytest
 from numpy.typing import NDArray
 
 from scene2hap.scene.shapes import Box
-from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
+from scene2hap.scene.surface.rays import (
+    Hits,
+    cast_grid,
+    cut,
+    first_solids,
+    free_space,
+    median_span,
+    outline,
+    share_open,
+)
 
 Floats = NDArray[np.float64]
 
@@ -90,6 +99,12 @@ def _doubled(p: Floats, q: Floats, at: tuple[float, float]) -> float:
         ([(1.0, 1), (1.0, -1)], 1.0, 1.0),
         ([(1.0, 1), (1.0, -1), (0.5, -1), (0.5, 1)], 1.0, 1.0),
         ([(1.0, 1), (1.0, -1), (0.5, 1), (0.3, -1)], 0.5, 0.3),
+        ([(1.0, 1), (0.9995, 1), (0.5, -1)], 0.9995, 0.5),
+        ([(1.0, 1), (0.9995, 1), (0.5, -1), (0.3, 1), (0.0, -1)], 0.9995, 0.5),
+        ([(1.0, 1), (0.5, -1), (0.4995, -1)], 1.0, 0.5),
+        ([(1.0, 1), (0.9995, 1), (0.5, -1), (0.4, -1)], 1.0, 0.4),
+        ([(1.0, -1), (0.9995, -1), (0.5, 1)], 0.9995, 0.5),
+        ([(1.0, 1), (0.9995, 1)], 0.9995, None),
     ],
     ids=[
         "solid",
@@ -103,6 +118,12 @@ def _doubled(p: Floats, q: Floats, at: tuple[float, float]) -> float:
         "sheet",
         "two sheets",
         "sheet before a solid",
+        "label above",
+        "label above two solids",
+        "label below",
+        "no label but overlapping",
+        "label of a mesh that faces inwards",
+        "label of a sheet",
     ],
 )
 def test_first_solids_returns_the_first_closed_interval_of_each_ray(
@@ -144,6 +165,18 @@ def test_spans_count_from_the_first_to_the_last_crossing() -> None:
     segments = cut(frame, 0.0)
     assert median_span(segments, 0, 32) == pytest.approx((2.0, 0.0))
     assert median_span(segments, 1, 32) == pytest.approx((1.0, 0.0))
+
+
+def test_free_space_is_on_the_side_that_sees_farther() -> None:
+    """A slab of 2 x 1 x 0.1: outside its two faces rays see twice its length, and 0.1 inside."""
+    slab = soup(((2.0, 1.0, 0.1), (0.0, 0.0, 0.0)))
+    free_m3 = free_space(slab, 16, lambda n_pairs: None)
+    is_level = np.ptp(slab[2], axis=0) == 0
+    assert (free_m3[is_level] > 0).all()
+    assert (free_m3[~is_level] == 0).all()
+    assert free_m3.sum() == pytest.approx(2 * 2.0 * (4.0 - 0.1))
+    np.testing.assert_allclose(free_space(slab[:, ::-1], 16, lambda n_pairs: None), -free_m3)
+    assert free_space(slab * [[[0.0]], [[1.0]], [[1.0]]], 16, lambda n_pairs: None).tolist() == [0.0] * 12
 
 
 def test_the_outline_of_a_cube_is_as_wide_as_the_cube() -> None:
