@@ -163,7 +163,7 @@ class Landings:
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
         """The contacts of an object now, else those that it had before or in this step."""
-        return self._graph.beside.get(object_id) or self._near.get(object_id, NOTHING)
+        return self._graph.beside.get(object_id) or self._near.get(object_id) or NOTHING
 
     def _is_sudden(self, object_id: str, steps_m: Mapping[str, Vector]) -> bool:
         """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle.
