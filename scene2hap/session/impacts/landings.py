@@ -162,8 +162,9 @@ class Landings:
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
-        """The contacts of an object now, else those that it had before or in this step."""
-        return self._graph.beside.get(object_id) or self._near.get(object_id) or NOTHING
+        """The contacts that an object has now, before those that it had before or in this step."""
+        near, beside = self._near.get(object_id), self._graph.beside.get(object_id, NOTHING)
+        return {**beside, **{x: near[x] for x in near if x not in beside}} if near else beside
 
     def _is_sudden(self, object_id: str, steps_m: Mapping[str, Vector]) -> bool:
         """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle.
@@ -171,7 +172,7 @@ class Landings:
         Parameters: steps_m : of all objects that moved in this update.
         """
         track = self._tracks[object_id]
-        has_contact = bool(self._graph.beside.get(object_id))
+        beside = self._graph.beside.get(object_id, NOTHING)
         for other in self._met(object_id):
             theirs, their_m = self._tracks.get(other), _STILL
             if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0]:
@@ -179,7 +180,7 @@ class Landings:
             now = _difference(steps_m[object_id], steps_m.get(other, _STILL))
             before = _difference(track.step_m, their_m)
             # Without a contact now, only an object that turned back may have met the other one.
-            if (has_contact or dot(now, before) < 0) and _change(now, before) >= max(
+            if (other in beside or dot(now, before) < 0) and _change(now, before) >= max(
                 _LEAST_CHANGE, _SUDDEN * dot(before, before)
             ):
                 return True
@@ -193,7 +194,10 @@ class Landings:
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
+        beside = self._graph.beside.get(object_id, NOTHING)
         for other, junction in [(x, side) for x, whole in self._met(object_id).items() for side in _sides(whole)]:
+            if best is not None and other not in beside:
+                break
             point = _middle(junction)
             normal = self._normal(object_id, other, point, junction, first)
             came = self._nearing(object_id, other, point, first, last)
@@ -201,7 +205,8 @@ class Landings:
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
                 onward = dot(self._nearing(object_id, other, point, last, now), normal)
-                if onward > LEFT * step * shorter or self._rolls(object_id, other, point, normal, closing):
+                most = LEFT * step * shorter if other in beside else 0.0
+                if onward > most or self._rolls(object_id, other, point, normal, closing):
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing

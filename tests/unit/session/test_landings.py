@@ -169,6 +169,14 @@ def test_object_thrown_at_a_wall_lands_on_the_wall() -> None:
     assert [one.onto for one in landings_of(iter(thrown))] == ["wall"]
 
 
+@pytest.mark.parametrize("begins", [0.88, 0.92, 0.96])
+def test_object_that_slides_on_a_table_bounces_off_a_wall(begins: float) -> None:
+    """It is within 4 mm of the wall in one frame, out of reach in the next, and touches the table in all."""
+    times = [(step + begins) * PERIOD_S - 0.1 for step in range(30)]
+    path = [(0.62 + (2.4 * t if t < 0 else -1.5 * t), RESTS_M, 0.0) for t in times]
+    assert [one.onto for one in landings_of(iter(path))] == ["wall"]
+
+
 def test_object_put_down_gently_does_not_land() -> None:
     def lowered() -> Path:  # minimum jerk over 0.6 s, like a hand (Flash and Hogan 1985)
         for step in range(60):
