@@ -56,12 +56,8 @@ class MuJoCoLink(EngineLink):
                 raise ConfigError(unknown_hand(hand, session.hands))
 
     def collect(self) -> None:
-        """Keep the contacts of this step for the next `update`. Call it after each `mj_step` of a frame.
-
-        The next `update` then reports all contacts of the frame, also those that have ended, as of a ball that bounces
-        or of a finger that taps. Without it, `update` reports the contacts of the last step.
-        """
-        self._engine.collect()
+        """Keep the contacts of this `mj_step` for the next `update`, as `EngineLink.collect`."""
+        self._engine.collect()  # as arrays, since a step may have hundreds of contact points
 
 
 class _MuJoCo:

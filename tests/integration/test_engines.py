@@ -568,6 +568,23 @@ def test_session_of_a_different_scene_is_refused(mujoco_engine: Any) -> None:
         MuJoCoLink(model, data, HapticSession(other, baked(other)))
 
 
+def test_collected_steps_of_an_adapter_count_in_the_next_frame_alone() -> None:
+    """Of each pair, the contacts and touches of the last step that has any."""
+    scene = own_scene()
+    adapter = Given(scene)
+    link = EngineLink(adapter, HapticSession(scene, baked(scene)))
+
+    def step(touches: list[Touch], contacts: list[Contact]) -> None:
+        adapter.given |= {"touches": touches, "contacts": contacts}
+
+    step([Touch("left", "table", (0.4, 0.72, 0.1))], [Contact("phone", "table", (0.2, 0.72, 0.1))])
+    link.collect()
+    step([], [])
+    link.collect()
+    assert link.update().gain("left", "phone") > 0
+    assert link.update().gain("left", "phone") == 0
+
+
 BOUNCES = """
 <mujoco>
   <option timestep="0.001"/>
