@@ -235,14 +235,15 @@ class Landings:
         return False
 
     def _rolls(self, object_id: str, other: str, point_m: Vector, normal: Vector, closing_m: float) -> bool:
-        """Whether an object turned while its middle hardly approached another object."""
+        """Whether an object turned while its middle hardly approached another object, before this step."""
         track = self._tracks[object_id]
-        since = track.run()[0][0]
-        begin, end = track.pose_at(since), self._graph.pose(object_id)
+        run = track.run()
+        since, until = run[0][0], run[-1][0]
+        begin, end = track.pose_at(since), track.pose_at(until)
         if begin.rotation_xyzw == end.rotation_xyzw:
             return False
         (x, y, z), (u, v, w) = in_world(track.own_m, end), in_world(track.own_m, begin)
-        a, b, c = self._travel(other, point_m, since, self._n_updates)
+        a, b, c = self._travel(other, point_m, since, until)
         return dot((x - u - a, y - v - b, z - w - c), normal) < ROLLS * closing_m
 
     def _turning(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:

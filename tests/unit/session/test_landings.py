@@ -169,6 +169,25 @@ def test_object_thrown_at_a_wall_lands_on_the_wall() -> None:
     assert [one.onto for one in landings_of(iter(thrown))] == ["wall"]
 
 
+@pytest.mark.parametrize("frames_hz", [30, 60, 90])
+@pytest.mark.parametrize("begins", [0.1, 0.3, 0.5, 0.7, 0.9])
+def test_turning_object_that_bounces_as_high_as_it_fell_lands(begins: float, frames_hz: int) -> None:
+    """Over the bounce its middle approaches the table by nothing, as that of an object that rolls."""
+    frames = []
+    for step in range(round(0.4 * frames_hz)):
+        t = (step + begins) / frames_hz - 0.2
+        pose = Pose((0.0, RESTS_M + 2.5 * abs(t), 0.0), about_z(0.1 * t))
+        meets = Contact("cup", "table", (0.0, 0.7, 0.0), (0.0, -1.0, 0.0))
+        frames.append((step / frames_hz, {"cup": pose}, [meets] if abs(t) < 1 / frames_hz else []))
+    graph = room()
+    landings, found = Landings(graph, _middle, PERIOD_S), list[Landing]()
+    for time_s, poses, touching in frames:
+        landings.begin(poses, time_s)
+        graph.update(poses, contacts=touching)
+        found += landings.look(poses, time_s)
+    assert [one.onto for one in found] == ["table"]
+
+
 @pytest.mark.parametrize("begins", [0.88, 0.92, 0.96])
 def test_object_that_slides_on_a_table_bounces_off_a_wall(begins: float) -> None:
     """It is within 4 mm of the wall in one frame, out of reach in the next, and touches the table in all."""
