@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from scene2hap.scene.pose import Pose
 from scene2hap.session import HapticFrame, HapticSession, Touch
 from scene2hap.session.arguments import given_contacts, given_touches
 
+_T = TypeVar("_T")
 _MOST_NAMED = 5
 _SCALE_TOLERANCE = 1e-3
 """A smaller relative difference of positions counts as the same unit (assumed: units differ by 1 % or more)."""
@@ -43,7 +44,16 @@ class EngineLink:
         if missing:
             raise ConfigError(f"{type(adapter).__name__} has no method {missing[0]!r}; see EngineAdapter.")
         self._adapter, self._session, self._changes = adapter, session, Changes(session)
+        self._steps: list[tuple[Sequence[Touch], Sequence[Contact] | None]] = []
         _require_same_scene(self._poses(), session)
+
+    def collect(self) -> None:
+        """Keep the contacts of this step of the physics for the next `update`. Call it after each step of a frame.
+
+        The next `update` then reports all contacts of the frame, also those that have ended, as of a ball that bounces
+        or of a finger that taps. Without it, `update` reports those of the last step. Raises: as `update`.
+        """
+        self._steps.append(self._now())
 
     def update(self, touches: Sequence[Touch] | None = (), *, at_sample: int | None = None) -> HapticFrame:
         """Update the session. Call this once per frame on the game's thread.
@@ -53,15 +63,17 @@ class EngineLink:
         poses are not valid.
         """
         poses, followed = self._poses(), self._session.object_ids
+        steps, self._steps = [*self._steps, self._now()], []
 
         def is_played(object_id: object) -> bool:
             # An id that is unknown to both engine and session is a mistake, which the session reports.
             return object_id in followed or object_id not in poses
 
-        felt = [one for one in given_touches(self._adapter.touches()) if is_played(one.object_id)]
-        contacts: Sequence[Contact] | None = self._adapter.contacts()
-        if contacts is not None:
-            contacts = [one for one in given_contacts(contacts) if is_played(one.a) and is_played(one.b)]
+        touched = _of_steps([touched for touched, _ in steps], lambda one: (one.hand, one.object_id))
+        felt = [one for one in touched if is_played(one.object_id)]
+        reports = [report for _, report in steps if report is not None]
+        met = _of_steps(reports, lambda one: frozenset((one.a, one.b)))
+        contacts = [one for one in met if is_played(one.a) and is_played(one.b)] if reports else None
         try:
             changed = self._changes.of(poses)
             return self._session.update(
@@ -71,6 +83,10 @@ class EngineLink:
             self._changes.forget()
             raise
 
+    def _now(self) -> tuple[Sequence[Touch], Sequence[Contact] | None]:
+        touches, contacts = given_touches(self._adapter.touches()), self._adapter.contacts()
+        return touches, None if contacts is None else given_contacts(contacts)
+
     def _poses(self) -> Mapping[str, Pose]:
         poses: Any = self._adapter.poses()
         if not isinstance(poses, Mapping):
@@ -79,6 +95,19 @@ class EngineLink:
                 "object ids to poses, as {'mug': Pose(...)}."
             )
         return poses
+
+
+def _of_steps(steps: Sequence[Sequence[_T]], pair: Callable[[_T], Hashable]) -> Sequence[_T]:
+    """Return the touches or contacts of several steps: of each pair those of the last step that has any."""
+    if len(steps) == 1:
+        return steps[0]
+    last: dict[Hashable, list[_T]] = {}
+    for step in steps:
+        of_step: dict[Hashable, list[_T]] = {}
+        for one in step:
+            of_step.setdefault(pair(one), []).append(one)
+        last |= of_step
+    return [one for of_pair in last.values() for one in of_pair]
 
 
 def _require_same_scene(poses: Mapping[str, Pose], session: HapticSession) -> None:

@@ -18,7 +18,9 @@ from scene2hap.session.frame import unknown_hand
 
 @clear_calls
 class MuJoCoLink(EngineLink):
-    """Let a session follow a running MuJoCo model: call `link.update()` after each `mj_step`.
+    """Let a session follow a running MuJoCo model: call `link.update()` once per frame, after `mj_step`.
+
+    If a frame has several steps, call `link.collect()` after each of them.
 
     Parameters:
     model, data, geom_groups, unit_m : as for `scene.engines.mujoco.snapshot`.
@@ -47,10 +49,15 @@ class MuJoCoLink(EngineLink):
             raise ConfigError(
                 f"hands is {checks.represented(hands)}; it must be a mapping of hands to bodies, as {{'left': 'palm'}}."
             )
-        super().__init__(_MuJoCo(model, data, hands or {}, contacts == "engine", geom_groups, unit_m), session)
+        self._engine = _MuJoCo(model, data, hands or {}, contacts == "engine", geom_groups, unit_m)
+        super().__init__(self._engine, session)
         for hand in hands or ():
             if hand not in session.hands:
                 raise ConfigError(unknown_hand(hand, session.hands))
+
+    def collect(self) -> None:
+        """Keep the contacts of this `mj_step` for the next `update`, as `EngineLink.collect`."""
+        self._engine.collect()  # as arrays, since a step may have hundreds of contact points
 
 
 class _MuJoCo:
@@ -68,16 +75,27 @@ class _MuJoCo:
         self._model, self._data, self._has_contacts = model, data, has_contacts
         self._how: dict[str, Any] = {"geom_groups": geom_groups, "unit_m": unit_m}
         self._hands = {hand: engine.geoms_below(model, data, body) for hand, body in hands.items()}
+        self._steps: list[engine.ContactPoints] = []
+        self._points: engine.ContactPoints | None = None
+
+    def collect(self) -> None:
+        if self._hands or self._has_contacts:
+            self._steps.append(engine.contact_points(self._data))
 
     def poses(self) -> PoseTable:
+        # Each frame begins with this call.
+        self._points = engine.points_of_steps(self._steps) if self._steps else None
+        self._steps.clear()
         return engine.poses(self._model, self._data, **self._how)
 
     def touches(self) -> Sequence[Touch]:
         return [
             Touch(hand, object_id, point_m)
             for hand, part in self._hands.items()
-            for object_id, point_m in engine.touched(self._model, self._data, part, **self._how)
+            for object_id, point_m in engine.touched(self._model, self._data, part, points=self._points, **self._how)
         ]
 
     def contacts(self) -> Sequence[Contact] | None:
-        return engine.contacts(self._model, self._data, **self._how) if self._has_contacts else None
+        if not self._has_contacts:
+            return None
+        return engine.contacts(self._model, self._data, points=self._points, **self._how)

@@ -91,6 +91,28 @@ def test_a_falling_finger_feels_the_phone_through_the_table(engine: PyBullet) ->
     assert felt[-1] > 0.05
 
 
+def test_an_object_that_bounces_between_two_frames_is_felt(engine: PyBullet) -> None:
+    scene = scene_of(engine)
+    for name in ("finger", "wooden table"):
+        pybullet.changeDynamics(engine.bodies[name], -1, restitution=0.9, physicsClientId=engine.client)
+    pybullet.resetBasePositionAndOrientation(
+        engine.bodies["finger"], (-0.3, 0.0, 1.3), (0, 0, 0, 1), physicsClientId=engine.client
+    )
+    session = HapticSession(scene, bake(scene))
+    link = EngineLink(engine, session)
+    n_bounces, met = 0, False
+    for _ in range(60):
+        for _ in range(8):  # 30 frames a second
+            pybullet.stepSimulation(physicsClientId=engine.client)
+            link.collect()
+            points = pybullet.getContactPoints(bodyA=engine.bodies["finger"], physicsClientId=engine.client)
+            n_bounces, met = n_bounces + (not met and bool(points)), bool(points)
+        link.update([Touch("right", "wooden table", (0.0, 0.0, 0.72))])
+        session.render_s(1 / 30)
+    assert n_bounces == 5  # at 2.7, 2.4, 1.9, 1.0 and 0.4 m/s; 30 frames a second show the first three
+    assert session.stats.impacts == 3
+
+
 def test_a_finger_that_drops_onto_the_table_is_felt(engine: PyBullet) -> None:
     scene = scene_of(engine)
     session = HapticSession(scene, bake(scene))

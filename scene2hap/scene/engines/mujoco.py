@@ -28,7 +28,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -54,6 +54,15 @@ _WORLD = 0
 _LAST_SHOWN_GROUP = 2
 _IN_GAP = 1
 _PLANE, _MESH = 0, 7
+
+
+class ContactPoints(NamedTuple):
+    """Contact points of one or more steps: numbers of the geoms (n, 2), points (n, 3) in the model's unit, and normals
+    (n, 3) from the first geom to the second."""
+
+    geoms: NDArray[np.intp]
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
 
 
 def snapshot(
@@ -103,7 +112,7 @@ def snapshot(
     if not objects:
         why = "the model has no geoms" if geom_groups is None else f"no geom is in geom_groups {set(geom_groups)}"
         raise SceneError(f"{why}; nothing in it can be touched.")
-    touching = None if contacts is None else _contacts(model, data, items, metres)
+    touching = None if contacts is None else _contacts(model, contact_points(data), items, metres)
     title = name or model.names[: model.names.index(b"\0")].decode("utf-8", "replace") or "mujoco"
     scene = SceneSnapshot(title, "z", with_relative_heights(objects, "z"), touching)
     if unit_m is None:
@@ -117,12 +126,40 @@ def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, 
     return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
 
 
+def contact_points(data: Any) -> ContactPoints:
+    """Return a copy of the engine's contact points, without those in a geom's gap, which exert no force."""
+    given = data.contact
+    active = np.flatnonzero(np.asarray(given.exclude) != _IN_GAP)
+    geoms, points, frames = (np.asarray(each)[active] for each in (given.geom, given.pos, given.frame))
+    return ContactPoints(geoms.astype(np.intp), points, frames[:, :3])
+
+
+def points_of_steps(steps: Sequence[ContactPoints]) -> ContactPoints:
+    """Return the contact points of several steps: for each pair of geoms, those of the last step that has any."""
+    geoms, points, normals = (np.concatenate(each) for each in zip(*steps, strict=True))
+    step = np.repeat(np.arange(len(steps)), [len(one.geoms) for one in steps])
+    _, pair = np.unique(geoms[:, 0] * (geoms.max(initial=0) + 2) + geoms[:, 1], return_inverse=True)
+    last = np.zeros(len(geoms), dtype=np.intp)
+    np.maximum.at(last, pair, step)
+    kept = step == last[pair]
+    return ContactPoints(geoms[kept], points[kept], normals[kept])
+
+
 def contacts(
-    model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0
+    model: Any,
+    data: Any,
+    *,
+    points: ContactPoints | None = None,
+    geom_groups: Collection[int] | None = None,
+    unit_m: float = 1.0,
 ) -> tuple[Contact, ...]:
-    """Return the engine's contacts between objects of the last `snapshot` with the same arguments."""
+    """Return the engine's contacts between objects of the last `snapshot` with the same arguments.
+
+    Parameters: points : those of several steps; None takes the current ones.
+    """
     unit_m = metres_per_unit(unit_m)
-    return _contacts(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
+    items = _layout(_engine(model, data), model, geom_groups)
+    return _contacts(model, contact_points(data) if points is None else points, items, unit_m)
 
 
 def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
@@ -157,23 +194,23 @@ def touched(
     data: Any,
     part: NDArray[np.bool_],
     *,
+    points: ContactPoints | None = None,
     geom_groups: Collection[int] | None = None,
     unit_m: float = 1.0,
 ) -> list[tuple[str, tuple[float, float, float]]]:
-    """Return the objects that the geoms of a part, from `geoms_below`, touch now, with the contact points [m].
+    """Return the objects that the geoms of a part, from `geoms_below`, touch, with the contact points [m].
 
     There is one entry for each contact point with a geom outside the part.
+    Parameters: points : those of several steps; None takes the current ones.
     """
     items = _layout(_engine(model, data), model, geom_groups)
-    if not data.ncon:
-        return []
-    geoms, is_active = np.asarray(data.contact.geom), np.asarray(data.contact.exclude) != _IN_GAP
+    geoms, places, _ = contact_points(data) if points is None else points
     is_own = part[geoms]
-    kept = np.flatnonzero((is_own[:, 0] != is_own[:, 1]) & is_active)
+    kept = np.flatnonzero(is_own[:, 0] != is_own[:, 1])
     others = geoms[kept, is_own[kept, 0].astype(np.intp)]
-    points = (np.asarray(data.contact.pos)[kept] * unit_m).tolist()
     rows = items.row_of_geom(model)[others].tolist()
-    return [(items.ids[row], (x, y, z)) for row, (x, y, z) in zip(rows, points, strict=True) if row >= 0]
+    places_m = (places[kept] * unit_m).tolist()
+    return [(items.ids[row], (x, y, z)) for row, (x, y, z) in zip(rows, places_m, strict=True) if row >= 0]
 
 
 def load_mjcf(
@@ -383,18 +420,15 @@ def _poses(model: Any, data: Any, items: _Items, unit_m: float) -> PoseTable:
     return PoseTable(items.ids, positions * unit_m, rotations)
 
 
-def _contacts(model: Any, data: Any, items: _Items, unit_m: float) -> tuple[Contact, ...]:
+def _contacts(model: Any, points: ContactPoints, items: _Items, unit_m: float) -> tuple[Contact, ...]:
     """Return the engine's contacts between objects. Contacts with geoms that are not drawn are left out."""
-    if not data.ncon:
-        return ()
     # A deformable body has no geom. Its contacts have geom -1, which indexes the last entry.
-    rows = items.row_of_geom(model)[np.asarray(data.contact.geom)]
-    wanted = (rows >= 0).all(axis=1) & (rows[:, 0] != rows[:, 1]) & (np.asarray(data.contact.exclude) != _IN_GAP)
-    kept = np.flatnonzero(wanted)
-    points, normals = np.asarray(data.contact.pos)[kept] * unit_m, np.asarray(data.contact.frame)[kept, :3]
+    rows = items.row_of_geom(model)[points.geoms]
+    kept = np.flatnonzero((rows >= 0).all(axis=1) & (rows[:, 0] != rows[:, 1]))
+    places, normals = points.points[kept] * unit_m, points.normals[kept]
     return tuple(
         Contact(items.ids[a], items.ids[b], (x, y, z), (nx, ny, nz))
-        for (a, b), (x, y, z), (nx, ny, nz) in zip(rows[kept].tolist(), points.tolist(), normals.tolist(), strict=True)
+        for (a, b), (x, y, z), (nx, ny, nz) in zip(rows[kept].tolist(), places.tolist(), normals.tolist(), strict=True)
     )
 
 

@@ -39,6 +39,10 @@ ROLLS = 0.25
 not approach the floor."""
 MOST_MOVING = 100
 """Objects followed at once; among so many moving objects a single landing is not noticed."""
+SHORTEST_S, MOST_UPDATES = 0.0045, 16
+"""Shortest time from one step to the next, and most updates in it. A game may update after each step of its physics: a
+contact of an engine is soft, so that at 500 Hz an object takes several steps to stop. The updates at one time of the
+clock are one step too, unless it stands still."""
 _SUDDEN = ((1 - LEFT) * HEAD_ON) ** 2
 _LEAST_CHANGE = _SUDDEN * (LEAST_TRAVEL_M / MOST_STEPS) ** 2
 """Square of the smallest change of a step at a landing [m2]: the steps of a fall are not shorter."""
@@ -66,7 +70,11 @@ class Landings:
     def __init__(self, graph: ContactGraph, middle_m: Callable[[str], Vector], period_s: float) -> None:
         self._graph, self._middle_m, self._period_s = graph, middle_m, period_s
         self._tracks: dict[str, MotionTrack] = {}
+        self._near: dict[str, dict[str, Junction]] = {}
+        """Contacts of each moving object before the present step, and in all of its updates but the last."""
         self._n_updates = 0
+        self._moved: dict[str, None] = {}
+        self._n_waiting, self._looked_s, self._clock_runs = 0, 0.0, False
 
     @property
     def follow_any(self) -> bool:
@@ -79,8 +87,8 @@ class Landings:
         for object_id, moves_to in moved.items():
             track = tracks.get(object_id)
             if track is not None:
-                near = beside.get(object_id)
-                track.near = dict(near) if near else NOTHING
+                if near := beside.get(object_id):
+                    self._near.setdefault(object_id, {}).update(near)
             elif len(tracks) < MOST_MOVING and object_id in self._graph:
                 pose = self._graph.pose(object_id)
                 # Some games give the poses of all objects in every frame. The graph refuses other types than poses.
@@ -90,6 +98,27 @@ class Landings:
 
     def look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         """Find the objects that landed in this update. Call it after the graph is updated."""
+        if self._is_within_step(time_s):
+            self._moved.update(dict.fromkeys(moved))
+            return []
+        if self._moved:
+            self._moved.update(dict.fromkeys(moved))
+            moved = {object_id: self._graph.pose(object_id) for object_id in self._moved if object_id in self._graph}
+            self._moved.clear()
+        found = self._look(moved, time_s)
+        self._near.clear()
+        return found
+
+    def _is_within_step(self, time_s: float) -> bool:
+        """Whether the next update belongs to the same step of all motions as this one."""
+        since_s = time_s - self._looked_s
+        self._n_waiting += 1
+        if self._clock_runs and since_s < SHORTEST_S and self._n_waiting < MOST_UPDATES:
+            return True
+        self._n_waiting, self._looked_s, self._clock_runs = 0, time_s, since_s > 0
+        return False
+
+    def _look(self, moved: Mapping[str, Pose], time_s: float) -> list[Landing]:
         self._n_updates = now = self._n_updates + 1
         moving: list[tuple[str, MotionTrack, Pose, tuple[Vector, Vector]]] = []
         stopped: list[str] = []
@@ -102,7 +131,7 @@ class Landings:
             if pose is not None and step is not None:
                 moving.append((object_id, track, pose, step))
                 # Few objects pass these checks, which run for all moved ones in every frame.
-                near = beside.get(object_id) or track.near
+                near = self._met(object_id)
                 if near:
                     change, before = _change(step[0], track.step_m), track.step_m
                     if change >= _LEAST_CHANGE and (
@@ -132,21 +161,26 @@ class Landings:
         met = {(one.object_id, one.onto) for one in found}
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
+    def _met(self, object_id: str) -> Mapping[str, Junction]:
+        """The contacts that an object has now, before those that it had before or in this step."""
+        near, beside = self._near.get(object_id), self._graph.beside.get(object_id, NOTHING)
+        return {**beside, **{x: near[x] for x in near if x not in beside}} if near else beside
+
     def _is_sudden(self, object_id: str, steps_m: Mapping[str, Vector]) -> bool:
         """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle.
 
         Parameters: steps_m : of all objects that moved in this update.
         """
         track = self._tracks[object_id]
-        beside = self._graph.beside.get(object_id)
-        for other in beside or track.near:
+        beside = self._graph.beside.get(object_id, NOTHING)
+        for other in self._met(object_id):
             theirs, their_m = self._tracks.get(other), _STILL
             if theirs is not None and theirs.steps[-1][0] == track.steps[-1][0]:
                 their_m = theirs.step_m
             now = _difference(steps_m[object_id], steps_m.get(other, _STILL))
             before = _difference(track.step_m, their_m)
             # Without a contact now, only an object that turned back may have met the other one.
-            if (beside or dot(now, before) < 0) and _change(now, before) >= max(
+            if (other in beside or dot(now, before) < 0) and _change(now, before) >= max(
                 _LEAST_CHANGE, _SUDDEN * dot(before, before)
             ):
                 return True
@@ -160,8 +194,10 @@ class Landings:
         # The step after a long frame is short, without being slow. The ratio is unknown if the clock stands still.
         lasted_s, lasts_s = end_s - before_s, time_s - end_s
         shorter = min(1.0, lasts_s / lasted_s) if lasted_s > 0 and lasts_s > 0 else 1.0
-        near = self._graph.beside.get(object_id) or track.near
-        for other, junction in [(x, side) for x, whole in near.items() for side in _sides(whole)]:
+        beside = self._graph.beside.get(object_id, NOTHING)
+        for other, junction in [(x, side) for x, whole in self._met(object_id).items() for side in _sides(whole)]:
+            if best is not None and other not in beside:
+                break
             point = _middle(junction)
             normal = self._normal(object_id, other, point, junction, first)
             came = self._nearing(object_id, other, point, first, last)
@@ -169,7 +205,8 @@ class Landings:
             if closing > most_m and closing >= HEAD_ON * math.hypot(*came):
                 step = dot(self._nearing(object_id, other, point, before, last), normal)
                 onward = dot(self._nearing(object_id, other, point, last, now), normal)
-                if onward > LEFT * step * shorter or self._rolls(object_id, other, point, normal, closing):
+                most = LEFT * step * shorter if other in beside else 0.0
+                if onward > most or self._rolls(object_id, other, point, normal, closing):
                     continue
                 if self._stops_suddenly(object_id, other, point, normal, [*run, (now, time_s)]):
                     best, most_m = (other, point), closing
@@ -198,14 +235,15 @@ class Landings:
         return False
 
     def _rolls(self, object_id: str, other: str, point_m: Vector, normal: Vector, closing_m: float) -> bool:
-        """Whether an object turned while its middle hardly approached another object."""
+        """Whether an object turned while its middle hardly approached another object, before this step."""
         track = self._tracks[object_id]
-        since = track.run()[0][0]
-        begin, end = track.pose_at(since), self._graph.pose(object_id)
+        run = track.run()
+        since, until = run[0][0], run[-1][0]
+        begin, end = track.pose_at(since), track.pose_at(until)
         if begin.rotation_xyzw == end.rotation_xyzw:
             return False
         (x, y, z), (u, v, w) = in_world(track.own_m, end), in_world(track.own_m, begin)
-        a, b, c = self._travel(other, point_m, since, self._n_updates)
+        a, b, c = self._travel(other, point_m, since, until)
         return dot((x - u - a, y - v - b, z - w - c), normal) < ROLLS * closing_m
 
     def _turning(self, object_id: str, point_m: Vector, since: int, until: int) -> Vector:

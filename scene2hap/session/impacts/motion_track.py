@@ -36,7 +36,7 @@ class MotionTrack:
     pose : the latest; middle_m : the middle of the box at this pose, in the world [m]; own_m : the same in the object's
     own frame [m]; steps : number of the update, time [s] and pose of each step; gap : updates from one step to the
     next, the longest of late; stopped_m : the last step before a landing that no further step confirmed; goes_on : the
-    object did not land then, but paused; near : the contacts before the present update, while the object falls.
+    object did not land then, but paused.
     """
 
     __slots__ = (
@@ -44,7 +44,6 @@ class MotionTrack:
         "goes_on",
         "middle_m",
         "n_steps",
-        "near",
         "origin_m",
         "own_m",
         "pose",
@@ -62,7 +61,6 @@ class MotionTrack:
         self.gap: float = 1.0
         self.goes_on: bool = False
         self.stopped_m: Vector = _ZERO
-        self.near: Mapping[str, Junction] = NOTHING
         self.turn(update)
 
     def turn(self, update: int) -> None:

@@ -130,9 +130,70 @@ def test_physics_at_half_the_update_rate_gives_one_landing() -> None:
     assert [one.onto for one in found] == ["table"]
 
 
+@pytest.mark.parametrize("updates_hz", [200, 300, 500, 1000, 2000])
+@pytest.mark.parametrize("height_m", [0.05, 0.13, 0.4])
+def test_object_that_a_soft_contact_stops_lands_once_at_any_rate_of_updates(height_m: float, updates_hz: int) -> None:
+    """A game may update after each step of MuJoCo, whose contacts take some 10 ms to stop an object."""
+    fell_at, lasts_s = math.sqrt(2 * 9.81 * height_m), 0.012
+    fell_s, path = fell_at / 9.81, []
+    for step in range(round(0.5 * updates_hz)):
+        t = step / updates_hz
+        after_s = min(max(t - fell_s, 0.0), lasts_s)
+        sunk_m = fell_at * after_s * (1 - after_s / lasts_s) ** 2
+        path.append((0.0, RESTS_M - sunk_m + max(0.0, height_m - 9.81 * t * t / 2) * (t < fell_s), 0.0))
+    found = landings_of(iter(path), period_s=1 / updates_hz)
+    assert [one.onto for one in found] == ["table"]
+    assert 0.6 * fell_at <= found[0].speed_m_s <= 1.1 * fell_at
+
+
+@pytest.mark.parametrize("updates_hz", [300, 500, 1000])
+def test_contact_in_any_update_of_a_fast_bounce_counts(updates_hz: int) -> None:
+    """A ball that bounces off within 2 ms is out of reach by the end of the step, whose contacts an engine gives."""
+    graph = room()
+    landings, found = Landings(graph, _middle, PERIOD_S), list[Landing]()
+    for step in range(round(0.4 * updates_hz)):
+        t = step / updates_hz - 0.2
+        y = RESTS_M + (-4.0 * t if t < 0 else 3.0 * t)
+        poses = {"cup": Pose((0.0, y, 0.0))}
+        touching = (
+            [Contact("cup", "table", (0.0, 0.7, 0.0), (0.0, -1.0, 0.0))] if y - RESTS_M < 4.0 / updates_hz else []
+        )
+        landings.begin(poses, t)
+        graph.update(poses, contacts=touching)
+        found += landings.look(poses, t)
+    assert [one.onto for one in found] == ["table"]
+
+
 def test_object_thrown_at_a_wall_lands_on_the_wall() -> None:
     thrown = [(0.2 + min(0.42, 0.03 * step), RESTS_M + 0.3, 0.0) for step in range(25)]
     assert [one.onto for one in landings_of(iter(thrown))] == ["wall"]
+
+
+@pytest.mark.parametrize("frames_hz", [30, 60, 90])
+@pytest.mark.parametrize("begins", [0.1, 0.3, 0.5, 0.7, 0.9])
+def test_turning_object_that_bounces_as_high_as_it_fell_lands(begins: float, frames_hz: int) -> None:
+    """Over the bounce its middle approaches the table by nothing, as that of an object that rolls."""
+    frames = []
+    for step in range(round(0.4 * frames_hz)):
+        t = (step + begins) / frames_hz - 0.2
+        pose = Pose((0.0, RESTS_M + 2.5 * abs(t), 0.0), about_z(0.1 * t))
+        meets = Contact("cup", "table", (0.0, 0.7, 0.0), (0.0, -1.0, 0.0))
+        frames.append((step / frames_hz, {"cup": pose}, [meets] if abs(t) < 1 / frames_hz else []))
+    graph = room()
+    landings, found = Landings(graph, _middle, PERIOD_S), list[Landing]()
+    for time_s, poses, touching in frames:
+        landings.begin(poses, time_s)
+        graph.update(poses, contacts=touching)
+        found += landings.look(poses, time_s)
+    assert [one.onto for one in found] == ["table"]
+
+
+@pytest.mark.parametrize("begins", [0.88, 0.92, 0.96])
+def test_object_that_slides_on_a_table_bounces_off_a_wall(begins: float) -> None:
+    """It is within 4 mm of the wall in one frame, out of reach in the next, and touches the table in all."""
+    times = [(step + begins) * PERIOD_S - 0.1 for step in range(30)]
+    path = [(0.62 + (2.4 * t if t < 0 else -1.5 * t), RESTS_M, 0.0) for t in times]
+    assert [one.onto for one in landings_of(iter(path))] == ["wall"]
 
 
 def test_object_put_down_gently_does_not_land() -> None:
