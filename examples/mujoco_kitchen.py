@@ -110,14 +110,16 @@ class Kitchen:
         if t > 6.0:
             self.left_m[:2] = (self.data.body("smartphone").xpos + BESIDE_M)[:2]
 
-    def step(self) -> None:
+    def step(self, link: MuJoCoLink) -> None:
         """Simulate one frame. The hands approach their targets at 5 times the remaining distance per second."""
         phone_m = self.data.body("smartphone").xpos
         wanted = {"left target": self.left_m, "right target": [*(phone_m - BESIDE_M)[:2], TOUCHING_M]}
         for name, place in wanted.items():
             mocap = self.data.mocap_pos[self.model.body(name).mocapid[0]]
             mocap += 5.0 * FRAME_S * (place - mocap)
-        mujoco.mj_step(self.model, self.data, nstep=round(FRAME_S / self.model.opt.timestep))
+        for _ in range(round(FRAME_S / self.model.opt.timestep)):
+            mujoco.mj_step(self.model, self.data)
+            link.collect()
 
     def told(self, frame: HapticFrame) -> str:
         """Text with the distance of each hand from the phone, and its gain."""
@@ -145,7 +147,7 @@ def play(arguments: argparse.Namespace, has_window: bool) -> None:
                 kitchen.script(i * FRAME_S)
             while keys:
                 kitchen.key(keys.popleft())
-            kitchen.step()
+            kitchen.step(link)
             frame = link.update()
             if isinstance(sink, WavSink):
                 sink.pull_s(FRAME_S)
