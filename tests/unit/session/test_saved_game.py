@@ -1,14 +1,15 @@
-"""A game saves a session by its public values and restores it from JSON."""
+"""A game saves a session by its public values and restores it, from JSON or while it plays."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 import pytest
 
-from scene2hap import HapticBundle, HapticSession, Pose, SceneSnapshot, Touch
+from scene2hap import HapticBundle, HapticSession, MemorySink, Pose, SceneSnapshot, Touch
 from scene2hap.session.mix.sources import SourceInfo
 from scenes import table_with_two_phones
 
@@ -24,12 +25,10 @@ def saved(session: HapticSession) -> str:
     return json.dumps({"sources": sources, "poses": poses})
 
 
-def restored(scene: SceneSnapshot, bundle: HapticBundle, text: str) -> HapticSession:
-    data, session = json.loads(text), HapticSession(scene, bundle, {"prepare": "blocking"})
+def take_over(data: dict[str, Any], session: HapticSession) -> None:
     for source_id, settings in data["sources"].items():
         session.set_source(source_id, **settings)
     session.update({id: Pose(*pose) for id, pose in data["poses"].items()})
-    return session
 
 
 def tables(first_db: float = 0.0) -> tuple[SceneSnapshot, HapticBundle]:
@@ -52,7 +51,8 @@ def test_restored_session_gives_the_same_gains(settings: dict[str, object]) -> N
     made = HapticSession(*tables(-3.0), {"prepare": "blocking"})
     made.set_source("phone", **settings)  # type: ignore[arg-type]
     made.update({"cup": Pose((5.0, 0.5, 5.0))})
-    again = restored(*tables(-3.0), saved(made))
+    again = HapticSession(*tables(-3.0), {"prepare": "blocking"})
+    take_over(json.loads(saved(made)), again)
     assert saved(again) == saved(made)
     np.testing.assert_array_equal(again.update(touches=TOUCHES).gains, made.update(touches=TOUCHES).gains)
     for session in (made, again):
@@ -71,3 +71,45 @@ def test_level_of_a_source_is_the_bundles_at_first() -> None:
 
 def infos(session: HapticSession, ids: Iterable[str]) -> list[SourceInfo]:
     return [session.source(one) for one in ids]
+
+
+def require_no_step(parts: list[np.ndarray]) -> None:
+    """A step is a second difference far above those of the loop itself; a fade over 8 ms doubles them."""
+    bend = np.abs(np.diff(np.concatenate(parts).astype(np.float64), 2))
+    assert bend[5_000:].max() < 3 * bend[10_000:20_000].max() < 3e-4
+
+
+def other_model(old: HapticSession, sink: MemorySink | None = None) -> HapticSession:
+    new = HapticSession(*tables(), {"prepare": "blocking", "propagation": "modal_plate"}, sink=sink)
+    take_over(json.loads(saved(old)), new)
+    return new
+
+
+def test_another_model_takes_over_a_sink_without_a_step() -> None:
+    parts, sink = [], MemorySink()
+    session = HapticSession(*tables(), {"prepare": "blocking"}, sink=sink)
+    session.set_source("phone", gain_db=-3.0)
+    for _ in range(2):
+        session.start()
+        for _ in range(50):
+            session.update(touches=TOUCHES)
+            sink.pull(480)
+        session.stop()
+        parts.append(sink.samples[:, 0])
+        session = other_model(session, sink)
+    require_no_step(parts)
+
+
+def test_another_model_takes_over_rendering_without_a_step() -> None:
+    def played(session: HapticSession) -> np.ndarray:
+        session.update(touches=TOUCHES)
+        return session.render(480)[:, 0]
+
+    old = HapticSession(*tables(), {"prepare": "blocking"})
+    parts = [played(old) for _ in range(50)]
+    new = other_model(old)
+    old.pause()
+    parts += [played(old) + played(new) for _ in range(10)]
+    assert np.abs(old.render(4800)).max() == 0.0
+    parts += [played(new) for _ in range(40)]
+    require_no_step(parts)
