@@ -53,16 +53,16 @@ class LoopRow:
 @clear_attributes
 @dataclass(frozen=True)
 class SourceInfo:
-    """Present state of a source: its state, all of its states, whether it is switched on, its level [dB], whether it is
-    muted, and the strongest frequency of its vibration in this state [Hz]."""
+    """Present state of a source: its state, all of its states, whether it is switched on, the strongest frequency of
+    its vibration in this state [Hz], its level [dB], and whether it is muted."""
 
     id: str
     state: str
     states: tuple[str, ...]
     is_on: bool
+    frequency_hz: float
     gain_db: float
     is_muted: bool
-    frequency_hz: float
 
 
 @dataclass
@@ -160,7 +160,7 @@ class Sources:
         source = self[source_id]
         frequency_hz, level = source.rows[source.state].loop.frequency_tactile_hz, source.level
         return SourceInfo(
-            source_id, source.state, tuple(source.rows), source.is_on, level.gain_db, level.is_muted, frequency_hz
+            source_id, source.state, tuple(source.rows), source.is_on, frequency_hz, level.gain_db, level.is_muted
         )
 
     def rows(self) -> list[LoopRow]:
