@@ -54,3 +54,25 @@ def read(list loops, begin, float[:, ::1] out):
             for k in range(n_bands * CELL):
                 (&out[row, 0])[k] = 0
         row += n_bands
+
+
+def read_between(
+    StoredLoop loop, const Py_ssize_t[::1] below, const float[:, :] weights, float[:, ::1] cell, float[:, ::1] out
+):
+    cdef Py_ssize_t t, tap, band, at, number, n_bands = out.shape[1], low = below[0], high = below[0]
+    assert below.shape[0] == weights.shape[1] == out.shape[0] == CELL and weights.shape[0] == 4
+    assert cell.shape[0] == n_bands and cell.shape[1] == CELL
+    out[:] = 0
+    for t in range(1, CELL):
+        low, high = min(low, below[t]), max(high, below[t])
+    number = (low - 1) // CELL
+    if number * CELL > low - 1:  # C rounds towards 0
+        number -= 1
+    for number in range(number, (high + 2) // CELL + 1):
+        loop.write(number * CELL, &cell[0, 0])
+        for t in range(CELL):
+            for tap in range(4):
+                at = below[t] + tap - 1 - number * CELL
+                if 0 <= at < CELL:
+                    for band in range(n_bands):
+                        out[t, band] += cell[band, at] * weights[tap, t]

@@ -77,6 +77,23 @@ def read(loops: Sequence[StoredLoop | None], begin: int, out: Block) -> None:
             loop.fill(begin, rows)
 
 
+@compiled
+def read_between(loop: StoredLoop, below: NDArray[np.intp], weights: Block, cell: Block, out: Block) -> None:
+    """Write CELL samples of a loop at places between its own samples into (CELL, n_bands).
+
+    Parameters: below : (CELL,) the tactile sample before each place, on the common clock; weights : (4, CELL) of the
+        samples from the one before `below` to the second after it; cell : (n_bands, CELL) of the caller, overwritten.
+    The loop is read in the cells of the common clock, as a mixer reads it that began with the clock.
+    """
+    out.fill(0.0)
+    for number in range((int(below.min()) - 1) // CELL, (int(below.max()) + 2) // CELL + 1):
+        loop.fill(number * CELL, cell)
+        for offset, weight in enumerate(weights, -1 - number * CELL):
+            at = below + offset
+            places = np.flatnonzero((at >= 0) & (at < CELL))
+            out[places] += (cell[:, at[places]] * weight[places]).T
+
+
 class LoopBank:
     """Loops at one tactile rate, in a fixed order; a row is one band of one loop.
 
@@ -169,12 +186,9 @@ class _Stored(NamedTuple):
     denominator: int
 
 
-def stored_once(samples: Block, begin: int) -> StoredLoop:
-    """Return samples (n, n_bands) at the tactile rate as a loop. Its first sample is at the clock's tactile sample
-    `begin`."""
-    n = len(samples)
-    turned = np.roll(samples, begin % n, axis=0)
-    return StoredLoop(np.concatenate([turned, turned[np.arange(CELL) % n]]), n, 1, 1, _FADE)
+def stored_cell(samples: Block) -> StoredLoop:
+    """Return a loop that reads the present content of samples (CELL, n_bands) at any position."""
+    return StoredLoop(samples, CELL, 0, 1, _FADE)
 
 
 def _stored(loop: AudioClip, bands: Bands, sample_rate_hz: int) -> _Stored:

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.audio.run_curve import RunCurve
-from scene2hap.render.loop_bank import CELL, Block, LoopBank, StoredLoop, stored_once
+from scene2hap.render.loop_bank import CELL, Block, LoopBank, StoredLoop, read_between, stored_cell
 
 LEAD_S = 0.03
 """Time that a decaying loop continues unchanged while it replaces the steady one [s]."""
@@ -34,8 +34,11 @@ _ALIKE_S = 0.025
 """Length over which two places are compared [s of the loop]."""
 _NEARER = 0.1
 """Likeness that the farthest place must have more than the start's own [-], since a shift bends the pitch."""
-_GRID = np.linspace(0.0, 1.0, 4097)
-"""Shares of the time at which an amplitude is searched: 7 ms apart in the longest passage."""
+_STEPS = 4096
+_GRID = np.linspace(0.0, 1.0, _STEPS + 1)
+"""Shares of the time at which courses are tabulated: 7 ms apart in the longest passage."""
+_PLANNED = 20 * CELL
+"""Samples of a passage whose places are computed at once: with up to 500 numbers, see `CELL`."""
 
 Signal = NDArray[np.float64]
 
@@ -89,6 +92,9 @@ class Course(NamedTuple):
 class Passage(LoopBank):
     """A bank of one loop that starts or stops, once.
 
+    Its course is tabulated when it is made, in the same time for any duration. Its samples are computed while it plays,
+    one cell at a time, since those of 30 s take longer than a frame of a game.
+
     Parameters: steady : the bank of the loop itself; begin : tactile sample of the clock at which the passage starts;
         lasts_s : from standstill to full speed, or back [s]; since : speed and amplitude at its start; after : the
         passage that it interrupts, if any. From the sample `end` on, it is the steady loop or silence.
@@ -106,81 +112,104 @@ class Passage(LoopBank):
         rate = steady.sample_rate_hz
         self.sample_rate_hz: int = rate
         self.n_bands: int = steady.n_bands
-        self._begin, self._course, self._lasts = begin, course, lasts_s * rate
-        self._from = course.share(since)
+        self._begin, self._lead = begin, 0 if course.goes_up else round(LEAD_S * rate)
+        share, lasts = course.share(since), lasts_s * rate
+        self._n = math.ceil((1 - share) * lasts)
+        self.end: int = begin + self._lead + self._n
+        x = np.minimum(share + _GRID * (self._n / lasts), 1.0)
+        self._speed, self._amplitude = course.speed(x), course.amplitude(x)
         # At standstill and in steady running there is no difference of speed to fade.
         is_under_way = 0.0 < since.amplitude < 1.0
-        self._ahead = since.speed - float(course.speed(np.array([self._from]))[0]) if is_under_way else 0.0
-        lead, n = self._lead, math.ceil((1 - self._from) * self._lasts)
-        self.end: int = begin + lead + n
-        x = self._share(np.arange(begin, self.end + CELL))
-        speed, amplitude = self._speed(x), course.amplitude(x)
-        played = np.concatenate([[0.0], np.cumsum(speed[:-1])])
+        if is_under_way:
+            self._speed = np.maximum(0.0, self._speed + (since.speed - self._speed[0]) * (1.0 - _GRID))
+        self._step = self._n / _STEPS
+        self._played = np.concatenate([[0.0], np.cumsum((self._speed[1:] + self._speed[:-1]) * (self._step / 2))])
         # A start is in phase with the loop at its end, a stop at its beginning.
-        at = played - played[n] + n if course.goes_up else played
+        self._from = self._n - float(self._played[-1]) if course.goes_up else self._lead * float(self._speed[0])
+        self._shift = 0.0
         if after is not None and is_under_way:
-            at += self._shift(steady, at[0], after._place(begin) - begin, len(at))
-        self._at = at
-        low = math.floor(at.min())
-        source = steady.taken(0, begin + low - 1, math.ceil(at.max()) - low + 4)
-        samples = _between(source, at - low + 1) * amplitude[:, None].astype(np.float32)
-        self.loops: list[StoredLoop] = [stored_once(samples, begin)]
-        self._afterwards = steady.loops[0] if course.goes_up else None
+            present = after._place(begin) - begin
+            if course.goes_up:
+                self._shift = self._nearest_alike(steady, self._from, present)
+            else:
+                self._from += present
+        self._steady = steady.loops[0]
+        self._planned = self.end
+        self._below = np.zeros(0, dtype=np.intp)
+        self._weights: Block = np.zeros((4, _PLANNED), dtype=np.float32)
+        self._read: Block = np.zeros((self.n_bands, CELL), dtype=np.float32)
+        self._samples: Block = np.zeros((CELL, self.n_bands), dtype=np.float32)
+        self.loops: list[StoredLoop] = [stored_cell(self._samples)]
+        self._afterwards = self._steady if course.goes_up else None
 
     def only(self, begin: int) -> StoredLoop | None:
-        """Return the passage, or from its end on the steady loop or silence."""
-        return self.loops[0] if begin < self.end else self._afterwards
-
-    @property
-    def _lead(self) -> int:
-        return 0 if self._course.goes_up else round(LEAD_S * self.sample_rate_hz)
+        """Return a cell of the passage, valid until the next call, or from its end on the steady loop or silence."""
+        if begin >= self.end:
+            return self._afterwards
+        if not self._planned <= begin <= self._planned + _PLANNED - CELL:
+            self._plan(begin)
+        own = slice(begin - self._planned, begin - self._planned + CELL)
+        read_between(self._steady, self._below[own], self._weights[:, own], self._read, self._samples)
+        return self.loops[0]
 
     def running(self, at: int) -> Running:
         """Return speed and amplitude at a tactile sample."""
-        x = self._share(np.array([at]))
-        return Running(float(self._speed(x)[0]), float(self._course.amplitude(x)[0]))
+        k, part = self._knots(np.array([at - self._begin - self._lead]))
+        return Running(float(_line(self._speed, k, part)[0]), float(_line(self._amplitude, k, part)[0]))
+
+    def _plan(self, begin: int) -> None:
+        """Compute which samples of the loop make up the next samples of the passage, and their weights."""
+        at = np.arange(begin, begin + _PLANNED) - self._begin - self._lead
+        k, part = self._knots(at)
+        place, amplitude = self._places(at, k, part), _line(self._amplitude, k, part)
+        below = np.floor(place)
+        # Lagrange's cubic. A straight line between two samples had images above 1 kHz, of -52 dB for 380 Hz.
+        x = place - below
+        before, after, later = x + 1, x - 1, x - 2
+        weights = (x * after * later / -6, before * after * later / 2, before * x * later / -2, before * x * after / 6)
+        for own, weight in zip(self._weights, weights, strict=True):
+            own[:] = weight * amplitude
+        self._below, self._planned = below.astype(np.intp) + self._begin, begin
+
+    def _knots(self, at: NDArray[np.int_]) -> tuple[NDArray[np.intp], Signal]:
+        """Return the intervals of the tables in which samples after the lead are, and the parts of them passed."""
+        j = np.minimum(np.maximum(at / max(self._step, 1e-9), 0.0), _STEPS)
+        k = np.minimum(j.astype(np.intp), _STEPS - 1)
+        return k, j - k
+
+    def _places(self, at: NDArray[np.int_], k: NDArray[np.intp], part: Signal) -> Signal:
+        """Return the samples of the loop that are played, counted from the beginning of the passage."""
+        first = self._speed[k]
+        within = part * (first + part / 2 * (self._speed[k + 1] - first)) * self._step
+        # The speed is constant before and after the tables.
+        before, behind = np.minimum(at, 0) * self._speed[0], np.maximum(at - self._n, 0) * self._speed[-1]
+        place: Signal = self._from + self._played[k] + within + before + behind
+        if self._shift:
+            place += self._shift * (0.5 + 0.5 * np.cos((k + part) * (np.pi / _STEPS)))
+        return place
 
     def _place(self, at: int) -> float:
         """Return the sample of the loop that is played at a tactile sample; both on the common clock."""
-        k = min(at - self._begin, len(self._at) - 1)
-        return float(self._at[k]) + at - k
+        after_lead = np.array([at - self._begin - self._lead])
+        return self._begin + float(self._places(after_lead, *self._knots(after_lead))[0])
 
-    def _shift(self, steady: LoopBank, own: float, present: float, n_samples: int) -> Signal:
-        """Return how far the places in the loop are shifted (n_samples,), to continue from the present one."""
-        if not self._course.goes_up:
-            return np.full(n_samples, present - own)
+    def _nearest_alike(self, steady: LoopBank, own: float, present: float) -> float:
+        """Return how far from its own place in the loop a start begins, to sound like the present place."""
         farthest, n = round(SEARCH_S * self.sample_rate_hz), round(_ALIKE_S * self.sample_rate_hz)
         first = math.floor(own) - farthest
-        near = steady.taken(0, self._begin + first, 2 * farthest + n)
-        heard = steady.taken(0, self._begin + math.floor(present), n)
-        places = np.lib.stride_tricks.sliding_window_view(near, n, axis=0)
-        size = np.sqrt((places**2).sum(axis=(1, 2))) + 1e-9
-        likeness = np.einsum("pbn,nb->p", places, heard) / (size * (float(np.sqrt((heard**2).sum())) + 1e-9))
-        shifts = first + np.arange(len(places)) + present % 1.0 - own
-        shift = shifts[np.argmax(likeness - _NEARER * np.abs(shifts) / farthest)]
-        x = np.minimum(np.arange(n_samples) / (self.end - self._begin), 1.0)
-        return np.asarray(shift * (0.5 + 0.5 * np.cos(np.pi * x)))
-
-    def _share(self, at: NDArray[np.int_]) -> Signal:
-        """Return shares of the time (n,) at tactile samples (n,)."""
-        return np.clip(self._from + (at - self._begin - self._lead) / self._lasts, self._from, 1.0)
-
-    def _speed(self, x: Signal) -> Signal:
-        left = (1.0 - x) / max(1.0 - self._from, 1e-9)
-        return np.maximum(0.0, self._course.speed(x) + self._ahead * left)
+        near = steady.taken(0, self._begin + first, 2 * farthest + n).astype(np.float64)
+        heard = steady.taken(0, self._begin + math.floor(present), n).astype(np.float64)
+        # The sum over time and bands of the product at each place, and the energy there.
+        spectrum = np.fft.rfft(near, axis=0) * np.fft.rfft(heard, len(near), axis=0).conj()
+        product = np.fft.irfft(spectrum.sum(axis=1), len(near))[: 2 * farthest + 1]
+        energy = np.concatenate([[0.0], np.cumsum((near**2).sum(axis=1))])
+        size = np.sqrt(np.maximum(0.0, energy[n:] - energy[:-n])) + 1e-9
+        likeness = product / (size * (float(np.sqrt((heard**2).sum())) + 1e-9))
+        shifts = first + np.arange(len(product)) + present % 1.0 - own
+        return float(shifts[np.argmax(likeness - _NEARER * np.abs(shifts) / farthest)])
 
 
-def _between(samples: Block, at: NDArray[np.float64]) -> Block:
-    """Return samples (n, n_bands) at fractional positions, one or more behind the first and two before the last.
-
-    Interpolated by Lagrange's cubic. A straight line between two samples had images above 1 kHz, of -52 dB for 380 Hz.
-    """
-    below = np.floor(at).astype(np.intp)
-    x: Block = (at - below).astype(np.float32)[:, None]
-    before, after, later = x + 1, x - 1, x - 2
-    sixth, half = np.float32(1 / 6), np.float32(0.5)
-    found: Block = samples[below - 1] * (x * after * later * -sixth)
-    found += samples[below] * (before * after * later * half)
-    found += samples[below + 1] * (before * x * later * -half)
-    found += samples[below + 2] * (before * x * after * sixth)
-    return found
+def _line(values: Signal, k: NDArray[np.intp], part: Signal) -> Signal:
+    """Return values between the knots k and k + 1 of a table."""
+    first = values[k]
+    return first + part * (values[k + 1] - first)

@@ -169,7 +169,7 @@ class HapticSession:
         return self._sources.ids
 
     def source(self, source_id: str) -> SourceInfo:
-        """Return the present state of a source, whether it is on, and its frequency. Raises: UnknownObject."""
+        """Return the present state of a source, its switch, its level and its frequency. Raises: UnknownObject."""
         return self._sources.info(source_id)
 
     @property
@@ -204,7 +204,8 @@ class HapticSession:
             too, also as the first argument.
         contacts : all contacts that an engine reports, with normals from `a` to `b`. From then on none are found from
             geometry; with None later, the last ones stay, but for those of objects that move.
-        at_sample : the position on `render`'s clock from which the gains change; None for the next block.
+        at_sample : the position on `render`'s clock from which the gains change; None for the next block, or for the
+            position of the last update if that is later.
         Returns: the gains of the frame.
         Warns: SceneWarning: a hand touches an object more than 5 cm off the box around it, once per hand; nothing
         vibrates; normals of contacts that point from `b` to `a`; many touches, and the sink was never started.
@@ -398,7 +399,10 @@ class HapticSession:
         self._hand_frames.levels_changed()
 
     def pause(self) -> None:
-        """Fade out all vibration now, and stop the clock of all loops. `update` still follows the scene."""
+        """Fade out all vibration, and stop the clock of all loops. `update` still follows the scene.
+
+        The fade begins now, or at the position of the last update if that is later.
+        """
         self._playback.pause(self._now)
         self._hand_frames.levels_changed()
         self._output.show(self._hand_frames.silence(self.hands))

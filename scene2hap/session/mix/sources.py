@@ -22,7 +22,7 @@ from scene2hap.session.frame import RemovedIds, unknown_source
 class Level:
     """A volume knob in decibels with a mute switch."""
 
-    factor_unmuted: float = 1.0
+    gain_db: float = 0.0
     is_muted: bool = False
 
     def set(self, gain_db: float | None, mute: bool | None) -> None:
@@ -31,14 +31,14 @@ class Level:
             hint = "Use mute for silence."
             bounded = checks.number("gain_db", gain_db, "dB", at_most=MAX_GAIN_DB, error=SessionError, hint=hint)
             warn_if_percent(bounded)
-            self.factor_unmuted = 10 ** (bounded / 20)
+            self.gain_db = bounded
         if mute is not None:
             self.is_muted = checks.flag("mute", mute, error=SessionError)
 
     @property
     def factor(self) -> float:
         """Factor of the signals [-]."""
-        return 0.0 if self.is_muted else self.factor_unmuted
+        return 0.0 if self.is_muted else 10 ** (self.gain_db / 20)
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,14 +53,16 @@ class LoopRow:
 @clear_attributes
 @dataclass(frozen=True)
 class SourceInfo:
-    """Present state of a source: its state, all of its states, whether it is switched on, and the strongest frequency
-    of its vibration in this state [Hz]."""
+    """Present state of a source: its state, all of its states, whether it is switched on, the strongest frequency of
+    its vibration in this state [Hz], its level [dB], and whether it is muted."""
 
     id: str
     state: str
     states: tuple[str, ...]
     is_on: bool
     frequency_hz: float
+    gain_db: float
+    is_muted: bool
 
 
 @dataclass
@@ -121,7 +123,7 @@ class Sources:
         rows = {state: LoopRow(object_id, state, loop) for state, loop in loops.items()}
         inferred = {state.name: state for state in haptics.states} if haptics is not None else {}
         needs = {name: state.needs_contact for name, state in inferred.items()}
-        level = Level(10 ** (gain_db / 20), is_muted)
+        level = Level(gain_db, is_muted)
         self._sources[object_id] = Source(rows, needs, next(iter(rows)), level=level, inferred=inferred)
         self._list()
 
@@ -156,8 +158,10 @@ class Sources:
     def info(self, source_id: str) -> SourceInfo:
         """A source as it is now. Raises: UnknownObject."""
         source = self[source_id]
-        loop = source.rows[source.state].loop
-        return SourceInfo(source_id, source.state, tuple(source.rows), source.is_on, loop.frequency_tactile_hz)
+        frequency_hz, level = source.rows[source.state].loop.frequency_tactile_hz, source.level
+        return SourceInfo(
+            source_id, source.state, tuple(source.rows), source.is_on, frequency_hz, level.gain_db, level.is_muted
+        )
 
     def rows(self) -> list[LoopRow]:
         """The row of every state of every source."""

@@ -45,7 +45,7 @@ class Switching:
         self, source_id: str, now: int, on: bool | None, state: str | None, gain_db: float | None, mute: bool | None
     ) -> bool:
         """Set the arguments that are not None. A person who switches a source on, or to another state, begins a new
-        on-time. Returns true if this changed the state of the source. Raises: see `Sources.set`."""
+        on-time, unless the source is new. Returns true if this changed its state. Raises: see `Sources.set`."""
         source = self._sources[source_id]
         was_running = source.is_running
         is_other_state = self._sources.set(source_id, on, state, gain_db, mute)
@@ -56,7 +56,7 @@ class Switching:
         # The turn of a state must not outlive it: another one may run all the time.
         if source.is_on and (on is not None or is_other_state):
             source.is_resting = False
-            self._begin_turn(source_id, source, now, 0.0)
+            self._begin_turn(source_id, source, now, _first_share(source_id) if source.is_new else 0.0)
         self._topology = None  # other sources may need a contact with this one, switched on
         self._follow(source_id, source, was_running, now)
         return is_other_state
@@ -118,7 +118,7 @@ class Switching:
             if source_id in before and before[source_id][1] is source:
                 self._turns[source_id] = before[source_id]
             else:
-                self._begin_turn(source_id, source, now, zlib.crc32(source_id.encode()) / 2**32)
+                self._begin_turn(source_id, source, now, _first_share(source_id))
 
     def _begin_turn(self, source_id: str, source: Source, now: int, share: float) -> None:
         """Begin an on-time or off-time, of which a share has already passed."""
@@ -165,3 +165,8 @@ class Switching:
                 self._passing[source_id] = _Passing(passage, self._playback.end_frame(passage))
                 self._sources.let_pass(source_id, row)
         self._playback.change_rows(self._sources.rows(), now)
+
+
+def _first_share(source_id: str) -> float:
+    """Return the share of its on-time that has passed when a source is added."""
+    return zlib.crc32(source_id.encode()) / 2**32

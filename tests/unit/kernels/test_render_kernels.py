@@ -39,6 +39,22 @@ def test_kernels_read_the_same_cells_of_a_loop(seed: int, begin: int) -> None:
 
 
 @steady
+@given(seed=seeds, begin=st.integers(-100, 10**6), speed=st.floats(-2, 8))
+def test_kernels_read_alike_between_samples(seed: int, begin: int, speed: float) -> None:
+    rng = np.random.default_rng(seed)
+    length, below = int(rng.integers(1, 200)), begin + np.floor(speed * np.arange(CELL)).astype(np.intp)
+    samples = rng.normal(size=(length + CELL, 3)).astype(np.float32)
+    weights = rng.normal(size=(4, 2 * CELL)).astype(np.float32)[:, 5 : 5 + CELL]
+    found = []
+    for loop_kind, read in zip(both("render.loop_bank.StoredLoop"), both("render.loop_bank.read_between"), strict=True):
+        loop = loop_kind(samples, length, 441, 440, np.linspace(0, 1, CELL, dtype=np.float32))
+        out = np.full((CELL, 3), np.nan, dtype=np.float32)
+        read(loop, below, weights, np.empty((3, CELL), dtype=np.float32), out)
+        found.append(out)
+    np.testing.assert_allclose(found[1], found[0], atol=1e-5)
+
+
+@steady
 @given(seed=seeds)
 def test_kernels_ramp_gains_alike(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -61,6 +63,41 @@ def test_stop_begins_as_the_loop_and_ends_in_silence(spins: bool) -> None:
     lead = round(LEAD_S * RATE)
     np.testing.assert_allclose(played(down, 12_345, lead), played(bank(), 12_345, lead), atol=5e-3)
     assert np.abs(played(down, down.end, AFTER)).max() < 1e-6
+
+
+@pytest.mark.parametrize("goes_up", [True, False])
+def test_motor_is_at_the_integral_of_its_speed(goes_up: bool) -> None:
+    one, lead = passage(goes_up=goes_up), 0 if goes_up else round(LEAD_S * RATE)
+    x = np.arange(-lead, RATE) / RATE
+    u = np.maximum(x, 0)
+    turns = u**2 - u**3 / 3 + 1 / 3 if goes_up else (1 - (1 - u) ** 3) / 3 + np.minimum(x, 0) + lead / RATE
+    amplitude = (u * (2 - u)) ** 2 if goes_up else (1 - u) ** 4
+    expected = amplitude * np.sin(2 * np.pi * 100.0 * (turns + 12_345 / RATE))
+    np.testing.assert_allclose(played(one, 12_345, len(x))[:, 0], expected, atol=5e-4)
+
+
+def test_cells_are_the_same_in_any_order() -> None:
+    """Mixers of different hands read one passage, each at cells of its own."""
+    whole, one = played(passage(), 12_345, RATE), passage()
+    for first in (4807, 13, 7000, 0, 480, 479):
+        cell = played(one, 12_345 + first, CELL)
+        np.testing.assert_allclose(cell, whole[first : first + CELL], atol=1e-6)
+
+
+@pytest.mark.parametrize("is_interrupting", [True, False])
+def test_long_passage_is_not_computed_as_a_whole(is_interrupting: bool) -> None:
+    """It would delay a frame of the game: 30 s in 20 bands took 170 ms, and 19 MB."""
+    steady, before = bank(163.0, Bands.third_octaves()), None
+    since = Running(0.5, 0.25) if is_interrupting else STILL
+    if is_interrupting:
+        before = Passage(steady, 0, 30.0, Course(False, True), STEADY)
+    tracemalloc.start()
+    try:
+        one = Passage(steady, 100_000, 30.0, Course(True, True), since, before)
+        played(one, 100_000, CELL)
+        assert tracemalloc.get_traced_memory()[1] < 1_000_000
+    finally:
+        tracemalloc.stop()
 
 
 def crossings_hz(samples: np.ndarray) -> float:

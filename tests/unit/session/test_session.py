@@ -338,6 +338,21 @@ def test_time_cannot_go_back() -> None:
         s.update(at_sample=479)
 
 
+@pytest.mark.parametrize("is_pause", [False, True])
+def test_what_has_no_stamp_waits_for_an_update_that_is_stamped_ahead(is_pause: bool) -> None:
+    s, touch = session(), [Touch("left", "phone", (0.1, 0.73, 0.4))]
+    s.update(touches=touch)
+    s.render(4800)
+    s.update(touches=touch, at_sample=24_000)
+    if is_pause:
+        s.pause()
+    else:
+        s.update()
+    heard = s.render(43_200)[:, 0]  # from 4800 on
+    assert np.abs(heard[14_400:19_200]).max() > 0.01
+    assert np.abs(heard[24_000:]).max() == 0.0
+
+
 def test_a_touch_point_must_be_finite() -> None:
     with pytest.raises(SessionError, match=r"point_m\[1\] is nan m"):
         Touch("left", "table", (0.0, math.nan, 0.0))

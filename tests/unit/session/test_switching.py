@@ -178,6 +178,17 @@ def test_another_state_has_its_own_turns(after_s: float, turn: tuple[float | Non
         np.testing.assert_allclose(changes * 0.05, [2.0, 3.0, 5.0], atol=0.1)
 
 
+def test_restored_source_begins_within_its_on_time() -> None:
+    """A saved game switches every refrigerator on; they must not turn together from then on."""
+    first_off = []
+    for on in (None, True):
+        made = session({"on_s": 1.0, "off_s": 1.5})
+        made.set_source("phone", on=on)
+        e = envelope(made, 1.5)
+        first_off.append(int(np.flatnonzero(e[2:] < 0.5 * e.max())[0]) + 2)
+    assert first_off[1] == first_off[0] < 19
+
+
 def test_pause_stops_the_duty_cycle() -> None:
     made = session({"on_s": 1.0, "off_s": 100.0})
     envelope(made, 0.1)
