@@ -12,7 +12,7 @@ _WORDS = (
     "pivot offset locator null empty game transform wrapper "
     # Of Unreal, SketchUp, Maya (pCube1) and Godot (Node3D).
     "instance instanced component static section lod rigid id nurbs csg p d "
-    "cube sphere icosphere uvsphere cylinder plane circle cone torus capsule"
+    "cube sphere icosphere uvsphere cylinder plane circle cone torus capsule bezier curve text"
 )
 _EMPTY = frozenset(_WORDS.split())
 """Words without information about an object. "box" is not among them: a box is a thing."""
