@@ -12,7 +12,7 @@ _WORDS = (
     "pivot offset locator null empty game transform wrapper "
     # Of Unreal, SketchUp, Maya (pCube1) and Godot (Node3D).
     "instance instanced component static section lod rigid id nurbs csg p d "
-    "cube sphere icosphere uvsphere cylinder plane circle cone torus capsule"
+    "cube sphere icosphere uvsphere cylinder plane circle cone torus capsule bezier curve text"
 )
 _EMPTY = frozenset(_WORDS.split())
 """Words without information about an object. "box" is not among them: a box is a thing."""
@@ -25,8 +25,10 @@ _EXPORTER_NODE = re.compile(
 )
 # Words for containers of objects: a group of that name is never one object.
 _PLACE = re.compile(
-    r"(level|map|environment|building|house|home|flat|apartment|room|floorplan|furniture|props"
-    r"|(living|bed|bath|dining|class)[ _-]?room|kitchen|office|hall|garage|workshop)[ _-]?\d*",
+    r"(level|map|environment|building|house|home|flat|floorplan|furniture|props"
+    # With any word before it: "hotel_room", "Modern Kitchen". A "doll house" and a "world map" are things.
+    r"|(.*[ _-])?((living|bed|bath|dining|class)?[ _-]?room|kitchen|office|hall|garage|workshop|apartment|scene)"
+    r")[ ._-]?\d*",
     re.IGNORECASE,
 )
 

@@ -49,6 +49,10 @@ that node and all below it belong to that object, and nodes mapped to one name m
 follows "authored".
 """
 
+# Parts of one object are at most this share of the object's diagonal apart: authors leave gaps around doors and valves
+# (tuned: of 673 models by other people, 0.002 leaves 10 apart that 0.01 joins; none of them is several things).
+_PART_GAP = 0.01
+
 
 @dataclass(frozen=True, eq=False)
 class Group:
@@ -174,7 +178,7 @@ def _joined_parts(node: AuthoredNode, frame: Matrix) -> list[AuthoredNode]:
     if len(found) == 1 and not says_nothing(found[0].name):
         return []
     members = [member for child in found for member in _members(child, frame)]
-    if stand_apart(members, members):
+    if stand_apart(members, members, gap=_PART_GAP):
         return []
     # By name, since Blender writes the children of each copy into USD in another order.
     return sorted((child for child in found if not _is_part(child, node)), key=lambda child: child.name)

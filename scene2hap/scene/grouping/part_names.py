@@ -6,14 +6,16 @@ import re
 from functools import lru_cache
 
 _PARTS = """
-    apron arm armrest axle back backrest bar base basket battery bezel blade board body bolt bottom bracket bulb
-    burner button cable cage cap case casing caster castor chain control cord corner cover crossbar cushion dial
-    display door drawer edge eye face fan feet foot footboard footrest frame front gear glass globe grate grid grill
-    grip handle headboard headrest hinge holder hood hose housing hub inlay inside interior key knob label lampshade
-    leaf led leg lens lever lid light lock mirror motor neck nozzle nut outlet outside pane panel part pedal pin pipe
-    plank plug pole post rack rail rim ring rod roof screen screw seat seatback shade shaft shelf shell shelves side
-    sill slat spoke spout spring stand stem strap string strip support surface switch tabletop tail top trigger trim
-    tube valve vent wheel window wing wire
+    apron arm armrest axle back backrest bar base basket battery bezel blade board body bolt border bottom brace
+    bracket bulb bumper burner button cable cage cap case casing caster castor chain control cord corner countertop
+    cover crossbar cushion dial display door drawer edge eye face fan feet fender foot footboard footrest frame
+    front gasket gear glass globe grate grid grill grip groove handle handlebar handrail headboard headlight
+    headrest hinge holder hole hood hose housing hub inlay inside interior key knob label lampshade leaf leaves led
+    leg lens lever lid light lock logo mirror motor mount neck nozzle nut outlet outside pane panel part pedal pin
+    pipe plank plug pole post rack rail reflector rim ring rivet rod roof screen screw seat seatback shade shaft
+    shelf shell shelves side sill slat spindle spoke spool spout spring stand stem strap string strip support
+    surface switch tabletop tail taillight tire top tread trigger trim tube tyre valve vent wheel window wing wire
+    worktop
 """
 # Words for the place or the material of a piece, or words that a program gave it.
 _NO_NOUNS = """
@@ -21,7 +23,8 @@ _NO_NOUNS = """
     mesh node object obj geo geometry geom poly polygon primitive prim surface lod collision collider cube box
     sphere cylinder plane circle cone torus default none wood metal steel chrome plastic fabric leather glass
     rubber ceramic porcelain stone marble paper black white red green blue grey gray brown yellow dark bright
-    clone copy instance shape group sub model item element piece pivot joint
+    clone copy instance shape group sub model item element piece pivot joint bezier curve text textured untitled
+    icosphere
 """
 _PART_WORDS, _OTHER_WORDS = frozenset(_PARTS.split()), frozenset(_NO_NOUNS.split())
 _STRUCTURE = frozenset(("wall", "floor", "ceiling"))

@@ -21,7 +21,7 @@ from scene2hap.scene.geometry import Bounds, bounds_of, distances, joined
 from scene2hap.scene.grouping.part_names import has_own_noun
 from scene2hap.scene.tree import Matrix, Piece
 
-# Two boxes are separate if the gap exceeds this share of the group's diagonal (assumed).
+# Two items are separate if the gap exceeds this share of the group's diagonal (assumed).
 _APART = 0.002
 
 
@@ -56,11 +56,14 @@ def split(group_name: str, members: Sequence[Member]) -> list[list[Member]]:
     return found
 
 
-def stand_apart(members: Sequence[Member], items: Sequence[Member]) -> bool:
-    """Return True if the boxes of the items form at least two separate sets. The gap is relative to all members."""
+def stand_apart(members: Sequence[Member], items: Sequence[Member], *, gap: float = _APART) -> bool:
+    """Return True if the boxes of the items form at least two separate sets.
+
+    Two boxes are separate if the distance between them exceeds `gap`, a share of the diagonal of all members.
+    """
     if len(items) < 2:
         return False
-    reach = _APART * float(np.linalg.norm(np.ptp(joined(_boxes(members)), axis=0)))
+    reach = gap * float(np.linalg.norm(np.ptp(joined(_boxes(members)), axis=0)))
     boxes = _boxes(items)
     linked, left = [0], np.arange(1, len(items))
     for one in linked:

@@ -5,8 +5,10 @@ either winding, to be seen from both sides; and triangles whose winding differs 
 
 A patch is a set of triangles that are connected across edges of exactly two triangles. It is closed if it has no other
 edges. A patch of both windings is turned to face the side with more free space, in a cavity the inside; any other keeps
-its winding. Coincident triangles become one. A patch of which each triangle is drawn twice keeps both copies if it is
-open, and if other triangles of the mesh are drawn once: it is a sheet with two sides, or the wall between two solids.
+its winding. Coincident triangles become one. A patch of which each triangle is drawn with both windings keeps both
+copies if it is open, and if other triangles of the mesh are drawn once: it is a sheet with two sides, or the wall
+between two solids. A triangle drawn twice with one winding keeps both copies if its edges need both: two solids that
+overlap share it.
 
 Source: K. Takayama, A. Jacobson, L. Kavan, O. Sorkine-Hornung, A simple method for correcting facet orientations in
 polygon meshes based on ray casting (JCGT 3, 2014).
@@ -45,15 +47,18 @@ def well_wound(points: Floats, faces: Ints, spend: Callable[[int], None] = lambd
     if (edges[1:] != edges[:-1]).all() or not has_area.any():
         return faces
     lines, faces, corners = faces[:, ~has_area], faces[:, has_area], corners[:, has_area]
-    first, copies = _distinct(corners)
+    is_balanced = _are_balanced(corners)
+    first, copies, turns = _distinct(corners)
     faces, corners = faces[:, first], corners[:, first]
+    is_balanced = is_balanced[first]
     patches = _Patches.of(corners)
     faces = np.where(patches.outwards(points[:, faces], spend), faces, faces[::-1])
     # Copies count relative to the whole mesh: if all of it is drawn twice, a sheet is a sheet, drawn twice.
-    is_single = copies < 2 * copies.min()
-    has_single = np.bincount(patches.number, is_single) > 0
+    is_twice = copies >= 2 * copies.min()
+    has_single = np.bincount(patches.number, ~is_twice | (turns != 0)) > 0
     is_two_sided = (patches.is_open & ~has_single)[patches.number]
-    return np.concatenate((faces, faces[::-1, is_two_sided], lines), axis=1)
+    is_shared = is_twice & (turns != 0) & is_balanced
+    return np.concatenate((faces, faces[::-1, is_two_sided], faces[:, is_shared], lines), axis=1)
 
 
 class _Patches(NamedTuple):
@@ -103,15 +108,26 @@ class _Patches(NamedTuple):
         return alike
 
 
-def _distinct(corners: Ints) -> tuple[Ints, Ints]:
-    """Return the first (k,) of the triangles (3, m) between the same corners, and how many (k,) there are."""
+def _are_balanced(corners: Ints) -> Bools:
+    """Return True (m,) for triangles (3, m) whose edges run as often one way as the other in the mesh."""
+    start, end = corners.ravel(), np.roll(corners, -1, axis=0).ravel()
+    _, edge = np.unique(_keys(np.minimum(start, end), np.maximum(start, end)), return_inverse=True)
+    balanced: Bools = (np.bincount(edge, np.where(start < end, 1, -1)) == 0)[edge].reshape(3, -1).all(axis=0)
+    return balanced
+
+
+def _distinct(corners: Ints) -> tuple[Ints, Ints, Ints]:
+    """Return the first (k,) of the triangles (3, m) between the same corners, how many (k,) there are, and the
+    difference (k,) between the numbers of both windings."""
     low, middle, high = np.sort(corners, axis=0)
     order = np.lexsort((high, middle, low))
     is_new = np.diff(np.stack((low, middle, high))[:, order], axis=1, prepend=-1).any(axis=0)
     begins = np.flatnonzero(is_new)
+    # A turn through three different numbers rises twice in one direction, once in the other.
+    turn = 2 * (corners < np.roll(corners, -1, axis=0)).sum(axis=0) - 3
     first, copies = order[begins], np.diff(begins, append=len(order))
     in_file = np.argsort(first)
-    return first[in_file], copies[in_file]
+    return first[in_file], copies[in_file], np.add.reduceat(turn[order], begins)[in_file]
 
 
 def _welded(points: Floats) -> Ints:

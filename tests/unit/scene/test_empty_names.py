@@ -34,6 +34,8 @@ JOINT = '<joint name="j" type="fixed"><parent link="baseLink"/><child link="lid"
         "instance_0",
         "component_3",
         "GameObject (1)",
+        "BezierCurve.003",
+        "Text.001",
     ],
 )
 def test_names_of_tools_say_nothing(name: str) -> None:

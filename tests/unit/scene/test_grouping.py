@@ -137,6 +137,9 @@ def test_wrapper_node_gives_the_object_frame() -> None:
         "house",
         "Living Room",
         "bedroom_2",
+        "Modern Kitchen",
+        "hotel_room",
+        "Scene.001",
         "",
     ],
 )
@@ -146,6 +149,11 @@ def test_names_of_exporters_and_places_are_not_object_names(wrapper: str) -> Non
         f"{wrapper}_chair",
         f"{wrapper}_table",
     ]
+
+
+@pytest.mark.parametrize("thing", ["Doll House", "world map", "Room divider", "broom"])
+def test_a_thing_whose_name_holds_that_of_a_place_is_an_object(thing: str) -> None:
+    assert list(objects(group(thing, mesh("Cube"), mesh("Sphere")))) == [thing]
 
 
 def test_outer_name_is_used_across_an_exporter_node() -> None:

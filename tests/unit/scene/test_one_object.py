@@ -250,10 +250,17 @@ def test_a_part_with_children_below_a_mesh_is_another_object() -> None:
     ]
 
 
+@pytest.mark.parametrize(("gap_m", "n_objects"), [(0.005, 1), (0.05, 2)])
+def test_parts_may_have_a_small_gap(gap_m: float, n_objects: int) -> None:
+    body, front = box("body", (0, 0, 0), (0.6, 0.85, 0.6)), box("door", (0, 0, 0.6 + gap_m), (0.6, 0.85, 0.62 + gap_m))
+    assert len(group_objects([group("Washer", body, front)])) == n_objects
+
+
 @pytest.mark.parametrize(
     ("name", "group_name", "is_part"),
     [("leg.001", "Chair", True), ("table leg", "Dining table", True), ("OvenDoor", "Stove", True),
      ("chair.001", "Desk Chair", True), ("Glass", "Window", True), ("Door.001", "Doors", False),
+     ("tyre", "Bicycle", True), ("leaves.001", "Bush", True), ("maker_logo_Curve", "Radio", True),
      ("TV", "Desk", False), ("Tablet", "Table", False), ("Keyboard", "Desk", False), ("table", "Table set", False)],
 )  # fmt: skip
 def test_names_of_parts(name: str, group_name: str, is_part: bool) -> None:

@@ -131,6 +131,15 @@ def test_the_wall_between_two_solids_keeps_both_sides() -> None:
     assert edges(dominant_surface(mesh, up=(0.0, 0.0, 1.0))) == pytest.approx([1.0, 0.6, 0.1])
 
 
+def test_solids_that_share_a_face_of_one_winding_keep_it_twice() -> None:
+    body, lid = Box((1.0, 0.6, 0.3)), Box((1.0, 0.6, 0.04))
+    flush = lid.mesh.vertices_m + np.array((0.0, 0.0, (0.3 - 0.04) / 2))
+    both = TriMesh(np.concatenate((body.mesh.vertices_m, flush)), np.concatenate((body.mesh.faces, lid.mesh.faces + 8)))
+    found = dominant_surface(both, up=(0.0, 0.0, 1.0))
+    assert edges(found) == pytest.approx([1.0, 0.6, 0.3], abs=2e-5)
+    assert found.flags == ()
+
+
 def test_meshes_without_area_are_left_alone() -> None:
     needle = TriMesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 0, 1], [0, 0, 1], [2, 2, 2]])
     np.testing.assert_array_equal(wound(needle), needle.faces)
