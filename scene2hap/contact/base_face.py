@@ -75,9 +75,8 @@ def base_face_of(corners: Floats, triangles: Floats, uneven: float, lowest: floa
         face = None
     if face is not None:
         around = face.outline_m
-    ends = [(min(row), max(row)) for row in zip(*around, strict=True)]
-    x, y, z = ((low + high) / 2 for low, high in ends)
-    radius = max([math.sqrt((a - x) * (a - x) + (b - y) * (b - y) + (c - z) * (c - z)) for a, b, c in around])
+    x, y, z = [(min(row) + max(row)) / 2 for row in zip(*around, strict=True)]
+    radius = max([math.dist(corner, (x, y, z)) for corner in around])
     points = tuple([around[row] for row in spread(around)])
     return BaseFace(points, around, (x, y, z), radius, face is not None and face.is_filled, face is not None)
 
@@ -122,14 +121,13 @@ def _lowest_face(lowest: Mapping[Triple, float], triangles: Floats, uneven: floa
     """
     if sum([height <= uneven for height in lowest.values()]) < 3:
         return None
-    upwards = np.array(frame[2])
-    heights = along(upwards, triangles)
+    heights = along(frame[2], triangles)
     is_level = highest(heights) <= heights.min() + uneven
     level = triangles[..., is_level]
-    a, b, c = np.stack([along(np.array(way), level) for way in frame[:2]], axis=1)
+    a, b, c = np.stack([along(way, level) for way in frame[:2]], axis=1)
     u, v = b - a, c - a
     area = float(np.abs(u[0] * v[1] - u[1] * v[0]).sum()) / 2
-    if area <= 0 or _goes_on(triangles, is_level, _FLAT * uneven, upwards):
+    if area <= 0 or _goes_on(triangles, is_level, _FLAT * uneven, frame[2]):
         return None
     around, filled = _outlined(tuple(dict.fromkeys(triples(level.reshape(3, -1).T))), frame)
     # A face drawn from both sides has its area twice.
@@ -144,7 +142,7 @@ def _outlined(corners: tuple[Triple, ...], frame: Rows) -> tuple[tuple[Triple, .
     return tuple([corners[row] for row in rows]), abs(sum([a * d - b * c for a, b, c, d in sides])) / 2
 
 
-def _goes_on(triangles: Floats, is_level: NDArray[np.bool_], flat: float, upwards: Floats) -> bool:
+def _goes_on(triangles: Floats, is_level: NDArray[np.bool_], flat: float, upwards: Triple) -> bool:
     """Return True if other triangles lie in the plane of the level ones.
 
     A flat face that is tilted by about the tolerance has such triangles. Which of its triangles are level depends on
@@ -154,7 +152,7 @@ def _goes_on(triangles: Floats, is_level: NDArray[np.bool_], flat: float, upward
     normals = cross(b - a, c - a)
     # Triangles may face either way.
     normal = (normals * np.sign(along(upwards, normals))).sum(axis=1)
-    depths = along(normal / np.linalg.norm(normal), triangles)
+    depths = along((normal / np.linalg.norm(normal)).tolist(), triangles)
     in_plane = highest(np.abs(depths - depths[:, is_level].mean())) <= flat
     return bool((in_plane & ~is_level).any())
 
