@@ -119,7 +119,7 @@ def _lowest_face(lowest: Mapping[Triple, float], triangles: Floats, uneven: floa
 
     Parameters: lowest : the lowest corners and their heights, at least those up to `uneven`.
     """
-    if sum([height <= uneven for height in lowest.values()]) < 3:
+    if sum([height <= uneven for height in lowest.values()]) < 3:  # as of most shapes that tumble
         return None
     heights = along(frame[2], triangles)
     is_level = highest(heights) <= heights.min() + uneven
