@@ -98,8 +98,7 @@ def across(up: Triple) -> Triple:
 
 
 def _lowest_corners(corners: Floats, within: float, frame: Rows) -> dict[Triple, float]:
-    """Return the corners (n, 3) up to `within` above the lowest one, and how far; once each, since meshes repeat a
-    corner where normals or colours differ."""
+    """Return the corners (n, 3) up to `within` above the lowest one, and how far; a corner that meshes repeat, once."""
     heights = corners @ frame[2]
     heights -= heights.min()
     rows = np.flatnonzero(heights <= within)
@@ -178,8 +177,7 @@ def outline(points: Sequence[Point]) -> list[int]:
         return hull or order[:1]
     # The point farthest from the middle is no point of a side.
     middle = [sum(ends) / len(hull) for ends in zip(*[points[row] for row in hull], strict=True)]
-    away = [math.dist(points[row], middle) for row in hull]
-    first = away.index(max(away))
+    first = max(range(len(hull)), key=lambda k: math.dist(points[hull[k]], middle))
     return _corners([*hull[first:], *hull[: first + 1]], points, _is_beside)[:-1]
 
 
