@@ -8,14 +8,15 @@ the two overlap in plan, no other parts of the two shapes are nearer.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.contact.geometry.polygons import Point, turned_outline
 from scene2hap.contact.geometry.spread import spread
-from scene2hap.contact.geometry.vectors import Floats, Triple, along, cross, highest, upright_frame
+from scene2hap.contact.geometry.vectors import Floats, Rows, Triple, along, cross, highest, upright_frame
 
 # How uneven a level face may be, as a share of the shape's size and at most (assumed).
 _UNEVEN, _UNEVEN_M = 1e-4, 2e-4
@@ -63,79 +64,84 @@ def base_face_of(corners: Floats, triangles: Floats, uneven: float, lowest: floa
 
     Parameters: corners (n, 3), triangles (3, 3, m) of the shape [m]; uneven : see `uneven_m`; lowest : see `feet_m`.
     """
-    upwards, plane = _frame(up)
-    heights = corners @ upwards
-    # Meshes repeat a corner where normals or colours differ.
-    least = heights.min()
-    bearing = tuple(dict.fromkeys(triples(corners[heights <= least + lowest])))
-    if len(bearing) == 1:
-        return BaseFace(bearing, bearing, bearing[0], 0.0, False, False)
-    corners = np.array(bearing)
-    around = corners[outline(corners @ plane)]
-    has_face = np.count_nonzero(corners @ upwards <= least + uneven) > 2
-    face = _lowest_face(triangles, uneven, upwards, plane) if has_face else None
+    frame = upright_frame(up)
+    bearing = _lowest_corners(corners, lowest, frame)
+    corners_m = tuple(bearing)
+    if len(corners_m) == 1:
+        return BaseFace(corners_m, corners_m, corners_m[0], 0.0, False, False)
+    around, area = _outlined(corners_m, frame)
+    face = _lowest_face(bearing, triangles, uneven, frame)
+    if face is not None and face.area_m2 < area * (_CRUMB if face.is_filled else 1 - _COVER):
+        face = None
     if face is not None:
-        share = _CRUMB if face.is_filled else 1 - _COVER
-        if polygon_area(face.outline_m @ plane) < share * polygon_area(around @ plane):
-            face = None
-    if face is not None:
-        bearing, around = triples(face.corners_m), face.outline_m
-    middle = (around.min(axis=0) + around.max(axis=0)) / 2
-    radius = float(np.linalg.norm(around - middle, axis=1).max())
-    corners_m = triples(around)
-    points = tuple([corners_m[row] for row in spread(corners_m)])
-    is_filled = face is not None and face.is_filled
-    return BaseFace(points, triples(around), triples(middle[None])[0], radius, is_filled, face is not None)
+        around = face.outline_m
+    x, y, z = [(min(row) + max(row)) / 2 for row in zip(*around, strict=True)]
+    radius = max([math.dist(corner, (x, y, z)) for corner in around])
+    points = tuple([around[row] for row in spread(around)])
+    return BaseFace(points, around, (x, y, z), radius, face is not None and face.is_filled, face is not None)
 
 
-def top_of(triangles: Floats, uneven: float, up: Triple) -> tuple[Triple, ...] | None:
+def top_of(corners: Floats, triangles: Floats, uneven: float, up: Triple) -> tuple[Triple, ...] | None:
     """Return the convex outline [m] of the highest level face while the shape's own direction `up` points up.
 
     None if there is no such face, or if it does not fill its outline.
     """
-    upwards, plane = _frame(up)
-    face = _lowest_face(triangles, uneven, -upwards, plane)
-    return triples(face.outline_m) if face is not None and face.is_filled else None
+    u, v, (x, y, z) = upright_frame(up)
+    frame = (u, v, (-x, -y, -z))
+    face = _lowest_face(_lowest_corners(corners, uneven, frame), triangles, uneven, frame)
+    return face.outline_m if face is not None and face.is_filled else None
 
 
 def across(up: Triple) -> Triple:
     """Return a level direction of the shape's frame, which shows its heading while its direction `up` points up."""
-    return triples(_frame(up)[1].T[:1])[0]
+    return upright_frame(up)[0]
 
 
-def _frame(up: Triple) -> tuple[Floats, Floats]:
-    """Return the unit vector (3,) along `up`, and two perpendicular ones as columns (3, 2)."""
-    frame = np.array(upright_frame(up))
-    return frame[2], frame[:2].T.copy()
+def _lowest_corners(corners: Floats, within: float, frame: Rows) -> dict[Triple, float]:
+    """Return the corners (n, 3) up to `within` above the lowest one, and how far; a corner that meshes repeat, once."""
+    heights = corners @ frame[2]
+    heights -= heights.min()
+    rows = np.flatnonzero(heights <= within)
+    return dict(zip(triples(corners[rows]), heights[rows].tolist(), strict=True))
 
 
 class _Face(NamedTuple):
-    """A level face: its corners (n, 3) and their outline (m, 3) [m]."""
+    """A level face: its outline [m], the area of that [m2], and whether the face fills it."""
 
-    corners_m: Floats
-    outline_m: Floats
+    outline_m: tuple[Triple, ...]
+    area_m2: float
     is_filled: bool
 
 
-def _lowest_face(triangles: Floats, uneven: float, upwards: Floats, plane: Floats) -> _Face | None:
-    """Return the lowest level face, None if it has no area, or if only a part of it is level."""
-    heights = along(upwards, triangles)
+def _lowest_face(lowest: Mapping[Triple, float], triangles: Floats, uneven: float, frame: Rows) -> _Face | None:
+    """Return the lowest level face, None if it has no area, or if only a part of it is level.
+
+    Parameters: lowest : the lowest corners and their heights, at least those up to `uneven`.
+    """
+    if sum([height <= uneven for height in lowest.values()]) < 3:  # as of most shapes that tumble
+        return None
+    heights = along(frame[2], triangles)
     is_level = highest(heights) <= heights.min() + uneven
     level = triangles[..., is_level]
-    a, b, c = np.stack([along(way, level) for way in plane.T], axis=1)
+    a, b, c = np.stack([along(way, level) for way in frame[:2]], axis=1)
     u, v = b - a, c - a
     area = float(np.abs(u[0] * v[1] - u[1] * v[0]).sum()) / 2
-    if area <= 0 or _goes_on(triangles, is_level, _FLAT * uneven, upwards):
+    if area <= 0 or _goes_on(triangles, is_level, _FLAT * uneven, frame[2]):
         return None
-    corners = np.unique(level.reshape(3, -1).T, axis=0)
-    rows = outline(corners @ plane)
-    around = polygon_area((corners @ plane)[rows])
+    around, filled = _outlined(tuple(dict.fromkeys(triples(level.reshape(3, -1).T))), frame)
     # A face drawn from both sides has its area twice.
-    is_filled = any(abs(area - n * around) <= _COVER * around for n in (1, 2))
-    return _Face(corners, corners[rows], is_filled)
+    return _Face(around, filled, any(abs(area - n * filled) <= _COVER * filled for n in (1, 2)))
 
 
-def _goes_on(triangles: Floats, is_level: NDArray[np.bool_], flat: float, upwards: Floats) -> bool:
+def _outlined(corners: tuple[Triple, ...], frame: Rows) -> tuple[tuple[Triple, ...], float]:
+    """Return the convex outline of corners in the level plane of a frame, and its area [m2]."""
+    plan = turned_outline(corners, frame[0], frame[1])
+    rows = outline(plan)
+    sides = [(*plan[row], *plan[before]) for row, before in zip(rows, [rows[-1], *rows], strict=False)]
+    return tuple([corners[row] for row in rows]), abs(sum([a * d - b * c for a, b, c, d in sides])) / 2
+
+
+def _goes_on(triangles: Floats, is_level: NDArray[np.bool_], flat: float, upwards: Triple) -> bool:
     """Return True if other triangles lie in the plane of the level ones.
 
     A flat face that is tilted by about the tolerance has such triangles. Which of its triangles are level depends on
@@ -145,18 +151,18 @@ def _goes_on(triangles: Floats, is_level: NDArray[np.bool_], flat: float, upward
     normals = cross(b - a, c - a)
     # Triangles may face either way.
     normal = (normals * np.sign(along(upwards, normals))).sum(axis=1)
-    depths = along(normal / np.linalg.norm(normal), triangles)
+    depths = along((normal / np.linalg.norm(normal)).tolist(), triangles)
     in_plane = highest(np.abs(depths - depths[:, is_level].mean())) <= flat
     return bool((in_plane & ~is_level).any())
 
 
 def triples(points: Floats) -> tuple[Triple, ...]:
     """Return points (n, 3) as tuples of floats."""
-    return tuple((x, y, z) for x, y, z in points.tolist())
+    return tuple([(x, y, z) for x, y, z in points.tolist()])
 
 
-def outline(points: Floats) -> list[int]:
-    """Return the rows of the points (n, 2) on their convex hull, counter-clockwise, without collinear points. The hull
+def outline(points: Sequence[Point]) -> list[int]:
+    """Return the rows of the points on their convex hull, counter-clockwise, without collinear points. The hull
     of a single point is that point.
 
     A point within `_COLLINEAR_M` of the line between its neighbours is collinear. So a side that is cut into pieces has
@@ -165,17 +171,17 @@ def outline(points: Floats) -> list[int]:
 
     Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
     """
-    order, at = np.lexsort((points[:, 1], points[:, 0])).tolist(), points.tolist()
-    hull = _corners(order, at, _turns_left)[:-1] + _corners(order[::-1], at, _turns_left)[:-1]
+    order = sorted(range(len(points)), key=points.__getitem__)
+    hull = _corners(order, points, _turns_left)[:-1] + _corners(order[::-1], points, _turns_left)[:-1]
     if len(hull) < 3:
         return hull or order[:1]
     # The point farthest from the middle is no point of a side.
-    away = points[hull] - points[hull].mean(axis=0)
-    first = int((away * away).sum(axis=1).argmax())
-    return _corners([*hull[first:], *hull[: first + 1]], at, _is_beside)[:-1]
+    middle = [sum(ends) / len(hull) for ends in zip(*[points[row] for row in hull], strict=True)]
+    first = max(range(len(hull)), key=lambda k: math.dist(points[hull[k]], middle))
+    return _corners([*hull[first:], *hull[: first + 1]], points, _is_beside)[:-1]
 
 
-def _corners(rows: list[int], at: list[list[float]], is_corner: Callable[..., bool]) -> list[int]:
+def _corners(rows: list[int], at: Sequence[Point], is_corner: Callable[..., bool]) -> list[int]:
     """Return the rows of a path that are corners between those kept before and after them, and both ends."""
     kept: list[int] = []
     for row in rows:
@@ -185,18 +191,12 @@ def _corners(rows: list[int], at: list[list[float]], is_corner: Callable[..., bo
     return kept
 
 
-def polygon_area(corners: Floats) -> float:
-    """Return the area of a polygon (n, 2)."""
-    x, y = corners.T
-    return abs(float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())) / 2
-
-
-def _turns_left(a: list[float], b: list[float], c: list[float]) -> bool:
+def _turns_left(a: Point, b: Point, c: Point) -> bool:
     """Return True if b is to the right of the line from a to c."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0
 
 
-def _is_beside(a: list[float], b: list[float], c: list[float]) -> bool:
+def _is_beside(a: Point, b: Point, c: Point) -> bool:
     """Return True if b is off the straight line between a and c, by more than rounding."""
     u, v, x, y = c[0] - a[0], c[1] - a[1], b[0] - a[0], b[1] - a[1]
     share = min(max((u * x + v * y) / max(u * u + v * v, 1e-300), 0.0), 1.0)

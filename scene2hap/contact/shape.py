@@ -96,7 +96,7 @@ class Shape:
 
     def top(self, up: Triple) -> tuple[Triple, ...] | None:
         """Return the outline of the top face for the direction `up`, None unless it is level and convex."""
-        return self._cached(self._tops, up, lambda: top_of(self.triangles, self._uneven_m, up))
+        return self._cached(self._tops, up, lambda: top_of(self.corners, self.triangles, self._uneven_m, up))
 
     def radius_m(self, axis: int) -> float:
         """Return the radius of the shape around the line through its box's middle along an axis [m]."""

@@ -39,9 +39,9 @@ def cross(x: Floats, y: Floats) -> Floats:
     return across
 
 
-def along(way: Floats, points: Floats) -> Floats:
-    """Return the dot products of points (3, ...) with one vector (3,)."""
-    x, y, z = way.tolist()
+def along(way: Triple, points: Floats) -> Floats:
+    """Return the dot products of points (3, ...) with one vector."""
+    x, y, z = way
     lengths: Floats = x * points[0]
     lengths += y * points[1]
     lengths += z * points[2]
