@@ -102,6 +102,7 @@ def _preload() -> None:
         "scene2hap.scene.formats.obj",
         "trimesh",
         "PIL",
+        "scipy.signal",
     ):
         importlib.import_module(name)
     for name in ("collada", "mujoco"):

@@ -28,7 +28,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.audio.actuators import MAX_BOOST_DB, response_db

@@ -11,9 +11,8 @@ It is real in `heard`. In `heard_sections`, which are causal, it is the absolute
 from __future__ import annotations
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import NDArray
-from scipy.signal import butter
 
 Signal = NDArray[np.float64]
 
@@ -23,7 +22,7 @@ HALVED_HZ = 15.0
 
 def heard_sections(sample_rate_hz: float) -> Signal:
     """Return the high-pass as sections (2, 6) for `SosStage`."""
-    section = butter(2, min(HALVED_HZ, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos")
+    section = scipy.signal.butter(2, min(HALVED_HZ, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos")
     return np.concatenate([section, section])
 
 

@@ -16,9 +16,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
-from scipy.signal import butter, sosfiltfilt
 
 from scene2hap.audio.levels import TACTILE_RANGE_HZ
 from scene2hap.audio.speed_track import SpeedTrack
@@ -86,8 +85,8 @@ def felt_power(samples: Signal, sample_rate_hz: float) -> Signal:
     n_bins = len(samples) // max(1, size)
     if size < 1 or high < 2 * TACTILE_RANGE_HZ[0] or n_bins * BIN_S < MIN_STEADY_S + SHORTEST_S:
         return np.zeros(0)
-    sos = butter(2, (TACTILE_RANGE_HZ[0], high), "bandpass", fs=sample_rate_hz, output="sos")
-    felt = sosfiltfilt(sos, samples - np.median(samples))
+    sos = scipy.signal.butter(2, (TACTILE_RANGE_HZ[0], high), "bandpass", fs=sample_rate_hz, output="sos")
+    felt = scipy.signal.sosfiltfilt(sos, samples - np.median(samples))
     return np.asarray((felt[: n_bins * size].reshape(n_bins, size) ** 2).mean(axis=1))
 
 
@@ -160,7 +159,9 @@ class _Fit:
         ]
         scale = [10.0, 10.0, 1.0, 1.0, *(0.3, 0.5) * n_pairs]
         fits = [
-            least_squares(self._residuals, begin, bounds=(low, high), x_scale=scale, loss="soft_l1", max_nfev=60)
+            scipy.optimize.least_squares(
+                self._residuals, begin, bounds=(low, high), x_scale=scale, loss="soft_l1", max_nfev=60
+            )
             for begin in begins
         ]
         return np.asarray(min(fits, key=lambda one: one.cost).x)

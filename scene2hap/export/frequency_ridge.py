@@ -8,7 +8,7 @@ pitch in noise, and a gliding tone is followed.
 from __future__ import annotations
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import NDArray
 
 from scene2hap.audio.windows import hann

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-import scipy.signal
+import scipy
 from numpy.typing import NDArray
 
 from scene2hap import checks

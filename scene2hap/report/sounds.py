@@ -7,10 +7,10 @@ import io
 from typing import Any
 
 import numpy as np
+import scipy
 import soundfile
 from numpy.typing import NDArray
 from PIL import Image
-from scipy import signal
 
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.haptic_loop import HapticLoop
@@ -75,7 +75,7 @@ def _clip(clip: AudioClip, rate_hz: int, top_hz: float) -> dict[str, Any]:
 def _flac(samples: NDArray[np.float64], from_hz: float, to_hz: int) -> bytes:
     """Return a loop as FLAC at another rate. It is resampled as a periodic signal, so that it stays seamless."""
     n = max(2, round(len(samples) * to_hz / from_hz))
-    there = samples if n == len(samples) else signal.resample(samples, n)
+    there = samples if n == len(samples) else scipy.signal.resample(samples, n)
     file = io.BytesIO()
     peak = max(1.0, float(np.abs(there).max(initial=0.0)))
     whole = np.round(there / peak * _FULL_SCALE).astype(np.int16)
@@ -95,7 +95,9 @@ def _wave(samples: NDArray[np.float64]) -> bytes:
 def _spectrogram(samples: NDArray[np.float64], clip: AudioClip, top_hz: float) -> bytes:
     """Return a PNG with time to the right, frequency upwards, and the strongest bin brightest."""
     size = min(len(samples), max(256, round(0.05 * clip.sample_rate_hz)))
-    hz, _, found = signal.spectrogram(samples, clip.sample_rate_hz, nperseg=size, noverlap=size // 2, mode="magnitude")
+    hz, _, found = scipy.signal.spectrogram(
+        samples, clip.sample_rate_hz, nperseg=size, noverlap=size // 2, mode="magnitude"
+    )
     levels = 20.0 * np.log10(np.maximum(found, 1e-9))
     wanted = np.linspace(0.0, top_hz, _ROWS)
     rows = np.array([np.interp(wanted, hz, column) for column in levels.T]).T[::-1]

@@ -29,6 +29,12 @@ def test_the_playing_side_loads_no_scene_reader_and_no_network() -> None:
     assert not {name for name in loaded if name.startswith(behind_the_wall)}
 
 
+def test_the_command_line_starts_without_the_packages_of_scipy() -> None:
+    """They take as long as all other imports together. `import scipy` loads each where a command first uses it."""
+    loaded = modules_after("import scene2hap.cli")
+    assert not loaded & {f"scipy.{name}" for name in ("fft", "linalg", "optimize", "signal", "sparse", "stats")}
+
+
 def test_every_public_name_is_there() -> None:
     import scene2hap
 

@@ -18,9 +18,8 @@ pairs, since each pair doubles the work.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import Bounds, LinearConstraint, milp
-from scipy.sparse import csr_array
 
 from scene2hap.audio.spreading.placements import LEVEL_STEP_DB, Array, Outcome, Problem
 
@@ -57,11 +56,11 @@ class Programme:
         cost = _joined(n * [0.0], n * [move_x], n * [0.0], n * [move_l], p * [slack], 3 * p * [0.0])
         low = _joined(problem.x_low, n * [0.0], problem.l_low, n * [0.0], 4 * p * [0.0])
         high = _joined(problem.x_high, never, problem.l_high, never, np.full(p, np.inf), p * [1.0], stronger, weaker)
-        answer = milp(
+        answer = scipy.optimize.milp(
             cost,
             integrality=np.repeat([0, 1], [4 * n + p, 3 * p]),
-            bounds=Bounds(low, high),
-            constraints=LinearConstraint(self._matrix(len(cost)), np.array(self._least), np.inf),
+            bounds=scipy.optimize.Bounds(low, high),
+            constraints=scipy.optimize.LinearConstraint(self._matrix(len(cost)), np.array(self._least), np.inf),
             options={"node_limit": _NODES},
         )
         if answer.x is None:  # the search was cut off before it had any answer
@@ -85,13 +84,13 @@ class Programme:
         self._rows.append(coefficients)
         self._least.append(least)
 
-    def _matrix(self, width: int) -> csr_array:
+    def _matrix(self, width: int) -> scipy.sparse.csr_array:
         values = [value for row in self._rows for value in row.values()]
         columns = [column for row in self._rows for column in row]
         numbers = [number for number, row in enumerate(self._rows) for _ in row]
         # scipy before 1.15 solves with indices of 32 bits alone.
         at = np.array([numbers, columns], dtype=np.int32)
-        return csr_array((values, (at[0], at[1])), shape=(len(self._rows), width))
+        return scipy.sparse.csr_array((values, (at[0], at[1])), shape=(len(self._rows), width))
 
 
 def _joined(*parts: ArrayLike) -> Array:

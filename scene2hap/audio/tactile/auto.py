@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scipy.signal import butter
+import scipy
 
 from scene2hap.audio.anchor import BAND_Q, CARRIER_RANGE_HZ, best_carrier_hz, is_beep
 from scene2hap.audio.heard import heard_sections
@@ -48,7 +48,9 @@ class Auto(Adaptive):
         beep_hz = _beep_hz(context)
         if beep_hz is not None:
             # This high-pass removes hum and noise of the room, which would fill the pauses of the beep.
-            above = butter(2, min(0.5 * beep_hz, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos")
+            above = scipy.signal.butter(
+                2, min(0.5 * beep_hz, 0.4 * sample_rate_hz), "highpass", fs=sample_rate_hz, output="sos"
+            )
             stages: list[Stage] = [SosStage(above), *EnvelopeCarrier().stream(sample_rate_hz, context).stages]
         else:
             stages = [*super().stream(sample_rate_hz, context).stages]

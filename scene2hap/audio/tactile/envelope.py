@@ -14,7 +14,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import butter
+import scipy
 
 from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
@@ -51,7 +51,7 @@ class EnvelopeCarrier:
 
 class _EnvelopeStage(Stage):
     def __init__(self, carrier_hz: float, envelope_hz: float, sample_rate_hz: float) -> None:
-        self._smooth = SosStage(butter(2, envelope_hz, fs=sample_rate_hz, output="sos"))
+        self._smooth = SosStage(scipy.signal.butter(2, envelope_hz, fs=sample_rate_hz, output="sos"))
         self._carrier = Oscillator(carrier_hz, sample_rate_hz)
         self._position = 0
 

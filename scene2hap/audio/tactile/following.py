@@ -24,8 +24,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.signal import lfilter
 
 from scene2hap.audio.tactile.onsets import STEP_S as LIVE_STEP_S
 from scene2hap.audio.tactile.oscillator import Oscillator
@@ -137,7 +137,7 @@ def gains_of(energies: Signal, window: Signal, usual_db: float, means: Signal) -
     bed = felt[0] if felt else drive
     usual: Signal | float = usual_db
     if math.isnan(usual_db):
-        slow, left = lfilter([1.0 - FORGET], [1.0, -FORGET], [sound, bed], axis=1, zi=means[:, None])
+        slow, left = scipy.signal.lfilter([1.0 - FORGET], [1.0, -FORGET], [sound, bed], axis=1, zi=means[:, None])
         usual, means[:] = _ratio_db(*slow), left[:, 0]
     beyond = _ratio_db(sound, bed) - usual
     lifts = np.clip(beyond, -FREE_DB, FREE_DB) - beyond

@@ -20,7 +20,7 @@ from collections import deque
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import butter
+import scipy
 
 from scene2hap.audio.tactile.stages import Signal, SosStage, Stage
 from scene2hap.audio.tactile.step_energies import mean_squares
@@ -80,7 +80,7 @@ class WithOnsets(Stage):
         self._share = None if bed_db is None else 10 ** (bed_db / 10)
         self.step: int = max(1, round(STEP_S * sample_rate_hz))
         ticks_hz = min(TICKS_HZ, 0.4 * sample_rate_hz)
-        self._high = SosStage(butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
+        self._high = SosStage(scipy.signal.butter(2, ticks_hz, "highpass", fs=sample_rate_hz, output="sos"))
         self._waiting = np.empty(0)  # samples whose onsets are not decided
         self._detector, self._n_made = _OnsetDetector(spares_sustained=bed_follows), 0
         self._n_around = max(1, round(AROUND_S * sample_rate_hz))

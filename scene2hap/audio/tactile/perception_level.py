@@ -21,7 +21,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import find_peaks
+import scipy
 
 from scene2hap import checks
 from scene2hap.audio.protocol import ConversionContext
@@ -140,7 +140,7 @@ def _loudness(f: Signal, magnitude: Signal) -> float:
 
 def _roughness(f: Signal, magnitude: Signal) -> float:
     level_db = 20.0 * np.log10(magnitude + 1e-12)
-    peaks, _ = find_peaks(level_db, height=level_db.max() + _PEAKS_DB)
+    peaks, _ = scipy.signal.find_peaks(level_db, height=level_db.max() + _PEAKS_DB)
     peaks = np.sort(peaks[np.argsort(-level_db[peaks], kind="stable")[:_MAX_PEAKS]])
     one, other = np.triu_indices(len(peaks), 1)
     lower, apart = f[peaks[one]], f[peaks[other]] - f[peaks[one]]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.signal import butter
 
 from scene2hap.audio.tactile.stages import Chain, Signal, SosStage, Stage
 from scene2hap.compiled import compiled
@@ -29,7 +29,7 @@ class Roughened(Stage):
     def __init__(self, bed: Sequence[Stage], band: Stage, rough_hz: float, sample_rate_hz: float) -> None:
         self._band, self._is_shared = band, bed[0] is band
         self._bed = Chain(bed[1:] if self._is_shared else bed)
-        self._envelope = SosStage(butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
+        self._envelope = SosStage(scipy.signal.butter(2, rough_hz / _SLOWER, fs=sample_rate_hz, output="sos"))
 
     def run(self, x: Signal) -> Signal:
         """Return the modulated bed."""

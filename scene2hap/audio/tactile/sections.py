@@ -8,8 +8,8 @@ Transposed direct form II.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.signal import sosfilt
 
 from scene2hap.compiled import compiled
 
@@ -25,6 +25,6 @@ def through_sections(sections: Floats, x: Floats, state: Floats) -> Floats:
 
     Parameters: state : (n_sections, n_rows, 2), the state of the sections, which is updated.
     """
-    y, state[:] = sosfilt(sections, x, zi=state)
+    y, state[:] = scipy.signal.sosfilt(sections, x, zi=state)
     state[np.abs(state) < VANISHED] = 0.0
     return np.asarray(y)

@@ -9,9 +9,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from scene2hap.scene import limits
 from scene2hap.scene.shapes import TriMesh
@@ -57,7 +56,9 @@ def part_of_faces(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> ND
     corners = place.reshape(-1)[faces]
     pairs = np.concatenate([corners[:, :2], corners[:, 1:]])
     n = int(place.max()) + 1
-    _, labels = connected_components(coo_array((np.ones(len(pairs)), pairs.T), shape=(n, n)), directed=False)
+    _, labels = scipy.sparse.csgraph.connected_components(
+        scipy.sparse.coo_array((np.ones(len(pairs)), pairs.T), shape=(n, n)), directed=False
+    )
     _, first, own = np.unique(labels[corners[:, 0]], return_index=True, return_inverse=True)
     ranks = np.empty(len(first), dtype=np.int64)
     ranks[np.argsort(first)] = np.arange(len(first))
