@@ -131,13 +131,14 @@ class Landings:
             if pose is not None and step is not None:
                 moving.append((object_id, track, pose, step))
                 # Few objects pass these checks, which run for all moved ones in every frame.
-                near = self._met(object_id)
-                if near:
-                    change, before = _change(step[0], track.step_m), track.step_m
-                    if change >= _LEAST_CHANGE and (
-                        change >= _SUDDEN * dot(before, before) or not self._tracks.keys().isdisjoint(near)
-                    ):
-                        changed.append(object_id)
+                before = track.step_m
+                change = _change(step[0], before)
+                if (
+                    change >= _LEAST_CHANGE
+                    and (near := self._met(object_id))
+                    and (change >= _SUDDEN * dot(before, before) or not self._tracks.keys().isdisjoint(near))
+                ):
+                    changed.append(object_id)
             elif track.has_stopped(now) and beside.get(object_id) and track.is_falling:
                 stopped.append(object_id)
             elif track.is_at_rest(now):
@@ -163,8 +164,10 @@ class Landings:
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
         """The contacts that an object has now, before those that it had before or in this step."""
-        near, beside = self._near.get(object_id), self._graph.beside.get(object_id, NOTHING)
-        return {**beside, **{x: near[x] for x in near if x not in beside}} if near else beside
+        near, beside = self._near.get(object_id, NOTHING), self._graph.beside.get(object_id, NOTHING)
+        if near.keys() <= beside.keys():
+            return beside
+        return {**beside, **{x: near[x] for x in near if x not in beside}}
 
     def _is_sudden(self, object_id: str, steps_m: Mapping[str, Vector]) -> bool:
         """Whether a fall changes abruptly with this step, relative to a neighbour: both may be in a vehicle.
