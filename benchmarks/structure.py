@@ -53,6 +53,7 @@ def watch(frame, event, _):
         importing[threading.get_ident()] -= is_import
 
 touch = Touch("left", "dining_table", (2.2, 0.74, 2.2))
+here = bundle.snapshot.object("smartphone").pose
 threading.setprofile(watch)
 sys.setprofile(watch)
 phase = "made"
@@ -60,7 +61,6 @@ session = HapticSession(bundle.snapshot, bundle)
 phase = "first"
 session.update(touches=[touch])
 phase = "moved"
-here = bundle.snapshot.object("smartphone").pose
 for step in range(1, 6):
     x, y, z = here.position_m
     frame = session.update({"smartphone": Pose((x, y, z + 0.01 * step), here.rotation_xyzw)}, [touch])

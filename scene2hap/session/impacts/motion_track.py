@@ -138,7 +138,12 @@ class MotionTrack:
 
     def pose_at(self, update: int) -> Pose:
         """Return the pose after an update, or the first known pose after it."""
-        return next((pose for later, _, pose in self.steps if later >= update), self.steps[-1][2])
+        found = self.pose
+        for later, _, pose in reversed(self.steps):
+            if later < update:
+                break
+            found = pose
+        return found
 
 
 def in_world(own_m: Vector, pose: Pose) -> Vector:
