@@ -47,9 +47,9 @@ def tables(first_db: float = 0.0) -> tuple[SceneSnapshot, HapticBundle]:
         {"gain_db": -1e6},
     ],
 )
-def test_restored_session_gives_the_same_gains(settings: dict[str, object]) -> None:
+def test_restored_session_gives_the_same_gains(settings: dict[str, Any]) -> None:
     made = HapticSession(*tables(-3.0), {"prepare": "blocking"})
-    made.set_source("phone", **settings)  # type: ignore[arg-type]
+    made.set_source("phone", **settings)
     made.update({"cup": Pose((5.0, 0.5, 5.0))})
     again = HapticSession(*tables(-3.0), {"prepare": "blocking"})
     take_over(json.loads(saved(made)), again)
