@@ -40,11 +40,14 @@ def require_settings(config: object) -> None:
             raise ConfigError(f"{name} is an argument, no setting; write HapticSession(..., {name}={value}).")
 
 
-def given_frame(moved: object, touches: object) -> tuple[Mapping[str, Pose] | None, Sequence[Touch]]:
-    """Return the poses and touches of an update whose first argument is no mapping: accepts `update([Touch(...)])`.
+def given_frame(moved: object, touches: Any) -> tuple[Mapping[str, Pose] | None, Any]:
+    """Return the poses and touches of an update whose first argument is no dict: accepts `update([Touch(...)])`.
 
+    Other mappings become dicts, since a `PoseTable` makes a pose at each access.
     Raises: SessionError: the first argument is neither poses by id nor touches.
     """
+    if isinstance(moved, Mapping):
+        return dict(moved), touches
     is_touches = isinstance(moved, Touch) or (
         isinstance(moved, list | tuple) and all(isinstance(one, Touch) for one in moved)
     )

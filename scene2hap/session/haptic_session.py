@@ -213,7 +213,7 @@ class HapticSession:
         before that of the last update, or another type than poses, touches and contacts.
         """
         self._output.require_own_process()
-        if moved is not None and type(moved) is not dict and not isinstance(moved, Mapping):
+        if moved is not None and type(moved) is not dict:
             moved, touches = given_frame(moved, touches)
         felt = touches_by_hand(touches, self._hands, self._state)
         stamp = self._stamp(at_sample)
