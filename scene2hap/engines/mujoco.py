@@ -83,7 +83,9 @@ class _MuJoCo:
             self._steps.append(engine.contact_points(self._data))
 
     def poses(self) -> PoseTable:
-        # Each frame begins with this call.
+        # Each frame begins with this call. The last step counts as well, as in `EngineLink`.
+        if self._steps:
+            self.collect()
         self._points = engine.points_of_steps(self._steps) if self._steps else None
         self._steps.clear()
         return engine.poses(self._model, self._data, **self._how)

@@ -633,6 +633,21 @@ def test_hand_that_taps_between_two_frames_touches_if_steps_are_collected() -> N
     assert bounced(collects=False, hands={"left": "ball"})[2] < n_bounces
 
 
+def test_last_step_of_a_frame_counts_without_being_collected() -> None:
+    mujoco = pytest.importorskip("mujoco", reason="needs the extra mujoco")
+    from scene2hap.scene.engines.mujoco import snapshot
+
+    model = mujoco.MjModel.from_xml_string(BOUNCES)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    scene = snapshot(model, data, unit_m=1.0)
+    link = MuJoCoLink(model, data, HapticSession(scene, baked(scene)), hands={"left": "ball"})
+    link.collect()  # in the air
+    data.qpos[2] = 1.739
+    mujoco.mj_forward(model, data)
+    assert link.update().gain("left", "refrigerator") > 0
+
+
 def test_contact_points_of_steps_are_those_of_the_last_step_of_each_pair() -> None:
     from scene2hap.scene.engines.mujoco import ContactPoints, points_of_steps
 
