@@ -50,8 +50,8 @@ class EngineLink:
     def collect(self) -> None:
         """Keep the contacts of this step of the physics for the next `update`. Call it after each step of a frame.
 
-        The next `update` then reports all contacts of the frame, also those that have ended, as of a ball that bounces
-        or of a finger that taps. Without it, `update` reports those of the last step. Raises: as `update`.
+        The next `update` then reports all contacts of the frame. Those of a ball that bounces or of a finger that taps
+        may have ended by then. Without this call, `update` reports those of the last step. Raises: as `update`.
         """
         self._steps.append(self._now())
 

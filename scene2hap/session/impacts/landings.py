@@ -163,7 +163,7 @@ class Landings:
         return [one for one in found if (one.onto, one.object_id) not in met or one.object_id < one.onto]
 
     def _met(self, object_id: str) -> Mapping[str, Junction]:
-        """The contacts that an object has now, before those that it had before or in this step."""
+        """Return the present contacts of an object first, then those that ended in this step."""
         near, beside = self._near.get(object_id, NOTHING), self._graph.beside.get(object_id, NOTHING)
         if near.keys() <= beside.keys():
             return beside
