@@ -9,9 +9,9 @@
 4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee), but
    a machine comes before its parts and before what it works with: a printer_label is no label printer. A container
    precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in it (wall_doorway), and
-   a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their joints
-   (shoulder_pan_link), which are no objects. Only the base of a robot is the robot: robot0:base_link, but
-   robot0:elbow_link, robot0_l4 and robot_arm_link_2 are parts of one, which do not vibrate by themselves.
+   a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their joints or makes
+   (shoulder_pan_link, iiwa_link_4), which are no objects. Only the base of a robot is the robot: robot0:base_link and
+   panda_link0, but robot0:elbow_link, robot0_l4 and wrist_3_link are parts of one, which do not vibrate by themselves.
 5. The room or zone of a machine is no machine (engine_room).
 6. The size of a metric thread says that the object belongs to a bolt: "washer_M8" is no washing machine.
 7. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from scene2hap.llm.lexicon import word_split, words
@@ -40,6 +40,7 @@ _HOLDS = {"container": ("vessel", "content"), "vessel": ("content",)}
 # 3ds Max gives its primitives such names; "Box_01" is a box.
 _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
 _NAMESPACE = re.compile(r"robot(?:\d+[\W_]|:)", re.IGNORECASE)
+_LINK_0 = re.compile(r"link_?0$", re.IGNORECASE)
 _THREAD = re.compile(r"(?<![^\W_])M\d{1,2}(?![^\W_xX])")
 
 
@@ -90,7 +91,9 @@ def read_name(name: str) -> NameReading:
     clause = min(clause, remark)
     nouns = [noun for noun in nouns if noun.end <= clause]
     if not nouns:
-        return unknown
+        robot, trust = _robot_of_link(name, tokens), round(trust * _UNREAD_BEFORE, 3)
+        link = " ".join(tokens)
+        return unknown if robot is None else replace(unknown, row=robot, confidence=trust, head=link, unread=())
     head = _head(tokens, nouns, counted)
     head = _of_a_kind(tokens, head, clause) or _of_a_bolt(name, tokens, head) or head
     turned = _object_first(tokens[:clause], nouns)
@@ -100,7 +103,7 @@ def read_name(name: str) -> NameReading:
     if head.row.vibrates and set(tokens[head.end : min(head.end + 1, clause)]) & words.SURROUNDINGS:
         return unknown
     if _is_robot_part(name, tokens, head):
-        head = _Noun(word_split.nouns()["robotpart"][0], head.start, len(tokens), plural=False)
+        head = _Noun(_row("robotpart"), head.start, len(tokens), plural=False)
     in_nouns = {i for noun in (*nouns, head) for i in range(noun.start, noun.end)}
     behind = tuple(tokens[i] for i in range(head.end, clause) if i not in in_nouns and not _is_beside(tokens[i]))
     before = tuple(word for word in tokens[: head.start] if word in unread)
@@ -175,6 +178,20 @@ def _is_robot_part(name: str, tokens: Sequence[str], head: _Noun) -> bool:
     if head.row.noun not in words.ROBOTS or "base" in after or words.WHOLE_ROBOT.issuperset(after):
         return False
     return _NAMESPACE.search(name) is not None or not {"link", "joint"}.isdisjoint(after)
+
+
+def _robot_of_link(name: str, tokens: Sequence[str]) -> ObjectRow | None:
+    """Return the row of a robot or of its part if a name is that of a link, by its joint or make; else None."""
+    is_link = not {"link", "joint"}.isdisjoint(tokens)
+    is_named = any(word in words.ROBOT_JOINTS | words.ROBOT_MAKES for word in tokens)
+    if not (is_link and is_named) and not any(_is_of_robot(tokens, noun) for noun in _nouns(tokens, frozenset())):
+        return None
+    is_base = "base" in tokens or _LINK_0.search(name.strip()) is not None
+    return _row("robot" if is_base else "robotpart")
+
+
+def _row(spelled: str) -> ObjectRow:
+    return word_split.nouns()[spelled][0]
 
 
 def _before_preposition(tokens: Sequence[str], nouns: Sequence[_Noun]) -> int:

@@ -172,6 +172,15 @@ ROBOT_NOUNS = {
 """Nouns that name a robot's joint, hand or make beside one of these words: a "shoulder_pan_link" is no frying pan, a
 "robot0_hip_roll" no bread, a "rh_palm" no tree, and a "panda_link3" no animal."""
 
+ROBOT_JOINTS = _set("""
+    shoulder elbow forearm upperarm wrist waist torso pelvis hip thigh shin calf knee ankle finger thumb knuckle gripper
+    flange metacarpal proximal distal
+""")
+"""Words beside "link" or "joint" that name a part of a robot: wrist_3_link."""
+
+ROBOT_MAKES = _set("panda franka iiwa kuka sawyer baxter kinova jaco xarm yumi tiago talos anymal rizon")
+"""Robots whose links are called after them: iiwa_link_4."""
+
 ROBOTS = frozenset({"robot", "mobile robot", "robot part"})
 """Nouns of the table whose parts are called after them, as in "robot0_wrist"."""
 
