@@ -24,7 +24,7 @@ _NAMES_IN = {
     "scene2hap.scene.images": ("ImageSet",),
     "scene2hap.scene.pose": ("Pose",),
     "scene2hap.scene.pose_table": ("PoseTable",),
-    "scene2hap.scene.objects": ("Contact", "SceneObject"),
+    "scene2hap.scene.objects": ("Contact", "Hinge", "SceneObject"),
     "scene2hap.scene.surface.outline": ("Outline",),
     "scene2hap.scene.shapes": ("Box", "DominantSurface", "TriMesh"),
     "scene2hap.scene.scene_warning": ("SceneWarning",),
@@ -236,7 +236,7 @@ if TYPE_CHECKING:
     from scene2hap.scene.capture.given_pictures import GivenPictures as GivenPictures
     from scene2hap.scene.images import ImageSet as ImageSet
     from scene2hap.scene.load import load_scene as load_scene
-    from scene2hap.scene.objects import Contact as Contact, SceneObject as SceneObject
+    from scene2hap.scene.objects import Contact as Contact, Hinge as Hinge, SceneObject as SceneObject
     from scene2hap.scene.pose import Pose as Pose
     from scene2hap.scene.pose_table import PoseTable as PoseTable
     from scene2hap.scene.scene_warning import SceneWarning as SceneWarning

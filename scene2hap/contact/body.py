@@ -5,11 +5,11 @@ Written in plain Python, since it runs often for one body at a time, where numpy
 
 from __future__ import annotations
 
-from scene2hap.contact.geometry.vectors import Triple
+from scene2hap.contact.geometry.vectors import Triple, rotated
 from scene2hap.contact.ledge import FreeRegions
 from scene2hap.contact.shape import Shape, shape_of
 from scene2hap.contact.stance import Stance
-from scene2hap.scene.objects import SceneObject
+from scene2hap.scene.objects import Hinge, SceneObject
 from scene2hap.scene.pose import Pose
 
 
@@ -24,6 +24,7 @@ class Body:
         "_stance",
         "free_regions",
         "high",
+        "hinge",
         "id",
         "low",
         "pose",
@@ -34,8 +35,9 @@ class Body:
         "v_axis",
     )
 
-    def __init__(self, object_id: str, shape: Shape, pose: Pose, up_axis: int) -> None:
+    def __init__(self, object_id: str, shape: Shape, pose: Pose, up_axis: int, hinge: Hinge | None = None) -> None:
         self.id: str = object_id
+        self.hinge: Hinge | None = hinge
         self.shape: Shape = shape
         self.size_m: float = shape.size_m
         self.pose: Pose = pose
@@ -52,14 +54,14 @@ class Body:
     @classmethod
     def of(cls, item: SceneObject, up_axis: int) -> Body:
         """Build the body of an object in a scene whose axis `up_axis` (1 or 2) points up."""
-        return cls(item.id, shape_of(item.geometry.mesh), item.pose, up_axis)
+        return cls(item.id, shape_of(item.geometry.mesh), item.pose, up_axis, item.hinge)
 
     def at(self, pose: Pose) -> Body:
         """Return a body of the same shape at another pose."""
         # Attributes are copied one by one, since this runs for every moved object in every frame.
         body = Body.__new__(Body)
         body.id, body.shape, body.size_m = self.id, self.shape, self.size_m
-        body.up_axis, body.v_axis = self.up_axis, self.v_axis
+        body.up_axis, body.v_axis, body.hinge = self.up_axis, self.v_axis, self.hinge
         body.pose, body._stance, body.free_regions = pose, self._stance, self.free_regions
         stance = body.stance
         x, y, z = body.position_m = pose.position_m
@@ -83,6 +85,11 @@ class Body:
     def middle_m(self) -> Triple:
         """The middle of the oriented box in the world."""
         (x, y, z), (u, v, w) = self.stance.middle, self.position_m
+        return (u + x, v + y, w + z)
+
+    def to_world(self, point_m: Triple) -> Triple:
+        """Return a point of the shape's frame in the world."""
+        (x, y, z), (u, v, w) = rotated(self.stance.rows, point_m), self.position_m
         return (u + x, v + y, w + z)
 
 

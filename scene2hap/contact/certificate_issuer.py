@@ -11,6 +11,7 @@ from scene2hap.contact.certificate import Certificate, Extent, Resting, resting_
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.planes import Plane
 from scene2hap.contact.junction import Junction, Pair
+from scene2hap.contact.pair import are_hinged
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
 
 _MOST_REFUSALS = 5
@@ -106,7 +107,8 @@ class CertificateIssuer:
         for y in self._broad_phase.neighbours[body.id]:
             other = self._bodies[y]
             low, high = other.low, other.high
-            if low[0] < u1 and high[0] > u0 and low[flat] < v1 and high[flat] > v0 and high[up] > lowest:
+            is_below = low[0] < u1 and high[0] > u0 and low[flat] < v1 and high[flat] > v0 and high[up] > lowest
+            if is_below and not are_hinged(body, other):
                 below.append(other)
         below.sort(key=lambda other: (other.id not in held, other.size_m))
         for other in below:
@@ -176,11 +178,16 @@ class CertificateIssuer:
         return standing_planes(body, resting)
 
     def _reach_m(self, x: Body, y: Body, is_in_air: bool) -> float:
-        """Return the distance [m] within which two bodies interact; larger if the smaller may hang from the other."""
+        """Return the distance [m] within which two bodies interact; larger if the smaller may hang from the other, and
+        infinite with a hinge, whose contact no plane excludes."""
+        if are_hinged(x, y):
+            return math.inf
         small, hangs = (x, is_in_air) if x.size_m < y.size_m else (y, y.id in self._unsupported)
         return max(TOUCH_M, hang_reach_m(small.size_m)) if hangs else TOUCH_M
 
 
 def _free_around(body: Body, host: Body) -> tuple[Plane, ...] | None:
     """Return planes that keep a body clear of a concave host; None where they are not known."""
-    return FreeSpace(body, host).planes(stands=False) if roles(body, host)[0] is body else None
+    if are_hinged(body, host) or roles(body, host)[0] is not body:
+        return None
+    return FreeSpace(body, host).planes(stands=False)

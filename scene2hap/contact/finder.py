@@ -125,7 +125,7 @@ class ContactFinder:
             return None
         for y in list(self._pairs.of.setdefault(x, {})):
             body_pair = self._pairs.drop(x, y)
-            if _may_rest(y, body_pair) or (y in self._unsupported and body.size_m > self._bodies[y].size_m):
+            if _may_be_held(y, body_pair) or (y in self._unsupported and body.size_m > self._bodies[y].size_m):
                 recheck.add(y)
             dirty.add(pair_of(x, y))
         on, fall_m = (None, 0.0) if resting is None else (resting.support.id, resting.rest.fall_m)
@@ -137,7 +137,7 @@ class ContactFinder:
         body_pair = self._pairs.drop(x, y)
         if body_pair is not None:
             found[body_pair.a.id, body_pair.b.id] = None
-            if _may_rest(y, body_pair) or y in self._unsupported:
+            if _may_be_held(y, body_pair) or y in self._unsupported:
                 recheck.add(y)
 
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
@@ -157,15 +157,17 @@ class ContactFinder:
             if y in seen:
                 continue
             body_pair = BodyPair.of(body, other)
-            if body_pair.rests == _NEITHER and (
-                apart_by(body, other, TOUCH_M) or body_pair.space.empty_region is not None
+            if (
+                body_pair.rests == _NEITHER
+                and body_pair.pivot is None
+                and (apart_by(body, other, TOUCH_M) or body_pair.space.empty_region is not None)
             ):
                 if self._pairs.drop(x, y) is not None:
                     dirty.add(pair_of(x, y))
             else:
                 self._pairs.add(body_pair)
                 dirty.add(pair_of(x, y))
-            if may_hang or _may_rest(y, body_pair) or _may_rest(y, old):
+            if may_hang or _may_be_held(y, body_pair) or _may_be_held(y, old):
                 recheck.add(y)
 
     def _update_holders(self, x: str, dirty: set[Pair]) -> bool:
@@ -178,6 +180,6 @@ class ContactFinder:
         return x in self._unsupported and not was_unsupported
 
 
-def _may_rest(y: str, body_pair: BodyPair | None) -> bool:
-    """Return True if y, one body of a pair, may rest on the other."""
-    return body_pair is not None and body_pair.rest(y) is not None
+def _may_be_held(y: str, body_pair: BodyPair | None) -> bool:
+    """Return True if y, one body of a pair, may rest on the other or hangs on it by a hinge."""
+    return body_pair is not None and body_pair.may_be_held(y)

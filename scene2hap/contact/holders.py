@@ -1,4 +1,4 @@
-"""The holders of each body, and the junction of each pair: by support, by hanging, by touch or by enclosure.
+"""The holders of each body, and the junction of each pair: by a hinge, by support, hanging, touch or enclosure.
 
 Results are for one body or one pair, and depend on pairs alone.
 """
@@ -79,11 +79,17 @@ class Holders:
         self._on_several: set[str] = set()
 
     def update(self, x: str) -> Collection[str]:
-        """Find the holders of a body: by support and, where that is below 1, by hanging.
+        """Find the holders of a body: by its hinge, else by support and, where that is below 1, by hanging.
 
         Returns its present holders and those before.
         """
         body = self._bodies[x]
+        if (
+            body.hinge is not None
+            and (body_pair := self._pairs.of[x].get(body.hinge.to))
+            and body_pair.pivot is not None
+        ):
+            return self._hold(x, {body.hinge.to: Bond(1.0, NO_WAY, None, False, x)}, is_supported=True)
         below, lies_on = self._below(body) if self._pairs.of[x] else ({}, ())
         bonds = {y: self._support(body, y, support, lies=y in lies_on) for y, support in below.items()}
         supported = max((bond.weight for bond in bonds.values()), default=0.0)

@@ -7,6 +7,7 @@ computed on first use and kept until one of the two moves.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.enclosure import enclosed
@@ -15,10 +16,17 @@ from scene2hap.contact.geometry.vectors import Floats, Triple
 from scene2hap.contact.lazy import lazy
 from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
-from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over
+from scene2hap.contact.rule import HINGE_PLAY_M, TOUCH_M, fall_reach_m, is_over
 
 NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 """Marks a fall distance that only triangles can give."""
+
+
+class Pivot(NamedTuple):
+    """The pivot by which the body `hung` is held on another: the point half way between the hinge's two points [m]."""
+
+    hung: str
+    point_m: Triple
 
 
 class BodyPair:
@@ -28,9 +36,11 @@ class BodyPair:
         self.a: Body = a
         self.b: Body = b
         self.space: FreeSpace = FreeSpace(*roles(a, b))
-        rest = rest_of(a, b, self.space)
+        self.pivot: Pivot | None = pivot_of(a, b)
         # At least one of the two cannot rest on the other.
-        self.rests: tuple[Rest | None, Rest | None] = (rest, rest_of(b, a, self.space) if rest is None else None)
+        rest = rest_of(a, b, self.space) if self.pivot is None else None
+        other_rest = rest_of(b, a, self.space) if self.pivot is None and rest is None else None
+        self.rests: tuple[Rest | None, Rest | None] = (rest, other_rest)
         self._falls: dict[str, Floats | None] = {}
         self._first_falls_m: dict[str, float] = {}
         self._points: dict[tuple[Triple, float], tuple[Triple, ...]] = {}
@@ -46,6 +56,10 @@ class BodyPair:
     def rest(self, x: str) -> Rest | None:
         """Return how x, one of the two ids, may rest on the other; see `rest_of`."""
         return self.rests[x != self.a.id]
+
+    def may_be_held(self, x: str) -> bool:
+        """Return True if x, one of the two ids, may rest on the other or hangs on it by a hinge."""
+        return self.rest(x) is not None or (self.pivot is not None and self.pivot.hung == x)
 
     def first_fall_m(self, x: str, *, by_each: bool = False) -> float:
         """Return the least of the distances of `falls` [m], inf if there is none.
@@ -85,7 +99,10 @@ class BodyPair:
         return enclosed(self.a, self.b)
 
     def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
-        """Return points half way between the surfaces where they are within `within_m` once a has moved by `way_m`."""
+        """Return points half way between the surfaces where they are within `within_m` once a has moved by `way_m`;
+        of two hinged bodies, their pivot alone."""
+        if self.pivot is not None:
+            return (self.pivot.point_m,)
         key = (way_m, within_m)
         if key not in self._points:
             self._points[key] = tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
@@ -115,6 +132,23 @@ class BodyPairs:
         if body_pair is not None:
             del self.of[y][x]
         return body_pair
+
+
+def are_hinged(x: Body, y: Body) -> bool:
+    """Return True if one of two bodies has a hinge to the other."""
+    return (x.hinge is not None and x.hinge.to == y.id) or (y.hinge is not None and y.hinge.to == x.id)
+
+
+def pivot_of(x: Body, y: Body) -> Pivot | None:
+    """Return the pivot of two bodies, None unless one has a hinge to the other that holds."""
+    if not are_hinged(x, y) or apart_by(x, y, TOUCH_M):
+        return None
+    hung, other = (x, y) if x.hinge is not None and x.hinge.to == y.id else (y, x)
+    hinge = hung.hinge
+    assert hinge is not None
+    (a, b, c), (d, e, f) = here, there = hung.to_world(hinge.point_m), other.to_world(hinge.other_point_m)
+    middle_m = ((a + d) / 2, (b + e) / 2, (c + f) / 2)
+    return Pivot(hung.id, middle_m) if math.dist(here, there) < HINGE_PLAY_M else None
 
 
 def support_normal(x: Body, y: Body) -> Triple:

@@ -11,6 +11,8 @@ held:
 2. *Hanging.* An unsupported object hangs from the nearest larger objects within `hang_reach_m`: a picture from the
    wall, a lamp from the ceiling, a handle from its leaf, a cabinet from the wall and from the cabinet beside it.
 
+An object with a hinge is held there alone: by its pivot, whatever else of the two objects is near.
+
 All weights are smooth in the gaps and depend on the present poses alone.
 """
 
@@ -60,6 +62,9 @@ _HIDDEN_M = 0.002  # A surface this much below another is hidden by it (assumed:
 # lack. It includes 5 mm beside drawers on rails below them, 1-3 mm on wooden runners, and 2-4 mm around leaves and
 # fronts. The smallest drawers on ball-bearing rails have diagonals of 0.4 m; smaller objects have less play.
 _PLAY_M, _PLAY_SIZES = 0.0203, 0.05
+
+HINGE_PLAY_M = 0.01
+"""Distance of a hinge's two points at which it ceases to hold (assumed: engines and exporters give millimetres)."""
 
 SIDE_SHARE = 1 / 6
 """Share of a side that must be within the play: a wooden runner, 30-45 mm high, beside a drawer of up to 0.25 m."""

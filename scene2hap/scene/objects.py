@@ -78,6 +78,34 @@ class Contact:
 
 
 @clear_construction
+@dataclass(frozen=True)
+class Hinge:
+    """A pivot that holds an object on another: a door on its cabinet, a link of a robot on the link before it.
+
+    The two objects are in contact at the pivot, and nowhere else, as long as its two points are less than 1 cm apart.
+
+    Parameters: to : id of the other object; point_m : the pivot in the object's own frame [m]; other_point_m : the same
+        in the other's frame [m].
+    Raises: SceneError: `to` is no id, or a point is not three finite numbers.
+    """
+
+    to: str
+    point_m: tuple[float, float, float]
+    other_point_m: tuple[float, float, float]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, to: str, point_m: Iterable[float], other_point_m: Iterable[float]) -> None: ...
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.to, str) or not self.to:
+            raise SceneError(f"a hinge is to {checks.represented(self.to)}; give the id of the other object.")
+        for name in ("point_m", "other_point_m"):
+            point = checks.vector(name, getattr(self, name), "m", size=3, error=SceneError)
+            object.__setattr__(self, name, point)
+
+
+@clear_construction
 @dataclass(frozen=True, init=False)
 class SceneObject:
     """One object that a user would point at.
@@ -87,7 +115,8 @@ class SceneObject:
     as a mesh of the package trimesh, becomes a TriMesh. `surface` is measured with y up if it is not given;
     `SceneSnapshot.build` measures it for the scene's own up axis. `instance_key` is equal for objects of equal mesh and
     materials. `relative_height_m` is the height of the lowest point above the lowest point of the whole scene.
-    `mass_kg` is the mass from an engine or an author [kg], None if unknown. `material_names` are the authored names of
+    `mass_kg` is the mass from an engine or an author [kg], None if unknown. `hinge` holds the object on another, None
+    if it is loose or its contacts are to be found from geometry alone. `material_names` are the authored names of
     its materials, that of the largest area first; without them, the names in `appearance` count. `appearance` is used
     for these names and for pictures, None if unknown; `images` are the pictures from `capture_images`.
     """
@@ -100,6 +129,7 @@ class SceneObject:
     relative_height_m: float = 0.0
     instance_key: str = ""
     mass_kg: float | None = None
+    hinge: Hinge | None = None
     # Not compared: it may come from the looks, which are not part of a scene's equality.
     material_names: tuple[str, ...] = field(default=(), compare=False, repr=False)
     appearance: InstanceOf[Appearance] | None = field(default=None, compare=False, repr=False)
@@ -120,10 +150,11 @@ class SceneObject:
         appearance: Appearance | None = None,
         images: ObjectImages | None = None,
         material_names: Sequence[str] = (),
+        hinge: Hinge | None = None,
     ) -> None:
         given = {"id": id, "name": id if name is None else name, "pose": pose, "surface": surface}
         given |= {"relative_height_m": relative_height_m, "instance_key": instance_key, "mass_kg": mass_kg}
-        given |= {"appearance": appearance, "images": images, "material_names": material_names}
+        given |= {"appearance": appearance, "images": images, "material_names": material_names, "hinge": hinge}
         for key, value in given.items():
             object.__setattr__(self, key, value)
         if not isinstance(id, str):
@@ -147,6 +178,11 @@ class SceneObject:
         object.__setattr__(self, "relative_height_m", height)
         materials = checks.texts(f"material_names of object {self.id!r}", self.material_names, error=SceneError)
         object.__setattr__(self, "material_names", materials)
+        if self.hinge is not None and (not isinstance(self.hinge, Hinge) or self.hinge.to == self.id):
+            raise SceneError(
+                f"hinge of object {checks.represented(self.id)} is {checks.described(self.hinge)}; it must be a "
+                "Hinge(to, point_m, other_point_m) to another object."
+            )
         if self.mass_kg is not None:
             named = f"mass_kg of object {checks.represented(self.id)}"
             mass = checks.number(named, self.mass_kg, "kg", above=0.0, at_most=limits.MAX_MASS_KG, error=SceneError)

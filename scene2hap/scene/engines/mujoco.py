@@ -14,6 +14,7 @@
    object has the words that the names of all its geoms, or their meshes, begin with (`milk_mesh`; `club` of
    `club_handle` and `club_head`). An upright plane of the world is a `floor`. An unnamed body without any of these is
    called by its id, which has the parent's name.
+5. A body that turns on another has a hinge (`mujoco_joints`).
 
 Poses are the bodies' own (xpos, xquat). Infinite planes are cut to twice the model's extent. Deformable bodies and
 skins are left out. Nothing here steps or changes the simulation.
@@ -41,6 +42,7 @@ from scene2hap.scene.copies import name_words
 from scene2hap.scene.engines import engine
 from scene2hap.scene.engines.mjcf_files import check_files
 from scene2hap.scene.engines.mujoco_geoms import GeomReader, authored_pose, colours_rgba
+from scene2hap.scene.engines.mujoco_joints import hinges
 from scene2hap.scene.grouping.empty_names import says_nothing
 from scene2hap.scene.grouping.groups import Group, group_objects, unique_ids
 from scene2hap.scene.grouping.object_maker import ObjectMaker
@@ -112,6 +114,9 @@ def snapshot(
     if not objects:
         why = "the model has no geoms" if geom_groups is None else f"no geom is in geom_groups {set(geom_groups)}"
         raise SceneError(f"{why}; nothing in it can be touched.")
+    of_body = {item.body: made for item, made in zip(items.all, objects, strict=True) if item.body != _WORLD}
+    held = hinges(model, data, of_body, metres)
+    objects = [replace(made, hinge=held.get(made.id)) for made in objects]
     touching = None if contacts is None else _contacts(model, contact_points(data), items, metres)
     title = name or model.names[: model.names.index(b"\0")].decode("utf-8", "replace") or "mujoco"
     scene = SceneSnapshot(title, "z", with_relative_heights(objects, "z"), touching)
