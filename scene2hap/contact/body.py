@@ -1,4 +1,4 @@
-"""A body: the shape of a scene object at a pose; and guest and host of two bodies.
+"""A body: the shape of a scene object at a pose; the boxes of two bodies, and which is guest and which is host.
 
 Written in plain Python, since it runs often for one body at a time, where numpy's cost per call would dominate.
 """
@@ -96,6 +96,29 @@ class Body:
 def roles(x: Body, y: Body) -> tuple[Body, Body]:
     """Return guest and host, the smaller and the larger body; ids decide between equal sizes."""
     return (x, y) if (x.size_m, y.id) < (y.size_m, x.id) else (y, x)
+
+
+def box_distance_m(x: Body, y: Body) -> float:
+    """Return the largest gap of two AABBs along an axis [m], negative if they overlap: a lower bound of distance."""
+    (a, b, c), (d, e, f), (g, h, i), (j, k, m) = x.low, x.high, y.low, y.high
+    return max(a - j, g - d, b - k, h - e, c - m, i - f)
+
+
+def apart_by(x: Body, y: Body, margin_m: float) -> bool:
+    """Return True if two AABBs are more than `margin_m` apart along some axis."""
+    return box_distance_m(x, y) > margin_m
+
+
+def beside_by(x: Body, y: Body, margin_m: float) -> bool:
+    """Return True if two AABBs are more than `margin_m` apart along a level axis."""
+    v = x.v_axis
+    low, high, other_low, other_high = x.low, x.high, y.low, y.high
+    return (
+        low[0] - other_high[0] > margin_m
+        or other_low[0] - high[0] > margin_m
+        or low[v] - other_high[v] > margin_m
+        or other_low[v] - high[v] > margin_m
+    )
 
 
 def box_in_frame(guest: Body, host: Body) -> tuple[Triple, Triple]:

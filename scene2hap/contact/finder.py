@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Container, Mapping, Sequence
 
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, apart_by, beside_by
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate
 from scene2hap.contact.certificate_issuer import CertificateIssuer
 from scene2hap.contact.holders import Holders
 from scene2hap.contact.junction import Junction, Pair, pair_of
-from scene2hap.contact.pair import BodyPair, BodyPairs, apart_by, beside_by
+from scene2hap.contact.pair import BodyPair, BodyPairs
 from scene2hap.contact.rule import TOUCH_M, margins_m
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose
@@ -64,21 +64,26 @@ class ContactFinder:
         self, placed: list[Body], added: Sequence[Body], gone: Collection[str], found: dict[Pair, Junction | None]
     ) -> None:
         """Find the contacts of `placed` and `added` bodies, and of all bodies that these affect."""
-        bodies, issuer = self._bodies, self._issuer
+        bodies, issuer, hung = self._bodies, self._issuer, self._pairs.hung
         dirty: set[Pair] = set()
         recheck: set[str] = set()
         for x in gone:
             self._remove(x, found, recheck)
         for body in (*placed, *added):
             bodies[body.id] = body
+        for body in added:
+            hung.add(body)
+        moving = {body.id for body in placed}
+        changed = {*moving, *gone, *(body.id for body in added)}
+        placed += [bodies[x] for x in hung.update(changed) if x not in changed]
         for x, others in self._broad_phase.update([*placed, *added]).items():
             for y in others:
                 self._drop_pair(x, y, found, recheck)
         proven = {}
         pending = [*added]
-        moving = {body.id for body in placed}
         for body in placed:
-            junction = self._certify(body, moving, dirty, recheck) if issuer.may_be_issued(body.id) else None
+            is_free = body.id not in hung.on and issuer.may_be_issued(body.id)
+            junction = self._certify(body, moving, dirty, recheck) if is_free else None
             if junction is None:
                 pending.append(body)
             else:
@@ -125,7 +130,7 @@ class ContactFinder:
             return None
         for y in list(self._pairs.of.setdefault(x, {})):
             body_pair = self._pairs.drop(x, y)
-            if _may_be_held(y, body_pair) or (y in self._unsupported and body.size_m > self._bodies[y].size_m):
+            if _may_rest(y, body_pair) or (y in self._unsupported and body.size_m > self._bodies[y].size_m):
                 recheck.add(y)
             dirty.add(pair_of(x, y))
         on, fall_m = (None, 0.0) if resting is None else (resting.support.id, resting.rest.fall_m)
@@ -137,7 +142,7 @@ class ContactFinder:
         body_pair = self._pairs.drop(x, y)
         if body_pair is not None:
             found[body_pair.a.id, body_pair.b.id] = None
-            if _may_be_held(y, body_pair) or y in self._unsupported:
+            if _may_rest(y, body_pair) or y in self._unsupported:
                 recheck.add(y)
 
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
@@ -156,10 +161,10 @@ class ContactFinder:
                 continue
             if y in seen:
                 continue
-            body_pair = BodyPair.of(body, other)
+            body_pair = self._pairs.made(body, other)
             if (
                 body_pair.rests == _NEITHER
-                and body_pair.pivot is None
+                and body_pair.pivot_m is None
                 and (apart_by(body, other, TOUCH_M) or body_pair.space.empty_region is not None)
             ):
                 if self._pairs.drop(x, y) is not None:
@@ -167,7 +172,7 @@ class ContactFinder:
             else:
                 self._pairs.add(body_pair)
                 dirty.add(pair_of(x, y))
-            if may_hang or _may_be_held(y, body_pair) or _may_be_held(y, old):
+            if may_hang or _may_rest(y, body_pair) or _may_rest(y, old):
                 recheck.add(y)
 
     def _update_holders(self, x: str, dirty: set[Pair]) -> bool:
@@ -180,6 +185,6 @@ class ContactFinder:
         return x in self._unsupported and not was_unsupported
 
 
-def _may_be_held(y: str, body_pair: BodyPair | None) -> bool:
-    """Return True if y, one body of a pair, may rest on the other or hangs on it by a hinge."""
-    return body_pair is not None and body_pair.may_be_held(y)
+def _may_rest(y: str, body_pair: BodyPair | None) -> bool:
+    """Return True if y, one body of a pair, may rest on the other."""
+    return body_pair is not None and body_pair.rest(y) is not None

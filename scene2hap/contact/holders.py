@@ -9,13 +9,13 @@ import math
 from collections.abc import Collection, Container, Iterable, Mapping
 from typing import NamedTuple
 
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, apart_by, box_distance_m
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Triple
 from scene2hap.contact.junction import Junction, Pair
 from scene2hap.contact.level import rest_points
 from scene2hap.contact.mesh_distance import Gap
-from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, BodyPairs, apart_by, box_distance_m, support_normal
+from scene2hap.contact.pair import NEEDS_TRIANGLES, BodyPair, BodyPairs, support_normal
 from scene2hap.contact.rule import (
     CLEAR_M,
     TOUCH_M,
@@ -84,12 +84,9 @@ class Holders:
         Returns its present holders and those before.
         """
         body = self._bodies[x]
-        if (
-            body.hinge is not None
-            and (body_pair := self._pairs.of[x].get(body.hinge.to))
-            and body_pair.pivot is not None
-        ):
-            return self._hold(x, {body.hinge.to: Bond(1.0, NO_WAY, None, False, x)}, is_supported=True)
+        pivot_on = self._pairs.hung.on.get(x)
+        if pivot_on is not None:
+            return self._hold(x, {pivot_on: Bond(1.0, NO_WAY, None, False, x)}, is_supported=True)
         below, lies_on = self._below(body) if self._pairs.of[x] else ({}, ())
         bonds = {y: self._support(body, y, support, lies=y in lies_on) for y, support in below.items()}
         supported = max((bond.weight for bond in bonds.values()), default=0.0)
@@ -195,7 +192,7 @@ class Holders:
 
     def _body_pair(self, x: str, y: str) -> BodyPair:
         body_pair = self._pairs.of[x].get(y)
-        return self._pairs.add(BodyPair.of(self._bodies[x], self._bodies[y])) if body_pair is None else body_pair
+        return self._pairs.add(self._pairs.made(self._bodies[x], self._bodies[y])) if body_pair is None else body_pair
 
     def junction(self, pair: Pair) -> Junction | None:
         """Return the junction of a pair, None where it does not touch.

@@ -7,40 +7,37 @@ computed on first use and kept until one of the two moves.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Container
 
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.enclosure import enclosed
 from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.vectors import Floats, Triple
+from scene2hap.contact.hinge import HungBodies, pivot_m
 from scene2hap.contact.lazy import lazy
 from scene2hap.contact.level import Rest, rest_on
 from scene2hap.contact.mesh_distance import Gap, MeshPair
-from scene2hap.contact.rule import HINGE_PLAY_M, TOUCH_M, fall_reach_m, is_over
+from scene2hap.contact.rule import TOUCH_M, fall_reach_m, is_over
 
 NEEDS_TRIANGLES = Rest(math.nan, False, math.nan)
 """Marks a fall distance that only triangles can give."""
 
 
-class Pivot(NamedTuple):
-    """The pivot by which the body `hung` is held on another: the point half way between the hinge's two points [m]."""
-
-    hung: str
-    point_m: Triple
-
-
 class BodyPair:
-    """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id."""
+    """Narrow-phase answers for two posed bodies, computed once and kept until either moves; `a` has the lower id.
 
-    def __init__(self, a: Body, b: Body) -> None:
+    Parameters: hung : the bodies that hang by hinges, which do not rest on others.
+    """
+
+    def __init__(self, a: Body, b: Body, hung: Container[str] = ()) -> None:
         self.a: Body = a
         self.b: Body = b
         self.space: FreeSpace = FreeSpace(*roles(a, b))
-        self.pivot: Pivot | None = pivot_of(a, b)
+        self.pivot_m: Triple | None = pivot_m(a, b)
         # At least one of the two cannot rest on the other.
-        rest = rest_of(a, b, self.space) if self.pivot is None else None
-        other_rest = rest_of(b, a, self.space) if self.pivot is None and rest is None else None
-        self.rests: tuple[Rest | None, Rest | None] = (rest, other_rest)
+        rest = None if a.id in hung or self.pivot_m else rest_of(a, b, self.space)
+        is_held = rest is not None or b.id in hung or self.pivot_m is not None
+        self.rests: tuple[Rest | None, Rest | None] = (rest, None if is_held else rest_of(b, a, self.space))
         self._falls: dict[str, Floats | None] = {}
         self._first_falls_m: dict[str, float] = {}
         self._points: dict[tuple[Triple, float], tuple[Triple, ...]] = {}
@@ -49,17 +46,13 @@ class BodyPair:
         self._gap: Gap | None = None
 
     @classmethod
-    def of(cls, x: Body, y: Body) -> BodyPair:
+    def of(cls, x: Body, y: Body, hung: Container[str]) -> BodyPair:
         """Build the pair of two bodies, given in any order."""
-        return cls(x, y) if x.id < y.id else cls(y, x)
+        return cls(x, y, hung) if x.id < y.id else cls(y, x, hung)
 
     def rest(self, x: str) -> Rest | None:
         """Return how x, one of the two ids, may rest on the other; see `rest_of`."""
         return self.rests[x != self.a.id]
-
-    def may_be_held(self, x: str) -> bool:
-        """Return True if x, one of the two ids, may rest on the other or hangs on it by a hinge."""
-        return self.rest(x) is not None or (self.pivot is not None and self.pivot.hung == x)
 
     def first_fall_m(self, x: str, *, by_each: bool = False) -> float:
         """Return the least of the distances of `falls` [m], inf if there is none.
@@ -101,8 +94,8 @@ class BodyPair:
     def points(self, way_m: Triple, within_m: float) -> tuple[Triple, ...]:
         """Return points half way between the surfaces where they are within `within_m` once a has moved by `way_m`;
         of two hinged bodies, their pivot alone."""
-        if self.pivot is not None:
-            return (self.pivot.point_m,)
+        if self.pivot_m is not None:
+            return (self.pivot_m,)
         key = (way_m, within_m)
         if key not in self._points:
             self._points[key] = tuple([ends.middle_m for ends in self._mesh_pair.patch(way_m, within_m)])
@@ -119,6 +112,11 @@ class BodyPairs:
     def __init__(self) -> None:
         self.bodies: dict[str, Body] = {}
         self.of: dict[str, dict[str, BodyPair]] = {}
+        self.hung: HungBodies = HungBodies(self.bodies)
+
+    def made(self, x: Body, y: Body) -> BodyPair:
+        """Return the pair of two bodies at their present poses, without adding it."""
+        return BodyPair.of(x, y, self.hung.on)
 
     def add(self, body_pair: BodyPair) -> BodyPair:
         """Add a pair, in the place of one of the same bodies. Returns the pair."""
@@ -132,23 +130,6 @@ class BodyPairs:
         if body_pair is not None:
             del self.of[y][x]
         return body_pair
-
-
-def are_hinged(x: Body, y: Body) -> bool:
-    """Return True if one of two bodies has a hinge to the other."""
-    return (x.hinge is not None and x.hinge.to == y.id) or (y.hinge is not None and y.hinge.to == x.id)
-
-
-def pivot_of(x: Body, y: Body) -> Pivot | None:
-    """Return the pivot of two bodies, None unless one has a hinge to the other that holds."""
-    if not are_hinged(x, y) or apart_by(x, y, TOUCH_M):
-        return None
-    hung, other = (x, y) if x.hinge is not None and x.hinge.to == y.id else (y, x)
-    hinge = hung.hinge
-    assert hinge is not None
-    (a, b, c), (d, e, f) = here, there = hung.to_world(hinge.point_m), other.to_world(hinge.other_point_m)
-    middle_m = ((a + d) / 2, (b + e) / 2, (c + f) / 2)
-    return Pivot(hung.id, middle_m) if math.dist(here, there) < HINGE_PLAY_M else None
 
 
 def support_normal(x: Body, y: Body) -> Triple:
@@ -185,26 +166,3 @@ def rest_of(x: Body, y: Body, space: FreeSpace) -> Rest | None:
         if space.guest is not x or rest.fall_m < -TOUCH_M:
             return NEEDS_TRIANGLES
     return rest if rest.fall_m <= reach_m else None
-
-
-def box_distance_m(x: Body, y: Body) -> float:
-    """Return the largest gap of two AABBs along an axis [m], negative if they overlap: a lower bound of distance."""
-    (a, b, c), (d, e, f), (g, h, i), (j, k, m) = x.low, x.high, y.low, y.high
-    return max(a - j, g - d, b - k, h - e, c - m, i - f)
-
-
-def apart_by(x: Body, y: Body, margin_m: float) -> bool:
-    """Return True if two AABBs are more than `margin_m` apart along some axis."""
-    return box_distance_m(x, y) > margin_m
-
-
-def beside_by(x: Body, y: Body, margin_m: float) -> bool:
-    """Return True if two AABBs are more than `margin_m` apart along a level axis."""
-    v = x.v_axis
-    low, high, other_low, other_high = x.low, x.high, y.low, y.high
-    return (
-        low[0] - other_high[0] > margin_m
-        or other_low[0] - high[0] > margin_m
-        or low[v] - other_high[v] > margin_m
-        or other_low[v] - high[v] > margin_m
-    )

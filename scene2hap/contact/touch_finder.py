@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-from scene2hap.contact.body import Body
+from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.holders import NO_WAY, direction
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.mesh_distance import ROUNDING_M, MeshPair
-from scene2hap.contact.pair import apart_by
 from scene2hap.contact.rule import slack_m, weight
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.pose import Pose

@@ -35,7 +35,8 @@ _scene: TypeAdapter[SceneData] = TypeAdapter(SceneData)
 _geometry: TypeAdapter[Geometry] = TypeAdapter(Geometry)
 _SCENE_FIELDS = frozenset({"format", "version", "name", "up_axis", "objects", "contacts", "geometries"})
 _OBJECT_FIELDS = frozenset(
-    {"id", "name", "pose", "geometry", "surface", "relative_height_m", "instance_key", "mass_kg", "material_names"}
+    {"id", "name", "pose", "geometry", "surface", "relative_height_m", "instance_key", "mass_kg", "hinge"}
+    | {"material_names"}
 )
 # Fields that are found from the geometry if a row lacks them.
 _FOUND_FIELDS = ("surface", "relative_height_m", "instance_key")
@@ -85,6 +86,8 @@ def to_document(scene: SceneData) -> dict[str, Any]:
     for item, row in zip(scene.objects, document["objects"], strict=True):
         if names := material_names(item):
             row["material_names"] = list(names)
+        if item.hinge is None:
+            del row["hinge"]
     return document
 
 

@@ -56,6 +56,10 @@ _WORDS = {
     "Contact.normal": "Unit vector from a to b.",
     "Contact.area_m2": "Of the patch that the point stands for [m2].",
     "Contact.weight": "1 touching to 0 gone [-].",
+    "Hinge": "A pivot that holds an object on another: a door on its cabinet, a robot's link on the one before it.",
+    "Hinge.to": "The other object's id.",
+    "Hinge.point_m": "The pivot in the object's own frame [m].",
+    "Hinge.other_point_m": "The pivot in the other object's frame [m].",
     "SceneObject": "One thing that a user would point at.",
     "SceneObject.id": "Unique in the scene, and the same on every export.",
     "SceneObject.name": "What the author called it; inference reads this first.",
@@ -64,6 +68,7 @@ _WORDS = {
     "SceneObject.relative_height_m": "Of the lowest point above the lowest point of the scene [m]. Leave it out to "
     "have it measured.",
     "SceneObject.mass_kg": "What the whole object weighs [kg]; null or missing if nobody knows.",
+    "SceneObject.hinge": "By which it is held on another object, if it turns on one.",
     "SceneObject.material_names": "The authored names of its materials, that of the largest area first. "
     "Inference reads them.",
     "SceneObject.instance_key": "Equal for objects of equal mesh and materials; empty if unknown. "

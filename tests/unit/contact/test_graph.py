@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from collections.abc import Container
 
 import numpy as np
 import pytest
@@ -140,9 +141,9 @@ def test_bodies_at_rest_are_not_searched(monkeypatch: pytest.MonkeyPatch) -> Non
         met.append({a.id, b.id})
         made(self, a, b)
 
-    def tied(self: finder.BodyPair, a: Body, b: Body) -> None:
+    def tied(self: finder.BodyPair, a: Body, b: Body, *hung: Container[str]) -> None:
         met.append({a.id, b.id})
-        paired(self, a, b)
+        paired(self, a, b, *hung)
 
     monkeypatch.setattr(MeshPair, "__init__", watched)
     monkeypatch.setattr(finder.BodyPair, "__init__", tied)

@@ -1,0 +1,59 @@
+"""Hinges: bodies that are held by a pivot on another body, while their hinge's two points meet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+from scene2hap.contact.body import Body, apart_by
+from scene2hap.contact.geometry.vectors import Triple
+from scene2hap.contact.rule import HINGE_PLAY_M, TOUCH_M
+
+
+def are_hinged(x: Body, y: Body) -> bool:
+    """Return True if one of two bodies has a hinge to the other."""
+    return (x.hinge is not None and x.hinge.to == y.id) or (y.hinge is not None and y.hinge.to == x.id)
+
+
+def pivot_m(x: Body, y: Body) -> Triple | None:
+    """Return the point half way between the two points of a hinge of x or y [m]; None without one that holds."""
+    if not are_hinged(x, y) or apart_by(x, y, TOUCH_M):
+        return None
+    body, other = (x, y) if x.hinge is not None and x.hinge.to == y.id else (y, x)
+    hinge = body.hinge
+    assert hinge is not None
+    (a, b, c), (d, e, f) = here, there = body.to_world(hinge.point_m), other.to_world(hinge.other_point_m)
+    return ((a + d) / 2, (b + e) / 2, (c + f) / 2) if math.dist(here, there) < HINGE_PLAY_M else None
+
+
+class HungBodies:
+    """The bodies that hang on others by hinges at their present poses: `on` has the id of the other by their own.
+
+    Parameters: bodies : all bodies, changed by the caller.
+    """
+
+    def __init__(self, bodies: Mapping[str, Body]) -> None:
+        self._bodies = bodies
+        self.on: dict[str, str] = {}
+        # From the id of a body to those of the bodies with hinges to it.
+        self._hinged: dict[str, set[str]] = {}
+
+    def add(self, body: Body) -> None:
+        """Add a body that may have a hinge."""
+        if body.hinge is not None:
+            self._hinged.setdefault(body.hinge.to, set()).add(body.id)
+
+    def update(self, changed: Iterable[str]) -> list[str]:
+        """Look again at bodies that were added, moved or removed. Returns the ids of those that hang now or did."""
+        if not self._hinged:
+            return []
+        affected = set(changed)
+        affected.update(*(self._hinged.get(x, ()) for x in affected))
+        return [x for x in sorted(affected) if self._update(x)]
+
+    def _update(self, x: str) -> bool:
+        body, before = self._bodies.get(x), self.on.pop(x, None)
+        other = None if body is None or body.hinge is None else self._bodies.get(body.hinge.to)
+        if body is not None and other is not None and pivot_m(body, other) is not None:
+            self.on[x] = other.id
+        return (before is None) != (x not in self.on)

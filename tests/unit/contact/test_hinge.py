@@ -1,0 +1,167 @@
+"""Contacts of hinged objects: at the pivot alone, as long as the hinge holds."""
+
+import math
+import random
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from scene2hap import Box, ContactGraph, Hinge, Pose, SceneObject, SceneSnapshot
+from scene2hap.contact.mesh_distance import MeshPair
+from scene2hap.errors import SceneError
+
+PIVOT_M = (0.3, 1.0, 0.2)
+
+
+def cabinet_and_door(angle: float = 0.0, hinge: bool = True) -> list[SceneObject]:
+    """A cabinet of 0.6 x 2 x 0.4 m and its door, which turns about an edge of the front by an angle [rad]."""
+    cabinet = SceneObject("cabinet", pose=Pose((0.0, 1.0, 0.0)), geometry=Box((0.6, 2.0, 0.4)))
+    pose = turned_door(angle)
+    door = SceneObject("door", pose=pose, geometry=Box((0.6, 2.0, 0.02)))
+    at = Hinge("cabinet", (0.3, 0.0, -0.01), (0.3, 0.0, 0.2))
+    floor = SceneObject("floor", pose=Pose((0.0, -0.05, 0.0)), geometry=Box((4.0, 0.1, 4.0)))
+    return [cabinet, replace(door, hinge=at) if hinge else door, floor]
+
+
+def turned_door(angle: float) -> Pose:
+    """The pose of the door, whose inner edge stays at the pivot."""
+    c, s = math.cos(angle), math.sin(angle)
+    x, z = -0.3, 0.01  # from the pivot to the middle of the closed door
+    return Pose((0.3 + c * x + s * z, 1.0, 0.2 - s * x + c * z), (0.0, math.sin(angle / 2), 0.0, math.cos(angle / 2)))
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4, 1.5])
+def test_a_door_touches_its_cabinet_at_the_pivot(angle: float) -> None:
+    graph = ContactGraph(SceneSnapshot.build(cabinet_and_door(angle)))
+    (contact,) = [one for one in graph.contacts if (one.a, one.b) == ("cabinet", "door")]
+    assert contact.point_m == pytest.approx(PIVOT_M, abs=1e-9)
+    assert (contact.weight, contact.normal) == (1.0, None)
+    # The door's lower edge is level with the floor, and the hinge does not hold it up there.
+    assert graph.neighbours("door") == ("cabinet", "floor")
+    assert graph.neighbours("cabinet") == ("door", "floor")
+
+
+def test_a_hinged_object_does_not_stand_on_what_is_below_it() -> None:
+    def held(hinge: bool) -> tuple[str, ...]:
+        cabinet, door, floor = cabinet_and_door(hinge=hinge)
+        raised = [replace(one, pose=Pose(np.add(one.pose.position_m, (0.0, 0.02, 0.0)))) for one in (cabinet, door)]
+        return ContactGraph(SceneSnapshot.build([*raised, floor])).neighbours("door")
+
+    assert held(hinge=False) == ("cabinet", "floor")
+    assert held(hinge=True) == ("cabinet",)
+
+
+def test_a_door_that_was_taken_off_is_loose() -> None:
+    graph = ContactGraph(SceneSnapshot.build(cabinet_and_door()))
+    away = Pose((0.012, 1.0, 0.21))  # both boxes touch, but the points of the hinge are 1.2 cm apart
+    graph.update({"door": Pose((1.0, 1.0, 1.0))})
+    assert graph.neighbours("door") == ("floor",)
+    graph.update({"door": away})
+    assert len([one for one in graph.contacts if (one.a, one.b) == ("cabinet", "door")]) != 1
+    graph.update({"door": turned_door(0.7)})
+    (contact,) = [one for one in graph.contacts if (one.a, one.b) == ("cabinet", "door")]
+    assert contact.point_m == pytest.approx(PIVOT_M, abs=1e-9)
+
+
+def test_a_door_follows_its_cabinet_and_is_loose_without_it() -> None:
+    objects = cabinet_and_door()
+    graph = ContactGraph(SceneSnapshot.build(objects))
+    graph.update({"cabinet": Pose((0.0, 1.0, -1.0))})
+    assert graph.neighbours("door") == ("floor",)
+    graph.update({"cabinet": Pose((0.0, 1.0, 0.0))})
+    assert graph.neighbours("door") == ("cabinet", "floor")
+    graph.update({}, removed=["cabinet"])
+    assert graph.neighbours("door") == ("floor",)
+    graph.update({}, added=[objects[0]])
+    assert graph.patch("cabinet", "door")[0].shape == (1, 3)
+
+
+def test_triangles_of_hinged_objects_are_not_compared(monkeypatch: pytest.MonkeyPatch) -> None:
+    graph = ContactGraph(SceneSnapshot.build(cabinet_and_door()))
+    met: list[set[str]] = []
+    made = MeshPair.__init__
+
+    def watched(self: MeshPair, a: object, b: object) -> None:
+        met.append({a.id, b.id})  # type: ignore[attr-defined]
+        made(self, a, b)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(MeshPair, "__init__", watched)
+    for step in range(1, 20):
+        graph.update({"door": turned_door(0.05 * step)})
+    assert {"cabinet", "door"} not in met
+
+
+def test_walks_of_hinged_chains_equal_graphs_built_anew() -> None:
+    """Links that turn, come off, come back, go and return: the poses alone decide."""
+    for seed in range(12):
+        draw = random.Random(seed)
+        links = [SceneObject("table", pose=Pose((0.0, 0.35, 0.0)), geometry=Box((1.2, 0.7, 0.8)))]
+        before = "table"
+        for number in range(4):
+            size = (draw.uniform(0.04, 0.08), draw.uniform(0.1, 0.3), draw.uniform(0.04, 0.08))
+            low = (0.0, 0.35, 0.0) if before == "table" else (0.0, links[-1].geometry.size_m[1] / 2, 0.0)  # type: ignore[union-attr]
+            hinge = Hinge(before, (0.0, -size[1] / 2 + 0.01, 0.0), low)
+            before = f"link{number}"
+            links.append(SceneObject(before, geometry=Box(size), hinge=hinge))
+        links.append(SceneObject("cup", pose=Pose((0.3, 0.75, 0.0)), geometry=Box((0.08, 0.1, 0.08))))
+        scene = {one.id: one for one in posed(links, draw)}
+        graph = ContactGraph(SceneSnapshot.build(list(scene.values())))
+        out: dict[str, SceneObject] = {}
+        for _ in range(25):
+            kind = draw.random()
+            if kind < 0.15 and not out:
+                gone = draw.choice([x for x in scene if x != "table"])
+                out[gone] = scene.pop(gone)
+                graph.update({}, removed=[gone])
+            elif kind < 0.3 and out:
+                x, item = out.popitem()
+                scene[x] = item
+                graph.update({}, added=[item])
+            elif kind < 0.5:
+                x = draw.choice(list(scene))
+                shift = np.array([draw.uniform(-1, 1) for _ in range(3)]) * draw.choice([0.002, 0.02, 0.3])
+                scene[x] = replace(scene[x], pose=Pose(scene[x].pose.position_m + shift, scene[x].pose.rotation_xyzw))
+                graph.update({x: scene[x].pose})
+            else:
+                moved = {one.id: one for one in posed([{**scene, **out}[one.id] for one in links], draw)}
+                scene = {x: moved[x] for x in scene}
+                out = {x: moved[x] for x in out}
+                graph.update({x: one.pose for x, one in scene.items()})
+            anew = ContactGraph(SceneSnapshot.build(list(scene.values())))
+            assert dict(graph.junctions) == dict(anew.junctions)
+
+
+def posed(links: list[SceneObject], draw: random.Random) -> list[SceneObject]:
+    """Turn each hinged link about its pivot by chance; the others stay."""
+    placed: dict[str, SceneObject] = {}
+    for item in links:
+        if item.hinge is not None:
+            other = placed[item.hinge.to].pose
+            angles = (draw.uniform(-0.8, 0.8), draw.uniform(-3, 3), draw.uniform(-0.8, 0.8))
+            turn = Pose.from_euler((0.0, 0.0, 0.0), angles)
+            at = other.to_world([item.hinge.other_point_m])[0] - turn.to_world([item.hinge.point_m])[0]
+            item = replace(item, pose=Pose(at, turn.rotation_xyzw))
+        placed[item.id] = item
+    return list(placed.values())
+
+
+def test_bad_hinges_are_refused() -> None:
+    for words, make in {
+        "id of the other object": lambda: Hinge("", (0, 0, 0), (0, 0, 0)),
+        "point_m": lambda: Hinge("a", (0, 0), (0, 0, 0)),  # type: ignore[arg-type]
+        "other_point_m": lambda: Hinge("a", (0, 0, 0), (0, float("nan"), 0)),
+        "to another object": lambda: SceneObject("a", geometry=Box((1, 1, 1)), hinge=Hinge("a", (0, 0, 0), (0, 0, 0))),
+        "must be a Hinge": lambda: SceneObject("a", geometry=Box((1, 1, 1)), hinge="b"),  # type: ignore[arg-type]
+    }.items():
+        with pytest.raises(SceneError, match=words):
+            make()
+
+
+def test_a_hinge_survives_json_and_new_poses() -> None:
+    scene = SceneSnapshot.build(cabinet_and_door())
+    again = SceneSnapshot.from_json(scene.to_json())
+    assert again == scene
+    assert again.object("door").hinge == scene.object("door").hinge
+    assert scene.with_poses({"door": turned_door(1.0)}).object("door").hinge is not None
+    assert '"hinge"' not in SceneSnapshot.build(cabinet_and_door(hinge=False)).to_json()

@@ -1,0 +1,101 @@
+"""MuJoCo joints as hinges."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from scene2hap import ContactGraph
+from scene2hap.scene.engines import mujoco as engine
+
+mujoco: Any = pytest.importorskip("mujoco", reason="install the extra mujoco")
+
+# An arm: an upright post; a forearm that turns about the post's head, whose joint is given 0.4 m off along the axis; a
+# hand in a ball joint at the forearm's end; two fingers that slide in the hand; a badge welded to the hand.
+ARM = """
+<mujoco model="arm">
+  <option gravity="0 0 0"/>
+  <worldbody>
+    <body name="post" pos="1 0 0">
+      <geom type="box" size="0.05 0.05 0.5" pos="0 0 0.5" density="1000"/>
+      <body name="forearm" pos="0 0 1">
+        <joint name="elbow" type="hinge" axis="0 1 0" pos="0 0.4 0"/>
+        <geom type="box" size="0.3 0.04 0.04" pos="0.25 0.06 0" density="1000"/>
+        <body name="sleeve" pos="0.55 0 0">
+          <body name="hand" pos="0 0.06 0">
+            <joint name="wrist" type="ball"/>
+            <geom type="box" size="0.05 0.05 0.02" pos="0.05 0 0" density="1000"/>
+            <body name="finger" pos="0.12 0 0">
+              <joint name="grip" type="slide" axis="0 1 0"/>
+              <geom type="box" size="0.03 0.01 0.01"/>
+            </body>
+            <body name="badge" pos="0.05 0 0.025"><geom type="box" size="0.01 0.01 0.004"/></body>
+          </body>
+        </body>
+      </body>
+    </body>
+    <body name="pendulum" pos="0 3 0">
+      <joint type="hinge" axis="0 1 0" pos="0 0 2"/>
+      <geom type="sphere" size="0.1"/>
+      <body name="far" pos="0 0 -1">
+        <joint type="hinge" axis="1 0 0" pos="0 0 0.4"/>
+        <geom type="sphere" size="0.1"/>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def arm(elbow: float = 0.0, wrist: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)) -> tuple[Any, Any]:
+    model = mujoco.MjModel.from_xml_string(ARM)
+    data = mujoco.MjData(model)
+    data.joint("elbow").qpos, data.joint("wrist").qpos = elbow, wrist
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+@pytest.mark.parametrize("elbow", [0.0, 0.7])
+def test_hinges_and_balls_hold_at_their_pivots(elbow: float) -> None:
+    scene = engine.snapshot(*arm(elbow))
+    held = {item.id: item.hinge for item in scene.objects if item.hinge is not None}
+    # Slides are found from geometry, the world holds nothing, and the pivot of `far` is 0.5 m from the sphere above.
+    assert {x: hinge.to for x, hinge in held.items()} == {"forearm": "post", "hand": "forearm"}
+    # Along the axis, both extend from 0.02 to 0.05 m: the post from -0.05 to 0.05, the forearm from 0.02 to 0.1.
+    assert held["forearm"].point_m == pytest.approx((0.0, 0.035, 0.0), abs=1e-9)
+    assert held["forearm"].other_point_m == pytest.approx((0.0, 0.035, 1.0), abs=1e-9)
+    assert held["hand"].point_m == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+    assert held["hand"].other_point_m == pytest.approx((0.55, 0.06, 0.0), abs=1e-9)
+
+
+def test_links_stay_in_contact_however_they_turn() -> None:
+    model, data = arm()
+    graph = ContactGraph(engine.snapshot(model, data))
+    for elbow in np.linspace(0.0, 1.2, 7):
+        data.joint("elbow").qpos, data.joint("wrist").qpos = elbow, (np.cos(elbow), 0.0, 0.0, np.sin(elbow))
+        mujoco.mj_forward(model, data)
+        table = engine.poses(model, data)
+        graph.update(dict(table.items()))
+        (contact,) = [one for one in graph.contacts if {one.a, one.b} == {"post", "forearm"}]
+        assert contact.point_m == pytest.approx((1.0, 0.035, 1.0), abs=1e-9)
+        (contact,) = [one for one in graph.contacts if {one.a, one.b} == {"hand", "forearm"}]
+        end = (1.0 + 0.55 * np.cos(elbow), 0.06, 1.0 - 0.55 * np.sin(elbow))
+        assert contact.point_m == pytest.approx(end, abs=1e-9)
+
+
+def test_contacts_of_the_engine_have_the_pivots_too() -> None:
+    model, data = arm(0.5)
+    scene = engine.snapshot(model, data, contacts="engine")
+    # The engine finds contacts of the forearm with the post, which is fixed to the world, but none of the hand.
+    assert {("forearm", "post"), ("hand", "forearm")} <= {(one.a, one.b) for one in scene.contacts or ()}
+    data.joint("elbow").qpos = 1.0
+    mujoco.mj_forward(model, data)
+    points = {one.a: one.point_m for one in engine.contacts(model, data) if one.normal is None}
+    assert points["forearm"] == pytest.approx((1.0, 0.035, 1.0), abs=1e-9)
+    assert points["hand"] == pytest.approx((1.0 + 0.55 * np.cos(1.0), 0.06, 1.0 - 0.55 * np.sin(1.0)), abs=1e-9)
+
+
+def test_another_unit_scales_the_pivots() -> None:
+    hinge = engine.snapshot(*arm(), unit_m=0.1).object("hand").hinge
+    assert hinge is not None
+    assert hinge.other_point_m == pytest.approx((0.055, 0.006, 0.0), abs=1e-9)
