@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.blas_threads import one_blas_thread
@@ -27,21 +27,13 @@ from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
-from scene2hap.propagation.bands.sampling import AROUND, SPACING
+from scene2hap.propagation.bands.sampling import SPACING
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody, Joint
-from scene2hap.propagation.coupled.hand import Hand, checked_hand
-from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble, checked_law
-from scene2hap.propagation.domain import (
-    THIN_WAVELENGTHS,
-    OutsideDomain,
-    as_frequencies,
-    driven_on_held_edge,
-    floored_loss,
-    off_zero,
-    warn_if_thick,
-)
-from scene2hap.propagation.modes import points_on, receptance_frequencies
+from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble
+from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
+from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 
@@ -61,7 +53,7 @@ class AutoField(CoupledField):
 
 @clear_construction
 @dataclass(frozen=True)
-class AutoFidelity:
+class AutoFidelity(PhysicalModel):
     """Physical model that picks the cheapest of six plate models for each object, within a stated error.
 
     Parameters: tolerance_db : 0.1..6 [dB], allowed error of a band's gain against `ModalPlate`; gains below -40 dB re
@@ -76,14 +68,11 @@ class AutoFidelity:
     outside_domain: OutsideDomain = "warn"
     hand: Hand | None = None
     kind: Literal["auto"] = "auto"
-    least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
-    usual_bands: ClassVar[Bands] = AROUND
     follows_outlines: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         checks.number("tolerance_db", self.tolerance_db, "dB", at_least=0.1, at_most=6.0, error=ConfigError)
-        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
-        object.__setattr__(self, "hand", checked_hand(self.hand))
+        super().__post_init__()
 
     @one_blas_thread
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> AutoField:
@@ -110,45 +99,11 @@ class AutoFidelity:
         rung = self.choose(plate, max_frequency_hz).rung
         return body_of(rung, plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
 
-    @one_blas_thread
-    def plate_transfer(
-        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
-    ) -> NDArray[np.complex128]:
-        """Amplitude at points of one plate over the amplitude at the driven point, by the rung of `choose`.
-
-        Parameters, returns, errors and warnings: see `ModalPlate.plate_transfer`.
-        """
-        f = as_frequencies(frequencies_hz)
-        drive = points_on(plate, drive_m)
-        driven = self._receptance(plate, drive, drive, f)
-        if (np.abs(driven) <= 1e-12 * self._scale(plate, f)).any():
-            raise driven_on_held_edge(plate, drive)
-        ratio: NDArray[np.complex128] = self._receptance(plate, drive, points_on(plate, points_m), f) / driven
-        return ratio
-
-    @one_blas_thread
-    def plate_receptance(
-        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
-    ) -> NDArray[np.complex128]:
-        """Deflection at points over the force at the driven point, by the rung of `choose` [m/N].
-
-        Parameters, returns, errors and warnings: see `ModalPlate.plate_receptance`.
-        """
-        f = receptance_frequencies(plate, frequencies_hz)
-        return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
-
     def _receptance(
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
-        warn_if_thick(plate, f)
         f = off_zero(plate, f)
         return self.elastic_body(plate, float(f.max(initial=1e-9))).receptance(points_m, drive_m, f)[:, :, 0].T
-
-    def _scale(self, plate: Plate, f: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Receptance of the plate without edges [m/N], for waves no longer than the plate."""
-        k = np.maximum(plate.wavenumber_rad_m(f), 1 / max(plate.extent_m))
-        scale: NDArray[np.float64] = 1 / (8 * plate.bending_stiffness_nm * k**2)
-        return scale
 
     def _situation(self, scene: Assembly, object_id: str) -> Situation:
         plate = scene.plates[object_id]
