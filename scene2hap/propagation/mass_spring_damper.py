@@ -77,10 +77,8 @@ class MassSpringDamper(PhysicalModel):
     follows_outlines: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        cells = checks.number("resolution", self.resolution, "cells", at_least=4, at_most=FINEST, error=ConfigError)
-        if cells != int(cells):
-            raise ConfigError(f"resolution is {cells:g} cells; it must be a whole number, as 8.")
-        object.__setattr__(self, "resolution", int(cells))
+        cells = checks.whole("resolution", self.resolution, "cells", at_least=4, at_most=FINEST, error=ConfigError)
+        object.__setattr__(self, "resolution", cells)
         super().__post_init__()
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
@@ -117,7 +115,7 @@ class MassSpringDamper(PhysicalModel):
 
         Their error falls as the fourth power of the cell size; at a resolution of 8 the first six are within 0.4 %.
         """
-        count = int(checks.number("n_modes", n_modes, "-", at_least=1, error=ModelDomainError))
+        count = checks.whole("n_modes", n_modes, "-", at_least=1, at_most=MOST_NODES, error=ModelDomainError)
         return lowest_frequencies_hz(plate, self.resolution, count)
 
     def plate_motion(
