@@ -16,7 +16,8 @@ from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import NORMAL, REVERSED, Along, Joint
 from scene2hap.propagation.coupled.layers import pressed_through
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.propagation.points import as_points
+from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of
 from scene2hap.scene.geometry import dot
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
@@ -133,8 +134,7 @@ def _on_body(
     body: Body | None, pose: Pose | None, points_m: tuple[tuple[float, float, float], ...]
 ) -> tuple[tuple[float, float], ...]:
     """See `ContactNetwork.on_body`. Cached, since most objects stay where they are."""
-    network = ContactNetwork({} if body is None else {"": body}, (), {} if pose is None else {"": pose})
-    return tuple([(x, y) for x, y in network.on_body("", points_m).tolist()])
+    return tuple([(x, y) for x, y in placing_of(body, pose)(as_points(points_m, 3)).tolist()])
 
 
 def _axes(network: ContactNetwork, object_id: str) -> Axes | None:
