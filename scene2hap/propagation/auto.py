@@ -15,6 +15,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
+from operator import add
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -29,7 +31,7 @@ from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
 from scene2hap.propagation.bands.sampling import SPACING
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint
+from scene2hap.propagation.coupled.coupling import ElasticBody
 from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble
 from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
@@ -106,15 +108,11 @@ class AutoFidelity(PhysicalModel):
         return self.elastic_body(plate, float(f.max(initial=1e-9))).receptance(points_m, drive_m, f)[:, :, 0].T
 
     def _situation(self, scene: Assembly, object_id: str) -> Situation:
-        plate = scene.plates[object_id]
+        plate, pushing = scene.plates[object_id], scene.beside[object_id]
         situation = Situation(
             plate, floored_loss(plate, self.loss_floor), scene.top_hz, load_kg=_load_kg(scene, object_id)
         )
         mass_kg = {item.source_id: item.mass_kg for item in scene.excitations}
-        joints = [one for _, several in scene.groups for one in several if object_id in (one.a, one.b)]
-        pushing: dict[str, list[Joint]] = {}
-        for joint in joints:
-            pushing.setdefault(joint.b if joint.a == object_id else joint.a, []).append(joint)
         if not pushing.keys() <= mass_kg.keys():
             return situation  # the motion of an object that is no source is unknown before the scene is solved
         own_hz = [
@@ -124,6 +122,7 @@ class AutoFidelity(PhysicalModel):
             for edge in scene.bands.around_hz(item.frequency_tactile_hz)
         ]
         pushed_by = [(mass_kg[key], several) for key, several in pushing.items()]
+        joints = [joint for several in pushing.values() for joint in several]
         places = [joint.point_a_m if joint.a == object_id else joint.point_b_m for joint in joints]
         peak = peak_level_db(plate, situation.loss_factor, pushed_by, places, scene.bands, own_hz)
         return replace(situation, peak_db=peak)
@@ -139,16 +138,10 @@ def _load_kg(scene: Assembly, object_id: str) -> float:
 
     A rigid body that touches nothing else exerts no more than its own mass, any other no more than its contacts.
     """
-    pulling: dict[str, float] = {}
-    touching: dict[str, set[str]] = {}
-    for _, joints in scene.groups:
-        for joint in joints:
-            touching.setdefault(joint.a, set()).add(joint.b)
-            touching.setdefault(joint.b, set()).add(joint.a)
-            if object_id in (joint.a, joint.b):
-                other = joint.b if joint.a == object_id else joint.a
-                pulling[other] = pulling.get(other, 0.0) + joint.stiffness_n_m / (2 * math.pi * scene.top_hz) ** 2
-    return sum(
-        min(kg, scene.rigid[other].mass_kg) if other in scene.rigid and len(touching[other]) == 1 else kg
-        for other, kg in pulling.items()
-    )
+    loads_kg = []
+    for other, joints in scene.beside[object_id].items():
+        # Not `sum`, which rounds otherwise from Python 3.12 on.
+        kg = reduce(add, (joint.stiffness_n_m / (2 * math.pi * scene.top_hz) ** 2 for joint in joints))
+        is_free = other in scene.rigid and len(scene.beside[other]) == 1
+        loads_kg.append(min(kg, scene.rigid[other].mass_kg) if is_free else kg)
+    return sum(loads_kg)

@@ -15,6 +15,7 @@ import math
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -61,6 +62,16 @@ class Assembly:
     rigid: Mapping[str, RigidMotion]
     plates: Mapping[str, Plate]
     top_hz: float
+
+    @cached_property
+    def beside(self) -> dict[str, dict[str, list[Joint]]]:
+        """Joints of each object, by the object on their other side."""
+        found: dict[str, dict[str, list[Joint]]] = {}
+        for _, joints in self.groups:
+            for joint in joints:
+                for one, other in ((joint.a, joint.b), (joint.b, joint.a)):
+                    found.setdefault(one, {}).setdefault(other, []).append(joint)
+        return found
 
     def solve(self, elastic: Mapping[str, ElasticBody], density: float = 1.0, hand: Hand | None = None) -> CoupledField:
         """Solve the field.
