@@ -145,6 +145,7 @@ class MassSpringDamper(PhysicalModel):
         top = as_frequencies(max_frequency_hz)
         if len(top) != 1:
             raise ModelDomainError(f"max_frequency_hz has {len(top)} values; it must be one number [Hz].")
+        warn_if_thick(plate, top)
         modes = lattice_modes(plate, self._fine_enough(plate, top), float(top[0]))
         lattice, m = modes.lattice, plate.material.density_kg_m3 * plate.thickness_m
         pushed = lattice.interpolation(drive).T.toarray()
@@ -180,12 +181,11 @@ class MassSpringDamper(PhysicalModel):
         return found
 
     def _fine_enough(self, plate: Plate, f: NDArray[np.float64]) -> int:
-        """Resolution for these frequencies; raises an error above `FINEST`, and warns of a plate that is too thick."""
+        """Resolution for these frequencies; raises an error above `FINEST`."""
         top = float(f.max(initial=0.0))
         needed = _needed_resolution(plate, top)
         if needed > FINEST:
             raise ModelDomainError(_too_fine(plate, top, needed))
-        warn_if_thick(plate, f)
         return max(self.resolution, needed)
 
 
