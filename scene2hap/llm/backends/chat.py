@@ -9,11 +9,11 @@ from typing import Any
 
 from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
 from scene2hap.llm.backends.http_errors import failure, server_error
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.finish_reasons import is_cut
 from scene2hap.llm.protocol import LLMRequest
 from scene2hap.llm.quoting import shown
 from scene2hap.llm.refusals import FILTERED_REQUEST, is_filtered, refusal_in
+from scene2hap.web import WebReply
 
 _AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
 
@@ -89,7 +89,7 @@ def about(request: LLMRequest) -> str:
     return f"{request.component} about {shown(request.subject or 'the scene')}"
 
 
-def read_chat(reply: HttpReply, model: str) -> Said:
+def read_chat(reply: WebReply, model: str) -> Said:
     """Read a chat completion. `model` is used if the server does not name one.
 
     Raises: BackendUnavailable: an error status, or an error under status 200. UnusableAnswer: not a chat completion.
@@ -160,7 +160,7 @@ def require_willing(said: Said, about: str) -> None:
         raise RefusedAnswer(message, refusal, **_paid(said))
 
 
-def is_withheld(reply: HttpReply) -> bool:
+def is_withheld(reply: WebReply) -> bool:
     """Return True if a filter kept the question from the model."""
     error = server_error(reply)
     return reply.status == 400 and not FILTERED_REQUEST.isdisjoint({error.code, error.type})
@@ -176,7 +176,7 @@ def _paid(said: Said) -> dict[str, Any]:
     return {"model": said.model, "usage": said.usage, "service_tier": tier, "finish_reason": reason}
 
 
-def json_object(reply: HttpReply) -> dict[str, Any]:
+def json_object(reply: WebReply) -> dict[str, Any]:
     """Return the body of a successful reply.
 
     Raises: BackendUnavailable: an error status, an error under status 200, or no JSON object. Truncated JSON is

@@ -15,12 +15,12 @@ from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
 from scene2hap.llm.backends.http_errors import failure, server_error
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import strict_schema
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.secret import Secret
+from scene2hap.web import WebReply
 
 if TYPE_CHECKING:
     from scene2hap.web import Transport
@@ -185,7 +185,7 @@ class OpenAIBackend:
                 break
         return chat.read_chat(reply, self.model)
 
-    def learns(self, reply: HttpReply, sent: Mapping[str, Any] | None = None) -> bool:
+    def learns(self, reply: WebReply, sent: Mapping[str, Any] | None = None) -> bool:
         """Return True if a reply rejects an optional parameter. From then on this parameter is not sent.
 
         A parameter that is not in `sent` was dropped before, so the result is False.
