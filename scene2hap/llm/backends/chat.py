@@ -9,10 +9,10 @@ from typing import Any
 
 from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
 from scene2hap.llm.backends.http_errors import failure, server_error
-from scene2hap.llm.finish_reasons import is_cut
+from scene2hap.llm.finish_reasons import is_cut, is_filtered, is_whole
 from scene2hap.llm.protocol import LLMRequest
 from scene2hap.llm.quoting import shown
-from scene2hap.llm.refusals import FILTERED_REQUEST, is_filtered, refusal_in
+from scene2hap.llm.refusals import FILTERED_REQUEST, refusal_in
 from scene2hap.web import WebReply
 
 _AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
@@ -143,10 +143,19 @@ def require_whole(said: Said, about: str) -> None:
             "its reasoning.",
             said.content,
         )
-    require_willing(said, about)
+    _require_willing(said, about)
 
 
-def require_willing(said: Said, about: str) -> None:
+def require_answer(said: Said, about: str) -> None:
+    """Reject a message that is no whole answer. Raises: UnusableAnswer: empty, or ended early; RefusedAnswer."""
+    _require_willing(said, about)
+    if not said.content.strip():
+        raise unusable(said, f"{about}: {said.model} answered without content.", said.content)
+    if not is_whole(said.finish_reason):
+        raise unusable(said, f"{about}: the answer ended by {said.finish_reason!r}, not by itself.", said.content)
+
+
+def _require_willing(said: Said, about: str) -> None:
     """Reject a refusal: in its own field, as finish reason, or as the text itself.
 
     Raises: RefusedAnswer.

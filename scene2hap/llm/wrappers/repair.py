@@ -8,8 +8,7 @@ from dataclasses import replace
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError
-from scene2hap.llm.backends.chat import Said, UnusableAnswer, about as describe, require_willing, unusable
-from scene2hap.llm.finish_reasons import is_whole
+from scene2hap.llm.backends.chat import Said, UnusableAnswer, about as describe, require_answer, unusable
 from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.validation import Fault, find_fault
@@ -49,12 +48,7 @@ class RepairBackend(Wrapper):
                 raise
             usage.update(reply.usage)
             said = Said(reply.text, reply.model, reply.finish_reason, dict(usage), service_tier=reply.service_tier)
-            require_willing(said, about)
-            if not reply.text.strip():
-                raise unusable(said, f"{about}: {reply.model} answered without content.", reply.text)
-            if not is_whole(reply.finish_reason):
-                message = f"{about}: the answer ended by {reply.finish_reason!r}, not by itself."
-                raise unusable(said, message, reply.text)
+            require_answer(said, about)
             text = answer_object(reply.text) or reply.text
             fault = find_fault(request.component, text, request.facts)
             if fault is None or (fault.is_minor and left == 0):
