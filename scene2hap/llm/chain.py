@@ -42,12 +42,13 @@ from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.sharing import copies, of_any_scene, reachable
-from scene2hap.llm.size_check import size_without_answer, surface_size
+from scene2hap.llm.size_check import surface_size
 from scene2hap.materials import Material
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.copies import material_names
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.scene.surface import plate_sizes
 
 _Result = TypeVar("_Result")
 
@@ -436,7 +437,7 @@ def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
         object_category="unknown",
         material_category="unknown",
         material=None,
-        estimated_size_m=size_without_answer(item.size_m),
+        estimated_size_m=plate_sizes.with_thickness(item.size_m),
         usage="unknown",
         vibrates=False,
         confidence=0.0,

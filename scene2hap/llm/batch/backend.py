@@ -47,7 +47,7 @@ class BatchBackend:
         self._why: dict[str, str] = {}
         rows = folder.rows()
         self._sent = set(keys_in(rows, "written", "uploaded", "begun"))
-        self._writer: RequestWriter = folder.writer()
+        self._writer = RequestWriter(folder)
         own = keys_in(rows, *get_args(Stage))
         for key, outcome in folder.outcomes():
             if key in own:
