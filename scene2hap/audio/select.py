@@ -20,9 +20,9 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.levels import TACTILE_RANGE_HZ
 from scene2hap.audio.recorded_runs import RecordedRuns, recorded_runs
 from scene2hap.audio.run_curve import RunCurve
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.errors import AudioError
 
 MIN_DURATION_S = 2.5

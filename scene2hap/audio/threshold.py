@@ -13,6 +13,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+TACTILE_RANGE_HZ = (10.0, 1000.0)
+"""Range that touch perceives as vibration, and that the bands cover."""
+
 _A, _B, _E = 50.0, 6.0 / 11.0, 45.0
 
 
