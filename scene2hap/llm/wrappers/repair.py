@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
-from scene2hap.errors import ConfigError
+from scene2hap.errors import BadAnswer, ConfigError
 from scene2hap.llm.backends.chat import Said, UnusableAnswer, about as describe, require_answer, unusable
 from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
@@ -36,19 +36,15 @@ class RepairBackend(Wrapper):
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return a valid answer. Raises: BadAnswer: none came, with the last raw text; errors of the inner backend."""
         self._calls += 1
-        about = describe(request)
         question, usage, left = request, Counter[str](), self._repairs
         usable: LLMReply | None = None  # an answer with a minor fault, kept in case its repair fails
         while True:
             try:
-                reply = await self.inner.complete(question)
-            except UnusableAnswer as problem:
-                usage.update(problem.usage)
-                problem.usage = dict(usage)
-                raise
-            usage.update(reply.usage)
-            said = Said(reply.text, reply.model, reply.finish_reason, dict(usage), service_tier=reply.service_tier)
-            require_answer(said, about)
+                reply = await self._whole(question, usage)
+            except BadAnswer:
+                if usable is None:
+                    raise
+                return replace(usable, usage=dict(usage))
             text = answer_object(reply.text) or reply.text
             fault = find_fault(request.component, text, request.facts)
             if fault is None or (fault.is_minor and left == 0):
@@ -59,15 +55,31 @@ class RepairBackend(Wrapper):
                 usable = replace(reply, text=text)
             elif left == 0:
                 self._given_up += 1
-                message = f"{about}: still wrong after {self._repairs} repairs: {fault.reason}."
-                raise unusable(said, message, reply.text)
+                message = f"{describe(request)}: still wrong after {self._repairs} repairs: {fault.reason}."
+                raise unusable(_said(reply, usage), message, reply.text)
             left -= 1
             self._n_repairs += 1
             question = _repair(request, text, fault)
 
+    async def _whole(self, question: LLMRequest, usage: Counter[str]) -> LLMReply:
+        """Return an answer that is whole. Adds its tokens to `usage`; an error for an answer states their sum."""
+        try:
+            reply = await self.inner.complete(question)
+        except UnusableAnswer as problem:
+            usage.update(problem.usage)
+            problem.usage = dict(usage)
+            raise
+        usage.update(reply.usage)
+        require_answer(_said(reply, usage), describe(question))
+        return reply
+
     def report(self) -> dict[str, int]:
         """Return counts: calls, repairs, and calls that failed after all repairs."""
         return {"calls": self._calls, "repairs": self._n_repairs, "given_up": self._given_up}
+
+
+def _said(reply: LLMReply, usage: Counter[str]) -> Said:
+    return Said(reply.text, reply.model, reply.finish_reason, dict(usage), service_tier=reply.service_tier)
 
 
 def _repair(request: LLMRequest, text: str, fault: Fault) -> LLMRequest:
