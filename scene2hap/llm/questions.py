@@ -167,7 +167,7 @@ def _is_about_one_question(problem: Exception) -> bool:
 
 def _validated(reply: LLMReply, shape: type[AnswerType], about: str) -> AnswerType:
     """Return the answer in a reply. Raises: BadAnswer, AnswerRefused: see `Questions.ask`."""
-    chat.require_answer(chat.Said(reply.text, reply.model, reply.finish_reason), about)
+    chat.require_answer(reply, about)
     try:
         return read_answer(shape, answer_object(reply.text) or reply.text)
     except ValidationError as cause:

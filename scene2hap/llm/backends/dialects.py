@@ -127,7 +127,7 @@ class OllamaChat:
             raise BadAnswer(f"{reply.url} sent no chat message. Check base_url and the dialect.", reply.text)
         renamed = {"prompt_tokens": body.get("prompt_eval_count"), "completion_tokens": body.get("eval_count")}
         return chat.Said(
-            content=chat.text_of(message.get("content")),
+            text=chat.text_of(message.get("content")),
             model=chat.text_of(body.get("model")) or model,
             finish_reason=chat.text_of(body.get("done_reason")) or "stop",
             usage=chat.counts(renamed),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from scene2hap.llm.backends import chat
-from scene2hap.llm.protocol import LLMRequest
+from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.scene.scene_warning import warn_of
 
 CHARACTERS_PER_TOKEN = 4.0
@@ -71,7 +71,7 @@ class LostImages:
     def __init__(self) -> None:
         self._warned = False
 
-    def look(self, request: LLMRequest, said: chat.Said) -> None:
+    def look(self, request: LLMRequest, said: LLMReply) -> None:
         """Compare the reported tokens of one request with the expected number. Warns: BackendWarning."""
         expected = len(request.prompt) / CHARACTERS_PER_TOKEN + _LEAST_PER_IMAGE * len(request.images)
         read = said.usage.get("prompt_tokens")
@@ -93,7 +93,7 @@ class ImagesAsText:
         self._most_per_image = MOST_PER_IMAGE[detail]
         self._warned = False
 
-    def look(self, request: LLMRequest, said: chat.Said) -> None:
+    def look(self, request: LLMRequest, said: LLMReply) -> None:
         """Compare the reported tokens of one request with the expected number. Warns: BackendWarning."""
         text = (len(request.prompt) + len(str(request.answer_schema))) / CHARACTERS_PER_TOKEN
         most = _FAR_ABOVE * text + self._most_per_image * len(request.images)

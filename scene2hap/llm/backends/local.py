@@ -128,7 +128,7 @@ class LocalBackend:
         said = await self._ask(request)
         self._lost_images.look(request, said)
         chat.require_whole(said, chat.about(request))
-        text = first_object(said.content) or said.content or first_object(said.thoughts)
+        text = first_object(said.text) or said.text or first_object(said.thoughts)
         if not text:
             message = f"{chat.about(request)}: {said.model} answered without content. Switch off its reasoning."
             raise chat.unusable(said, message, said.thoughts)

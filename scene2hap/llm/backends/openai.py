@@ -150,9 +150,9 @@ class OpenAIBackend:
         """Return the reply for a chat completion. Raises: BadAnswer: as `complete`."""
         self._images_as_text.look(request, said)
         chat.require_whole(said, chat.about(request))
-        if not said.content:
+        if not said.text:
             raise chat.unusable(said, f"{chat.about(request)}: {said.model} answered without content.", "")
-        return LLMReply(said.content, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
+        return LLMReply(said.text, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
 
     def report(self) -> dict[str, int]:
         """Count the requests repeated without the requested tier because it had no capacity."""

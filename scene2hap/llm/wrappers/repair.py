@@ -8,7 +8,7 @@ from dataclasses import replace
 from scene2hap import checks
 from scene2hap.calls import clear_construction
 from scene2hap.errors import BadAnswer, ConfigError
-from scene2hap.llm.backends.chat import Said, UnusableAnswer, about as describe, require_answer, unusable
+from scene2hap.llm.backends.chat import UnusableAnswer, about as describe, require_answer, unusable
 from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.validation import Fault, find_fault
@@ -56,7 +56,7 @@ class RepairBackend(Wrapper):
             elif left == 0:
                 self._given_up += 1
                 message = f"{describe(request)}: still wrong after {self._repairs} repairs: {fault.reason}."
-                raise unusable(_said(reply, usage), message, reply.text)
+                raise unusable(replace(reply, usage=dict(usage)), message, reply.text)
             left -= 1
             self._n_repairs += 1
             question = _repair(request, text, fault)
@@ -70,16 +70,12 @@ class RepairBackend(Wrapper):
             problem.usage = dict(usage)
             raise
         usage.update(reply.usage)
-        require_answer(_said(reply, usage), describe(question))
+        require_answer(replace(reply, usage=dict(usage)), describe(question))
         return reply
 
     def report(self) -> dict[str, int]:
         """Return counts: calls, repairs, and calls that failed after all repairs."""
         return {"calls": self._calls, "repairs": self._n_repairs, "given_up": self._given_up}
-
-
-def _said(reply: LLMReply, usage: Counter[str]) -> Said:
-    return Said(reply.text, reply.model, reply.finish_reason, dict(usage), service_tier=reply.service_tier)
 
 
 def _repair(request: LLMRequest, text: str, fault: Fault) -> LLMRequest:
