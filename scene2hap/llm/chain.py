@@ -184,7 +184,7 @@ class _Chain:
             nonlocal done
             analysis = await self._analyse(item)
             if self._settings.inference == "eager":
-                await self._material(analysis.answer.material_category)
+                await self._materials[_word(analysis.answer.material_category)]
             done += len(firsts[item.id])
             tell(item.id, done, len(wanted))
             return analysis
@@ -268,9 +268,6 @@ class _Chain:
         else:
             self._materials[word] = asyncio.ensure_future(self._estimate(word))
         return self._materials[word]
-
-    async def _material(self, category: str) -> Estimate:
-        return await self._materials[_word(category)]
 
     async def _estimate(self, word: str) -> Estimate:
         if is_unknown(word):

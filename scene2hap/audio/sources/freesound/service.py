@@ -21,8 +21,7 @@ RESULTS_ASKED = 15
 MAX_ANSWER_BYTES = 2_000_000
 MAX_PREVIEW_BYTES = 20_000_000
 
-_RETRIES = 2
-_FIRST_WAIT_S = 0.5
+_WAITS_S = (0.5, 1.0)
 _REST_S = 120.0
 """Pause after a failure of the service [s] (assumed)."""
 _LONGEST_WAIT_S = 120.0
@@ -93,17 +92,17 @@ class Service:
 
     def _ask(self, params: dict[str, str]) -> web.WebReply:
         """Send a search, and repeat it up to twice if that can help."""
-        for attempt in range(_RETRIES + 1):
+        for wait_s in _WAITS_S:
             try:
                 return self._ask_once(params)
             except BackendUnavailable as failure:
-                if attempt == _RETRIES or not failure.retryable:
+                if not failure.retryable:
                     raise
                 if failure.retry_after_s is None:
-                    self.sleep(_FIRST_WAIT_S * 2**attempt)
+                    self.sleep(wait_s)
                 else:
                     self._rate.block(failure.retry_after_s)
-        raise AssertionError("unreachable")
+        return self._ask_once(params)
 
     def _ask_once(self, params: dict[str, str]) -> web.WebReply:
         self._rate.take()
