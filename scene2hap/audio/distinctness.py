@@ -18,7 +18,7 @@ from itertools import combinations
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.audio.levels import felt_level_db, felt_spectrum
@@ -116,7 +116,7 @@ def rhythm_hz(samples: ArrayLike, sample_rate_hz: float) -> float | None:
     return _envelope_rate_hz(np.asarray(samples, dtype=np.float64), sample_rate_hz, _SURE_DEPTH)
 
 
-def _envelope_rate_hz(x: np.ndarray, sample_rate_hz: float, least_depth: float) -> float | None:
+def _envelope_rate_hz(x: NDArray[np.float64], sample_rate_hz: float, least_depth: float) -> float | None:
     """Return the strongest rate in the Hilbert envelope of a loop [Hz], None if the envelope hardly varies."""
     envelope = np.abs(scipy.signal.hilbert(x - x.mean()))
     rates = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
