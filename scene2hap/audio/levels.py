@@ -40,9 +40,6 @@ LEFT_PEAK_DB = -40.0
 """Peak of a vibration relative to its sound [dB]. If it is below this, and below `FAINTEST_PEAK_DB`, the converter has
 left only the noise of the recording (assumed)."""
 
-NOTICED_DB = 3.0
-"""About the least difference of level that is felt [dB]: smaller errors and changes of level do not matter."""
-
 NOTHING_DB = -120.0
 """Level below which there are only rounding errors [dB]."""
 

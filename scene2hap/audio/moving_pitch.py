@@ -2,7 +2,7 @@
 
 An engine that revs from 40 to 160 Hz leaves any band that is narrow enough for a hum. The levels of the sound and of a
 band of it are taken over half a second. The range of a level is that from its 5th to its 95th percentile. If the range
-of the band exceeds that of the sound by a difference that is felt (`levels.NOTICED_DB`), and the sound has lines, the
+of the band exceeds that of the sound by a felt difference (`threshold.NOTICED_DB`), and the sound has lines, the
 band must hold the strongest line at all times. With a and b the 5th and the 95th percentile of the line's frequency, in
 stretches of half a second:
 

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from scene2hap.audio.anchor import FAINTEST_DB, HIGHEST_PEAK_DB, RANGE_HZ, rendered_hz
 from scene2hap.audio.components import magnitudes, peaks
-from scene2hap.audio.levels import NOTICED_DB, drive_db
+from scene2hap.audio.levels import drive_db
+from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.haptics import ActuatorProfile
 
 LOST_DB = 12.0
