@@ -12,10 +12,10 @@ from typing import Literal
 
 import numpy as np
 import soundfile
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
-from scene2hap.audio.clip import AudioClip, Credit
+from scene2hap.audio.clip import AudioClip, Credit, Samples
 from scene2hap.errors import AudioError, reason_of
 from scene2hap.text_files import draft_of
 
@@ -45,8 +45,6 @@ CANCELLED = 0.1
 
 _BLOCK_FRAMES = 1 << 18
 
-Float64s = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
-
 _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
 
 
@@ -67,7 +65,7 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
                 f"{path} lasts {file.frames / rate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
                 "Cut out the part you want."
             )
-        blocks: list[np.ndarray[tuple[int, ...], np.dtype[np.float32]]] = []
+        blocks: list[Samples] = []
         n_read, mixdown = 0, Mixdown()
         while len(block := file.read(_BLOCK_FRAMES, dtype="float32", always_2d=True)):
             require_finite(path, block, n_read)
@@ -96,12 +94,12 @@ class Mixdown:
 
     def __init__(self) -> None:
         self._n = 0
-        self._sums: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = np.zeros((2, 1))  # of samples and squares
+        self._sums: NDArray[np.float64] = np.zeros((2, 1))  # of samples and squares
 
-    def mean(self, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]]) -> Float64s:
+    def mean(self, channels: Samples) -> NDArray[np.float64]:
         """Return the mean of samples (n, n_channels), as (n,)."""
         rows = np.ascontiguousarray(channels.T, dtype=np.float64)  # sums along rows are several times as fast
-        mean: Float64s = rows.mean(axis=0)
+        mean: NDArray[np.float64] = rows.mean(axis=0)
         if len(rows) > 1:
             everything = [*rows, mean]
             self._sums = self._sums + np.array([[row.sum() for row in everything], [row @ row for row in everything]])
@@ -156,7 +154,7 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
         ) from cause
 
 
-def require_finite(path: Path, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]], start: int = 0) -> None:
+def require_finite(path: Path, channels: Samples, start: int = 0) -> None:
     """Check samples (n, channels) that begin at `start` in the file.
 
     Raises: AudioError: one of them is not finite, or exceeds `MAX_SAMPLE`.
@@ -251,14 +249,14 @@ def sound_digest(clip: AudioClip) -> str:
     return hashlib.sha256(f"{clip.sample_rate_hz} Hz ".encode() + samples.astype("<i4").tobytes()).hexdigest()[:32]
 
 
-def _steps(samples: ArrayLike, bits: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
+def _steps(samples: ArrayLike, bits: int) -> NDArray[np.int64]:
     """Return samples in integer steps of 2^-(bits-1); +1 loses one step."""
     full_scale = 2.0 ** (bits - 1)
     steps = np.rint(np.asarray(samples, dtype=np.float64) * full_scale)
     return np.asarray(np.minimum(steps, full_scale - 1), dtype=np.int64)
 
 
-def _quantised(path: Path, samples: ArrayLike, bits: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
+def _quantised(path: Path, samples: ArrayLike, bits: int) -> NDArray[np.int32]:
     """Return integers of `bits` bits in the upper bits of int32, where the encoder reads them."""
     values = np.asarray(samples, dtype=np.float64)
     if values.ndim not in (1, 2) or values.size == 0:

@@ -25,7 +25,7 @@ from scene2hap.audio.actuators import actuator_profile, is_flat
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
-from scene2hap.audio.conversion.meter import Meter
+from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.files import MAX_SAMPLE, Mixdown, opened_sound, require_finite, written_whole
 from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.levels import NOTHING_DB, TACTILE_HEADROOM_DB, is_noise, sensation_level_db
@@ -42,9 +42,6 @@ from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.scene.scene_warning import warn_of
-
-Block = NDArray[np.float32]
-"""Samples (n, channels)."""
 
 FORMATS = {
     ".wav": ("WAV", "PCM_24"),

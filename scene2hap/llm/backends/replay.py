@@ -177,10 +177,10 @@ def _entries(path: Path, content: bytes) -> Iterator[_Entry]:
         try:
             yield _Entry.model_validate_json(line)
         except ValidationError as cause:
-            problem = cause.errors()[0]
-            place = ".".join(str(part) for part in problem["loc"]) or "(whole line)"
+            problem = checks.first_problem(cause)
             raise BadAnswer(
-                f"{path}, line {number}: {place}: {problem['msg']}. Remove the line and record it again.",
+                f"{path}, line {number}: {problem.place or '(whole line)'}: {problem.reason}. Remove the line and "
+                "record it again.",
                 line.decode("utf-8", "replace"),
             ) from cause
 

@@ -137,10 +137,6 @@ class BatchFolder:
 
     # -- requests -----------------------------------------------------------------------------------------------------
 
-    def writer(self) -> RequestWriter:
-        """Return a writer that adds new requests in new rows."""
-        return RequestWriter(self)
-
     def discard_unfinished(self) -> None:
         """Remove files of requests without a row: their run ended before the files were complete."""
         known = {self.input_path(row) for row in self.rows()}
