@@ -2,7 +2,7 @@
 
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.differences import Difference, differences
-from scene2hap.bundle.folder import read_overrides, write_bundle
+from scene2hap.bundle.folder import read_overrides, write_both
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.made_with import MadeWith
@@ -20,5 +20,5 @@ __all__ = [
     "read_overrides",
     "require_replaceable",
     "save_stamp",
-    "write_bundle",
+    "write_both",
 ]

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from scene2hap.audio.clip import AudioClip, Credit
-from scene2hap.audio.files import fits_flac, read_clip, sound_digest, write_flac, write_wav
+from scene2hap.audio.files import encoded, fits_flac, read_clip, sound_digest
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.bundle.contents import BundleContents
@@ -25,8 +25,8 @@ _KINDS = ("audible", "tactile", "source")
 _RUNS = ("start_up", "wind_down")
 
 
-def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, dict[str, Any]]:
-    """Write the sounds of all loops below `folder`; add their names to `written`. Returns the rows of loops.json."""
+def write_loops(bundle: BundleContents, put: Callable[[str, bytes], None]) -> dict[str, dict[str, Any]]:
+    """Write the sounds of all loops; `put` writes a file, by its name and content. Returns the rows of loops.json."""
     digests: dict[int, str] = {}
     users: dict[tuple[str, str], list[str]] = {}
     for stem, loop in _stems(bundle):
@@ -42,8 +42,7 @@ def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dic
             for kind, clip in _clips(loop).items():
                 key = kind, digests[id(clip)]
                 if key not in names:
-                    names[key] = _write(folder, users[key], kind, clip)
-                    written.append(names[key])
+                    names[key] = _write(put, users[key], kind, clip)
                 row[kind] = names[key]
             row["frequency_raw_hz"] = loop.frequency_raw_hz
             row["frequency_tactile_hz"] = loop.frequency_tactile_hz
@@ -114,13 +113,13 @@ def _clips(loop: HapticLoop) -> dict[str, AudioClip]:
     return {kind: clip for kind in _KINDS if (clip := getattr(loop, kind)) is not None}
 
 
-def _write(folder: Path, stems: list[str], kind: str, clip: AudioClip) -> str:
+def _write(put: Callable[[str, bytes], None], stems: list[str], kind: str, clip: AudioClip) -> str:
     shared = f"{stems[0]}+{len(stems) - 1}" if len(stems) > 1 else stems[0]  # no stem holds a plus sign
     # Loops are WAV, since people edit them. The longer source sounds are only kept, so they are compressed.
     if kind == "source" and fits_flac(clip.sample_rate_hz):
         name = f"sounds/{shared}.{kind}.flac"
-        write_flac(folder / name, clip.samples, clip.sample_rate_hz)
+        put(name, encoded(clip.samples, clip.sample_rate_hz, container="FLAC", path=Path(name)))
     else:
         name = f"sounds/{shared}.{kind}.wav"
-        write_wav(folder / name, clip.samples, clip.sample_rate_hz)
+        put(name, encoded(clip.samples, clip.sample_rate_hz, path=Path(name)))
     return name

@@ -26,9 +26,10 @@ from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.counted import counted
-from scene2hap.errors import SceneError
+from scene2hap.errors import SceneError, unwritable
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.text_files import write_whole
 
 HELP = "show tables of a scene or a bundle"
 
@@ -72,9 +73,9 @@ def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list
     def put(name: str, png: bytes) -> None:
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_bytes(png)
+            write_whole(folder / name, png)
         except OSError as cause:
-            raise SceneError(f"{folder / name} cannot be written: {cause.strerror}. Choose another folder.") from cause
+            raise SceneError(unwritable(folder / name, cause)) from cause
         written.append(str(folder / name))
 
     with console.progress() as tell:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import uuid
 from collections.abc import Hashable
 from pathlib import Path
 
@@ -16,6 +15,7 @@ from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError, reason_of
+from scene2hap.text_files import draft_path
 
 
 @clear_calls
@@ -56,7 +56,7 @@ class WavSink(Pulled):
             "each a file of its own.",
         )
         # Another program may write a file of the same name; each writes a draft of its own, and the last one stays.
-        self._draft = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
+        self._draft = draft_path(self.path)
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self._file = soundfile.SoundFile(
@@ -66,7 +66,10 @@ class WavSink(Pulled):
             give_back(self._key, self)
             with contextlib.suppress(OSError):
                 self._draft.unlink()  # on a full disk it exists, and is empty
-            raise DeviceError(f"{self.path} cannot be written: {reason_of(cause).rstrip('.')}.") from cause
+            raise DeviceError(
+                f"{self.path} cannot be written: {reason_of(cause).rstrip('.')}. Choose a folder that is yours and has "
+                "room."
+            ) from cause
 
     def start(self, fill: Fill) -> None:
         """Set `fill` as the source of blocks."""

@@ -22,7 +22,7 @@ from scene2hap.calls import clear_call
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.devices.memory import MemorySink
-from scene2hap.errors import ConfigError, ExportError
+from scene2hap.errors import ConfigError, ExportError, unwritable
 from scene2hap.export.fidelity import fidelity
 from scene2hap.export.manifest import NAME, manifest_of
 from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
@@ -187,4 +187,4 @@ def _put(folder: Path, name: str, content: bytes) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         write_whole(path, content)
     except OSError as cause:
-        raise ExportError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause
+        raise ExportError(unwritable(path, cause)) from cause

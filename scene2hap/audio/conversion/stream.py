@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Collection, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -153,7 +153,12 @@ def convert(
                 blocks = _at_level(blocks, felt, context, held.enter_context(TemporaryFile(dir=output.parent)))
             for block in blocks:
                 felt.hear_after(block)
-                target.write(_steps(block, is_beyond=felt.after.peak >= _NEARLY_FULL))
+                with _writing(output):
+                    target.write(_steps(block, is_beyond=felt.after.peak >= _NEARLY_FULL))
+            with _writing(output):
+                target.close()
+                if soundfile.info(beside).frames != felt.after.n_frames:  # libsndfile ignores a failure at the end
+                    raise soundfile.SoundFileRuntimeError("the file is cut short")
         if drawn is not None:
             from scene2hap.audio.conversion.picture import draw_conversion
 
@@ -392,7 +397,18 @@ def _opened_for_writing(output: Path, beside: Path, felt: _Running) -> soundfile
     except (soundfile.SoundFileError, ValueError) as cause:
         raise AudioError(
             f"{output}: cannot be written as {container} of {felt.channels} channels at {felt.rate} Hz ({cause}). "
-            "Choose a folder that exists and is yours, or WAV."
+            "Choose a folder that exists, is yours and has room, or WAV."
+        ) from cause
+
+
+@contextmanager
+def _writing(output: Path) -> Iterator[None]:
+    """Raises: AudioError: libsndfile cannot write, else `opened_sound` would take it for a fault of the sound read."""
+    try:
+        yield
+    except soundfile.SoundFileError as cause:
+        raise AudioError(
+            f"{output} cannot be written ({cause}). Make room on its disk, or choose another folder."
         ) from cause
 
 

@@ -21,7 +21,7 @@ from scene2hap.audio.analysis import trim_silence
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.select import MIN_DURATION_S
-from scene2hap.errors import AudioError, ConfigError, reason_of
+from scene2hap.errors import AudioError, ConfigError, reason_of, unwritable
 from scene2hap.text_files import draft_of, read_small
 
 MAX_CLIP_S = 60.0
@@ -112,6 +112,5 @@ class Store:
             with draft_of(target) as draft:
                 yield draft
         except OSError as cause:
-            raise ConfigError(
-                f"cannot write the cache {self.folder}: {cause.strerror or cause}. Set `cache` to a folder of yours."
-            ) from cause
+            hint = "Set `cache` to a folder of yours."
+            raise ConfigError(unwritable(f"the cache {self.folder}", cause, hint)) from cause
