@@ -36,7 +36,7 @@ from scene2hap.bundle.folder_replacement import recover, replaced
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, require_folder
 from scene2hap.bundle.override import Override
-from scene2hap.bundle.sounds import SoundReader, file_stem, write_loops
+from scene2hap.bundle.sounds import SoundReader, file_stems, write_loops
 from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, unwritable
 from scene2hap.file_stamp import Stamp
 from scene2hap.haptics import ObjectHaptics
@@ -228,12 +228,13 @@ def _read_scene(folder: Path) -> SceneSnapshot:
 
 def _override_rows(bundle: BundleContents, put: Callable[[str, bytes], None]) -> dict[str, Any]:
     rows: dict[str, Any] = {}
+    stems = file_stems(bundle.overrides)
     for object_id, wish in bundle.overrides.items():
         row = rows[object_id] = wish.corrections()
         for name in {"material", "feet"} & row.keys():
             row[name] = asdict(row[name])
         if wish.clip is not None:
-            name = f"sounds/{file_stem(object_id)}.override.wav"
+            name = f"sounds/{stems[object_id]}.override.wav"
             put(name, encoded(wish.clip.samples, wish.clip.sample_rate_hz, path=Path(name)))
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
             if wish.clip.is_vibration:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,8 @@ from scene2hap.bundle.files import own_file
 
 _KINDS = ("audible", "tactile", "source")
 _RUNS = ("start_up", "wind_down")
+_RESERVED = re.compile("con|prn|aux|nul|com[0-9]|lpt[0-9]", re.IGNORECASE)
+"""Names that no file of Windows can have, also before a suffix."""
 
 
 def write_loops(bundle: BundleContents, put: Callable[[str, bytes], None]) -> dict[str, dict[str, Any]]:
@@ -94,7 +97,17 @@ class SoundReader:
 def file_stem(text: str) -> str:
     """Return a file name for any id. Ids with equal plain letters get different short digests."""
     plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
-    return plain if plain == text else f"{plain or 'x'}-{_digest(text)}"
+    return plain if plain == text and not _RESERVED.fullmatch(plain) else f"{plain or 'x'}-{_digest(text)}"
+
+
+def file_stems(texts: Iterable[str]) -> dict[str, str]:
+    """Return a file name for each of several ids.
+
+    Ids that differ in case only get digests, since Windows and macOS take such names for one.
+    """
+    stems = {text: file_stem(text) for text in texts}
+    alike = Counter(stem.casefold() for stem in stems.values())
+    return {text: stem if alike[stem.casefold()] == 1 else f"{stem}-{_digest(text)}" for text, stem in stems.items()}
 
 
 def _digest(text: str) -> str:
@@ -102,10 +115,11 @@ def _digest(text: str) -> str:
 
 
 def _stems(bundle: BundleContents) -> list[tuple[str, HapticLoop]]:
+    objects = file_stems(bundle.loops)
     return [
-        (f"{file_stem(object_id)}.{file_stem(state)}", loop)
+        (f"{objects[object_id]}.{stem}", states[state])
         for object_id, states in bundle.loops.items()
-        for state, loop in states.items()
+        for state, stem in file_stems(states).items()
     ]
 
 

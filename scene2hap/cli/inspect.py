@@ -21,7 +21,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from scene2hap.bundle import HapticBundle, file_stem
+from scene2hap.bundle import HapticBundle, file_stems
 from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
@@ -81,7 +81,8 @@ def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list
     with console.progress() as tell:
         render_all(pictured, workers=os.cpu_count(), progress=lambda done, total: tell("pictures", "", done, total))
     put("plan.png", plan_view(pictured))
+    stems = file_stems(item.id for item in pictured.objects)
     for item in pictured.objects:
-        put(f"{file_stem(item.id)}.png", contact_sheet(item))
+        put(f"{stems[item.id]}.png", contact_sheet(item))
     console.say(f"wrote {counted(len(written), 'picture')} to {folder}")
     return written
