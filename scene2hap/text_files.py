@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import stat
@@ -16,6 +17,11 @@ MAX_BYTES = 1 << 24
 
 _LONGEST_NAME = 255
 """Most bytes of a file name, on all usual systems."""
+
+
+def path_in_c(path: Path) -> str | bytes:
+    """Return a path for a library in C, such as libsndfile: as bytes, since a name need not be text of the locale."""
+    return str(path) if os.name == "nt" else os.fsencode(path)
 
 
 def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
@@ -52,7 +58,12 @@ def read_small_text(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) ->
 
 
 def draft_path(path: Path) -> Path:
-    """Return a new path in the same folder, with the same suffix, which `drafts_of` finds."""
+    """Return a new path in the same folder, with the same suffix, which `drafts_of` finds.
+
+    Raises: OSError: there is a device or a pipe, such as /dev/null, which a file must not replace.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise OSError(errno.EEXIST, "it is a device or a pipe")
     return path.with_name(f"{_draft_stem(path)}{uuid.uuid4().hex}.part{path.suffix}")
 
 

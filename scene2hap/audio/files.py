@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.errors import AudioError, reason_of, unwritable
-from scene2hap.text_files import draft_of
+from scene2hap.text_files import draft_of, path_in_c
 
 PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
 
@@ -145,7 +145,7 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     try:
         if _is_cut_short(path):
             raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
-        with soundfile.SoundFile(path) as file:
+        with soundfile.SoundFile(path_in_c(path)) as file:
             _require_bounded(path, file)
             yield file
     except OSError as cause:

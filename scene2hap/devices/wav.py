@@ -15,7 +15,7 @@ from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError, reason_of
-from scene2hap.text_files import draft_path
+from scene2hap.text_files import draft_path, path_in_c
 
 
 @clear_calls
@@ -35,6 +35,8 @@ class WavSink(Pulled):
             raise ConfigError(
                 f"path {str(path)!r} is a folder; give that of a file, as {str(self.path / 'touch.wav')!r}."
             )
+        if self.path.exists() and not self.path.is_file():
+            raise ConfigError(f"path {str(path)!r} is a device or a pipe; give that of a file.")
         if self.path.suffix.lower() not in ("", ".wav", ".wave"):
             raise ConfigError(f"path is {str(path)!r}; WavSink writes WAV, so that it must end in .wav.")
         self._draft = self.path
@@ -60,7 +62,7 @@ class WavSink(Pulled):
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self._file = soundfile.SoundFile(
-                self._draft, "w", format.sample_rate_hz, len(format.channels), subtype="PCM_24", format="WAV"
+                path_in_c(self._draft), "w", format.sample_rate_hz, len(format.channels), subtype="PCM_24", format="WAV"
             )
         except (OSError, soundfile.SoundFileError) as cause:
             give_back(self._key, self)

@@ -326,6 +326,14 @@ def test_dead_worker_fails_only_its_scene(scenes: list[Path], tmp_path: Path) ->
     assert bake_many(scenes[:1], tmp_path).count("baked") == 1
 
 
+def test_a_folder_that_cannot_be_made_is_refused_before_a_model_is_asked(scenes: list[Path], tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    held = Held()
+    with pytest.raises(ConfigError, match="file cannot be written"):
+        bake_many(scenes[:1], tmp_path / "file", config={"llm": CacheBackend(held, tmp_path / "answers")})
+    assert not held.calls
+
+
 PROGRAM = """
 import sys
 from scene2hap import bake_many

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from scene2hap import WavSink
+from scene2hap.errors import ConfigError
 from scene2hap.text_files import draft_of, drafts_of, read_small, read_small_text, write_whole
 
 
@@ -107,3 +109,14 @@ def test_drafts_of_a_name_with_brackets_are_found(tmp_path: Path) -> None:
         draft.write_text("half")
         other.write_text("half")
         assert drafts_of(tmp_path / "[a].wav") == [draft]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes, as POSIX has them")
+def test_a_device_or_a_pipe_is_not_replaced_by_a_file(tmp_path: Path) -> None:
+    """As the administrator, an output "/dev/null" would replace the device of the whole machine."""
+    os.mkfifo(tmp_path / "pipe.wav")
+    with pytest.raises(OSError, match="a device or a pipe"):
+        write_whole(tmp_path / "pipe.wav", "x")
+    with pytest.raises(ConfigError, match="a device or a pipe"):
+        WavSink(tmp_path / "pipe.wav")
+    assert (tmp_path / "pipe.wav").is_fifo()

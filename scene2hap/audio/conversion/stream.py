@@ -42,6 +42,7 @@ from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.scene.scene_warning import warn_of
+from scene2hap.text_files import path_in_c
 
 Block = NDArray[np.float32]
 """Samples (n, channels)."""
@@ -157,7 +158,9 @@ def convert(
                     target.write(_steps(block, is_beyond=felt.after.peak >= _NEARLY_FULL))
             with _writing(output):
                 target.close()
-                if soundfile.info(beside).frames != felt.after.n_frames:  # libsndfile ignores a failure at the end
+                if (
+                    soundfile.info(path_in_c(beside)).frames != felt.after.n_frames
+                ):  # libsndfile ignores a failure at the end
                     raise soundfile.SoundFileRuntimeError("the file is cut short")
         if drawn is not None:
             from scene2hap.audio.conversion.picture import draw_conversion
@@ -393,7 +396,7 @@ def _opened_for_writing(output: Path, beside: Path, felt: _Running) -> soundfile
     if container == "WAV" and n_bytes > _LARGEST_WAV_BYTES:
         container = "RF64"
     try:
-        return soundfile.SoundFile(beside, "w", felt.rate, felt.channels, subtype=subtype, format=container)
+        return soundfile.SoundFile(path_in_c(beside), "w", felt.rate, felt.channels, subtype=subtype, format=container)
     except (soundfile.SoundFileError, ValueError) as cause:
         raise AudioError(
             f"{output}: cannot be written as {container} of {felt.channels} channels at {felt.rate} Hz ({cause}). "

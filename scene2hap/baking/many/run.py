@@ -34,7 +34,7 @@ from scene2hap.baking.scene import infer_corrected
 from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.calls import clear_call
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, unwritable
 from scene2hap.llm.chain import Inference
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMBackend
@@ -183,6 +183,10 @@ class Run:
         """Bake the scenes, and write the report."""
         begun = time.perf_counter()
         self.name(paths)
+        try:
+            (self.folder / WORK).mkdir(parents=True, exist_ok=True)  # before a model costs money
+        except OSError as cause:
+            raise ConfigError(unwritable(self.folder, cause)) from cause
         found = await self.each(paths, self._scene)
         stack = {name: dict(layer) for name, layer in reports(self.config.llm).items()}
         report = ManyReport(found, time.perf_counter() - begun, stack)

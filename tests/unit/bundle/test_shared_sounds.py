@@ -1,7 +1,9 @@
 """Equal sounds share one file; edits of one source leave the others unchanged."""
 
 import json
+import os
 import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +12,7 @@ import pytest
 
 from files_of import files_of
 from scene2hap import AudioClip, HapticBundle
+from scene2hap.audio.conversion import convert
 from scene2hap.audio.files import read_clip, write_wav
 from scene2hap.bundle import file_stems
 from scene2hap.errors import BundleError
@@ -166,3 +169,14 @@ def test_only_ids_that_need_it_get_a_digest() -> None:
     stems = file_stems(["Fan", "fan", "lamp", "Lamp 2"])
     assert stems["lamp"] == "lamp"
     assert [stem for stem in stems.values() if re.fullmatch("[Ff]an-[0-9a-f]{8}", stem)] == [stems["Fan"], stems["fan"]]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are bytes there")
+def test_a_bundle_in_a_folder_whose_name_is_no_text_is_read(tmp_path: Path) -> None:
+    """Archives from other systems have names in other encodings; with LC_ALL=C any name beyond ASCII is one."""
+    folder = tmp_path / os.fsdecode(b"caf\xe9")
+    fans(1).save(folder)
+    assert list(HapticBundle.load(folder).loops) == ["fan_0"]
+    sound = next((folder / "sounds").glob("*.audible.wav"))
+    convert(sound, folder / "felt.wav")
+    assert read_clip(folder / "felt.wav").samples.size
