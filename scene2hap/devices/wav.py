@@ -61,6 +61,7 @@ class WavSink(Pulled):
         self._draft = draft_path(self.path)
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
+            self._draft.touch()  # unlike libsndfile, it names the reason of a failure
             self._file = soundfile.SoundFile(
                 path_in_c(self._draft), "w", format.sample_rate_hz, len(format.channels), subtype="PCM_24", format="WAV"
             )

@@ -395,11 +395,13 @@ def _opened_for_writing(output: Path, beside: Path, felt: _Running) -> soundfile
     n_bytes = 3 * felt.channels * felt.before.n_expected
     if container == "WAV" and n_bytes > _LARGEST_WAV_BYTES:
         container = "RF64"
+    beside.touch()  # unlike libsndfile, it names the reason of a failure
     try:
         return soundfile.SoundFile(path_in_c(beside), "w", felt.rate, felt.channels, subtype=subtype, format=container)
     except (soundfile.SoundFileError, ValueError) as cause:
+        reason = getattr(cause, "error_string", cause)  # the whole text names the draft
         raise AudioError(
-            f"{output}: cannot be written as {container} of {felt.channels} channels at {felt.rate} Hz ({cause}). "
+            f"{output}: cannot be written as {container} of {felt.channels} channels at {felt.rate} Hz ({reason}). "
             "Choose a folder that exists, is yours and has room, or WAV."
         ) from cause
 
