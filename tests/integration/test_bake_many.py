@@ -40,6 +40,7 @@ from scene2hap import (
     rebake,
 )
 from scene2hap.baking.many.record import scene_digest
+from scene2hap.baking.many.report import ManyReport
 from scene2hap.baking.many.run import abake_many
 from scene2hap.cli import main
 from scene2hap.errors import ConfigError
@@ -309,6 +310,18 @@ def test_equal_objects_of_several_scenes_share_a_request_on_demand(
     assert n_pictures == {8 if share else 16}
     assert report.calls - report.kept == n_asked - report.stack["RepairBackend"]["repairs"]
     assert not list((tmp_path / "out" / ".bake-many").glob("*.pictures"))
+
+
+def test_two_runs_on_one_folder_share_the_scenes(scenes: list[Path], tmp_path: Path) -> None:
+    async def both(config: dict[str, object]) -> list[ManyReport]:
+        return await asyncio.gather(*(abake_many(scenes, tmp_path / "out", config=config) for _ in range(2)))
+
+    with serving(by=answered) as server:
+        llm = {"kind": "openai", "api_key": KEY, "base_url": f"{server.base_url}/v1"}
+        reports = asyncio.run(both({"llm": llm, "cache_dir": str(tmp_path / "cache")}))
+    assert [one.error for report in reports for one in report.failed] == []
+    assert sum(report.count("baked") for report in reports) == N_SCENES
+    assert sum(report.count("kept") for report in reports) == N_SCENES
 
 
 class Broken:

@@ -2,6 +2,7 @@
 
 FOLDER/NAME.bundle                 the bundle of each scene
 FOLDER/.bake-many/NAME.json        the record of its inputs: digests of scene and settings
+FOLDER/.bake-many/NAME.lock        held by the run that bakes the scene
 FOLDER/.bake-many/NAME.pictures/   pictures for a model, until it has answered
 FOLDER/.bake-many/NAME.draft/      a model's answers, until the bundle is written
 FOLDER/report.json                 the report of the last run
@@ -20,9 +21,12 @@ import time
 import warnings
 from collections import Counter
 from collections.abc import Awaitable, Callable, Iterable, Mapping
+from contextlib import AsyncExitStack, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
+
+from filelock import AsyncFileLock
 
 from scene2hap import checks
 from scene2hap.baking.config import BakeConfig
@@ -221,7 +225,14 @@ class Run:
                 raise
 
     async def _scene(self, path: Path) -> SceneReport:
-        """Bake one scene, or return a report with its error."""
+        """Bake one scene, or return a report with its error. Waits while another run bakes it."""
+        async with AsyncExitStack() as held:
+            # A file system without locks goes on: two runs are rare, and then one of both may have to run again.
+            with suppress(OSError, NotImplementedError):
+                await held.enter_async_context(AsyncFileLock(self._work(self.names[path], ".lock")))
+            return await self._baked(path)
+
+    async def _baked(self, path: Path) -> SceneReport:
         report, target = self._unmade(path), self._target(path)
         try:
             made_of, before = await self._state(path)
