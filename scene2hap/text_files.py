@@ -89,13 +89,18 @@ def draft_of(path: Path) -> Iterator[Path]:
     draft = draft_path(path)
     try:
         yield draft
-        with draft.open("rb+") as file:
-            os.fsync(file.fileno())
-        os.replace(draft, path)
+        put_in_place(draft, path)
     except BaseException:
         with suppress(OSError):
             draft.unlink(missing_ok=True)
         raise
+
+
+def put_in_place(draft: Path, path: Path) -> None:
+    """Replace a file by its draft, whose content is on the disk before. Raises: OSError."""
+    with draft.open("rb+") as file:
+        os.fsync(file.fileno())
+    os.replace(draft, path)
 
 
 def write_whole(path: Path, content: str | bytes) -> None:

@@ -15,7 +15,7 @@ from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError, reason_of
-from scene2hap.text_files import draft_path, path_in_c
+from scene2hap.text_files import draft_path, path_in_c, put_in_place
 
 
 @clear_calls
@@ -112,7 +112,7 @@ class WavSink(Pulled):
         give_back(self._key, self)
         try:
             file.close()
-            os.replace(self._draft, self.path)
+            put_in_place(self._draft, self.path)
         except (OSError, soundfile.SoundFileError) as cause:
             raise DeviceError(
                 f"{self.path} cannot be completed: {reason_of(cause).rstrip('.')}. The disk may be gone or full, or "
