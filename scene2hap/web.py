@@ -205,6 +205,7 @@ async def exchange(
         never = isinstance(
             cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL | httpx.TooManyRedirects
         )
+        never = never or "CERTIFICATE_VERIFY_FAILED" in str(cause)  # of ssl, whose error httpx replaces by its own
         problem = (scrub(str(cause)) or type(cause).__name__).rstrip(".")
         proxy = " It goes through the proxy of HTTP_PROXY, HTTPS_PROXY or ALL_PROXY, unless NO_PROXY names the host."
         raise BackendUnavailable(

@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip, Credit, Samples
-from scene2hap.errors import AudioError, reason_of
-from scene2hap.text_files import draft_of
+from scene2hap.errors import AudioError, reason_of, unwritable
+from scene2hap.text_files import draft_of, path_in_c
 
 PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
 
@@ -143,7 +143,7 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     try:
         if _is_cut_short(path):
             raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
-        with soundfile.SoundFile(path) as file:
+        with soundfile.SoundFile(path_in_c(path)) as file:
             _require_bounded(path, file)
             yield file
     except OSError as cause:
@@ -175,9 +175,7 @@ def written_whole(path: Path) -> Iterator[Path]:
         with draft_of(path) as beside:
             yield beside
     except OSError as cause:
-        raise AudioError(
-            f"{path}: cannot be written ({cause.strerror}). Choose a folder that exists and is yours."
-        ) from cause
+        raise AudioError(unwritable(path, cause)) from cause
 
 
 def _is_cut_short(path: Path) -> bool:
@@ -199,17 +197,10 @@ def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype
     change; only +1 itself loses one step.
     Raises: AudioError: a sample beyond full scale or not finite, a wrong shape, or a path that cannot be written.
     """
-    _write(Path(path), samples, sample_rate_hz, subtype, "WAV")
-
-
-def write_flac(path: str | Path, samples: ArrayLike, sample_rate_hz: int) -> None:
-    """Write samples as a lossless FLAC file of 24 bits, which is smaller than a WAV file. See `write_wav`.
-
-    Raises: AudioError: see `write_wav`; also a sample rate that FLAC cannot store (`fits_flac`).
-    """
-    if not fits_flac(sample_rate_hz):
-        raise AudioError(f"{path}: FLAC has no sample rate of {sample_rate_hz} Hz. Use WAV.")
-    _write(Path(path), samples, sample_rate_hz, "PCM_24", "FLAC")
+    path = Path(path)
+    content = encoded(samples, sample_rate_hz, subtype, path=path)
+    with written_whole(path) as beside:
+        beside.write_bytes(content)
 
 
 def fits_flac(sample_rate_hz: int) -> bool:
@@ -217,22 +208,20 @@ def fits_flac(sample_rate_hz: int) -> bool:
     return sample_rate_hz < 2**16 or (sample_rate_hz % 10 == 0 and sample_rate_hz < 10 * 2**16)
 
 
-def _write(path: Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype, container: str) -> None:
+def encoded(
+    samples: ArrayLike,
+    sample_rate_hz: int,
+    subtype: PcmSubtype = "PCM_24",
+    container: str = "WAV",
+    path: Path = Path("samples"),
+) -> bytes:
+    """Return the content of a sound file, see `write_wav`; `path` is named in errors. Raises: AudioError."""
     rate = int(checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1, error=AudioError))
     if subtype not in _BITS:
         raise AudioError(f"subtype is {subtype!r}; it must be one of {', '.join(_BITS)}.")
-    content = encoded(samples, rate, subtype, container, path)
-    with written_whole(path) as beside:
-        beside.write_bytes(content)
-
-
-def encoded(
-    samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype, container: str = "WAV", path: Path = Path("samples")
-) -> bytes:
-    """Return the content of a sound file, see `write_wav`; `path` is named in errors. Raises: AudioError."""
     content = io.BytesIO()
     steps = _quantised(path, samples, _BITS[subtype])
-    soundfile.write(content, steps, sample_rate_hz, subtype=subtype, format=container)
+    soundfile.write(content, steps, rate, subtype=subtype, format=container)
     return content.getvalue()
 
 

@@ -152,3 +152,12 @@ def test_key_in_a_broken_reply_is_in_no_cause_and_no_log(line: str, caplog: pyte
             web.get(url, LIMITS, scrub=Secret(KEY).scrub)
     assert KEY not in "".join(traceback.format_exception(caught.value))
     assert KEY not in caplog.text
+
+
+def test_a_certificate_that_is_refused_is_not_asked_again() -> None:
+    def refused(request: httpx.Request) -> httpx.Response:
+        raise httpx.ConnectError("[SSL: CERTIFICATE_VERIFY_FAILED] certificate verify failed: certificate has expired")
+
+    with pytest.raises(BackendUnavailable, match="certificate has expired") as caught:
+        web.get("https://a.example/", LIMITS, transport=httpx.MockTransport(refused))
+    assert not caught.value.retryable

@@ -28,6 +28,7 @@ _NO_EYES = "image input is not supported"
 """Message of llama.cpp, with status 500, if it was started without a vision projector."""
 
 _HINTS = {
+    **dict.fromkeys((301, 302, 303, 307, 308), "It redirects, and a key is sent to base_url alone: correct base_url."),
     401: "Check the API key.",
     403: "Check the API key and what it is allowed to do.",
     404: "Check base_url and the name of the model.",
