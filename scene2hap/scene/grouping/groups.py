@@ -22,8 +22,9 @@ f. A node that the file itself declares an object (`AuthoredNode.is_object`) is 
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -75,15 +76,15 @@ def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, 
     """
     kept = [node for root in roots if (node := root.with_geometry()) is not None]
     origin = np.eye(4)
+    scene = AuthoredNode(scene_name, origin, children=tuple(kept))
     if how == "authored":
         return [group for root in kept for group in _authored(rejoined(root), origin).groups]
     if how == "leaf":
-        return [group for root in kept for group in _leaves(root, origin)]
+        return list(_at_depth(scene, origin, math.inf))
     if how == "loose":
-        return list(_loose([group for root in kept for group in _leaves(root, origin)]))
+        return list(_loose(_at_depth(scene, origin, math.inf)))
     if isinstance(how, int) and not isinstance(how, bool) and how >= 0:
-        scene = AuthoredNode(scene_name, origin, children=tuple(kept))
-        return list(_at_depth(scene, origin, how)) if kept else []
+        return list(_at_depth(scene, origin, how))
     if isinstance(how, Mapping):
         return _mapped(kept, how)
     raise SceneError(
@@ -204,16 +205,7 @@ def _continues(name: str, start: str) -> bool:
 # -- the other groupings ---------------------------------------------------------------------------------------------
 
 
-def _leaves(node: AuthoredNode, above: Matrix) -> Iterator[Group]:
-    frame = above @ node.matrix
-    if node.pieces:
-        mass_kg = None if node.children else node.mass_kg
-        yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces), mass_kg)
-    for child in node.children:
-        yield from _leaves(child, frame)
-
-
-def _loose(leaves: Sequence[Group]) -> Iterator[Group]:
+def _loose(leaves: Iterable[Group]) -> Iterator[Group]:
     # Copies share their pieces, so that each mesh is taken apart once.
     known: dict[tuple[int, ...], list[tuple[Piece, ...]]] = {}
     for leaf in leaves:
@@ -227,14 +219,14 @@ def _loose(leaves: Sequence[Group]) -> Iterator[Group]:
             yield Group(leaf.name, leaf.frame, tuple((leaf.frame, piece) for piece in part), mass_kg)
 
 
-def _at_depth(node: AuthoredNode, above: Matrix, depth: int) -> Iterator[Group]:
+def _at_depth(node: AuthoredNode, above: Matrix, depth: float) -> Iterator[Group]:
+    """Yield one group for each node at a depth below the node, and one for each mesh above that depth."""
     frame = above @ node.matrix
-    if depth == 0:
-        yield Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)
-        return
-    if node.pieces:
-        yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces))
-    for child in node.children:
+    is_whole = depth == 0 or not node.children
+    parts = tuple(_all_parts(node, above)) if is_whole else tuple((frame, piece) for piece in node.pieces)
+    if parts:
+        yield Group(node.name, frame, parts, node.mass_kg if is_whole else None)
+    for child in () if is_whole else node.children:
         yield from _at_depth(child, frame, depth - 1)
 
 

@@ -340,3 +340,4 @@ def test_mass_is_assigned_only_when_the_node_is_a_whole_object() -> None:
     assert masses(desk) == {"desk": None, "drawer": None}
     assert masses(fridge, how="leaf") == {"fridge": None, "door": 2.0}
     assert masses(group("room", fridge), how=2) == {"fridge": 50.0}
+    assert masses(group("room", fridge), how=9) == {"fridge": None, "door": 2.0}
