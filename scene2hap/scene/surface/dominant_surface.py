@@ -29,6 +29,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.scene.geometry import SAME_PLACE
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface, SurfaceFlag, TriMesh
 from scene2hap.scene.surface.cuboid import cuboid_bounds_m
@@ -36,7 +37,7 @@ from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
 from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.surface.section import section_outline
-from scene2hap.scene.surface.winding import SAME_PLACE, well_wound
+from scene2hap.scene.surface.winding import well_wound
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
