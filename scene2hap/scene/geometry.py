@@ -20,6 +20,10 @@ SAME_PLACE = 1e-5
 8 um 200 m from the origin)."""
 
 
+# A point is on a triangle up to this share of its size beside it, so that rounding opens no joint between two.
+_ON_EDGE = 1e-6
+
+
 def vector(values: Sequence[float] | NDArray[np.floating]) -> Vector:
     """Return three numbers as a tuple of floats."""
     return (float(values[0]), float(values[1]), float(values[2]))
@@ -37,9 +41,24 @@ def dot(one: Sequence[float], other: Sequence[float]) -> float:
 
 
 def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the cross products (...) of vectors (..., 2)."""
+    """Return the cross products (...) of vectors (..., 2), or of the first two coordinates of longer ones."""
     product: NDArray[np.float64] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     return product
+
+
+def heights_at(points: NDArray[np.float64], triangles: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the height (n, m) of each triangle at each point (n, 2), -inf beside it or if it is vertical.
+
+    Triangles (m, 3, 3) have two level coordinates, then the height.
+    """
+    a, b, c = np.moveaxis(triangles, 1, 0)
+    to_b, to_c, to_point = b - a, c - a, points[:, None] - a[:, :2]
+    area = cross_2d(to_b, to_c)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        of_b, of_c = cross_2d(to_point, to_c) / area, cross_2d(to_b, to_point) / area
+        heights = a[:, 2] + of_b * to_b[:, 2] + of_c * to_c[:, 2]
+        is_on = (of_b >= -_ON_EDGE) & (of_c >= -_ON_EDGE) & (of_b + of_c <= 1 + _ON_EDGE)
+    return np.where(is_on, heights, -np.inf)
 
 
 def bounds_of(points: ArrayLike) -> Bounds:
