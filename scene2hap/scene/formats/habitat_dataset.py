@@ -214,7 +214,7 @@ class Dataset:
     def _written(self, kind: Kind) -> Iterator[tuple[str, _Source]]:
         """Yield the configurations that the dataset's own file holds."""
         section = _section(self._document, kind, self._file)
-        for i, row in enumerate(_list(section, "configs", f"{self._file}: {kind}")):
+        for i, row in enumerate(rows_of(section.get("configs"), f"{self._file}: {kind}.configs")):
             place = f"{self._file}: {kind}.configs[{i}]"
             if not isinstance(row, dict) or not isinstance(row.get("attributes", {}), dict):
                 raise SceneFormatError(f"{place} must be an object whose attributes are an object.")
@@ -416,6 +416,13 @@ def scale_of(place: str, given: object) -> NDArray[np.float64]:
     return np.array(scale)
 
 
+def rows_of(value: object, place: str) -> list[Any]:
+    """Return a list of a file, empty if it is missing. Raises: SceneFormatError: it is something else."""
+    if value is not None and not isinstance(value, list):
+        raise SceneFormatError(f"{place} is {checks.represented(value)}; it must be a list.")
+    return value or []
+
+
 def read_object(file: Path) -> Json:
     """Return the object in a JSON file.
 
@@ -464,20 +471,14 @@ def _patterns(document: Json, kind: str, place: str) -> Mapping[str, list[str]]:
     paths = _section(document, kind, place).get("paths", {})
     if not isinstance(paths, dict):
         raise SceneFormatError(f"{place}: {kind}.paths must be an object of lists.")
-    for suffix in paths:
-        for pattern in _list(paths, suffix, f"{place}: {kind}.paths"):
+    found = {suffix: rows_of(rows, f"{place}: {kind}.paths.{suffix}") for suffix, rows in paths.items()}
+    for suffix, patterns in found.items():
+        for pattern in patterns:
             if not isinstance(pattern, str) or "\0" in pattern:
                 raise SceneFormatError(
                     f"{place}: {kind}.paths[{suffix!r}] has {checks.represented(pattern)}; it must have paths."
                 )
-    return paths
-
-
-def _list(table: Json, key: str, place: str) -> list[Any]:
-    rows = table.get(key, [])
-    if not isinstance(rows, list):
-        raise SceneFormatError(f"{place}.{key} is {checks.represented(rows)}; it must be a list.")
-    return rows
+    return found
 
 
 def _plain(name: str) -> str:
