@@ -39,7 +39,7 @@ from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.printable import read_json, writable
 from scene2hap.scene import limits
-from scene2hap.scene.files import inside, read_bytes
+from scene2hap.scene.files import inside, outside, read_bytes
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.tree import Matrix
 
@@ -162,17 +162,11 @@ class Dataset:
 
     def _json(self, file: Path) -> Json:
         if file not in self._documents:
-            self._require_inside(file)
+            if not _resolved(file).is_relative_to(_resolved(self.root)):
+                raise outside("the dataset", str(file), _resolved(self.root), _resolved(file))
             self.count(file)
             self._documents[file] = read_object(file)
         return self._documents[file]
-
-    def _require_inside(self, file: Path) -> None:
-        if not _resolved(file).is_relative_to(_resolved(self.root)):
-            raise SceneError(
-                f"{str(file)!r} leads outside {str(self.root)!r}; only files inside it are read. Copy it there, or "
-                "give assets_root=<the folder that holds both>."
-            )
 
     # -- names -------------------------------------------------------------------------------------------------------
 
