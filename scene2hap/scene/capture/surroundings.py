@@ -55,15 +55,13 @@ def shells(stage: Stage) -> frozenset[int]:
 def near(stage: Stage, target: int, share: float) -> frozenset[int]:
     """Return the objects whose box is within `share` of the target's diagonal from the target's box."""
     reach = share * stage.actors[target].diagonal_m
-    boxes = np.array([actor.box_m for actor in stage.actors])
-    return frozenset(np.flatnonzero(distances(boxes, boxes[target]) <= reach).tolist()) - {target}
+    return frozenset(np.flatnonzero(distances(stage.boxes_m, stage.boxes_m[target]) <= reach).tolist()) - {target}
 
 
 def containers(stage: Stage, target: int) -> frozenset[int]:
     """Return the objects whose box contains nearly all of the target's box."""
-    low, high = stage.actors[target].box_m
-    boxes = np.array([actor.box_m for actor in stage.actors])
-    common = np.minimum(boxes[:, 1], high) - np.maximum(boxes[:, 0], low)
+    low, high = stage.boxes_m[target]
+    common = np.minimum(stage.boxes_m[:, 1], high) - np.maximum(stage.boxes_m[:, 0], low)
     # Along an axis without extent, a flat target is either inside or outside.
     extent = high - low
     share = np.where(extent > 0, common / np.where(extent > 0, extent, 1.0), common >= 0)
@@ -92,7 +90,7 @@ def supports(stage: Stage) -> tuple[int | None, ...]:
     order = [*(axis for axis in range(3) if axis != up), up]
     turned = [actor.triangles_m[:, :, order] for actor in stage.actors]
     faces = [_Faces(each, each.min(axis=1), each.max(axis=1)) for each in turned]
-    boxes = np.array([actor.box_m[:, order] for actor in stage.actors])
+    boxes = stage.boxes_m[:, :, order]
     return tuple(_support(faces, boxes, number) for number in range(len(faces)))
 
 
