@@ -8,6 +8,7 @@ Source: MuJoCo documentation (Google DeepMind), XML reference, `geom`, `mesh`, `
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -22,6 +23,12 @@ from scene2hap.scene.tree import Piece
 _SPHERE, _CAPSULE, _ELLIPSOID, _CYLINDER, _BOX = 2, 3, 4, 5, 6
 _PLANE, _TERRAIN = 0, 1
 _TEXTURE_2D, _ROLE_RGB = 0, 1
+_SOLIDS: dict[int, Callable[[list[float]], solids.Triangles]] = {
+    _SPHERE: lambda size: solids.ellipsoid([size[0]] * 3),
+    _CAPSULE: lambda size: solids.capsule(size[0], size[1]),
+    _ELLIPSOID: solids.ellipsoid,
+    _CYLINDER: lambda size: solids.cylinder(size[0], size[1]),
+}
 # A geom of this colour takes the colour of its material (MuJoCo's default).
 _NO_COLOUR = (0.5, 0.5, 0.5, 1.0)
 # An infinite plane is cut to this multiple of the model's extent, and to at least this size [model unit]. Assumed:
@@ -83,16 +90,8 @@ class GeomReader:
             return solids.rectangle(*half)
         if kind == _TERRAIN:
             return self._terrain(int(model.geom_dataid[geom]))
-        if kind == _SPHERE:
-            return solids.ellipsoid([size[0]] * 3)
-        if kind == _CAPSULE:
-            return solids.capsule(size[0], size[1])
-        if kind == _ELLIPSOID:
-            return solids.ellipsoid(size)
-        if kind == _CYLINDER:
-            return solids.cylinder(size[0], size[1])
-        if kind == _BOX or mesh is None:
-            return solids.box(size)
+        if mesh is None:
+            return _SOLIDS.get(kind, solids.box)(size)
         first, n = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
         return model.mesh_vert[first : first + n].astype(np.float64), self._of_faces(model.mesh_face, mesh)
 
