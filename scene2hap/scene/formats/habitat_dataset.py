@@ -188,7 +188,7 @@ class Dataset:
             )
         attributes, folder, written_in = self._attributes(kind, source)
         own_name = plain_name(name if source.file is None else writable(source.file.name))
-        return self._template(kind, attributes, folder, written_in, own_name)
+        return self._template(kind, {**self._defaults(kind), **attributes}, folder, written_in, own_name)
 
     def _advice(self, kind: Kind) -> str:
         if self._outside:
@@ -244,19 +244,17 @@ class Dataset:
 
     def _attributes(self, kind: Kind, source: _Source) -> tuple[Json, Path, str]:
         """Return the document of a template, the folder for its relative paths, and the place of the document."""
-        if source.file is not None and source.file.name.endswith(_CONFIG_SUFFIX[kind]):
-            return {**self._defaults(kind), **self._json(source.file)}, source.file.parent, source.file.name
-        if source.file is not None:
-            own = {_key(kind): source.file.name}
-            return {**self._defaults(kind), **own}, source.file.parent, source.file.name
+        if (file := source.file) is not None:
+            is_config = file.name.endswith(_CONFIG_SUFFIX[kind])
+            return (self._json(file) if is_config else {_key(kind): file.name}), file.parent, file.name
         original = source.attributes.get("original_file")
         own = source.attributes.get("attributes", {})
         if original is None:
-            return {**self._defaults(kind), **own}, self.folder, source.place
+            return own, self.folder, source.place
         if not isinstance(original, str):
             raise SceneFormatError(f"{source.place}.original_file is {original!r}; it must be a file name.")
         file = inside(self.root, self.folder, quote(_slashes(original)), f"{source.place}.original_file")
-        return {**self._defaults(kind), **self._json(file), **own}, file.parent, source.place
+        return {**self._json(file), **own}, file.parent, source.place
 
     def _defaults(self, kind: Kind) -> Json:
         section = _section(self._document, kind, self._file)
