@@ -23,6 +23,7 @@ f. A node that the file itself declares an object (`AuthoredNode.is_object`) is 
 from __future__ import annotations
 
 import math
+import operator
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -246,17 +247,25 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
             raise SceneError(f"group maps the node {wanted!r}, which the scene does not have. {hint}")
     objects: dict[str, Group] = {}
 
-    def take(node: AuthoredNode, above: Matrix, owner: str | None) -> AuthoredNode:
-        """Move the mapped pieces at and below `node` to their objects. Returns the node without these pieces."""
+    def take(node: AuthoredNode, above: Matrix, around: str | None) -> AuthoredNode:
+        """Move the mapped pieces at and below `node` to their objects. Returns the node without these pieces.
+
+        `around` is the object of the parent. An object has the mass of its node if it is the whole node and no more.
+        """
         frame = above @ node.matrix
-        owner = names.get(node.name, owner)
-        pieces = node.pieces
+        owner = names.get(node.name, around)
         if owner is not None:
-            object_so_far = objects.setdefault(owner, Group(owner, frame, ()))
-            parts = (*object_so_far.parts, *((frame, piece) for piece in pieces))
-            objects[owner] = replace(object_so_far, parts=parts)
-            pieces = ()
-        return replace(node, pieces=pieces, children=tuple(take(child, frame, owner) for child in node.children))
+            if owner != around:
+                for other in objects.keys() & {owner, around}:
+                    objects[other] = replace(objects[other], mass_kg=None)
+                objects.setdefault(owner, Group(owner, frame, (), node.mass_kg))
+            parts = (*objects[owner].parts, *((frame, piece) for piece in node.pieces))
+            objects[owner] = replace(objects[owner], parts=parts)
+        children = tuple(take(child, frame, owner) for child in node.children)
+        if owner is not None:
+            return replace(node, pieces=(), children=())
+        is_whole = all(map(operator.is_, children, node.children))
+        return node if is_whole else replace(node, children=children, mass_kg=None)
 
     rest = [take(root, np.eye(4), None) for root in roots]
     return [*(group for group in objects.values() if group.parts), *group_objects(rest)]
