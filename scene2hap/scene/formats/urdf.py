@@ -38,6 +38,14 @@ MAX_XML_BYTES = 1 << 24
 _EXPAND = "Write the file out first: xacro FILE > robot.urdf"
 _MESHES = (".obj", ".stl", ".dae", ".ply", ".glb", ".gltf")
 
+_SOLIDS: dict[str, tuple[dict[str, int], Callable[..., solids.Triangles]]] = {
+    "box": ({"size": 3}, lambda *edges: solids.box([edge / 2 for edge in edges])),
+    "sphere": ({"radius": 1}, lambda radius: solids.ellipsoid([radius] * 3)),
+    "cylinder": ({"radius": 1, "length": 1}, lambda radius, length: solids.cylinder(radius, length / 2)),
+    "capsule": ({"radius": 1, "length": 1}, lambda radius, length: solids.capsule(radius, length / 2)),
+}
+"""The attributes of each shape with their numbers of values, and the function that makes its triangles."""
+
 Element = ElementTree.Element
 
 
@@ -166,35 +174,11 @@ class _Reader:
             with np.errstate(all="ignore"):
                 origin = origin @ np.diag([*_numbers(shape, "scale", f"{place}, <mesh>", 3, "1 1 1"), 1.0])
         else:
-            piece = self._solid(shape, place)
-            mesh = AuthoredNode(name, np.eye(4), (piece,))
+            mesh = AuthoredNode(name, np.eye(4), (_solid(shape, f"{place}, <{shape.tag}>"),))
         self._size.add_triangles(mesh.n_triangles)
         if material is not None:
             mesh = self._painted(mesh, material, place)
         return AuthoredNode(name, origin, (), (replace(mesh, name=name),))
-
-    def _solid(self, shape: Element, place: str) -> Piece:
-        place = f"{place}, <{shape.tag}>"
-        sizes: list[float]
-        if shape.tag == "box":
-            sizes = _numbers(shape, "size", place, 3)
-        elif shape.tag in ("cylinder", "capsule"):
-            sizes = [*_numbers(shape, "radius", place, 1), *_numbers(shape, "length", place, 1)]
-        elif shape.tag == "sphere":
-            sizes = _numbers(shape, "radius", place, 1)
-        else:
-            raise SceneFormatError(f"{place}: geometry is a box, cylinder, capsule, sphere or mesh.")
-        if min(sizes) <= 0.0 or max(sizes) > limits.MAX_COORDINATE_M:
-            raise SceneFormatError(f"{place} has sizes {sizes} m; they must be above 0 and sensible.")
-        if shape.tag == "box":
-            vertices, faces = solids.box([edge / 2 for edge in sizes])
-        elif shape.tag == "sphere":
-            vertices, faces = solids.ellipsoid(sizes * 3)
-        else:
-            make = solids.cylinder if shape.tag == "cylinder" else solids.capsule
-            vertices, faces = make(sizes[0], sizes[1] / 2)
-        key = (shape.tag, *sizes)
-        return replace(Piece.checked(key, vertices, faces, "", place), is_made=True)
 
     def _painted(self, mesh: AuthoredNode, row: Element, place: str) -> AuthoredNode:
         """Return a node whose pieces without looks of their own have the looks of a <material>."""
@@ -271,6 +255,17 @@ def _origin(row: Element, place: str) -> Matrix:
     place = f"{place}: <origin>"
     pose = Pose.from_euler(_numbers(origin, "xyz", place, 3, "0 0 0"), _numbers(origin, "rpy", place, 3, "0 0 0"))
     return transform(pose.rotation, pose.position_m)
+
+
+def _solid(shape: Element, place: str) -> Piece:
+    """Return the triangles of a shape."""
+    if shape.tag not in _SOLIDS:
+        raise SceneFormatError(f"{place}: geometry is a box, cylinder, capsule, sphere or mesh.")
+    counts, make = _SOLIDS[shape.tag]
+    sizes = [size for key, n in counts.items() for size in _numbers(shape, key, place, n)]
+    if min(sizes) <= 0.0 or max(sizes) > limits.MAX_COORDINATE_M:
+        raise SceneFormatError(f"{place} has sizes {sizes} m; they must be above 0 and sensible.")
+    return replace(Piece.checked((shape.tag, *sizes), *make(*sizes), "", place), is_made=True)
 
 
 def _child(row: Element, tag: str, place: str) -> Element:
