@@ -35,7 +35,7 @@ from scene2hap.propagation.auto_rungs import FINENESS, FLOOR_DB, MODAL_DB, Situa
 from scene2hap.propagation.coupled import rigid
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.substructuring import CoupledField, assemble
-from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes, unit_plate
+from scene2hap.propagation.lattice import bending_lattice, lattice_body, lattice_modes
 
 REPORTED, CALIBRATING = 0, 100_000
 """First seed of the reported draws, and first seed of the draws for the bounds."""
@@ -164,9 +164,10 @@ def forget() -> None:
     """Clear the caches of plates."""
     for cached in (modes.modes_up_to, modes.first_bending_hz, modal_body.modal_body, rigid.is_compact):
         cached.cache_clear()
-    for kept in (lattice_modes._modes_up_to, unit_plate.of_size_one, unit_plate.outline_of, lattice_body.lattice_body):
+    for kept in (lattice_modes._modes_up_to, lattice_body.lattice_body):
         kept.cache_clear()
-    for kept in (bending_lattice.bending_lattice, bending_lattice.lines_of, bending_lattice.aligned):
+    of_lattices = bending_lattice.bending_lattice, bending_lattice.lines_of, bending_lattice.aligned
+    for kept in (*of_lattices, bending_lattice.of_size_one, bending_lattice.outline_of):
         kept.cache_clear()
     infinite_plate._table.cache_clear()
 

@@ -104,7 +104,7 @@ def measure(path: str, name: str) -> Measured:
     network, excitations, points = scene_input(path)
     if name == "truth":
         model = ModalPlate()
-        field = prepare_coupled(network, excitations, BANDS, model.elastic_body, model.contact, "ignore", density=2.0)
+        field = prepare_coupled(model, network, excitations, BANDS, "ignore", density=2.0)
         return Measured(0.0, 0.0, 0.0, 0.0, levels_db(field, points))
     chosen = MODELS[name][0]()
     times = [time.process_time()]

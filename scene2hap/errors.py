@@ -42,6 +42,7 @@ A message gives the value, its unit, the bound, and what to do next.
 
 from __future__ import annotations
 
+import errno
 from dataclasses import FrozenInstanceError
 
 
@@ -218,3 +219,17 @@ def reason_of(cause: BaseException) -> str:
     if isinstance(cause, UnicodeDecodeError):
         return f"byte {cause.start} is {cause.object[cause.start]:#04x}, which is not UTF-8; save the text as UTF-8"
     return cause.strerror if isinstance(cause, OSError) and cause.strerror else str(cause)
+
+
+_TO_DO = {
+    **dict.fromkeys((errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC), errno.EFBIG), "Make room on its disk."),
+    errno.ENAMETOOLONG: "Give a shorter name.",
+}
+
+
+def unwritable(what: object, cause: OSError, otherwise: str = "Choose a folder that exists and is yours.") -> str:
+    """Return the message for a file or folder that cannot be written: its name, the reason, and what to do.
+
+    Parameters: otherwise : what to do, unless the disk is full or the name is too long.
+    """
+    return f"{what} cannot be written: {reason_of(cause)}. {_TO_DO.get(cause.errno or 0, otherwise)}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 # Control characters (including C1 escapes, which can clear a terminal or set its title), line and paragraph separators,
@@ -13,6 +14,9 @@ _UNSAFE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\
 _UNSAFE_BUT_LINES = re.compile(_UNSAFE.pattern.replace("\x00-\x1f", "\x00-\x08\x0b-\x1f"))
 _SURROGATES = re.compile("[\ud800-\udfff]")
 
+_WIDEST = 60
+"""Most columns to which a cell is padded, so that one very long name does not widen all rows."""
+
 _SPELT_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
 
 
@@ -20,6 +24,19 @@ def printable(text: str, *, lines: bool = False) -> str:
     """Escape the characters of a text that a terminal would interpret ("\\x1b"). `lines` keeps line breaks and tabs."""
     pattern = _UNSAFE_BUT_LINES if lines else _UNSAFE
     return pattern.sub(lambda found: found.group().encode("unicode_escape").decode("ascii"), text)
+
+
+def aligned(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+    """Yield the lines of a table without a frame. Each column is as wide as its widest cell, up to `_WIDEST`.
+
+    A heading that begins with ">" sets its column to the right.
+    """
+    table = [tuple(column.removeprefix(">") for column in columns), *(tuple(map(printable, row)) for row in rows)]
+    widths = [min(max(map(len, cells)), _WIDEST) for cells in zip(*table, strict=True)]
+    to_right = [column.startswith(">") for column in columns]
+    for row in table:
+        cells = zip(row, widths, to_right, strict=True)
+        yield "  ".join(cell.rjust(width) if right else cell.ljust(width) for cell, width, right in cells).rstrip()
 
 
 def printable_json(text: str) -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import re
 import stat
 import uuid
 from collections.abc import Iterator
@@ -12,6 +14,14 @@ from typing import BinaryIO
 
 MAX_BYTES = 1 << 24
 """Most bytes of one file; assumed: a hundred times the largest handwritten one, and parsed in seconds."""
+
+_LONGEST_NAME = 255
+"""Most bytes of a file name, on all usual systems."""
+
+
+def path_in_c(path: Path) -> str | bytes:
+    """Return a path for a library in C, such as libsndfile: as bytes, since a name need not be text of the locale."""
+    return str(path) if os.name == "nt" else os.fsencode(path)
 
 
 def read_small(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) -> bytes:
@@ -47,6 +57,28 @@ def read_small_text(path: str | os.PathLike[str], max_bytes: int = MAX_BYTES) ->
     return read_small(path, max_bytes).decode("utf-8-sig")
 
 
+def draft_path(path: Path) -> Path:
+    """Return a new path in the same folder, with the same suffix, which `drafts_of` finds.
+
+    Raises: OSError: there is a device or a pipe, such as /dev/null, which a file must not replace.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise OSError(errno.EEXIST, "it is a device or a pipe")
+    return path.with_name(f"{_draft_stem(path)}{uuid.uuid4().hex}.part{path.suffix}")
+
+
+def drafts_of(path: Path) -> list[Path]:
+    """Return the drafts of a file that exist. Raises: OSError."""
+    ours = re.compile(re.escape(_draft_stem(path)) + "[0-9a-f]{32}" + re.escape(f".part{path.suffix}"))
+    return [found for found in path.parent.iterdir() if ours.fullmatch(found.name)]
+
+
+def _draft_stem(path: Path) -> str:
+    name = os.fsencode(path.name)
+    room = _LONGEST_NAME - len(os.fsencode(f"..{'0' * 32}.part{path.suffix}"))
+    return f".{name[: max(room, 0)].decode(errors='ignore') if len(name) > room else path.name}."
+
+
 @contextmanager
 def draft_of(path: Path) -> Iterator[Path]:
     """Yield a path in the same folder, with the same suffix, to write to. It replaces `path` when the block ends.
@@ -54,16 +86,21 @@ def draft_of(path: Path) -> Iterator[Path]:
     If the block raises, the draft is removed, and an earlier file stays unchanged.
     Raises: OSError.
     """
-    draft = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part{path.suffix}")
+    draft = draft_path(path)
     try:
         yield draft
-        with draft.open("rb+") as file:
-            os.fsync(file.fileno())
-        os.replace(draft, path)
+        put_in_place(draft, path)
     except BaseException:
         with suppress(OSError):
             draft.unlink(missing_ok=True)
         raise
+
+
+def put_in_place(draft: Path, path: Path) -> None:
+    """Replace a file by its draft, whose content is on the disk before. Raises: OSError."""
+    with draft.open("rb+") as file:
+        os.fsync(file.fileno())
+    os.replace(draft, path)
 
 
 def write_whole(path: Path, content: str | bytes) -> None:

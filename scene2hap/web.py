@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import json
 import socket
 import threading
 import zlib
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 from urllib.parse import urlsplit
 from urllib.request import getproxies
 
@@ -50,14 +51,26 @@ class WebReply:
     headers: Mapping[str, str] = field(default_factory=dict)
 
     @property
-    def retry_after(self) -> str:
-        """The server's Retry-After header as written, "" if absent."""
-        return self.headers.get("retry-after", "")
+    def ok(self) -> bool:
+        """True if the status is a success."""
+        return 200 <= self.status < 300
 
     @property
     def text(self) -> str:
         """The body as UTF-8, since JSON always is UTF-8."""
         return self.content.decode("utf-8-sig", "replace")
+
+    def json(self) -> Any:
+        """Return the body as JSON; None if it is not JSON."""
+        try:
+            return json.loads(self.text)
+        except (ValueError, RecursionError):
+            return None
+
+    def scrubbed(self, scrub: Callable[[str], str]) -> WebReply:
+        """Return the reply without a key that the server echoed; `scrub` removes the key from a text."""
+        headers = {name: scrub(value) for name, value in self.headers.items()}
+        return replace(self, content=scrub(self.text).encode(), headers=headers)
 
 
 @dataclass(frozen=True)
@@ -192,6 +205,7 @@ async def exchange(
         never = isinstance(
             cause, httpx.UnsupportedProtocol | httpx.LocalProtocolError | httpx.InvalidURL | httpx.TooManyRedirects
         )
+        never = never or "CERTIFICATE_VERIFY_FAILED" in str(cause)  # of ssl, whose error httpx replaces by its own
         problem = (scrub(str(cause)) or type(cause).__name__).rstrip(".")
         proxy = " It goes through the proxy of HTTP_PROXY, HTTPS_PROXY or ALL_PROXY, unless NO_PROXY names the host."
         raise BackendUnavailable(

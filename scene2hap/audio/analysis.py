@@ -19,7 +19,7 @@ from scene2hap import checks
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.components import peak_offset
 from scene2hap.audio.heard import heard
-from scene2hap.audio.levels import TACTILE_RANGE_HZ
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.audio.windows import hann
 from scene2hap.errors import AudioError
 

@@ -35,9 +35,10 @@ from scene2hap.audio.actuators import MAX_BOOST_DB, response_db
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.components import LINE_DB, Component, Signal, components, magnitudes, strongest_bands_hz
 from scene2hap.audio.heard import heard
-from scene2hap.audio.levels import TACTILE_RANGE_HZ, drive_db, felt_level_of_spectrum_db, threshold_db
-from scene2hap.audio.moving_pitch import GROWN_DB, MovingPitch, growth_db, moving_pitch
+from scene2hap.audio.levels import drive_db, felt_level_of_spectrum_db
+from scene2hap.audio.moving_pitch import MovingPitch, growth_db, moving_pitch
 from scene2hap.audio.protocol import ConversionContext
+from scene2hap.audio.threshold import NOTICED_DB, TACTILE_RANGE_HZ, threshold_db
 from scene2hap.haptics import ActuatorProfile
 
 BAND_Q = 2.0
@@ -51,8 +52,6 @@ steady test recordings were felt at a component 14-21 dB below their strongest o
 FAINTEST_BELOW_WHINE_DB = -40.0
 """The bound `FAINTEST_DB` if the strongest component is too high to be felt: it admits a hum below a whine, but not a
 recording's noise. The band around it must also be within this bound of the whole sound."""
-MISSED_DB = 3.0
-"""Largest error of a component's level [dB]: about the least difference that is felt."""
 ACCEPTED_DB = 2.0
 """Level error up to which a component is preferred to weaker ones that reach the level [dB]. Loops have up to 1 dB less
 than computed here."""
@@ -254,7 +253,7 @@ class _Needs:
 
     def felt(self, found: Anchor | None, missed_db: float, strongest: Component) -> Anchor:
         """Return the found anchor, or the strongest component at the best frequency, by the rules of this module."""
-        if found is not None and missed_db <= MISSED_DB:
+        if found is not None and missed_db <= NOTICED_DB:
             return found
         carried = self.carried(strongest.hz, None if found is None else found.band_q)
         is_slow = strongest.is_line and strongest.hz <= _SLOW_HZ
@@ -270,7 +269,7 @@ class _Needs:
         if anchor.carrier_hz is not None and anchor.carrier_hz < anchor.frequency_hz:
             return None
         grown_db = self._growth_db(anchor.frequency_hz)
-        if grown_db <= GROWN_DB:
+        if grown_db <= NOTICED_DB:
             return None
         range_hz = RANGE_HZ[0], min(RANGE_HZ[1], 0.45 * self._rate_hz)
         n = min(scipy.fft.next_fast_len(round(2.5 * range_hz[1] * self._n / self._rate_hz), real=True), self._n)

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import ArrayLike
+import scipy
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
 from scene2hap.audio.levels import felt_level_db, felt_spectrum
@@ -115,12 +116,9 @@ def rhythm_hz(samples: ArrayLike, sample_rate_hz: float) -> float | None:
     return _envelope_rate_hz(np.asarray(samples, dtype=np.float64), sample_rate_hz, _SURE_DEPTH)
 
 
-def _envelope_rate_hz(x: np.ndarray, sample_rate_hz: float, least_depth: float) -> float | None:
+def _envelope_rate_hz(x: NDArray[np.float64], sample_rate_hz: float, least_depth: float) -> float | None:
     """Return the strongest rate in the Hilbert envelope of a loop [Hz], None if the envelope hardly varies."""
-    spectrum = np.fft.fft(x)
-    spectrum[0] = 0.0
-    spectrum[(len(x) + 1) // 2 :] = 0.0
-    envelope = np.abs(np.fft.ifft(spectrum))
+    envelope = np.abs(scipy.signal.hilbert(x - x.mean()))
     rates = np.fft.rfftfreq(len(x), 1.0 / sample_rate_hz)
     inside = (rates >= _RATE_HZ[0]) & (rates <= _RATE_HZ[1])
     depth = 2.0 * np.abs(np.fft.rfft(envelope)) / len(x) / envelope.mean()

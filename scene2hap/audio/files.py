@@ -12,12 +12,12 @@ from typing import Literal
 
 import numpy as np
 import soundfile
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
-from scene2hap.audio.clip import AudioClip, Credit
-from scene2hap.errors import AudioError, reason_of
-from scene2hap.text_files import draft_of
+from scene2hap.audio.clip import AudioClip, Credit, Samples
+from scene2hap.errors import AudioError, reason_of, unwritable
+from scene2hap.text_files import draft_of, path_in_c
 
 PcmSubtype = Literal["PCM_16", "PCM_24", "PCM_32"]
 
@@ -45,8 +45,6 @@ CANCELLED = 0.1
 
 _BLOCK_FRAMES = 1 << 18
 
-Float64s = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
-
 _BITS: dict[str, int] = {"PCM_16": 16, "PCM_24": 24, "PCM_32": 32}
 
 
@@ -67,7 +65,7 @@ def read_clip(path: str | Path, credit: Credit | None = None) -> AudioClip:
                 f"{path} lasts {file.frames / rate:.0f} s; it must be at most {MAX_FILE_S:.0f} s. "
                 "Cut out the part you want."
             )
-        blocks: list[np.ndarray[tuple[int, ...], np.dtype[np.float32]]] = []
+        blocks: list[Samples] = []
         n_read, mixdown = 0, Mixdown()
         while len(block := file.read(_BLOCK_FRAMES, dtype="float32", always_2d=True)):
             require_finite(path, block, n_read)
@@ -96,12 +94,12 @@ class Mixdown:
 
     def __init__(self) -> None:
         self._n = 0
-        self._sums: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = np.zeros((2, 1))  # of samples and squares
+        self._sums: NDArray[np.float64] = np.zeros((2, 1))  # of samples and squares
 
-    def mean(self, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]]) -> Float64s:
+    def mean(self, channels: Samples) -> NDArray[np.float64]:
         """Return the mean of samples (n, n_channels), as (n,)."""
         rows = np.ascontiguousarray(channels.T, dtype=np.float64)  # sums along rows are several times as fast
-        mean: Float64s = rows.mean(axis=0)
+        mean: NDArray[np.float64] = rows.mean(axis=0)
         if len(rows) > 1:
             everything = [*rows, mean]
             self._sums = self._sums + np.array([[row.sum() for row in everything], [row @ row for row in everything]])
@@ -145,7 +143,7 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
     try:
         if _is_cut_short(path):
             raise AudioError(f"{path} is cut short: fewer bytes than its header says. Copy it again.")
-        with soundfile.SoundFile(path) as file:
+        with soundfile.SoundFile(path_in_c(path)) as file:
             _require_bounded(path, file)
             yield file
     except OSError as cause:
@@ -156,7 +154,7 @@ def opened_sound(path: Path) -> Iterator[soundfile.SoundFile]:
         ) from cause
 
 
-def require_finite(path: Path, channels: np.ndarray[tuple[int, ...], np.dtype[np.float32]], start: int = 0) -> None:
+def require_finite(path: Path, channels: Samples, start: int = 0) -> None:
     """Check samples (n, channels) that begin at `start` in the file.
 
     Raises: AudioError: one of them is not finite, or exceeds `MAX_SAMPLE`.
@@ -177,9 +175,7 @@ def written_whole(path: Path) -> Iterator[Path]:
         with draft_of(path) as beside:
             yield beside
     except OSError as cause:
-        raise AudioError(
-            f"{path}: cannot be written ({cause.strerror}). Choose a folder that exists and is yours."
-        ) from cause
+        raise AudioError(unwritable(path, cause)) from cause
 
 
 def _is_cut_short(path: Path) -> bool:
@@ -201,17 +197,10 @@ def write_wav(path: str | Path, samples: ArrayLike, sample_rate_hz: int, subtype
     change; only +1 itself loses one step.
     Raises: AudioError: a sample beyond full scale or not finite, a wrong shape, or a path that cannot be written.
     """
-    _write(Path(path), samples, sample_rate_hz, subtype, "WAV")
-
-
-def write_flac(path: str | Path, samples: ArrayLike, sample_rate_hz: int) -> None:
-    """Write samples as a lossless FLAC file of 24 bits, which is smaller than a WAV file. See `write_wav`.
-
-    Raises: AudioError: see `write_wav`; also a sample rate that FLAC cannot store (`fits_flac`).
-    """
-    if not fits_flac(sample_rate_hz):
-        raise AudioError(f"{path}: FLAC has no sample rate of {sample_rate_hz} Hz. Use WAV.")
-    _write(Path(path), samples, sample_rate_hz, "PCM_24", "FLAC")
+    path = Path(path)
+    content = encoded(samples, sample_rate_hz, subtype, path=path)
+    with written_whole(path) as beside:
+        beside.write_bytes(content)
 
 
 def fits_flac(sample_rate_hz: int) -> bool:
@@ -219,22 +208,20 @@ def fits_flac(sample_rate_hz: int) -> bool:
     return sample_rate_hz < 2**16 or (sample_rate_hz % 10 == 0 and sample_rate_hz < 10 * 2**16)
 
 
-def _write(path: Path, samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype, container: str) -> None:
+def encoded(
+    samples: ArrayLike,
+    sample_rate_hz: int,
+    subtype: PcmSubtype = "PCM_24",
+    container: str = "WAV",
+    path: Path = Path("samples"),
+) -> bytes:
+    """Return the content of a sound file, see `write_wav`; `path` is named in errors. Raises: AudioError."""
     rate = int(checks.number("sample_rate_hz", sample_rate_hz, "Hz", at_least=1, error=AudioError))
     if subtype not in _BITS:
         raise AudioError(f"subtype is {subtype!r}; it must be one of {', '.join(_BITS)}.")
-    content = encoded(samples, rate, subtype, container, path)
-    with written_whole(path) as beside:
-        beside.write_bytes(content)
-
-
-def encoded(
-    samples: ArrayLike, sample_rate_hz: int, subtype: PcmSubtype, container: str = "WAV", path: Path = Path("samples")
-) -> bytes:
-    """Return the content of a sound file, see `write_wav`; `path` is named in errors. Raises: AudioError."""
     content = io.BytesIO()
     steps = _quantised(path, samples, _BITS[subtype])
-    soundfile.write(content, steps, sample_rate_hz, subtype=subtype, format=container)
+    soundfile.write(content, steps, rate, subtype=subtype, format=container)
     return content.getvalue()
 
 
@@ -251,14 +238,14 @@ def sound_digest(clip: AudioClip) -> str:
     return hashlib.sha256(f"{clip.sample_rate_hz} Hz ".encode() + samples.astype("<i4").tobytes()).hexdigest()[:32]
 
 
-def _steps(samples: ArrayLike, bits: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
+def _steps(samples: ArrayLike, bits: int) -> NDArray[np.int64]:
     """Return samples in integer steps of 2^-(bits-1); +1 loses one step."""
     full_scale = 2.0 ** (bits - 1)
     steps = np.rint(np.asarray(samples, dtype=np.float64) * full_scale)
     return np.asarray(np.minimum(steps, full_scale - 1), dtype=np.int64)
 
 
-def _quantised(path: Path, samples: ArrayLike, bits: int) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
+def _quantised(path: Path, samples: ArrayLike, bits: int) -> NDArray[np.int32]:
     """Return integers of `bits` bits in the upper bits of int32, where the encoder reads them."""
     values = np.asarray(samples, dtype=np.float64)
     if values.ndim not in (1, 2) or values.size == 0:

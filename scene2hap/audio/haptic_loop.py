@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, overload
 from scene2hap import checks
 from scene2hap.audio.clip import AudioClip
 from scene2hap.audio.run_curve import RunCurve
+from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.calls import clear_construction
 from scene2hap.errors import AudioError
 
@@ -50,10 +51,6 @@ class Sensation:
     def is_moved(self) -> bool:
         """True if it is felt at least 1 Hz away from its frequency in the sound."""
         return self.own_hz is not None and self.target_hz is not None and abs(self.own_hz - self.target_hz) >= 1.0
-
-
-NOTICED_DB = 3.0
-"""Level error that is mentioned [dB]: about the least difference that is felt."""
 
 
 class LevelWarning(UserWarning):

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.audio.actuators import response_db
 from scene2hap.audio.clip import Samples
-from scene2hap.audio.threshold import threshold_db as threshold_db
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
 from scene2hap.errors import AudioError
 from scene2hap.haptics import ActuatorProfile
 
@@ -33,8 +33,6 @@ machine (1)."""
 TACTILE_HEADROOM_DB = 6.0
 """Peak of the tactile loop of a source of full intensity, below full scale [dB]: two such sources add up to full scale
 (within 0.02 dB)."""
-TACTILE_RANGE_HZ = (10.0, 1000.0)
-"""Range that touch perceives as vibration, and that the bands cover."""
 FAINTEST_PEAK_DB = -60.0
 """Peak below which a sound counts as the noise of a recording, which must not be felt [dB re full scale]."""
 

@@ -2,8 +2,9 @@
 
 An engine that revs from 40 to 160 Hz leaves any band that is narrow enough for a hum. The levels of the sound and of a
 band of it are taken over half a second. The range of a level is that from its 5th to its 95th percentile. If the range
-of the band exceeds that of the sound by more than `GROWN_DB`, and the sound has lines, the band must hold the strongest
-line at all times. With a and b the 5th and the 95th percentile of the line's frequency, in stretches of half a second:
+of the band exceeds that of the sound by a felt difference (`threshold.NOTICED_DB`), and the sound has lines, the
+band must hold the strongest line at all times. With a and b the 5th and the 95th percentile of the line's frequency, in
+stretches of half a second:
 
     centre f_0 = sqrt(a b)        r = b / f_0        Q such that B(b) = 1 / (1 + Q^2 (r - 1 / r)^2) is -3 dB
 
@@ -19,8 +20,6 @@ import numpy as np
 
 from scene2hap.audio.components import Signal, components, magnitudes
 
-GROWN_DB = 3.0
-"""Growth of the range above which a band does not hold the sound [dB]: about the least difference that is felt."""
 STRETCH_S = 0.5
 _LEAST_STRETCHES = 4
 _LEAST_SHARE = 0.5

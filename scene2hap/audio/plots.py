@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.audio.threshold import threshold_db
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
 from scene2hap.audio.windows import hann
 from scene2hap.plots import SOUND, THRESHOLD, TOUCH, add_legend, new_figure, plain, set_title
 
@@ -23,7 +23,6 @@ Samples = NDArray[np.float32]
 
 RANGE_DB = 60.0
 """Dynamic range of colours and spectra below their maximum [dB]; full scale is 45 dB over the threshold of touch."""
-FELT_HZ = (10.0, 1000.0)
 _COLUMNS = 1500
 """Points of a waveform or spectrum: more than a page can show, and few enough to draw fast."""
 _FRAMES, _ROWS = 300, 160
@@ -88,7 +87,7 @@ def draw_loop(
     above.set_ylabel("sound [full scale]")
     below.set_ylabel("vibration [full scale]")
     (heard, _), (felt, threshold) = (
-        draw_spectrum(spectra, samples, sample_rate_hz, colour, FELT_HZ)
+        draw_spectrum(spectra, samples, sample_rate_hz, colour, TACTILE_RANGE_HZ)
         for samples, colour in ((sound, SOUND), (touch, TOUCH))
     )
     raw_hz, felt_hz = frequencies_hz
@@ -117,9 +116,9 @@ def draw_spectrum(
 ) -> tuple[Any, Any]:
     """Draw the amplitudes of `component_levels_db`, and the threshold of touch. Returns both lines."""
     frequency_hz, level_db = component_levels_db(samples, sample_rate_hz)
-    low, high = range_hz or (FELT_HZ[0], max(FELT_HZ[1], 0.5 * sample_rate_hz))
+    low, high = range_hz or (TACTILE_RANGE_HZ[0], max(TACTILE_RANGE_HZ[1], 0.5 * sample_rate_hz))
     (line,) = axes.plot(*_strongest(frequency_hz, level_db, low, high), color=colour, linewidth=0.9, zorder=2)
-    felt_hz = np.geomspace(*FELT_HZ, 200)
+    felt_hz = np.geomspace(*TACTILE_RANGE_HZ, 200)
     (threshold,) = axes.plot(felt_hz, threshold_db(felt_hz), color=THRESHOLD, linewidth=1.4, linestyle="--", zorder=3)
     axes.set(xscale="log", xlim=(low, high), ylim=(-RANGE_DB, 3.0))
     axes.set(xlabel="frequency [Hz]", ylabel="level [dB re full scale]")
@@ -155,8 +154,8 @@ def _draw_spectrogram(axes: Axes, samples: Samples, sample_rate_hz: int) -> None
     window = hann(size)
     frames = np.lib.stride_tricks.sliding_window_view(x, size)[starts] * window
     amplitude = 2.0 * np.abs(np.fft.rfft(frames, axis=1)) / window.sum()
-    top_hz = max(0.5 * sample_rate_hz, 2.0 * FELT_HZ[0])
-    edges_hz = np.geomspace(FELT_HZ[0], top_hz, _ROWS + 1)
+    top_hz = max(0.5 * sample_rate_hz, 2.0 * TACTILE_RANGE_HZ[0])
+    edges_hz = np.geomspace(TACTILE_RANGE_HZ[0], top_hz, _ROWS + 1)
     bin_hz = sample_rate_hz / size
     last = amplitude.shape[1] - 1
     # A row between two bins takes the nearer one.

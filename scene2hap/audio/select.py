@@ -20,10 +20,11 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.audio import analysis
 from scene2hap.audio.clip import AudioClip, Samples
-from scene2hap.audio.levels import TACTILE_RANGE_HZ
 from scene2hap.audio.recorded_runs import RecordedRuns, recorded_runs
 from scene2hap.audio.run_curve import RunCurve
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.errors import AudioError
+from scene2hap.printable import aligned
 
 MIN_DURATION_S = 2.5
 DYNAMIC_RANGE_STEP_DB = 5.0
@@ -89,16 +90,7 @@ class Choice:
     wind_down: RunCurve | None = None
 
     def __str__(self) -> str:
-        lines = [tuple(heading.removeprefix(">") for heading in COLUMNS), *(row.cells() for row in self.rows)]
-        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-        to_the_right = [heading.startswith(">") for heading in COLUMNS]
-        return "\n".join(
-            "  ".join(
-                cell.rjust(width) if right else cell.ljust(width)
-                for cell, width, right in zip(line, widths, to_the_right, strict=True)
-            ).rstrip()
-            for line in lines
-        )
+        return "\n".join(aligned(COLUMNS, [row.cells() for row in self.rows]))
 
 
 def select_clip(clips: Sequence[AudioClip]) -> AudioClip:

@@ -1,4 +1,4 @@
-"""The threshold of touch: the least drive that is felt, by frequency.
+"""The threshold of touch by frequency, the felt range, and the least felt difference of level.
 
 T(f) = A / lg(b)^2 * lg(f / 550 + b)^2 - e      [dB re full scale], b = 6/11, A = 50, e = 45, at most 0
 
@@ -12,6 +12,12 @@ import math
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+TACTILE_RANGE_HZ = (10.0, 1000.0)
+"""Range that touch perceives as vibration, and that the bands cover."""
+
+NOTICED_DB = 3.0
+"""About the least difference of level that is felt [dB]: smaller errors and changes of level do not matter."""
 
 _A, _B, _E = 50.0, 6.0 / 11.0, 45.0
 

@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 from scene2hap.audio.anchor import FAINTEST_DB, HIGHEST_PEAK_DB, RANGE_HZ, rendered_hz
 from scene2hap.audio.components import magnitudes, peaks
 from scene2hap.audio.levels import drive_db
+from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.haptics import ActuatorProfile
 
-STAYS_DB = 3.0
-"""An anchor stays while it is at most this much weaker than the best one: about the least difference that is felt."""
 LOST_DB = 12.0
 """An anchor that is this much weaker than the best one within a stretch belonged to another sound (assumed)."""
 _SAME = 1.06
@@ -25,7 +24,7 @@ _NEW_SHARE = 0.3
 class TrackedAnchor:
     """The anchor of a live sound, from stretches of equal length. To save time, the sound is assumed to be steady.
 
-    Spectra are averaged over stretches. An anchor stays while its component is within `STAYS_DB` of the best, so that
+    Spectra are averaged over stretches. An anchor stays while its component is within `NOTICED_DB` of the best, so that
     it does not jump between two harmonics of similar strength.
 
     Parameters: sample_rate_hz : of the stretches; level_db : planned sensation level of the sound [dB].
@@ -50,7 +49,7 @@ class TrackedAnchor:
         if self.own_hz is not None:
             near = int(np.argmin(np.abs(np.log(hz / self.own_hz))))
             is_same = abs(np.log(hz[near] / self.own_hz)) < np.log(_SAME)
-            if is_same and good[near] == good[best] and height_db[near] >= height_db[best] - STAYS_DB:
+            if is_same and good[near] == good[best] and height_db[near] >= height_db[best] - NOTICED_DB:
                 best = near
         self.own_hz = float(hz[best])
         return self.own_hz

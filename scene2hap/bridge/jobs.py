@@ -15,9 +15,11 @@ from pathlib import Path
 from typing import Any
 
 from scene2hap.bridge.hosted_session import error_message
+from scene2hap.bridge.pictures import temporary_files
 from scene2hap.bridge.session_warnings import Tell
 from scene2hap.errors import BridgeError
 from scene2hap.interpreter import can_start_python
+from scene2hap.text_files import write_whole
 
 MAX_RUNNING = 4
 """Most bakes at the same time, over all clients; assumed: more would only slow each other down."""
@@ -54,9 +56,10 @@ class Jobs:
             raise BridgeError(f"{MAX_RUNNING} bakes are running already; wait for one to end, or cancel one.")
 
     def write(self, text: str) -> Path:
-        """Write a scene file for a job, which removes it at its end."""
+        """Write a scene file for a job, which removes it at its end. Raises: BridgeError: it cannot be written."""
         path = self.folder / f"scene-{next(self._numbers)}.json"
-        path.write_text(text, encoding="utf-8")
+        with temporary_files():
+            write_whole(path, text)
         return path
 
     def start(self, wanted: Mapping[str, Any], target: Path | None, tell: Tell) -> int:

@@ -5,16 +5,29 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from scene2hap import checks
 from scene2hap.bridge.frames import decode_picture
-from scene2hap.errors import BridgeError
+from scene2hap.errors import BridgeError, unwritable
 from scene2hap.scene.capture.given_pictures import INDEX, GivenPictures
+from scene2hap.text_files import write_whole
 
 MAX_BYTES = 1 << 29
 """Most bytes of a client's pictures before a bake."""
+
+
+@contextmanager
+def temporary_files() -> Iterator[None]:
+    """Raises: BridgeError: a temporary file of the bridge cannot be written."""
+    try:
+        yield
+    except OSError as cause:
+        hint = "Start the bridge with another TMPDIR."
+        raise BridgeError(unwritable("a temporary file of the bridge", cause, hint)) from cause
 
 
 class SentPictures:
@@ -32,7 +45,8 @@ class SentPictures:
     def take(self, message: bytes) -> None:
         """Store a picture. It replaces an earlier one with the same object, kind and view.
 
-        Raises: BridgeError: its text is no JSON object, or there are too many; SceneError: it cannot be used.
+        Raises: BridgeError: its text is no JSON object, there are too many, or the disk is full; SceneError: it cannot
+        be used.
         """
         text, file = decode_picture(message)
         try:
@@ -48,10 +62,12 @@ class SentPictures:
             raise BridgeError(
                 f"the pictures have more than {MAX_BYTES >> 20} MiB; bake, or send fewer or smaller ones."
             )
-        if self._folder is None:
-            self._folder = Path(tempfile.mkdtemp(prefix="pictures-", dir=self._parent))
-        name = self._rows.setdefault(key, f"{len(self._rows):06d}")
-        (self._folder / name).write_bytes(file)
+        with temporary_files():
+            if self._folder is None:
+                self._folder = Path(tempfile.mkdtemp(prefix="pictures-", dir=self._parent))
+            name = self._rows.get(key, f"{len(self._rows):06d}")
+            write_whole(self._folder / name, file)
+        self._rows[key] = name
 
     def hand_over(self) -> Path:
         """Return the folder of pictures for a bake. Later ones get a new folder. Raises: BridgeError: no pictures."""
@@ -62,7 +78,8 @@ class SentPictures:
             {"object": thing, "kind": kind, "view": view, "file": file}
             for (thing, kind, view), file in self._rows.items()
         ]
-        (folder / INDEX).write_text(json.dumps(rows), encoding="utf-8")
+        with temporary_files():
+            write_whole(folder / INDEX, json.dumps(rows))
         self._folder, self._rows, self._n_bytes = None, {}, 0
         return folder
 

@@ -2,12 +2,12 @@
 
 from scene2hap.bundle.checking import BundleWarning
 from scene2hap.bundle.differences import Difference, differences
-from scene2hap.bundle.folder import read_overrides, write_bundle
+from scene2hap.bundle.folder import read_overrides, write_both
 from scene2hap.bundle.folder_replacement import require_replaceable, save_stamp
 from scene2hap.bundle.haptic_bundle import HapticBundle
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.override import Override
-from scene2hap.bundle.sounds import file_stem
+from scene2hap.bundle.sounds import file_stems
 
 __all__ = [
     "BundleWarning",
@@ -16,9 +16,9 @@ __all__ = [
     "MadeWith",
     "Override",
     "differences",
-    "file_stem",
+    "file_stems",
     "read_overrides",
     "require_replaceable",
     "save_stamp",
-    "write_bundle",
+    "write_both",
 ]

@@ -17,7 +17,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from scene2hap.errors import BundleError, reason_of
+from scene2hap.errors import BundleError, reason_of, unwritable
 from scene2hap.printable import read_json
 from scene2hap.text_files import read_small_text, write_whole
 
@@ -41,7 +41,7 @@ def write_account(folder: str | os.PathLike[str], account: Mapping[str, Any]) ->
     try:
         write_whole(path, json.dumps(document, indent=1))
     except OSError as cause:
-        raise BundleError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause
+        raise BundleError(unwritable(path, cause)) from cause
     return path
 
 

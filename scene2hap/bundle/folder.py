@@ -17,7 +17,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, fields, replace
 from pathlib import Path
@@ -27,7 +27,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
 from scene2hap.audio.clip import Credit
-from scene2hap.audio.files import read_clip, write_wav
+from scene2hap.audio.files import encoded, read_clip
 from scene2hap.bundle.checking import warn_of_unknown_fields
 from scene2hap.bundle.contents import BundleContents
 from scene2hap.bundle.corrections import FORMAT as CORRECTIONS_FORMAT
@@ -36,8 +36,8 @@ from scene2hap.bundle.folder_replacement import recover, replaced
 from scene2hap.bundle.made_with import MadeWith
 from scene2hap.bundle.manifest import FORMAT, MANIFEST, VERSION, read_manifest, require_folder
 from scene2hap.bundle.override import Override
-from scene2hap.bundle.sounds import SoundReader, file_stem, write_loops
-from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, reason_of
+from scene2hap.bundle.sounds import SoundReader, file_stems, write_loops
+from scene2hap.errors import AudioError, BundleError, BundleIncomplete, Scene2HapError, SceneError, unwritable
 from scene2hap.file_stamp import Stamp
 from scene2hap.haptics import ObjectHaptics
 from scene2hap.materials import Material, lookup
@@ -65,8 +65,23 @@ def write_bundle(bundle: BundleContents, target: Path, since: Stamp | None = Non
         with replaced(target, since) as draft:
             _write(bundle, draft)
     except OSError as cause:
-        raise BundleError(f"{target} cannot be written: {reason_of(cause)}.") from cause
+        raise BundleError(unwritable(target, cause)) from cause
     return target
+
+
+def write_both(
+    bundle: BundleContents, target: Path, old: BundleContents, kept: Path, since: Stamp | None = None
+) -> Path:
+    """Write a bundle, and the one that it replaces into the folder `kept`: both or none. Otherwise as `write_bundle`.
+
+    Both are written before either replaces a folder, so that a full disk or an early end changes nothing.
+    """
+    try:
+        with replaced(kept) as draft:
+            _write(old, draft)
+            return write_bundle(bundle, target, since)
+    except OSError as cause:
+        raise BundleError(unwritable(kept, cause)) from cause
 
 
 def _write(bundle: BundleContents, folder: Path) -> None:
@@ -98,8 +113,8 @@ def _write(bundle: BundleContents, folder: Path) -> None:
                 put_bytes(name, encode_ply(item.geometry))
     put("scene.json", {"format": scene_json.FORMAT, "version": scene_json.VERSION, **scene})
     put("objects.json", _objects.dump_python(dict(bundle.objects), mode="json"))
-    put("loops.json", write_loops(bundle, folder, written))
-    put("overrides.json", _override_rows(bundle, folder, written))
+    put("loops.json", write_loops(bundle, put_bytes))
+    put("overrides.json", _override_rows(bundle, put_bytes))
     owed = dict.fromkeys(replace(who, query="") for who in bundle.credits)  # two queries may find one sound
     lines = [f"{who.title}, by {who.author}, {who.licence}{', ' + who.address if who.address else ''}" for who in owed]
     text = "\n".join(["Sounds in this bundle, cut into loops and turned into vibration", *lines]) + "\n"
@@ -211,16 +226,16 @@ def _read_scene(folder: Path) -> SceneSnapshot:
     return SceneSnapshot.of(scene_json.from_document(document))
 
 
-def _override_rows(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, Any]:
+def _override_rows(bundle: BundleContents, put: Callable[[str, bytes], None]) -> dict[str, Any]:
     rows: dict[str, Any] = {}
+    stems = file_stems(bundle.overrides)
     for object_id, wish in bundle.overrides.items():
         row = rows[object_id] = wish.corrections()
         for name in {"material", "feet"} & row.keys():
             row[name] = asdict(row[name])
         if wish.clip is not None:
-            name = f"sounds/{file_stem(object_id)}.override.wav"
-            write_wav(folder / name, wish.clip.samples, wish.clip.sample_rate_hz)
-            written.append(name)
+            name = f"sounds/{stems[object_id]}.override.wav"
+            put(name, encoded(wish.clip.samples, wish.clip.sample_rate_hz, path=Path(name)))
             row["clip"] = {"file": name, "credit": asdict(wish.clip.credit)}
             if wish.clip.is_vibration:
                 row["clip"]["is_vibration"] = True

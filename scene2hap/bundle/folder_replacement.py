@@ -46,10 +46,13 @@ _MARK = ".scene2hap-"
 def require_replaceable(target: Path) -> None:
     """Check that a target can be replaced: it does not exist, is an empty folder, or is a readable bundle.
 
-    Raises: BundleVersionError: a bundle of a newer scene2hap; BundleError: any other content, or the target is or
-    contains the working folder of this process, which would be moved away.
+    Raises: BundleVersionError: a bundle of a newer scene2hap; BundleError: any other content, the folder above cannot
+    be written, or the target is or contains the working folder of this process, which would be moved away.
     """
     place = _resolved(target)
+    above = next(folder for folder in place.parents if folder.exists())
+    if not above.is_dir() or not os.access(above, os.W_OK | os.X_OK):
+        raise BundleError(f"{target} cannot be written: {above} is no folder of yours. Choose another place.")
     if not os.path.lexists(place):
         return
     if not place.is_dir():

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from scene2hap.audio.clip import AudioClip, Credit
-from scene2hap.audio.files import fits_flac, read_clip, sound_digest, write_flac, write_wav
+from scene2hap.audio.files import encoded, fits_flac, read_clip, sound_digest
 from scene2hap.audio.haptic_loop import HapticLoop, Sensation
 from scene2hap.audio.run_curve import RunCurve
 from scene2hap.bundle.contents import BundleContents
@@ -23,10 +24,12 @@ from scene2hap.bundle.files import own_file
 
 _KINDS = ("audible", "tactile", "source")
 _RUNS = ("start_up", "wind_down")
+_RESERVED = re.compile("con|prn|aux|nul|com[0-9]|lpt[0-9]", re.IGNORECASE)
+"""Names that no file of Windows can have, also before a suffix."""
 
 
-def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dict[str, dict[str, Any]]:
-    """Write the sounds of all loops below `folder`; add their names to `written`. Returns the rows of loops.json."""
+def write_loops(bundle: BundleContents, put: Callable[[str, bytes], None]) -> dict[str, dict[str, Any]]:
+    """Write the sounds of all loops; `put` writes a file, by its name and content. Returns the rows of loops.json."""
     digests: dict[int, str] = {}
     users: dict[tuple[str, str], list[str]] = {}
     for stem, loop in _stems(bundle):
@@ -42,8 +45,7 @@ def write_loops(bundle: BundleContents, folder: Path, written: list[str]) -> dic
             for kind, clip in _clips(loop).items():
                 key = kind, digests[id(clip)]
                 if key not in names:
-                    names[key] = _write(folder, users[key], kind, clip)
-                    written.append(names[key])
+                    names[key] = _write(put, users[key], kind, clip)
                 row[kind] = names[key]
             row["frequency_raw_hz"] = loop.frequency_raw_hz
             row["frequency_tactile_hz"] = loop.frequency_tactile_hz
@@ -95,7 +97,17 @@ class SoundReader:
 def file_stem(text: str) -> str:
     """Return a file name for any id. Ids with equal plain letters get different short digests."""
     plain = re.sub(r"[^A-Za-z0-9_-]+", "-", text).strip("-")[:60]
-    return plain if plain == text else f"{plain or 'x'}-{_digest(text)}"
+    return plain if plain == text and not _RESERVED.fullmatch(plain) else f"{plain or 'x'}-{_digest(text)}"
+
+
+def file_stems(texts: Iterable[str]) -> dict[str, str]:
+    """Return a file name for each of several ids.
+
+    Ids that differ in case only get digests, since Windows and macOS take such names for one.
+    """
+    stems = {text: file_stem(text) for text in texts}
+    alike = Counter(stem.casefold() for stem in stems.values())
+    return {text: stem if alike[stem.casefold()] == 1 else f"{stem}-{_digest(text)}" for text, stem in stems.items()}
 
 
 def _digest(text: str) -> str:
@@ -103,10 +115,11 @@ def _digest(text: str) -> str:
 
 
 def _stems(bundle: BundleContents) -> list[tuple[str, HapticLoop]]:
+    objects = file_stems(bundle.loops)
     return [
-        (f"{file_stem(object_id)}.{file_stem(state)}", loop)
+        (f"{objects[object_id]}.{stem}", states[state])
         for object_id, states in bundle.loops.items()
-        for state, loop in states.items()
+        for state, stem in file_stems(states).items()
     ]
 
 
@@ -114,13 +127,13 @@ def _clips(loop: HapticLoop) -> dict[str, AudioClip]:
     return {kind: clip for kind in _KINDS if (clip := getattr(loop, kind)) is not None}
 
 
-def _write(folder: Path, stems: list[str], kind: str, clip: AudioClip) -> str:
+def _write(put: Callable[[str, bytes], None], stems: list[str], kind: str, clip: AudioClip) -> str:
     shared = f"{stems[0]}+{len(stems) - 1}" if len(stems) > 1 else stems[0]  # no stem holds a plus sign
     # Loops are WAV, since people edit them. The longer source sounds are only kept, so they are compressed.
     if kind == "source" and fits_flac(clip.sample_rate_hz):
         name = f"sounds/{shared}.{kind}.flac"
-        write_flac(folder / name, clip.samples, clip.sample_rate_hz)
+        put(name, encoded(clip.samples, clip.sample_rate_hz, container="FLAC", path=Path(name)))
     else:
         name = f"sounds/{shared}.{kind}.wav"
-        write_wav(folder / name, clip.samples, clip.sample_rate_hz)
+        put(name, encoded(clip.samples, clip.sample_rate_hz, path=Path(name)))
     return name

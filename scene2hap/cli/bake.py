@@ -17,7 +17,7 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, bake
 from scene2hap.baking.scene import with_locked
-from scene2hap.bundle import HapticBundle, differences, read_overrides, require_replaceable
+from scene2hap.bundle import HapticBundle, differences, read_overrides, require_replaceable, write_both
 from scene2hap.bundle.account import write_account
 from scene2hap.cli.console import Console
 from scene2hap.cli.edit import kept_before, wishes
@@ -129,8 +129,8 @@ def run(arguments: argparse.Namespace, console: Console) -> dict[str, Any]:
             overrides=overrides,
             earlier=with_locked(target, overrides),
         )
-    folder = bundle.save(arguments.output)
-    kept = _keep(before, bundle, target)
+    kept = kept_before(str(target)) if before is not None and _is_other(before, bundle) else None
+    folder = bundle.save(target) if before is None or kept is None else write_both(bundle, target, before, kept)
     write_account(folder, {**accounts[0].as_json(), "cost_usd": accounts[0].cost_usd(price_list(config.prices))})
     show_bundle(console, bundle)
     show_report(console, accounts[0], config.prices)
@@ -150,12 +150,9 @@ def _readable(folder: Path) -> HapticBundle | None:
         return None
 
 
-def _keep(before: HapticBundle | None, after: HapticBundle, target: Path) -> Path | None:
-    """Save the replaced bundle where `edit undo` finds it, unless nothing has changed. Returns its folder."""
-    if before is None:
-        return None
-    is_same = before.objects == after.objects and not differences(before, after) and wishes(before) == wishes(after)
-    return None if is_same else before.save(kept_before(str(target)))
+def _is_other(before: HapticBundle, after: HapticBundle) -> bool:
+    """Return True if a bake has changed something, so that `edit undo` has something to restore."""
+    return before.objects != after.objects or bool(differences(before, after)) or wishes(before) != wishes(after)
 
 
 def bake_settings(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from scene2hap.cli import streams
-from scene2hap.printable import printable, printable_json
+from scene2hap.printable import aligned, printable, printable_json
 
 Tell = Callable[[str, str, int, int], None]
 """Called with (stage, item, number done, total number)."""
@@ -33,18 +33,6 @@ _FILE_WIDTH = 160
 """Width in columns of output into a file or a pipe."""
 _LAID_OUT = 1000
 """Most rows of a table that is fitted to the terminal, at 0.6 ms a row. Longer tables are only aligned."""
-_WIDEST = 60
-"""Most columns to which a cell is padded, so that one very long name does not widen all rows."""
-
-
-def _aligned(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield the lines of a table without a frame. Each column is as wide as its widest cell, up to `_WIDEST`."""
-    table = [tuple(column.removeprefix(">") for column in columns), *(tuple(map(printable, row)) for row in rows)]
-    widths = [min(max(map(len, cells)), _WIDEST) for cells in zip(*table, strict=True)]
-    to_right = [column.startswith(">") for column in columns]
-    for row in table:
-        cells = zip(row, widths, to_right, strict=True)
-        yield "  ".join(cell.rjust(width) if right else cell.ljust(width) for cell, width, right in cells).rstrip()
 
 
 def _one_line(text: str) -> str:
@@ -87,7 +75,7 @@ class Console:
             return
         rows = list(rows)
         if len(rows) > _LAID_OUT:
-            self.say("\n".join((title, *_aligned(columns, rows))))
+            self.say("\n".join((title, *aligned(columns, rows))))
             return
         table = Table(title=_safe(title), title_justify="left", title_style="bold")
         for column in columns:

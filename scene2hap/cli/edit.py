@@ -40,7 +40,7 @@ from typing import Any
 
 from scene2hap.baking import BakeConfig, rebake
 from scene2hap.baking.sound import Remade
-from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable, save_stamp, write_bundle
+from scene2hap.bundle import HapticBundle, Override, differences, require_replaceable, save_stamp, write_both
 from scene2hap.cli.console import Console, Tell
 from scene2hap.cli.shared_options import add_backend_arguments, add_loop_arguments, backend_settings, loop_settings
 from scene2hap.cli.tables import show_report
@@ -191,8 +191,7 @@ def _edit_once(arguments: argparse.Namespace, config: BakeConfig, console: Conso
         # Saving would replace the kept bundle, so that `undo` could no longer take back the edit before.
         console.say(f"nothing changed; {arguments.bundle} stays as it was")
         return {"bundle": str(arguments.bundle), "remade": remade}
-    folder = write_bundle(after, Path(arguments.bundle), since=read)
-    before.save(kept_before(arguments.bundle))
+    folder = write_both(after, Path(arguments.bundle), before, kept_before(arguments.bundle), since=read)
     # A table of its own shows loops, and "loops made again" the actuator.
     changes = [row for row in all_changes if row.what != "actuator" and not row.what.startswith("loop ")]
     for object_id, what, old, new in changes:

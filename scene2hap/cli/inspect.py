@@ -21,14 +21,15 @@ import os
 from pathlib import Path
 from typing import Any
 
-from scene2hap.bundle import HapticBundle, file_stem
+from scene2hap.bundle import HapticBundle, file_stems
 from scene2hap.cli.bake import add_scene_arguments, read_scene
 from scene2hap.cli.console import Console
 from scene2hap.cli.tables import bundle_outcome, scene_outcome, show_bundle, show_scene
 from scene2hap.counted import counted
-from scene2hap.errors import SceneError
+from scene2hap.errors import SceneError, unwritable
 from scene2hap.scene.capture import capture_images, contact_sheet, plan_view, render_all
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.text_files import write_whole
 
 HELP = "show tables of a scene or a bundle"
 
@@ -72,15 +73,16 @@ def write_pictures(scene: SceneSnapshot, folder: Path, console: Console) -> list
     def put(name: str, png: bytes) -> None:
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_bytes(png)
+            write_whole(folder / name, png)
         except OSError as cause:
-            raise SceneError(f"{folder / name} cannot be written: {cause.strerror}. Choose another folder.") from cause
+            raise SceneError(unwritable(folder / name, cause)) from cause
         written.append(str(folder / name))
 
     with console.progress() as tell:
         render_all(pictured, workers=os.cpu_count(), progress=lambda done, total: tell("pictures", "", done, total))
     put("plan.png", plan_view(pictured))
+    stems = file_stems(item.id for item in pictured.objects)
     for item in pictured.objects:
-        put(f"{file_stem(item.id)}.png", contact_sheet(item))
+        put(f"{stems[item.id]}.png", contact_sheet(item))
     console.say(f"wrote {counted(len(written), 'picture')} to {folder}")
     return written

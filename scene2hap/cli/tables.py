@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from scene2hap.audio.haptic_loop import NOTICED_DB, HapticLoop, Sensation
+from scene2hap.audio.haptic_loop import HapticLoop, Sensation
+from scene2hap.audio.threshold import NOTICED_DB
 from scene2hap.bundle import HapticBundle
 from scene2hap.cli.console import Console
 from scene2hap.counted import counted

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import uuid
 from collections.abc import Hashable
 from pathlib import Path
 
@@ -16,6 +15,7 @@ from scene2hap.devices.exclusive_use import claim, give_back
 from scene2hap.devices.protocol import Block, Fill, SinkFormat, SinkStats
 from scene2hap.devices.whole_frames import Pulled, WholeFrames
 from scene2hap.errors import ConfigError, DeviceError, reason_of
+from scene2hap.text_files import draft_path, path_in_c, put_in_place
 
 
 @clear_calls
@@ -35,6 +35,8 @@ class WavSink(Pulled):
             raise ConfigError(
                 f"path {str(path)!r} is a folder; give that of a file, as {str(self.path / 'touch.wav')!r}."
             )
+        if self.path.exists() and not self.path.is_file():
+            raise ConfigError(f"path {str(path)!r} is a device or a pipe; give that of a file.")
         if self.path.suffix.lower() not in ("", ".wav", ".wave"):
             raise ConfigError(f"path is {str(path)!r}; WavSink writes WAV, so that it must end in .wav.")
         self._draft = self.path
@@ -56,17 +58,21 @@ class WavSink(Pulled):
             "each a file of its own.",
         )
         # Another program may write a file of the same name; each writes a draft of its own, and the last one stays.
-        self._draft = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
+        self._draft = draft_path(self.path)
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
+            self._draft.touch()  # unlike libsndfile, it names the reason of a failure
             self._file = soundfile.SoundFile(
-                self._draft, "w", format.sample_rate_hz, len(format.channels), subtype="PCM_24", format="WAV"
+                path_in_c(self._draft), "w", format.sample_rate_hz, len(format.channels), subtype="PCM_24", format="WAV"
             )
         except (OSError, soundfile.SoundFileError) as cause:
             give_back(self._key, self)
             with contextlib.suppress(OSError):
                 self._draft.unlink()  # on a full disk it exists, and is empty
-            raise DeviceError(f"{self.path} cannot be written: {reason_of(cause).rstrip('.')}.") from cause
+            raise DeviceError(
+                f"{self.path} cannot be written: {reason_of(cause).rstrip('.')}. Choose a folder that is yours and has "
+                "room."
+            ) from cause
 
     def start(self, fill: Fill) -> None:
         """Set `fill` as the source of blocks."""
@@ -106,7 +112,7 @@ class WavSink(Pulled):
         give_back(self._key, self)
         try:
             file.close()
-            os.replace(self._draft, self.path)
+            put_in_place(self._draft, self.path)
         except (OSError, soundfile.SoundFileError) as cause:
             raise DeviceError(
                 f"{self.path} cannot be completed: {reason_of(cause).rstrip('.')}. The disk may be gone or full, or "

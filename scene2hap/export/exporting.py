@@ -17,12 +17,12 @@ import numpy as np
 from scene2hap import checks
 from scene2hap.audio.files import read_clip
 from scene2hap.bundle import HapticBundle
-from scene2hap.bundle.sounds import file_stem
+from scene2hap.bundle.sounds import file_stem, file_stems
 from scene2hap.calls import clear_call
 from scene2hap.clips.reading import is_haptic_clip, read_haptic_clip
 from scene2hap.clips.synthesis import RATE_HZ, synthesize
 from scene2hap.devices.memory import MemorySink
-from scene2hap.errors import ConfigError, ExportError
+from scene2hap.errors import ConfigError, ExportError, unwritable
 from scene2hap.export.fidelity import fidelity
 from scene2hap.export.manifest import NAME, manifest_of
 from scene2hap.export.protocol import EXPORTS, Exported, Exporter, json_bytes
@@ -65,9 +65,11 @@ def export_bundle(
         )
     tracks: dict[str, Track] = {}
     names: dict[str, tuple[str, str]] = {}
+    sources = file_stems(bundle.loops)
     for source, states in bundle.loops.items():
+        stems = file_stems(states)
         for state, loop in states.items():
-            name = f"{file_stem(source)}.{file_stem(state)}"
+            name = f"{sources[source]}.{stems[state]}"
             names[name] = source, state
             channel = Channel(np.asarray(loop.tactile.samples), loop.tactile.sample_rate_hz, is_loop=True)
             tracks[name] = Track(name, {"": channel})
@@ -187,4 +189,4 @@ def _put(folder: Path, name: str, content: bytes) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         write_whole(path, content)
     except OSError as cause:
-        raise ExportError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause
+        raise ExportError(unwritable(path, cause)) from cause

@@ -42,12 +42,13 @@ from scene2hap.llm.quoting import clean
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.run_coroutine import run_waiting
 from scene2hap.llm.sharing import copies, of_any_scene, reachable
-from scene2hap.llm.size_check import size_without_answer, surface_size
+from scene2hap.llm.size_check import surface_size
 from scene2hap.materials import Material
 from scene2hap.scene.arguments import given_scene
 from scene2hap.scene.copies import material_names
 from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.snapshot import SceneSnapshot
+from scene2hap.scene.surface import plate_sizes
 
 _Result = TypeVar("_Result")
 
@@ -183,7 +184,7 @@ class _Chain:
             nonlocal done
             analysis = await self._analyse(item)
             if self._settings.inference == "eager":
-                await self._material(analysis.answer.material_category)
+                await self._materials[_word(analysis.answer.material_category)]
             done += len(firsts[item.id])
             tell(item.id, done, len(wanted))
             return analysis
@@ -267,9 +268,6 @@ class _Chain:
         else:
             self._materials[word] = asyncio.ensure_future(self._estimate(word))
         return self._materials[word]
-
-    async def _material(self, category: str) -> Estimate:
-        return await self._materials[_word(category)]
 
     async def _estimate(self, word: str) -> Estimate:
         if is_unknown(word):
@@ -436,7 +434,7 @@ def _unanswered(item: SceneObject, problem: Scene2HapError) -> ObjectHaptics:
         object_category="unknown",
         material_category="unknown",
         material=None,
-        estimated_size_m=size_without_answer(item.size_m),
+        estimated_size_m=plate_sizes.with_thickness(item.size_m),
         usage="unknown",
         vibrates=False,
         confidence=0.0,

@@ -15,6 +15,7 @@ from typing import Any
 
 from scene2hap.errors import BadAnswer
 from scene2hap.haptics import is_unknown
+from scene2hap.llm.backends.image_tokens import CHARACTERS_PER_TOKEN, image_tokens
 from scene2hap.llm.chain import infer_scene
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.lexicon import LexiconBackend
@@ -22,9 +23,6 @@ from scene2hap.llm.protocol import COMPONENTS, Component, LLMReply, LLMRequest
 from scene2hap.llm.report import InferenceReport
 from scene2hap.llm.wrappers.prices import Given, Price, PriceList, price_list
 from scene2hap.scene.snapshot import SceneSnapshot
-
-_CHARACTERS_PER_TOKEN = 4.0
-"""Assumed: usual for English."""
 
 _ANSWER_TOKENS: Mapping[Component, int] = {
     "scene_analyzer": 15,
@@ -34,51 +32,8 @@ _ANSWER_TOKENS: Mapping[Component, int] = {
 }
 """Assumed: lengths of good answers. Reasoning models write several times as much."""
 
-_TILES = (
-    ("gpt-4o-mini", 2833, 5667),
-    ("gpt-4o", 85, 170),
-    ("gpt-4.1", 85, 170),
-    ("gpt-5", 70, 140),
-    ("o1", 75, 150),
-    ("o3", 75, 150),
-)
-"""Model, tokens of a picture in low detail, additional tokens per tile of 512 px in high detail."""
-
-_PATCHES = (
-    ("gpt-4.1-mini", 1536, 1.62),
-    ("gpt-4.1-nano", 1536, 2.46),
-    ("gpt-5-mini", 1536, 1.62),
-    ("gpt-5-nano", 1536, 2.46),
-    ("gpt-5.4-mini", 1536, 1.62),
-    ("gpt-5.4-nano", 1536, 2.46),
-    ("o4-mini", 1536, 1.72),
-    ("gpt-5.2", 1536, 1.0),
-    ("gpt-5.4", 2500, 1.0),
-    ("gpt-5.5", 2500, 1.0),
-)
-"""Model, largest number of patches of 32 px, tokens per patch."""
-
-_PATCH_PX, _TILE_PX, _SHORT_SIDE_PX = 32, 512, 768
-
 _PICTURE_PX = 512
 """Default size of pictures in `scene.capture`."""
-
-
-def image_tokens(model: str, size_px: int, detail: str) -> int | None:
-    """Return the tokens of one square picture; None if they are unknown for the model.
-
-    Source: OpenAI, "Images and vision", section "Calculating costs".
-    """
-    of_patches = _longest_match(model, _PATCHES)
-    of_tiles = _longest_match(model, _TILES)
-    if of_patches is not None and (of_tiles is None or len(of_patches[0]) >= len(of_tiles[0])):
-        _, most, factor = of_patches
-        return math.ceil(min(math.ceil(size_px / _PATCH_PX) ** 2, most) * factor)
-    if of_tiles is None:
-        return None
-    _, base, per_tile = of_tiles
-    tiles = math.ceil(min(size_px, _SHORT_SIDE_PX) / _TILE_PX) ** 2
-    return int(base) if detail == "low" else int(base + per_tile * tiles)
 
 
 @dataclass(frozen=True)
@@ -174,7 +129,7 @@ def estimated_cost_usd(
 
 
 def _text_tokens(request: LLMRequest) -> int:
-    return math.ceil((len(request.prompt) + len(json.dumps(request.answer_schema))) / _CHARACTERS_PER_TOKEN)
+    return math.ceil((len(request.prompt) + len(json.dumps(request.answer_schema))) / CHARACTERS_PER_TOKEN)
 
 
 @dataclass
@@ -204,8 +159,3 @@ class _Counter:
         if is_unknown(answer.get("material_category", "known")):
             answer["material_category"] = f"material of {request.subject}"[:60]
         return LLMReply(json.dumps(answer), reply.model)
-
-
-def _longest_match(model: str, rows: tuple[tuple[str, int, float], ...]) -> tuple[str, int, float] | None:
-    fitting = [row for row in rows if model.startswith(row[0])]
-    return max(fitting, key=lambda row: len(row[0]), default=None)

@@ -33,7 +33,7 @@ def from_table(word: str) -> Estimate | None:
         known = lookup(word)
     except UnknownMaterial:
         return None
-    return Estimate(Material(word, *_constants(known)), "table of materials")
+    return Estimate(replace(known, name=word), "table of materials")
 
 
 def from_model(word: str, answer: MaterialAnswer, provenance: str) -> Estimate:
@@ -60,7 +60,3 @@ def without_answer(word: str, problem: str) -> Estimate:
     if known is None:
         return Estimate(None, f"error: {problem}", (f"no constants: {problem}",))
     return Estimate(known.material, known.provenance, (f"the table's constants, since {problem}",))
-
-
-def _constants(material: Material) -> tuple[float, float, float, float]:
-    return material.density_kg_m3, material.youngs_modulus_pa, material.poisson_ratio, material.loss_factor

@@ -15,7 +15,6 @@ from scene2hap.counted import counted
 from scene2hap.errors import BackendUnavailable, BadAnswer, ConfigError
 from scene2hap.llm.answers import Answer, AnswerType, read_answer
 from scene2hap.llm.backends import chat
-from scene2hap.llm.finish_reasons import is_whole
 from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.prompts import Prompts
 from scene2hap.llm.protocol import Component, LLMBackend, LLMReply, LLMRequest
@@ -168,11 +167,7 @@ def _is_about_one_question(problem: Exception) -> bool:
 
 def _validated(reply: LLMReply, shape: type[AnswerType], about: str) -> AnswerType:
     """Return the answer in a reply. Raises: BadAnswer, AnswerRefused: see `Questions.ask`."""
-    chat.require_willing(chat.Said(reply.text, reply.model, reply.finish_reason), about)
-    if not reply.text.strip():
-        raise BadAnswer(f"{about}: {reply.model} answered without content.", reply.text)
-    if not is_whole(reply.finish_reason):
-        raise BadAnswer(f"{about}: the answer ended by {reply.finish_reason!r}, not by itself.", reply.text)
+    chat.require_answer(reply, about)
     try:
         return read_answer(shape, answer_object(reply.text) or reply.text)
     except ValidationError as cause:

@@ -10,9 +10,6 @@ import re
 
 from scene2hap.llm.json_text import fields_of, first_object
 
-FILTERED = frozenset({"content_filter", "safety", "prohibited_content", "blocklist", "recitation", "spii", "refusal"})
-"""Finish reasons of withheld answers: OpenAI's, and those of Gemini and Claude at OpenAI-compatible addresses."""
-
 FILTERED_REQUEST = frozenset({"content_filter", "content_policy_violation", "moderation_blocked"})
 """Codes of status 400 for a question that was withheld from the model: Azure's and OpenAI's."""
 
@@ -31,11 +28,6 @@ _LOOKED_AT = 300
 """Number of characters searched at the beginning of a text (assumed: a text begins with its refusal)."""
 _EXCUSES = frozenset({"refusal", "error", "message", "reason", "response", "answer"})
 """The fields of an object that holds only a refusal."""
-
-
-def is_filtered(finish_reason: str) -> bool:
-    """Return True if an answer ended because a filter withheld it."""
-    return finish_reason.lower() in FILTERED
 
 
 def refusal_in(text: str) -> str | None:

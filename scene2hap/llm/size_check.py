@@ -26,8 +26,3 @@ def surface_size(answer: ObjectAnswer, measured_m: Sequence[float]) -> tuple[pla
     )
     used = {edge: f"{value:.3g} m is used" for edge, value in zip(EDGES, known, strict=True)}
     return (length, width, thickness), tuple(f"{edge}: {why}; {used[edge]}" for edge, why in wrong.items())
-
-
-def size_without_answer(measured_m: Sequence[float]) -> plate_sizes.Size:
-    """Return the size [m] of a surface without an answer: as measured, with an assumed thickness if none is known."""
-    return plate_sizes.with_thickness(measured_m)

@@ -15,10 +15,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
+from operator import add
 from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from scene2hap import checks
 from scene2hap.blas_threads import one_blas_thread
@@ -27,21 +29,13 @@ from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.auto_level import peak_level_db
 from scene2hap.propagation.auto_rungs import Choice, Situation, body_of
-from scene2hap.propagation.bands.sampling import AROUND, SPACING
+from scene2hap.propagation.bands.sampling import SPACING
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.coupling import ElasticBody, Joint
-from scene2hap.propagation.coupled.hand import Hand, checked_hand
-from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble, checked_law
-from scene2hap.propagation.domain import (
-    THIN_WAVELENGTHS,
-    OutsideDomain,
-    as_frequencies,
-    driven_on_held_edge,
-    floored_loss,
-    off_zero,
-    warn_if_thick,
-)
-from scene2hap.propagation.modes import points_on, receptance_frequencies
+from scene2hap.propagation.coupled.coupling import ElasticBody
+from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.coupled.substructuring import Assembly, CoupledField, assemble
+from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
+from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.protocol import ContactNetwork, Excitation
 
@@ -61,7 +55,7 @@ class AutoField(CoupledField):
 
 @clear_construction
 @dataclass(frozen=True)
-class AutoFidelity:
+class AutoFidelity(PhysicalModel):
     """Physical model that picks the cheapest of six plate models for each object, within a stated error.
 
     Parameters: tolerance_db : 0.1..6 [dB], allowed error of a band's gain against `ModalPlate`; gains below -40 dB re
@@ -76,14 +70,11 @@ class AutoFidelity:
     outside_domain: OutsideDomain = "warn"
     hand: Hand | None = None
     kind: Literal["auto"] = "auto"
-    least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
-    usual_bands: ClassVar[Bands] = AROUND
     follows_outlines: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         checks.number("tolerance_db", self.tolerance_db, "dB", at_least=0.1, at_most=6.0, error=ConfigError)
-        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
-        object.__setattr__(self, "hand", checked_hand(self.hand))
+        super().__post_init__()
 
     @one_blas_thread
     def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> AutoField:
@@ -110,56 +101,18 @@ class AutoFidelity:
         rung = self.choose(plate, max_frequency_hz).rung
         return body_of(rung, plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
 
-    @one_blas_thread
-    def plate_transfer(
-        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
-    ) -> NDArray[np.complex128]:
-        """Amplitude at points of one plate over the amplitude at the driven point, by the rung of `choose`.
-
-        Parameters, returns, errors and warnings: see `ModalPlate.plate_transfer`.
-        """
-        f = as_frequencies(frequencies_hz)
-        drive = points_on(plate, drive_m)
-        driven = self._receptance(plate, drive, drive, f)
-        if (np.abs(driven) <= 1e-12 * self._scale(plate, f)).any():
-            raise driven_on_held_edge(plate, drive)
-        ratio: NDArray[np.complex128] = self._receptance(plate, drive, points_on(plate, points_m), f) / driven
-        return ratio
-
-    @one_blas_thread
-    def plate_receptance(
-        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
-    ) -> NDArray[np.complex128]:
-        """Deflection at points over the force at the driven point, by the rung of `choose` [m/N].
-
-        Parameters, returns, errors and warnings: see `ModalPlate.plate_receptance`.
-        """
-        f = receptance_frequencies(plate, frequencies_hz)
-        return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
-
     def _receptance(
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
     ) -> NDArray[np.complex128]:
-        warn_if_thick(plate, f)
         f = off_zero(plate, f)
         return self.elastic_body(plate, float(f.max(initial=1e-9))).receptance(points_m, drive_m, f)[:, :, 0].T
 
-    def _scale(self, plate: Plate, f: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Receptance of the plate without edges [m/N], for waves no longer than the plate."""
-        k = np.maximum(plate.wavenumber_rad_m(f), 1 / max(plate.extent_m))
-        scale: NDArray[np.float64] = 1 / (8 * plate.bending_stiffness_nm * k**2)
-        return scale
-
     def _situation(self, scene: Assembly, object_id: str) -> Situation:
-        plate = scene.plates[object_id]
+        plate, pushing = scene.plates[object_id], scene.beside[object_id]
         situation = Situation(
             plate, floored_loss(plate, self.loss_floor), scene.top_hz, load_kg=_load_kg(scene, object_id)
         )
         mass_kg = {item.source_id: item.mass_kg for item in scene.excitations}
-        joints = [one for _, several in scene.groups for one in several if object_id in (one.a, one.b)]
-        pushing: dict[str, list[Joint]] = {}
-        for joint in joints:
-            pushing.setdefault(joint.b if joint.a == object_id else joint.a, []).append(joint)
         if not pushing.keys() <= mass_kg.keys():
             return situation  # the motion of an object that is no source is unknown before the scene is solved
         own_hz = [
@@ -169,6 +122,7 @@ class AutoFidelity:
             for edge in scene.bands.around_hz(item.frequency_tactile_hz)
         ]
         pushed_by = [(mass_kg[key], several) for key, several in pushing.items()]
+        joints = [joint for several in pushing.values() for joint in several]
         places = [joint.point_a_m if joint.a == object_id else joint.point_b_m for joint in joints]
         peak = peak_level_db(plate, situation.loss_factor, pushed_by, places, scene.bands, own_hz)
         return replace(situation, peak_db=peak)
@@ -184,16 +138,10 @@ def _load_kg(scene: Assembly, object_id: str) -> float:
 
     A rigid body that touches nothing else exerts no more than its own mass, any other no more than its contacts.
     """
-    pulling: dict[str, float] = {}
-    touching: dict[str, set[str]] = {}
-    for _, joints in scene.groups:
-        for joint in joints:
-            touching.setdefault(joint.a, set()).add(joint.b)
-            touching.setdefault(joint.b, set()).add(joint.a)
-            if object_id in (joint.a, joint.b):
-                other = joint.b if joint.a == object_id else joint.a
-                pulling[other] = pulling.get(other, 0.0) + joint.stiffness_n_m / (2 * math.pi * scene.top_hz) ** 2
-    return sum(
-        min(kg, scene.rigid[other].mass_kg) if other in scene.rigid and len(touching[other]) == 1 else kg
-        for other, kg in pulling.items()
-    )
+    loads_kg = []
+    for other, joints in scene.beside[object_id].items():
+        # Not `sum`, which rounds otherwise from Python 3.12 on.
+        kg = reduce(add, (joint.stiffness_n_m / (2 * math.pi * scene.top_hz) ** 2 for joint in joints))
+        is_free = other in scene.rigid and len(scene.beside[other]) == 1
+        loads_kg.append(min(kg, scene.rigid[other].mass_kg) if is_free else kg)
+    return sum(loads_kg)

@@ -19,7 +19,6 @@ Letters: f [Hz] top frequency, f_1 [Hz] first bending mode, m [kg] mass of the p
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from scene2hap.propagation.coupled.coupling import ElasticBody
@@ -39,6 +38,8 @@ FINENESS = {
     "medium": Fineness(1.45 / math.pi, 3, 12, least_wider=0),
     "modal": FINE,
 }
+RUNGS = ("rigid", "infinite", "lattice", *FINENESS)
+"""Names of the rungs, in the order in which they are tried."""
 MODAL_DB = {
     "held, and quiet": {"coarse": 0.75, "medium": 0.4},
     "held": {"coarse": 5.0, "medium": 2.3},
@@ -117,20 +118,10 @@ class Situation:
 
 def body_of(rung: str, plate: Plate, max_frequency_hz: float, loss_factor: float) -> ElasticBody:
     """Make the body of a plate by the model of a rung, for frequencies up to `max_frequency_hz` [Hz]."""
-    return _MAKERS[rung](plate, max_frequency_hz, loss_factor)
-
-
-def _modal(fineness: Fineness) -> Callable[[Plate, float, float], ElasticBody]:
-    return lambda plate, max_frequency_hz, eta: modal_body(plate, max_frequency_hz, eta, fineness)
-
-
-_MAKERS: dict[str, Callable[[Plate, float, float], ElasticBody]] = {
-    "rigid": lambda plate, max_frequency_hz, eta: RigidMotion.of_thin(plate),
-    "infinite": lambda plate, max_frequency_hz, eta: InfiniteBody(plate, eta),
-    "lattice": lambda plate, max_frequency_hz, eta: MassSpringDamper(loss_floor=eta).elastic_body(
-        plate, max_frequency_hz
-    ),
-    **{rung: _modal(fineness) for rung, fineness in FINENESS.items()},
-}
-RUNGS = tuple(_MAKERS)
-"""Names of the rungs, in the order in which they are tried."""
+    if rung == "rigid":
+        return RigidMotion.of_thin(plate)
+    if rung == "infinite":
+        return InfiniteBody(plate, loss_factor)
+    if rung == "lattice":
+        return MassSpringDamper(loss_floor=loss_factor).elastic_body(plate, max_frequency_hz)
+    return modal_body(plate, max_frequency_hz, loss_factor, FINENESS[rung])

@@ -130,11 +130,3 @@ def _too_thick(plate: Plate) -> str:
         f"{_thin_limit_hz(plate):.3g} Hz (wavelength below {THIN_WAVELENGTHS:g} thicknesses): its answers there come "
         "from a plate that is too stiff. Keep below that frequency, or treat it as a RigidBody."
     )
-
-
-def driven_on_held_edge(plate: Plate, drive_m: NDArray[np.float64]) -> ModelDomainError:
-    """Return the error for a transfer whose driven point (1, 2) [m] does not move."""
-    return ModelDomainError(
-        f"the driven point ({drive_m[0, 0]:g}, {drive_m[0, 1]:g}) m lies on an edge that does not move (boundary "
-        f"{plate.boundary!r}), so nothing can be related to its amplitude. Drive a point off the edge."
-    )

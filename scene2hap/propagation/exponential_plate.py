@@ -26,9 +26,9 @@ from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.band_rms import BandRms, band_rms
 from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, check_choice, check_thin
 from scene2hap.propagation.paths.live_law import GammaAt, GammaOver, LiveLaw, LivePaths
-from scene2hap.propagation.paths.prepared_paths import Arrivals, cheapest_arrivals
+from scene2hap.propagation.paths.prepared_paths import Arrivals, arrivals_at, cheapest_arrivals
 from scene2hap.propagation.plate import Plate, require_plate
-from scene2hap.propagation.points import arrivals_at, as_points
+from scene2hap.propagation.points import as_points
 from scene2hap.propagation.protocol import Body, ContactNetwork, Excitation, require_hops, require_input
 from scene2hap.scene.objects import Contact
 

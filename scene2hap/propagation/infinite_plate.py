@@ -15,26 +15,22 @@ Source: Cremer, Heckl, Petersson, Structure-Borne Sound, point-driven plate.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.blas_threads import one_blas_thread
 from scene2hap.calls import clear_construction
-from scene2hap.haptics import Bands
-from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
-from scene2hap.propagation.coupled.hand import Hand, checked_hand
+from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_stiff
-from scene2hap.propagation.coupled.substructuring import CoupledField, checked_law, prepare_coupled
-from scene2hap.propagation.domain import THIN_WAVELENGTHS, OutsideDomain, as_frequencies, warn_if_thick
+from scene2hap.propagation.domain import OutsideDomain, as_frequencies, warn_if_thick
+from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
 from scene2hap.propagation.points import as_points
-from scene2hap.propagation.protocol import ContactNetwork, Excitation
 
 NEAREST_KR = 1e-4
 """Below this kr both terms of Pi grow without bound and their difference is 1 to 1e-8: Pi is then set to 1."""
@@ -77,7 +73,7 @@ def spreading(kr: NDArray[np.complex128]) -> NDArray[np.complex128]:
 
 @clear_construction
 @dataclass(frozen=True)
-class InfinitePlate:
+class InfinitePlate(PhysicalModel):
     """Physical model of a plate without edges: the damped Green's function of an infinite plate.
 
     It ignores the length and the width of a plate, and has no resonances. In a scene, small stiff plates are rigid
@@ -93,21 +89,6 @@ class InfinitePlate:
     outside_domain: OutsideDomain = "warn"
     hand: Hand | None = None
     kind: Literal["infinite_plate"] = "infinite_plate"
-    least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
-    usual_bands: ClassVar[Bands] = AROUND
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain))
-        object.__setattr__(self, "hand", checked_hand(self.hand))
-
-    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
-        """Prepare the field of a scene: all bodies coupled at their contacts, see `substructuring`.
-
-        Raises: ModelDomainError: an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
-        """
-        return prepare_coupled(
-            network, excitations, bands, self.elastic_body, self.contact, self.outside_domain, hand=self.hand
-        )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> InfiniteBody | RigidMotion:
         """Return a plate as a body for coupling at any frequency; a plate without waves (`WAVELESS_HZ`) is rigid."""

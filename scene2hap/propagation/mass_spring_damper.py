@@ -13,7 +13,7 @@ wavenumber, k_c^4 = m omega^2 / (D (1 + j eta)). Time runs as e^{+j omega t}.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import count
@@ -24,25 +24,13 @@ from numpy.polynomial.polynomial import polyval
 from numpy.typing import ArrayLike, NDArray
 
 from scene2hap import checks
-from scene2hap.blas_threads import one_blas_thread
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ConfigError, ModelDomainError
-from scene2hap.haptics import Bands
-from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody
-from scene2hap.propagation.coupled.hand import Hand, checked_hand
+from scene2hap.propagation.coupled.hand import Hand
 from scene2hap.propagation.coupled.split_body import SplitBody
-from scene2hap.propagation.coupled.substructuring import CoupledField, checked_law, prepare_coupled
-from scene2hap.propagation.domain import (
-    THIN_WAVELENGTHS,
-    OutsideDomain,
-    as_frequencies,
-    driven_on_held_edge,
-    floored_loss,
-    off_zero,
-    warn_if_thick,
-)
+from scene2hap.propagation.domain import OutsideDomain, as_frequencies, floored_loss, off_zero, warn_if_thick
 from scene2hap.propagation.infinite_plate import InfiniteBody
 from scene2hap.propagation.lattice.bending_lattice import LONGEST, MOST_NODES, n_nodes_of, narrow_side_m
 from scene2hap.propagation.lattice.lattice_body import lattice_body
@@ -54,9 +42,9 @@ from scene2hap.propagation.lattice.lattice_modes import (
     n_modes_up_to,
 )
 from scene2hap.propagation.lattice.stepping import ExactStepper, NewmarkStepper, State, Stepper
-from scene2hap.propagation.modes import points_on, receptance_frequencies
+from scene2hap.propagation.modes import points_on
+from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.scene.scene_warning import warn_of
 
 CELLS_PER_WAVE = 4.0
@@ -72,7 +60,7 @@ class CoarsenedWarning(UserWarning):
 
 @clear_construction
 @dataclass(frozen=True)
-class MassSpringDamper:
+class MassSpringDamper(PhysicalModel):
     """Physical model of a plate as a lattice in bending, within any outline; it can be stepped in time.
 
     Parameters: resolution : fewest cells along the shorter side, 4..256; a plate whose waves are shorter than
@@ -86,28 +74,12 @@ class MassSpringDamper:
     outside_domain: OutsideDomain = "warn"
     hand: Hand | None = None
     kind: Literal["mass_spring_damper"] = "mass_spring_damper"
-    least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
-    usual_bands: ClassVar[Bands] = AROUND
     follows_outlines: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        cells = checks.number("resolution", self.resolution, "cells", at_least=4, at_most=FINEST, error=ConfigError)
-        if cells != int(cells):
-            raise ConfigError(f"resolution is {cells:g} cells; it must be a whole number, as 8.")
-        object.__setattr__(self, "resolution", int(cells))
-        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
-        object.__setattr__(self, "hand", checked_hand(self.hand))
-
-    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
-        """Prepare the field of a scene: all lattices coupled at their contacts, see `substructuring`.
-
-        Raises: ModelDomainError: a plate whose lowest modes need too many nodes; no loss at all; an object
-        outside the domain, or a plate that is coarsened (`elastic_body`), if so configured. Warns: ThinPlateWarning,
-        CoarsenedWarning, otherwise.
-        """
-        return prepare_coupled(
-            network, excitations, bands, self.elastic_body, self.contact, self.outside_domain, hand=self.hand
-        )
+        cells = checks.whole("resolution", self.resolution, "cells", at_least=4, at_most=FINEST, error=ConfigError)
+        object.__setattr__(self, "resolution", cells)
+        super().__post_init__()
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """Return a plate as a body for coupling up to `max_frequency_hz` [Hz]; see `lattice_body`.
@@ -138,46 +110,12 @@ class MassSpringDamper:
         needed = _needed_resolution(plate, frequency_hz)
         return needed > FINEST or is_too_much(plate, max(self.resolution, needed), frequency_hz)
 
-    @one_blas_thread
-    def plate_transfer(
-        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
-    ) -> NDArray[np.complex128]:
-        """Return the amplitude at points of one plate over that at the driven point; above 1 where the plate resonates.
-
-        Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
-        frequencies_hz : (n_frequencies,) [Hz], >= 0; the result at 0 is the limit.
-        Returns: (n_points, n_frequencies) complex128 [-].
-        Raises: ModelDomainError: a point outside the plate; a driven point on an edge that does not move; waves that
-        need more than `FINEST` cells; no loss at all, since a resonance is then infinite.
-        Warns: ThinPlateWarning: the wavelength falls below six thicknesses.
-        """
-        f = as_frequencies(frequencies_hz)
-        drive = points_on(plate, drive_m)
-        found = self._receptance(plate, drive, np.vstack([drive, points_on(plate, points_m)]), f)
-        if not found[0].all():
-            raise driven_on_held_edge(plate, drive)
-        ratio: NDArray[np.complex128] = found[1:] / found[0]
-        return ratio
-
-    @one_blas_thread
-    def plate_receptance(
-        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
-    ) -> NDArray[np.complex128]:
-        """Return the deflection at points over the force at the driven point.
-
-        Parameters, errors and warnings: see `plate_transfer`. Differences: the deflection is 0 for a held point, and
-        0 Hz is an error for a plate that nothing holds in place.
-        Returns: (n_points, n_frequencies) complex128 [m/N].
-        """
-        f = receptance_frequencies(plate, frequencies_hz)
-        return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
-
     def natural_frequencies_hz(self, plate: Plate, n_modes: int) -> NDArray[np.float64]:
         """Return the lattice's lowest natural frequencies (n_modes,) float64 [Hz], rising, 0 for rigid motions.
 
         Their error falls as the fourth power of the cell size; at a resolution of 8 the first six are within 0.4 %.
         """
-        count = int(checks.number("n_modes", n_modes, "-", at_least=1, error=ModelDomainError))
+        count = checks.whole("n_modes", n_modes, "-", at_least=1, at_most=MOST_NODES, error=ModelDomainError)
         return lowest_frequencies_hz(plate, self.resolution, count)
 
     def plate_motion(
@@ -207,6 +145,7 @@ class MassSpringDamper:
         top = as_frequencies(max_frequency_hz)
         if len(top) != 1:
             raise ModelDomainError(f"max_frequency_hz has {len(top)} values; it must be one number [Hz].")
+        warn_if_thick(plate, top)
         modes = lattice_modes(plate, self._fine_enough(plate, top), float(top[0]))
         lattice, m = modes.lattice, plate.material.density_kg_m3 * plate.thickness_m
         pushed = lattice.interpolation(drive).T.toarray()
@@ -242,12 +181,11 @@ class MassSpringDamper:
         return found
 
     def _fine_enough(self, plate: Plate, f: NDArray[np.float64]) -> int:
-        """Resolution for these frequencies; raises an error above `FINEST`, and warns of a plate that is too thick."""
+        """Resolution for these frequencies; raises an error above `FINEST`."""
         top = float(f.max(initial=0.0))
         needed = _needed_resolution(plate, top)
         if needed > FINEST:
             raise ModelDomainError(_too_fine(plate, top, needed))
-        warn_if_thick(plate, f)
         return max(self.resolution, needed)
 
 

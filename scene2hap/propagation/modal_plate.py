@@ -13,42 +13,29 @@ Source: Cremer, Heckl, Petersson, Structure-Borne Sound, for the modal sum and c
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from scene2hap.blas_threads import one_blas_thread
 from scene2hap.calls import clear_construction
 from scene2hap.errors import ModelDomainError
-from scene2hap.haptics import Bands
-from scene2hap.propagation.bands.sampling import AROUND
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import ElasticBody
-from scene2hap.propagation.coupled.hand import Hand, checked_hand
-from scene2hap.propagation.coupled.substructuring import CoupledField, checked_law, prepare_coupled
-from scene2hap.propagation.domain import (
-    THIN_WAVELENGTHS,
-    OutsideDomain,
-    as_frequencies,
-    driven_on_held_edge,
-    floored_loss,
-    off_zero,
-    warn_if_thick,
-)
+from scene2hap.propagation.coupled.hand import Hand
+from scene2hap.propagation.domain import OutsideDomain, floored_loss, off_zero
 from scene2hap.propagation.modal_body import modal_body
-from scene2hap.propagation.modes import MARGIN, plate_modes, points_on, receptance_frequencies
+from scene2hap.propagation.modes import MARGIN, plate_modes
 from scene2hap.propagation.near_field import NearField
+from scene2hap.propagation.physical_model import PhysicalModel
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.protocol import ContactNetwork, Excitation
 from scene2hap.propagation.ritz import products
 
 
 @clear_construction
 @dataclass(frozen=True)
-class ModalPlate:
+class ModalPlate(PhysicalModel):
     """Physical model of a finite plate: a sum over its modes, with edges and resonances.
 
     Parameters: loss_floor : 0..2 [-], smallest loss factor of a plate. Tables give the loss of the bare material, 1e-4
@@ -64,63 +51,11 @@ class ModalPlate:
     outside_domain: OutsideDomain = "warn"
     hand: Hand | None = None
     kind: Literal["modal_plate"] = "modal_plate"
-    least_wavelength_in_thicknesses: ClassVar[float] = THIN_WAVELENGTHS
-    usual_bands: ClassVar[Bands] = AROUND
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "contact", checked_law(self.contact, self.outside_domain, self.loss_floor))
-        object.__setattr__(self, "hand", checked_hand(self.hand))
-
-    def prepare(self, network: ContactNetwork, excitations: Sequence[Excitation], bands: Bands) -> CoupledField:
-        """Prepare the field of a scene: all bodies coupled at their contacts; see `substructuring`.
-
-        Raises: ModelDomainError: too many modes (`plate_modes`); no loss at all, since a resonance is then infinite;
-        an object outside the domain, if so configured. Warns: ThinPlateWarning, otherwise.
-        """
-        return prepare_coupled(
-            network, excitations, bands, self.elastic_body, self.contact, self.outside_domain, hand=self.hand
-        )
 
     def elastic_body(self, plate: Plate, max_frequency_hz: float) -> ElasticBody:
         """Return a plate as a body for coupling up to `max_frequency_hz` [Hz]; see `modal_body`."""
         _require_rectangle(plate)
         return modal_body(plate, max_frequency_hz, floored_loss(plate, self.loss_floor))
-
-    @one_blas_thread
-    def plate_transfer(
-        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
-    ) -> NDArray[np.complex128]:
-        """Return the amplitude at points of one plate over that at the driven point; above 1 where the plate resonates.
-
-        Parameters: drive_m : (2,) [m]; points_m : (n_points, 2) [m], from the plate's corner along length and width;
-        frequencies_hz : (n_frequencies,) [Hz], >= 0; the result at 0 is the limit.
-        Returns: (n_points, n_frequencies) complex128 [-].
-        Raises: ModelDomainError: a point outside the plate; a driven point on an edge that does not move; too many
-        modes (`plate_modes`); no loss at all, since a resonance is then infinite.
-        Warns: ThinPlateWarning: the wavelength falls below six thicknesses.
-        """
-        f = as_frequencies(frequencies_hz)
-        warn_if_thick(plate, f)
-        drive = points_on(plate, drive_m)
-        if _held(plate, drive):
-            raise driven_on_held_edge(plate, drive)
-        driven = self._receptance(plate, drive, drive, f)
-        ratio: NDArray[np.complex128] = self._receptance(plate, drive, points_on(plate, points_m), f) / driven
-        return ratio
-
-    @one_blas_thread
-    def plate_receptance(
-        self, plate: Plate, drive_m: ArrayLike, points_m: ArrayLike, frequencies_hz: ArrayLike
-    ) -> NDArray[np.complex128]:
-        """Return the deflection at points over the force at the driven point.
-
-        Parameters, errors and warnings: see `plate_transfer`. Differences: the deflection is 0 for a held point, and
-        0 Hz is an error for a plate that nothing holds in place.
-        Returns: (n_points, n_frequencies) complex128 [m/N].
-        """
-        f = receptance_frequencies(plate, frequencies_hz)
-        warn_if_thick(plate, f)
-        return self._receptance(plate, points_on(plate, drive_m), points_on(plate, points_m), f)
 
     def _receptance(
         self, plate: Plate, drive_m: NDArray[np.float64], points_m: NDArray[np.float64], f: NDArray[np.float64]
@@ -137,12 +72,6 @@ class ModalPlate:
             answers = block.beyond(products(block.x, block.y, drive_m).T, k2**2)[:, 0]
             total += products(block.x, block.y, points_m) @ answers
         return total / (plate.bending_stiffness_nm * (1 + 1j * eta))
-
-
-def _held(plate: Plate, drive_m: NDArray[np.float64]) -> bool:
-    (x, y), tolerance = drive_m[0], 1e-6
-    distances = (x / plate.length_m, 1 - x / plate.length_m, y / plate.width_m, 1 - y / plate.width_m)
-    return any(edge != "F" and d <= tolerance for edge, d in zip(plate.edges, distances, strict=True))
 
 
 def _require_rectangle(plate: Plate) -> None:

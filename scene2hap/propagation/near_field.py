@@ -62,8 +62,8 @@ class NearField:
     def __init__(self, modes: PlateModes, drive_m: Floats) -> None:
         plate = modes.plate
         weights = _weights(plate.edges[:2]), _weights(plate.edges[2:])
-        cut2 = cutoff_squared(modes, drive_m)
-        self.dimples: Dimples = Dimples(drive_m, *weights, cut2, _extent(plate, modes.terms), table())
+        extent = _extent(plate, modes.terms)
+        self.dimples: Dimples = Dimples(drive_m, *weights, _cutoffs_squared(drive_m, extent), extent, table())
 
     def __call__(self, points_m: Floats, k2: NDArray[Number]) -> NDArray[Number]:
         """Residual at points (n_points, 2) [m] for k2 = k_c^2 (n_frequencies,) [m^-2], complex or real, 0 < |k2| < K^2.
@@ -161,7 +161,7 @@ def table() -> Floats:
     return np.stack([values, steps], axis=1)
 
 
-def cutoff_squared(modes: PlateModes, points_m: Floats) -> Floats:
+def _cutoffs_squared(points_m: Floats, extent: _Extent) -> Floats:
     """K^2 at points: K is the wavenumber above which the basis resolves nothing, as the radius of an equivalent circle.
 
     Polynomials of degree below n on a length L resolve waves up to n / sqrt(1 - xi^2) * 2 / L on each axis, which makes
@@ -170,10 +170,6 @@ def cutoff_squared(modes: PlateModes, points_m: Floats) -> Floats:
 
     Parameters: points_m : (n_points, 2) [m]. Returns: (n_points,) float64 [m^-2], very large at the edges.
     """
-    return _cutoffs_squared(points_m, _extent(modes.plate, modes.terms))
-
-
-def _cutoffs_squared(points_m: Floats, extent: _Extent) -> Floats:
     return np.array([_cutoff_squared(x, y, *extent) for x, y in points_m.tolist()])
 
 

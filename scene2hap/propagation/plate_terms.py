@@ -28,7 +28,7 @@ from scene2hap.propagation.coupled.response_basis import AnyFloat, real_times
 from scene2hap.propagation.modes import FINE, MARGIN, Fineness, PlateModes, modes_up_to
 from scene2hap.propagation.near_field import Dimples, NearField
 from scene2hap.propagation.plate import Plate
-from scene2hap.propagation.ritz import axis_basis
+from scene2hap.propagation.ritz import axis_basis, products
 
 N_NODES = 4
 
@@ -207,7 +207,7 @@ class PlateTerms:
     def of_forces(self, forces_m: Floats) -> ForcedPlate:
         """The plate under forces at points (n_forces, 2) [m]."""
         phi = self.first(self.cosines(forces_m)) @ self._phi
-        by_axes = self._basis(forces_m).reshape(-1, *self.modes.terms)
+        by_axes = products(*self._axes, forces_m).reshape(-1, *self.modes.terms)
         stiff = []
         for block, (along, across) in zip(self.modes.blocks, self._places(), strict=True):
             forces = by_axes[:, along, across].reshape(len(forces_m), -1).T
@@ -229,11 +229,6 @@ class PlateTerms:
         along = x @ columns.reshape(x.shape[1], -1)
         both = y @ along.reshape(len(x), y.shape[1], -1)
         return both.reshape(len(x) * len(y), -1 if both.size else columns.shape[1])
-
-    def _basis(self, points_m: Floats) -> Floats:
-        """All products of the two axes' functions at points (n_points, n_x n_y) [1/m]."""
-        x, y = (axis.values(at) for axis, at in zip(self._axes, points_m.T, strict=True))
-        return (x[:, :, None] * y[:, None, :]).reshape(len(points_m), -1)
 
     def _spread(self, by_block: list[Floats], *, side_by_side: bool = True) -> Floats:
         """Convert columns over each block's products to all products: side by side, or all blocks in the same

@@ -55,7 +55,7 @@ def plot_field(
         raise ModelDomainError(f"source {source!r} is none of this field's; they are {list(field.source_ids)}.")
     gains = _map(field, network, object_id, plate)
     last = gains.shape[3] - 1
-    chosen = int(checks.number("band", band, "-", at_least=0, at_most=last, error=ModelDomainError))
+    chosen = checks.whole("band", band, "-", at_least=0, at_most=last, error=ModelDomainError)
     level_db = 20 * np.log10(np.maximum(gains[:, :, field.source_ids.index(source), chosen], 1e-30))
 
     figure = new_figure(7.5, 1.4 + 5.5 * min(1.2, max(0.25, plate.width_m / plate.length_m)))

@@ -1,9 +1,8 @@
-"""Points given by callers, and the cost of reaching them over the contacts of their object."""
+"""Points given by callers: their checks, and their positions on a plate."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from scene2hap import checks
 from scene2hap.compiled import compiled
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.paths.prepared_paths import Arrivals, nearest_entries
 from scene2hap.scene.pose import Pose
 
 
@@ -57,26 +55,3 @@ class InRectangle:
         """Convert world points (n, 3) to (n, 2) [m] along length and width; those beside it go to its nearest edge."""
         flat = self._pose.to_own(points_m)[:, :2]
         return np.minimum(np.maximum(flat, 0.0), self._sides_m)
-
-
-def arrivals_at(
-    arrivals: Mapping[str, Arrivals],
-    price_per_m: Mapping[str, float],
-    source_ids: Sequence[str],
-    object_id: str,
-    points_m: ArrayLike,
-) -> NDArray[np.float64]:
-    """Cost of the cheapest path from each source to each point (n_points, n_sources): 0 on the source itself, infinite
-    without a path."""
-    points = object_points(object_id, points_m)
-    costs = np.full((len(points), len(source_ids)), np.inf)
-    if object_id in arrivals:
-        arrived, least = arrivals[object_id], np.empty((len(source_ids), len(points)))
-        entry = np.empty(least.shape, dtype=np.intp)
-        hops = np.zeros(arrived.costs.shape, dtype=np.intp)
-        nearest_entries(points, arrived.points_m, price_per_m[object_id], arrived.costs, hops, entry, least)
-        costs = np.ascontiguousarray(least.T)
-    for column, source_id in enumerate(source_ids):
-        if source_id == object_id:
-            costs[:, column] = 0.0
-    return costs

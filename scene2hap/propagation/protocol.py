@@ -84,11 +84,15 @@ class ContactNetwork:
 
     def placing(self, object_id: str) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
         """Return the conversion of `on_body` for one body, as a function of points (n_points, 3), without checks."""
-        pose, body = self.poses.get(object_id), self.bodies.get(object_id)
-        size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
-        if size_m:
-            return InRectangle(pose or Pose(), size_m[0], size_m[1])
-        return lambda points_m: (points_m if pose is None else pose.to_own(points_m))[:, :2]
+        return placing_of(self.bodies.get(object_id), self.poses.get(object_id))
+
+
+def placing_of(body: Body | None, pose: Pose | None) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """See `ContactNetwork.placing`."""
+    size_m = (body.length_m, body.width_m) if isinstance(body, Plate) else body and body.size_m
+    if size_m:
+        return InRectangle(pose or Pose(), size_m[0], size_m[1])
+    return lambda points_m: (points_m if pose is None else pose.to_own(points_m))[:, :2]
 
 
 @runtime_checkable

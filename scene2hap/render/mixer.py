@@ -96,7 +96,7 @@ class Playhead:
     def _limit(self, cell: Block) -> None:
         n = cell.shape[1]
         self._held[:] = self._held_before
-        turn_down_in_place(cell, self._held, self._scratch[:2, :, :n], THRESHOLD, self._decays[:, :n])
+        turn_down_in_place(cell, self._held, self._scratch[:, :, :n], THRESHOLD, self._decays[:, :n])
         limit_in_place(cell, self._soft[:, :n], THRESHOLD)
 
     def _enter_cell(self) -> None:

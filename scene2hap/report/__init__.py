@@ -16,7 +16,7 @@ from scene2hap.bundle import HapticBundle
 from scene2hap.bundle.account import read_account
 from scene2hap.bundle.arguments import given_bundle
 from scene2hap.calls import clear_call
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, unwritable
 from scene2hap.report.document import document
 from scene2hap.report.felt_map import MODELS
 from scene2hap.report.page import assemble
@@ -79,5 +79,5 @@ def write_report(
     try:
         write_whole(target, assemble(found) if is_page else json.dumps(found, allow_nan=False))
     except OSError as cause:
-        raise ConfigError(f"{target} cannot be written: {cause.strerror}. Choose a folder that exists.") from cause
+        raise ConfigError(unwritable(target, cause)) from cause
     return target

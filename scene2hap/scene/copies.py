@@ -65,10 +65,9 @@ def names_by_area(mesh: TriMesh, face_rows: NDArray[np.integer], names: Sequence
     known = list(dict.fromkeys(names))
     if known in ([], [""]):
         return ()
-    areas_m2 = np.zeros(len(known))
     corners_m = mesh.vertices_m[mesh.faces]
     sides_m = corners_m[:, 1:] - corners_m[:, :1]
     rows = np.array([known.index(name) for name in names])[face_rows]
-    np.add.at(areas_m2, rows, np.linalg.norm(np.cross(sides_m[:, 0], sides_m[:, 1]), axis=1) / 2)
+    areas_m2 = np.bincount(rows, np.linalg.norm(np.cross(sides_m[:, 0], sides_m[:, 1]), axis=1) / 2)
     used = frozenset(rows.tolist())
     return tuple(known[row] for row in np.argsort(-areas_m2, kind="stable").tolist() if row in used and known[row])

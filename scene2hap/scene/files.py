@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -29,15 +30,35 @@ def inside(assets_root: Path, folder: Path, uri: str, place: str) -> Path:
 
     Raises: SceneError: it is no plain relative path, or leads outside `assets_root` (also through a link).
     """
-    refusal = f"{place} wants {uri!r}, which lies outside {assets_root}; only files inside it are read."
     with usable_name(uri, place):
         parts = urlsplit(uri)
         if parts.scheme or parts.netloc:
-            raise SceneError(f"{refusal} Addresses are never fetched: store the file beside the scene.")
+            raise address(place, uri)
         path = (folder / unquote(uri)).resolve()
         if not path.is_relative_to(assets_root.resolve()):
-            raise SceneError(f"{refusal} Copy it there, or give assets_root={holding_both(path, assets_root)}.")
+            raise outside(place, uri, assets_root.resolve(), path)
     return path
+
+
+def address(place: str, name: str) -> SceneError:
+    """Return the error of a name that is an address."""
+    return SceneError(f"{place} wants {name!r}. Addresses are never fetched: store the file beside the scene.")
+
+
+def outside(place: str, name: str, assets_root: Path, *paths: Path) -> SceneError:
+    """Return the error of a name whose paths lie outside `assets_root`, with the nearest folder that holds both.
+
+    That folder is never the root of a disk. All paths are resolved.
+    """
+    try:
+        nearest = Path(os.path.commonpath([assets_root, *paths]))
+    except ValueError:  # on different drives
+        nearest = Path(assets_root.anchor)
+    needed = "<a folder that holds both>" if nearest == Path(nearest.anchor) else repr(str(nearest))
+    return SceneError(
+        f"{place} wants {name!r}, which lies outside {str(assets_root)!r}; only files inside it are read. Copy it "
+        f"there, or, if you trust the file, give assets_root={needed} (--assets-root)."
+    )
 
 
 @contextmanager
@@ -50,13 +71,6 @@ def usable_name(name: str, place: str) -> Iterator[None]:
     # A broken address, a name that is too long, a zero byte or a cycle of links raises one of these errors.
     except (ValueError, OSError, RuntimeError) as cause:
         raise SceneError(f"{place} wants {name!r}, which is no usable file name: {reason_of(cause)}.") from cause
-
-
-def holding_both(path: Path, assets_root: Path) -> str:
-    """Return the nearest folder that holds both, as text for a message; never the root of a disk."""
-    roots = set(assets_root.resolve().parents)
-    nearest = next((folder for folder in path.parents if folder in roots and folder != Path(folder.anchor)), None)
-    return "<a folder that holds both>" if nearest is None else repr(str(nearest))
 
 
 def read_bytes(path: Path) -> bytes:

@@ -13,7 +13,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import TypeAdapter, ValidationError
 
 from scene2hap import checks
@@ -158,7 +157,7 @@ def _without_nulls(row: Any) -> Any:
 
 def _require_bounded(item: SceneObject) -> None:
     """Bound coordinates as those of scene files are, before their products exceed the largest number."""
-    most_m = float(max(np.abs(_bounds_m(item.geometry)).max(), np.abs(item.pose.position_m).max()))
+    most_m = float(max(np.abs(item.geometry.mesh.bounds_m).max(), np.abs(item.pose.position_m).max()))
     if most_m > limits.MAX_COORDINATE_M:
         raise SceneError(
             f"object {item.id!r} is placed or scaled beyond {limits.MAX_COORDINATE_M:g} m, at {most_m:g} m; check its "
@@ -169,7 +168,7 @@ def _require_bounded(item: SceneObject) -> None:
 def _require_plausible_thickness(item: SceneObject) -> None:
     """Compare a stated thickness with the geometry: no slab is many times thicker than its mesh."""
     normal = np.abs(item.surface.pose.rotation[:, 2])
-    extent_m = float(normal @ np.ptp(_bounds_m(item.geometry), axis=0))
+    extent_m = float(normal @ np.ptp(item.geometry.mesh.bounds_m, axis=0))
     bound_m = plate_sizes.thickest_m((item.surface.length_m, item.surface.width_m, extent_m))
     if item.surface.thickness_m > bound_m:
         raise SceneError(
@@ -177,13 +176,6 @@ def _require_plausible_thickness(item: SceneObject) -> None:
             f"{extent_m:.3g} m thick there; it must be at most {bound_m:.3g} [m]. "
             "Leave the surface out to have it measured."
         )
-
-
-def _bounds_m(geometry: Geometry) -> NDArray[np.float64]:
-    if geometry.kind == "box":
-        half = np.asarray(geometry.size_m) / 2
-        return np.stack((-half, half))
-    return geometry.bounds_m
 
 
 def _completed(scene: SceneData, rows: Sequence[dict[str, Any]]) -> SceneData:

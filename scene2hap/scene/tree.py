@@ -114,10 +114,21 @@ class AuthoredNode:
 
 
 @dataclass(frozen=True, eq=False)
+class AuthoredPivot:
+    """A joint by which one node turns on another, both given by their names: a point (3,) of the axis in the scene's
+    unit, and the axis (3,), None for a ball."""
+
+    name: str
+    on: str
+    anchor: NDArray[np.float64]
+    axis: NDArray[np.float64] | None
+
+
+@dataclass(frozen=True)
 class AuthoredScene:
     """The top nodes of a scene, with the file's axes and units.
 
-    `unit_m` is None if the format does not define the unit, or if its files often declare a wrong one. `left_out` has a
+    `pivots` are the joints about which objects turn on others. `unit_m` is None if the format does not define the unit, or if its files often declare a wrong one. `left_out` has a
     sentence for each texture that could not be used.
     """
 
@@ -125,6 +136,7 @@ class AuthoredScene:
     up_axis: UpAxis = "y"
     unit_m: float | None = None
     left_out: tuple[str, ...] = ()
+    pivots: tuple[AuthoredPivot, ...] = ()
 
     def metres_per_unit(self, file_name: str) -> float:
         """Return the file's unit [m], 1 if it has none. Raises: SceneFormatError: the unit is not above 0."""

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, field_validator
 
 from scene2hap import checks
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, unwritable
 from scene2hap.haptics import Bands
 from scene2hap.session.frame import Gains
 from scene2hap.session.hand_gains import HandGains
@@ -116,9 +116,7 @@ class UserProfile(Comfort):
         try:
             write_whole(file, json.dumps(document, indent=1, ensure_ascii=False) + "\n")
         except OSError as cause:
-            raise ConfigError(
-                f"{file}: cannot be written ({cause.strerror}). Choose a folder that exists and is yours."
-            ) from cause
+            raise ConfigError(unwritable(file, cause)) from cause
 
     def _special(self, hand: str, device: str) -> Sequence[Comfort]:
         tables: tuple[tuple[Mapping[str, Comfort], str], ...] = ((self.hands, hand), (self.devices, device))

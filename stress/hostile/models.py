@@ -62,17 +62,17 @@ def _served(folder: Path) -> object:
     from scene2hap.errors import Scene2HapError
     from scene2hap.llm.backends import chat, server_models
     from scene2hap.llm.backends.dialects import Decoding, OllamaChat
-    from scene2hap.llm.backends.http_reply import HttpReply
     from scene2hap.llm.batch.service import BatchService
+    from scene2hap.web import WebReply
 
     class Server:
         base_url, timeout_s = "http://server/v1", 1.0
         n_asked = 0
 
         def __init__(self, text: str, status: int) -> None:
-            self.reply = HttpReply("http://server/v1/x", status, text, {"retry-after": text[:50]})
+            self.reply = WebReply("http://server/v1/x", status, text.encode(), {"retry-after": text[:50]})
 
-        async def get(self, *_: object, **__: object) -> HttpReply:
+        async def get(self, *_: object, **__: object) -> WebReply:
             self.n_asked += 1
             assert self.n_asked < 10_000, "the client asks without end"
             return self.reply

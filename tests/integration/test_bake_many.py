@@ -40,6 +40,7 @@ from scene2hap import (
     rebake,
 )
 from scene2hap.baking.many.record import scene_digest
+from scene2hap.baking.many.report import ManyReport
 from scene2hap.baking.many.run import abake_many
 from scene2hap.cli import main
 from scene2hap.errors import ConfigError
@@ -311,6 +312,18 @@ def test_equal_objects_of_several_scenes_share_a_request_on_demand(
     assert not list((tmp_path / "out" / ".bake-many").glob("*.pictures"))
 
 
+def test_two_runs_on_one_folder_share_the_scenes(scenes: list[Path], tmp_path: Path) -> None:
+    async def both(config: dict[str, object]) -> list[ManyReport]:
+        return await asyncio.gather(*(abake_many(scenes, tmp_path / "out", config=config) for _ in range(2)))
+
+    with serving(by=answered) as server:
+        llm = {"kind": "openai", "api_key": KEY, "base_url": f"{server.base_url}/v1"}
+        reports = asyncio.run(both({"llm": llm, "cache_dir": str(tmp_path / "cache")}))
+    assert [one.error for report in reports for one in report.failed] == []
+    assert sum(report.count("baked") for report in reports) == N_SCENES
+    assert sum(report.count("kept") for report in reports) == N_SCENES
+
+
 class Broken:
     """A plugin executor that raises its own errors."""
 
@@ -324,6 +337,14 @@ def test_dead_worker_fails_only_its_scene(scenes: list[Path], tmp_path: Path) ->
     report = bake_many(scenes[:1], tmp_path, executor=Broken())
     assert "the worker is gone" in report.scenes[0].error
     assert bake_many(scenes[:1], tmp_path).count("baked") == 1
+
+
+def test_a_folder_that_cannot_be_made_is_refused_before_a_model_is_asked(scenes: list[Path], tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    held = Held()
+    with pytest.raises(ConfigError, match="file cannot be written"):
+        bake_many(scenes[:1], tmp_path / "file", config={"llm": CacheBackend(held, tmp_path / "answers")})
+    assert not held.calls
 
 
 PROGRAM = """

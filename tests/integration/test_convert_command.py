@@ -14,8 +14,8 @@ import soundfile
 
 from scene2hap import audio
 from scene2hap.audio.conversion import Conversion
-from scene2hap.audio.levels import threshold_db
 from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
+from scene2hap.audio.threshold import threshold_db
 from scene2hap.baking import BakeConfig
 from scene2hap.cli import main
 

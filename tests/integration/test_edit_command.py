@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import shutil
 from collections.abc import Callable
 from functools import cache
@@ -12,6 +13,7 @@ import pytest
 import soundfile
 
 from batch_server import answered
+from files_of import files_of
 from llm_server import serving
 from scene2hap import Box, HapticBundle, Pose, SceneObject, SceneSnapshot, bake
 from scene2hap.audio.files import write_wav
@@ -212,6 +214,30 @@ def test_undo_without_edits_is_refused(
     assert main(["edit", str(folder), "gain", some, "-3"]) == 1
     assert other.read_text() == "mine"
     assert HapticBundle.load(folder).gain_db(some) == 0.0
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="files are found in /proc, on Linux")
+@pytest.mark.parametrize("n_saved", [0, 1])
+def test_a_disk_that_is_full_at_either_bundle_leaves_both_as_they_were(
+    n_saved: int, kitchen: Callable[..., Path], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = kitchen()
+    kept = folder.with_name("kitchen.bundle.before")
+    assert main(["edit", str(folder), "gain", "fan", "-3", "-q"]) == 0
+    before = files_of(folder), files_of(kept)
+    manifests: list[int] = []
+
+    def full(descriptor: int) -> None:
+        if "bundle.json" in os.readlink(f"/proc/self/fd/{descriptor}"):
+            manifests.append(descriptor)
+            if len(manifests) > n_saved:
+                raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    assert main(["edit", str(folder), "gain", "fan", "-9", "-q"]) == 1
+    assert "cannot be written: No space left on device. Make room" in capsys.readouterr().err
+    assert (files_of(folder), files_of(kept)) == before
+    assert {path.name for path in folder.parent.iterdir()} == {folder.name, kept.name}
 
 
 def contents(folder: Path, object_id: str) -> list[bytes]:

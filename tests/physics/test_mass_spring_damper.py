@@ -145,6 +145,8 @@ def test_lattices_that_are_too_large_are_refused() -> None:
     for wrong in ({"resolution": 3}, {"resolution": 8.5}, {"resolution": 10**9}, {"loss_floor": -1.0}):
         with pytest.raises(ConfigError, match=next(iter(wrong))):
             MassSpringDamper(**wrong)
+    with pytest.raises(ModelDomainError, match="n_modes is 2.7; it must be a whole number"):
+        MassSpringDamper().natural_frequencies_hz(plate, 2.7)
 
 
 def test_resolution_is_refined_for_short_waves() -> None:

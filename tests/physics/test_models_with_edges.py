@@ -63,6 +63,14 @@ def test_a_force_on_a_clamp_does_nothing(model: Any) -> None:
 
 
 @pytest.mark.parametrize("model", WITH_EDGES)
+@pytest.mark.parametrize("boundary", ["CFFF", "SSSS"])
+def test_a_point_within_rounding_of_a_held_edge_is_on_it(model: Any, boundary: str) -> None:
+    plate = Plate(0.8, 0.5, 0.006, MATERIAL, boundary)
+    with pytest.raises(ModelDomainError, match="lies on an edge that does not move"):
+        model().plate_transfer(plate, [1e-7, 0.2], [0.4, 0.2], [50.0])
+
+
+@pytest.mark.parametrize("model", WITH_EDGES)
 def test_loss_floor(model: Any) -> None:
     bare = Plate(0.8, 0.5, 0.006, replace(MATERIAL, loss_factor=1e-4))
     assembled = replace(bare, material=replace(MATERIAL, loss_factor=0.01))

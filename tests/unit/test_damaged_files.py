@@ -31,7 +31,6 @@ from scene2hap.baking.many.record import read_record
 from scene2hap.errors import AudioError, BadAnswer, ConfigError, Scene2HapError, SceneError, SessionError
 from scene2hap.haptics import VibrationDescription
 from scene2hap.llm.backends.chat import counts
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.batch.folder import BatchFolder, BatchRow
 from scene2hap.llm.batch.service import BatchService
 from scene2hap.llm.chain import infer_scene
@@ -40,6 +39,7 @@ from scene2hap.llm.wrappers import CacheBackend, RepairBackend
 from scene2hap.report.account import account_table
 from scene2hap.scene.capture.given_pictures import GivenPictures
 from scene2hap.touch_track import TouchTrack
+from scene2hap.web import WebReply
 from scenes import table_with_two_phones
 
 LONGEST = 1500
@@ -281,9 +281,9 @@ class RepeatingServer:
     base_url, timeout_s = "http://server/v1", 1.0
 
     def __init__(self, **body: Any) -> None:
-        self.reply, self.n_asked = HttpReply("http://server/v1/batches", 200, json.dumps(body)), 0
+        self.reply, self.n_asked = WebReply("http://server/v1/batches", 200, json.dumps(body).encode()), 0
 
-    async def get(self, path: str, timeout_s: float) -> HttpReply:
+    async def get(self, path: str, timeout_s: float) -> WebReply:
         self.n_asked += 1
         assert self.n_asked < 5000, "the search does not end"
         return self.reply

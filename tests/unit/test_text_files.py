@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from scene2hap.text_files import draft_of, read_small, read_small_text, write_whole
+from scene2hap import WavSink
+from scene2hap.errors import ConfigError
+from scene2hap.text_files import draft_of, drafts_of, read_small, read_small_text, write_whole
 
 
 def test_the_memory_of_a_read_is_that_of_the_file_and_not_of_the_limit(tmp_path: Path) -> None:
@@ -89,3 +91,32 @@ def test_a_draft_has_the_suffix_of_its_file(tmp_path: Path) -> None:
         draft.write_bytes(b"x")
         assert draft.suffix == ".png"
     assert (tmp_path / "a.png").read_bytes() == b"x"
+
+
+@pytest.mark.parametrize("name", ["n" * 251 + ".wav", "\u00fc" * 125 + ".json", "n" * 255])
+def test_the_longest_names_that_a_file_may_have_are_written(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    with draft_of(path) as draft:
+        draft.write_text("half")
+        assert drafts_of(path) == [draft]
+        assert draft.suffix == (path.suffix or ".part")
+    assert path.read_text() == "half"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_drafts_of_a_name_with_brackets_are_found(tmp_path: Path) -> None:
+    with draft_of(tmp_path / "[a].wav") as draft, draft_of(tmp_path / "b.wav") as other:
+        draft.write_text("half")
+        other.write_text("half")
+        assert drafts_of(tmp_path / "[a].wav") == [draft]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes, as POSIX has them")
+def test_a_device_or_a_pipe_is_not_replaced_by_a_file(tmp_path: Path) -> None:
+    """As the administrator, an output "/dev/null" would replace the device of the whole machine."""
+    os.mkfifo(tmp_path / "pipe.wav")
+    with pytest.raises(OSError, match="a device or a pipe"):
+        write_whole(tmp_path / "pipe.wav", "x")
+    with pytest.raises(ConfigError, match="a device or a pipe"):
+        WavSink(tmp_path / "pipe.wav")
+    assert (tmp_path / "pipe.wav").is_fifo()

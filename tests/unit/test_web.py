@@ -18,8 +18,8 @@ from scene2hap import web
 from scene2hap.errors import BackendUnavailable
 from scene2hap.llm.backends import http_client
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.secret import Secret
+from scene2hap.web import WebReply
 
 LIMITS = web.Limits(5.0, 1 << 20)
 
@@ -43,7 +43,7 @@ def asked(response: httpx.Response, limits: web.Limits = LIMITS) -> web.WebReply
     return web.get("https://a.example/", limits, transport=answering(response))
 
 
-def posted(response: httpx.Response, timeout_s: float = 5.0) -> HttpReply:
+def posted(response: httpx.Response, timeout_s: float = 5.0) -> WebReply:
     endpoint = Endpoint("https://model.example/v1", Secret(KEY), timeout_s, answering(response))
     return asyncio.run(endpoint.post("chat", {}))
 
@@ -152,3 +152,12 @@ def test_key_in_a_broken_reply_is_in_no_cause_and_no_log(line: str, caplog: pyte
             web.get(url, LIMITS, scrub=Secret(KEY).scrub)
     assert KEY not in "".join(traceback.format_exception(caught.value))
     assert KEY not in caplog.text
+
+
+def test_a_certificate_that_is_refused_is_not_asked_again() -> None:
+    def refused(request: httpx.Request) -> httpx.Response:
+        raise httpx.ConnectError("[SSL: CERTIFICATE_VERIFY_FAILED] certificate verify failed: certificate has expired")
+
+    with pytest.raises(BackendUnavailable, match="certificate has expired") as caught:
+        web.get("https://a.example/", LIMITS, transport=httpx.MockTransport(refused))
+    assert not caught.value.retryable

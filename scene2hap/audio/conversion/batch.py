@@ -17,7 +17,8 @@ from scene2hap.audio.files import SUFFIXES
 from scene2hap.audio.haptic_loop import LevelWarning
 from scene2hap.audio.tactile import DEFAULT_CONVERTER
 from scene2hap.counted import first_of
-from scene2hap.errors import AudioError, Scene2HapError
+from scene2hap.errors import AudioError, Scene2HapError, unwritable
+from scene2hap.text_files import drafts_of
 
 _MOST_NAMED = 3
 
@@ -99,7 +100,7 @@ def _result(future: Future[Conversion | Failure], job: _Job) -> Conversion | Fai
     try:
         return future.result()
     except BrokenProcessPool:
-        for litter in job.output.parent.glob(f".{job.output.name}.*.part*"):
+        for litter in drafts_of(job.output):
             litter.unlink(missing_ok=True)
         return Failure(job.source, f"{job.source}: a process died while files were converted. Try with --workers 1.")
 
@@ -114,7 +115,7 @@ def _convert(job: _Job, pictures: bool, settings: dict[str, Any]) -> Conversion 
     except Scene2HapError as error:
         return Failure(job.source, str(error))
     except OSError as error:
-        return Failure(job.source, f"{job.output}: cannot be written ({error.strerror}). Choose another folder.")
+        return Failure(job.source, unwritable(job.output, error))
 
 
 def _planned(sources: Sequence[Path], output: Path, suffix: str) -> tuple[dict[int, _Job], dict[int, Failure]]:

@@ -9,15 +9,13 @@ import scipy
 from numpy.typing import NDArray
 
 from scene2hap.audio.actuators import response_db
-from scene2hap.audio.levels import TACTILE_RANGE_HZ, threshold_db
+from scene2hap.audio.conversion.meter import Block
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ, threshold_db
 from scene2hap.haptics import ActuatorProfile
 
 _SEGMENT_S, _OVERLAP = 1.0, 0.1
 _AT_ONCE = 4
 """Channels that are transformed together: as many as a processor's registers hold. Each takes a third of the time."""
-
-Block = NDArray[np.float32]
-"""Samples (n, channels)."""
 
 
 class FeltLevel:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Collection, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -25,7 +25,7 @@ from scene2hap.audio.actuators import actuator_profile, is_flat
 from scene2hap.audio.anchor import anchor_of
 from scene2hap.audio.conversion.equalizer import Equalizer
 from scene2hap.audio.conversion.felt_level import FeltLevel
-from scene2hap.audio.conversion.meter import Meter
+from scene2hap.audio.conversion.meter import Block, Meter
 from scene2hap.audio.files import MAX_SAMPLE, Mixdown, opened_sound, require_finite, written_whole
 from scene2hap.audio.haptic_loop import LevelWarning, Sensation, level_doubt
 from scene2hap.audio.levels import NOTHING_DB, TACTILE_HEADROOM_DB, is_noise, sensation_level_db
@@ -42,9 +42,7 @@ from scene2hap.audio.tactile import CONVERTERS, DEFAULT_CONVERTER
 from scene2hap.audio.tactile.sections import through_sections
 from scene2hap.errors import AudioError, ConfigError
 from scene2hap.scene.scene_warning import warn_of
-
-Block = NDArray[np.float32]
-"""Samples (n, channels)."""
+from scene2hap.text_files import path_in_c
 
 FORMATS = {
     ".wav": ("WAV", "PCM_24"),
@@ -153,7 +151,14 @@ def convert(
                 blocks = _at_level(blocks, felt, context, held.enter_context(TemporaryFile(dir=output.parent)))
             for block in blocks:
                 felt.hear_after(block)
-                target.write(_steps(block, is_beyond=felt.after.peak >= _NEARLY_FULL))
+                with _writing(output):
+                    target.write(_steps(block, is_beyond=felt.after.peak >= _NEARLY_FULL))
+            with _writing(output):
+                target.close()
+                if (
+                    soundfile.info(path_in_c(beside)).frames != felt.after.n_frames
+                ):  # libsndfile ignores a failure at the end
+                    raise soundfile.SoundFileRuntimeError("the file is cut short")
         if drawn is not None:
             from scene2hap.audio.conversion.picture import draw_conversion
 
@@ -387,12 +392,25 @@ def _opened_for_writing(output: Path, beside: Path, felt: _Running) -> soundfile
     n_bytes = 3 * felt.channels * felt.before.n_expected
     if container == "WAV" and n_bytes > _LARGEST_WAV_BYTES:
         container = "RF64"
+    beside.touch()  # unlike libsndfile, it names the reason of a failure
     try:
-        return soundfile.SoundFile(beside, "w", felt.rate, felt.channels, subtype=subtype, format=container)
+        return soundfile.SoundFile(path_in_c(beside), "w", felt.rate, felt.channels, subtype=subtype, format=container)
     except (soundfile.SoundFileError, ValueError) as cause:
+        reason = getattr(cause, "error_string", cause)  # the whole text names the draft
         raise AudioError(
-            f"{output}: cannot be written as {container} of {felt.channels} channels at {felt.rate} Hz ({cause}). "
-            "Choose a folder that exists and is yours, or WAV."
+            f"{output}: cannot be written as {container} of {felt.channels} channels at {felt.rate} Hz ({reason}). "
+            "Choose a folder that exists, is yours and has room, or WAV."
+        ) from cause
+
+
+@contextmanager
+def _writing(output: Path) -> Iterator[None]:
+    """Raises: AudioError: libsndfile cannot write, else `opened_sound` would take it for a fault of the sound read."""
+    try:
+        yield
+    except soundfile.SoundFileError as cause:
+        raise AudioError(
+            f"{output} cannot be written ({cause}). Make room on its disk, or choose another folder."
         ) from cause
 
 

@@ -10,7 +10,7 @@ similar. `seam_search` finds s and L with the greatest similarity, which for a t
 cycles. `seam` fades them at constant power. `pair` cuts the audible and the tactile loop at the same place.
 """
 
-from scene2hap.audio.loops.pair import loop_pair, make_loop, middle_of
+from scene2hap.audio.loops.pair import loop_pair, middle_of
 from scene2hap.audio.loops.seam import Seam, apply_seam
 from scene2hap.audio.loops.seam_search import CROSSFADE_S, MAX_LOOP_S, MIN_CLIP_S, find_seam
 
@@ -22,6 +22,5 @@ __all__ = [
     "apply_seam",
     "find_seam",
     "loop_pair",
-    "make_loop",
     "middle_of",
 ]

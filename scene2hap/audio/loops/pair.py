@@ -67,11 +67,6 @@ def _first_of_middle(x: Samples, n: int, run_up: int, step: int) -> int:
     return int(places[np.argmin(np.abs(places - middle))])
 
 
-def make_loop(clip: AudioClip) -> AudioClip:
-    """Return a clip as an endless loop, at its own level. Raises: AudioError: shorter than `MIN_CLIP_S`."""
-    return replace(clip, samples=apply_seam(clip.samples, find_seam(clip.samples, clip.sample_rate_hz)))
-
-
 def loop_pair(
     clip: AudioClip,
     converter: TactileConverter,

@@ -21,8 +21,8 @@ from scene2hap.audio.analysis import trim_silence
 from scene2hap.audio.clip import AudioClip, Credit
 from scene2hap.audio.files import read_clip
 from scene2hap.audio.select import MIN_DURATION_S
-from scene2hap.errors import AudioError, ConfigError, reason_of
-from scene2hap.text_files import draft_of, read_small
+from scene2hap.errors import AudioError, ConfigError, reason_of, unwritable
+from scene2hap.text_files import draft_of, path_in_c, read_small
 
 MAX_CLIP_S = 60.0
 """Longest sound from a service [s] (assumed: a loop needs 10 s)."""
@@ -52,7 +52,7 @@ def is_long_enough(clip: AudioClip) -> bool:
 def read_checked(path: Path, credit: Credit) -> AudioClip:
     """Read an untrusted sound file; refuse it by its header if decoding could fill the memory. Raises: AudioError."""
     try:
-        info = soundfile.info(path)
+        info = soundfile.info(path_in_c(path))
     except (soundfile.SoundFileError, TypeError, OSError) as cause:
         raise AudioError(f"{credit.title!r} is not a readable sound ({reason_of(cause)}).") from cause
     low, high = SAMPLE_RATES_HZ
@@ -112,6 +112,5 @@ class Store:
             with draft_of(target) as draft:
                 yield draft
         except OSError as cause:
-            raise ConfigError(
-                f"cannot write the cache {self.folder}: {cause.strerror or cause}. Set `cache` to a folder of yours."
-            ) from cause
+            hint = "Set `cache` to a folder of yours."
+            raise ConfigError(unwritable(f"the cache {self.folder}", cause, hint)) from cause

@@ -25,7 +25,7 @@ from scene2hap.audio.anchor import BAND_Q, Anchor, band_gain, reachable_hz
 from scene2hap.audio.distinctness import FREQUENCY_WEBER
 from scene2hap.audio.levels import sensation_level_db
 from scene2hap.audio.protocol import ConversionContext
-from scene2hap.audio.tactile.stages import ShiftStage, Signal, SosStage, Stage, StageStream, through
+from scene2hap.audio.tactile.stages import Chain, ShiftStage, Signal, SosStage, Stage, StageStream
 from scene2hap.audio.tactile.svf_bandpass import SvfBandpass
 from scene2hap.audio.tracked_anchor import TrackedAnchor
 from scene2hap.errors import ConfigError
@@ -134,16 +134,16 @@ class _Tracking(Stage):
         self._fade = max(1, round(_FADE_S * sample_rate_hz))
         self._anchor = TrackedAnchor(sample_rate_hz / self._step, self._level_db, context.actuator)
         self._own_hz: float | None = None
-        self._band: list[Stage] = [SosStage(SvfBandpass(min(250.0, 0.4 * sample_rate_hz)).section(sample_rate_hz))]
+        self._band: Stage = SosStage(SvfBandpass(min(250.0, 0.4 * sample_rate_hz)).section(sample_rate_hz))
         self._gain = self._retiring_gain = 1.0
-        self._retiring: list[Stage] = []
+        self._retiring: Stage | None = None
         self._n_faded = 0
 
     def run(self, x: Signal) -> Signal:
         parts = []
         while x.size:
             n = min(len(x), len(self._seen) - self._n_seen)
-            if self._retiring:
+            if self._retiring is not None:
                 n = min(n, self._fade - self._n_faded)
             if self._n_seen < 0:
                 n = min(n, -self._n_seen)
@@ -159,14 +159,14 @@ class _Tracking(Stage):
         return np.concatenate(parts) if parts else x
 
     def _filtered(self, x: Signal) -> Signal:
-        y = self._gain * through(self._band, x)
-        if not self._retiring:
+        y = self._gain * self._band.run(x)
+        if self._retiring is None:
             return y
         rising = np.arange(self._n_faded + 1, self._n_faded + len(x) + 1) / self._fade
-        y = rising * y + (1.0 - rising) * self._retiring_gain * through(self._retiring, x)
+        y = rising * y + (1.0 - rising) * self._retiring_gain * self._retiring.run(x)
         self._n_faded += len(x)
         if self._n_faded == self._fade:
-            self._retiring = []
+            self._retiring = None
         return y
 
     def _look(self) -> None:
@@ -185,4 +185,4 @@ class _Tracking(Stage):
         self._retiring_gain, self._gain = self._gain, float(np.clip((wide / narrow) ** 0.5, 1 / _MOST_GAIN, _MOST_GAIN))
         self._own_hz, self._n_unchanged = own_hz, 0
         self._retiring, self._n_faded = self._band, 0
-        self._band = self._design.band(self._rate_hz, self._context, own_hz)
+        self._band = Chain(self._design.band(self._rate_hz, self._context, own_hz))

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from scene2hap.audio.clip import Samples
 from scene2hap.audio.tactile.oscillator import Oscillator
 from scene2hap.audio.tactile.sections import through_sections
+from scene2hap.audio.threshold import TACTILE_RANGE_HZ
 from scene2hap.errors import AudioError
 
 Signal = NDArray[np.float64]
 
-LOWEST_FELT_HZ = 10.0
-"""Lowest frequency that is felt as vibration [Hz]."""
+LOWEST_FELT_HZ = TACTILE_RANGE_HZ[0]
 _CACHED = 65_536
 """Samples per pass: passes that fit the processor's cache are twice as fast as one pass over a long sound."""
 
@@ -76,15 +76,6 @@ class StageStream:
         return x.astype(np.float32)
 
 
-def through(stages: Sequence[Stage], x: Signal) -> Signal:
-    """Return the next samples of stages in series."""
-    for stage in stages:
-        if x.size == 0:
-            break
-        x = stage.run(x)
-    return x
-
-
 class Chain(Stage):
     """Stages in series, as one stage."""
 
@@ -93,7 +84,11 @@ class Chain(Stage):
 
     def run(self, x: Signal) -> Signal:
         """Return the next samples; stages with latency hold some back."""
-        return through(self.stages, x)
+        for stage in self.stages:
+            if x.size == 0:
+                break
+            x = stage.run(x)
+        return x
 
     def rest(self) -> Signal:
         """Return the samples that all stages have held back."""

@@ -14,7 +14,7 @@ from typing import Any
 from scene2hap import __version__
 from scene2hap.baking.config import BakeConfig
 from scene2hap.baking.fingerprint import converter_settings, described
-from scene2hap.errors import ConfigError, SceneError
+from scene2hap.errors import ConfigError, SceneError, unwritable
 from scene2hap.llm.config import InferenceConfig
 from scene2hap.llm.wrappers import identity
 from scene2hap.scene.files import is_habitat, read_bytes
@@ -106,4 +106,4 @@ def write_record(path: Path, record: Record) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(path, json.dumps(record, indent=1))
     except OSError as cause:
-        raise ConfigError(f"{path} cannot be written: {cause.strerror}. Choose a folder that is yours.") from cause
+        raise ConfigError(unwritable(path, cause)) from cause

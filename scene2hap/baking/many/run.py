@@ -2,6 +2,7 @@
 
 FOLDER/NAME.bundle                 the bundle of each scene
 FOLDER/.bake-many/NAME.json        the record of its inputs: digests of scene and settings
+FOLDER/.bake-many/NAME.lock        held by the run that bakes the scene
 FOLDER/.bake-many/NAME.pictures/   pictures for a model, until it has answered
 FOLDER/.bake-many/NAME.draft/      a model's answers, until the bundle is written
 FOLDER/report.json                 the report of the last run
@@ -20,9 +21,12 @@ import time
 import warnings
 from collections import Counter
 from collections.abc import Awaitable, Callable, Iterable, Mapping
+from contextlib import AsyncExitStack, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
+
+from filelock import AsyncFileLock
 
 from scene2hap import checks
 from scene2hap.baking.config import BakeConfig
@@ -34,7 +38,7 @@ from scene2hap.baking.scene import infer_corrected
 from scene2hap.bundle import HapticBundle, read_overrides
 from scene2hap.bundle.sounds import file_stem
 from scene2hap.calls import clear_call
-from scene2hap.errors import ConfigError
+from scene2hap.errors import ConfigError, unwritable
 from scene2hap.llm.chain import Inference
 from scene2hap.llm.lexicon import LexiconBackend
 from scene2hap.llm.protocol import LLMBackend
@@ -183,6 +187,10 @@ class Run:
         """Bake the scenes, and write the report."""
         begun = time.perf_counter()
         self.name(paths)
+        try:
+            (self.folder / WORK).mkdir(parents=True, exist_ok=True)  # before a model costs money
+        except OSError as cause:
+            raise ConfigError(unwritable(self.folder, cause)) from cause
         found = await self.each(paths, self._scene)
         stack = {name: dict(layer) for name, layer in reports(self.config.llm).items()}
         report = ManyReport(found, time.perf_counter() - begun, stack)
@@ -217,7 +225,14 @@ class Run:
                 raise
 
     async def _scene(self, path: Path) -> SceneReport:
-        """Bake one scene, or return a report with its error."""
+        """Bake one scene, or return a report with its error. Waits while another run bakes it."""
+        async with AsyncExitStack() as held:
+            # A file system without locks goes on: two runs are rare, and then one of both may have to run again.
+            with suppress(OSError, NotImplementedError):
+                await held.enter_async_context(AsyncFileLock(self._work(self.names[path], ".lock")))
+            return await self._baked(path)
+
+    async def _baked(self, path: Path) -> SceneReport:
         report, target = self._unmade(path), self._target(path)
         try:
             made_of, before = await self._state(path)

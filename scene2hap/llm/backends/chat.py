@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from scene2hap.errors import AnswerRefused, BackendUnavailable, BadAnswer
 from scene2hap.llm.backends.http_errors import failure, server_error
-from scene2hap.llm.backends.http_reply import HttpReply
-from scene2hap.llm.finish_reasons import is_cut
-from scene2hap.llm.protocol import LLMRequest
+from scene2hap.llm.finish_reasons import is_cut, is_filtered, is_whole
+from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.quoting import shown
-from scene2hap.llm.refusals import FILTERED_REQUEST, is_filtered, refusal_in
+from scene2hap.llm.refusals import FILTERED_REQUEST, refusal_in
+from scene2hap.web import WebReply
 
 _AFTER_REFUSAL = "It gets no second try; rename or hide what it objects to, send no pictures, or choose another model."
 
@@ -50,16 +50,11 @@ class RefusedAnswer(UnusableAnswer, AnswerRefused):
 
 
 @dataclass(frozen=True)
-class Said:
+class Said(LLMReply):
     """A model's message before any check. Some servers put the answer into `thoughts` by mistake."""
 
-    content: str
-    model: str
-    finish_reason: str = "stop"
-    usage: Mapping[str, int] = field(default_factory=dict)
     thoughts: str = ""
     refusal: str = ""
-    service_tier: str = ""
 
 
 def user_message(request: LLMRequest, text: str, detail: str) -> dict[str, Any]:
@@ -89,7 +84,7 @@ def about(request: LLMRequest) -> str:
     return f"{request.component} about {shown(request.subject or 'the scene')}"
 
 
-def read_chat(reply: HttpReply, model: str) -> Said:
+def read_chat(reply: WebReply, model: str) -> Said:
     """Read a chat completion. `model` is used if the server does not name one.
 
     Raises: BackendUnavailable: an error status, or an error under status 200. UnusableAnswer: not a chat completion.
@@ -106,7 +101,7 @@ def read_chat(reply: HttpReply, model: str) -> Said:
             usage=_usage(body.get("usage")),
         )
     return Said(
-        content=_content(message),
+        text=_content(message),
         model=text_of(body.get("model")) or model,
         finish_reason=text_of(choice.get("finish_reason")) or "stop",
         usage=_usage(body.get("usage")),
@@ -141,42 +136,47 @@ def require_whole(said: Said, about: str) -> None:
             said,
             f"{about}: {said.model} was cut off at its token limit. Raise max_tokens (or num_ctx), or switch off "
             "its reasoning.",
-            said.content,
+            said.text,
         )
-    require_willing(said, about)
+    _require_willing(said, about, said.refusal)
 
 
-def require_willing(said: Said, about: str) -> None:
-    """Reject a refusal: in its own field, as finish reason, or as the text itself.
+def require_answer(said: LLMReply, about: str) -> None:
+    """Reject a message that is no whole answer. Raises: UnusableAnswer: empty, or ended early; RefusedAnswer."""
+    _require_willing(said, about)
+    if not said.text.strip():
+        raise unusable(said, f"{about}: {said.model} answered without content.", said.text)
+    if not is_whole(said.finish_reason):
+        raise unusable(said, f"{about}: the answer ended by {said.finish_reason!r}, not by itself.", said.text)
 
-    Raises: RefusedAnswer.
-    """
+
+def _require_willing(said: LLMReply, about: str, refusal: str = "") -> None:
+    """Reject a refusal: in its own field, as finish reason, or as the text itself. Raises: RefusedAnswer."""
     if is_filtered(said.finish_reason):
         message = f"{about}: the answer of {said.model} was withheld by a content filter ({said.finish_reason})."
-        raise RefusedAnswer(f"{message} {_AFTER_REFUSAL}", said.content, **_paid(said))
-    refusal = said.refusal or refusal_in(said.content)
-    if refusal:
-        message = f"{about}: {said.model} refused to answer: {shown(refusal)}. {_AFTER_REFUSAL}"
-        raise RefusedAnswer(message, refusal, **_paid(said))
+        raise RefusedAnswer(f"{message} {_AFTER_REFUSAL}", said.text, **_paid(said))
+    if words := refusal or refusal_in(said.text):
+        message = f"{about}: {said.model} refused to answer: {shown(words)}. {_AFTER_REFUSAL}"
+        raise RefusedAnswer(message, words, **_paid(said))
 
 
-def is_withheld(reply: HttpReply) -> bool:
+def is_withheld(reply: WebReply) -> bool:
     """Return True if a filter kept the question from the model."""
     error = server_error(reply)
     return reply.status == 400 and not FILTERED_REQUEST.isdisjoint({error.code, error.type})
 
 
-def unusable(said: Said, message: str, raw_text: str) -> UnusableAnswer:
+def unusable(said: LLMReply, message: str, raw_text: str) -> UnusableAnswer:
     """Return the error for a model's message, with its model, usage and tier."""
     return UnusableAnswer(message, raw_text, **_paid(said))
 
 
-def _paid(said: Said) -> dict[str, Any]:
+def _paid(said: LLMReply) -> dict[str, Any]:
     tier, reason = said.service_tier, said.finish_reason
     return {"model": said.model, "usage": said.usage, "service_tier": tier, "finish_reason": reason}
 
 
-def json_object(reply: HttpReply) -> dict[str, Any]:
+def json_object(reply: WebReply) -> dict[str, Any]:
     """Return the body of a successful reply.
 
     Raises: BackendUnavailable: an error status, an error under status 200, or no JSON object. Truncated JSON is

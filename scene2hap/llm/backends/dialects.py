@@ -12,9 +12,9 @@ from typing import Any, Literal, Protocol
 
 from scene2hap.errors import BadAnswer
 from scene2hap.llm.backends import chat
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.protocol import LLMRequest
 from scene2hap.llm.schema import local_schema
+from scene2hap.web import WebReply
 
 Rung = Literal["json_schema", "json_object", "prompt"]
 LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
@@ -48,7 +48,7 @@ class Dialect(Protocol):
         """Return the body of a request. `text` is the prompt with the list of answer fields."""
         ...
 
-    def read(self, reply: HttpReply, model: str) -> chat.Said:
+    def read(self, reply: WebReply, model: str) -> chat.Said:
         """Read a reply. Raises: BackendUnavailable, BadAnswer."""
         ...
 
@@ -82,7 +82,7 @@ class ChatCompletions:
             body["response_format"] = {"type": "json_object"}
         return body
 
-    def read(self, reply: HttpReply, model: str) -> chat.Said:
+    def read(self, reply: WebReply, model: str) -> chat.Said:
         """Read a reply with `chat.read_chat`."""
         return chat.read_chat(reply, model)
 
@@ -119,7 +119,7 @@ class OllamaChat:
             body["format"] = "json"
         return body
 
-    def read(self, reply: HttpReply, model: str) -> chat.Said:
+    def read(self, reply: WebReply, model: str) -> chat.Said:
         """Translate a reply of Ollama into a chat completion."""
         body = chat.json_object(reply)
         message = body.get("message")
@@ -127,7 +127,7 @@ class OllamaChat:
             raise BadAnswer(f"{reply.url} sent no chat message. Check base_url and the dialect.", reply.text)
         renamed = {"prompt_tokens": body.get("prompt_eval_count"), "completion_tokens": body.get("eval_count")}
         return chat.Said(
-            content=chat.text_of(message.get("content")),
+            text=chat.text_of(message.get("content")),
             model=chat.text_of(body.get("model")) or model,
             finish_reason=chat.text_of(body.get("done_reason")) or "stop",
             usage=chat.counts(renamed),

@@ -16,8 +16,6 @@ from urllib.parse import urlsplit
 
 from scene2hap import checks, web
 from scene2hap.errors import BackendError, ConfigError
-from scene2hap.llm.backends import retry_after
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.pace import Pace
 from scene2hap.secret import Secret
 
@@ -34,8 +32,6 @@ MAX_FILE_BYTES = 512 << 20
 FILE_TIMEOUT_S = 900.0
 """Time for a file of two hundred megabytes [s] (assumed: a connection of two megabits per second)."""
 
-_HEADERS_READ = ("x-should-retry", "x-request-id", *retry_after.HEADERS)
-
 
 @dataclass(frozen=True)
 class Endpoint:
@@ -51,7 +47,7 @@ class Endpoint:
         object.__setattr__(self, "base_url", _checked_url(self.base_url))
         checks.number("timeout_s", self.timeout_s, "s", above=0.0, error=ConfigError)
 
-    async def post(self, path: str, body: Mapping[str, Any]) -> HttpReply:
+    async def post(self, path: str, body: Mapping[str, Any]) -> web.WebReply:
         """Post JSON to a path below the base address, after any pause that the server requested. Returns every status.
 
         Raises: BackendUnavailable: no reply came; BackendError: the body has no JSON form.
@@ -62,18 +58,18 @@ class Endpoint:
         self.pace.heed(reply)
         return reply
 
-    async def upload(self, path: str, name: str, content: bytes, fields: Mapping[str, str]) -> HttpReply:
+    async def upload(self, path: str, name: str, content: bytes, fields: Mapping[str, str]) -> web.WebReply:
         """Post a file and fields as a form. Returns every status. Raises: BackendUnavailable: no reply came."""
         import httpx
 
         form = httpx.Request("POST", self.base_url, data=dict(fields), files={"file": (name, content)})
         return await self._send("POST", path, form.read(), FILE_TIMEOUT_S, form.headers["content-type"])
 
-    async def get(self, path: str, timeout_s: float) -> HttpReply:
+    async def get(self, path: str, timeout_s: float) -> web.WebReply:
         """Get a path below the base address. Raises: BackendUnavailable: no reply came."""
         return await self._send("GET", path, None, min(timeout_s, self.timeout_s))
 
-    async def download(self, path: str) -> HttpReply:
+    async def download(self, path: str) -> web.WebReply:
         """Return the file at a path below the base address. Raises: BackendUnavailable: no reply, or too large."""
         return await self._send("GET", path, None, FILE_TIMEOUT_S, max_bytes=MAX_FILE_BYTES)
 
@@ -85,7 +81,7 @@ class Endpoint:
         timeout_s: float,
         content_type: str = "application/json",
         max_bytes: int = MAX_REPLY_BYTES,
-    ) -> HttpReply:
+    ) -> web.WebReply:
         url = f"{self.base_url}/{path}"
         reply = await web.exchange(
             method,
@@ -97,9 +93,9 @@ class Endpoint:
             scrub=self.secret.scrub,
             transport=self.transport,
         )
-        headers = {name: self.secret.scrub(reply.headers[name]) for name in _HEADERS_READ if name in reply.headers}
-        _LOG.debug("%s answered %d, request id %s", url, reply.status, headers.get("x-request-id", "unknown"))
-        return HttpReply(url, reply.status, self.secret.scrub(reply.text), headers)
+        reply = reply.scrubbed(self.secret.scrub)
+        _LOG.debug("%s answered %d, request id %s", url, reply.status, reply.headers.get("x-request-id", "unknown"))
+        return reply
 
     def _authorization(self) -> str:
         return f"Bearer {self.secret.reveal()}" if self.secret.reveal() else ""

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from scene2hap.errors import BackendUnavailable
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.retry_after import LONGEST_WAIT_S, reset_wait_s, stated_wait_s
+from scene2hap.web import WebReply
 
 _RETRYABLE = frozenset({408, 409, 429})
 _OUT_OF_MONEY = frozenset(
@@ -28,6 +28,7 @@ _NO_EYES = "image input is not supported"
 """Message of llama.cpp, with status 500, if it was started without a vision projector."""
 
 _HINTS = {
+    **dict.fromkeys((301, 302, 303, 307, 308), "It redirects, and a key is sent to base_url alone: correct base_url."),
     401: "Check the API key.",
     403: "Check the API key and what it is allowed to do.",
     404: "Check base_url and the name of the model.",
@@ -46,7 +47,7 @@ class ServerError:
     code: str = ""
 
 
-def server_error(reply: HttpReply) -> ServerError:
+def server_error(reply: WebReply) -> ServerError:
     """Return the error that a server describes.
 
     OpenAI, llama.cpp and Ollama's /v1 send {"error": {...}}. Native Ollama and LM Studio send {"error": "text"}. Older
@@ -59,7 +60,7 @@ def server_error(reply: HttpReply) -> ServerError:
     return ServerError(_text(error) or reply.text)
 
 
-def failure(reply: HttpReply, *, now_s: float | None = None) -> BackendUnavailable:
+def failure(reply: WebReply, *, now_s: float | None = None) -> BackendUnavailable:
     """Return the error to raise for a failed reply. Dates in headers are relative to `now_s` [s since 1970]."""
     error = server_error(reply)
     wait_s = stated_wait_s(reply.headers, time.time() if now_s is None else now_s)
@@ -85,7 +86,7 @@ def failure(reply: HttpReply, *, now_s: float | None = None) -> BackendUnavailab
     return BackendUnavailable(" ".join(parts), retryable=retryable, retry_after_s=wait_s)
 
 
-def _retryable(reply: HttpReply) -> bool:
+def _retryable(reply: WebReply) -> bool:
     should_retry = reply.headers.get("x-should-retry", "").lower()
     if should_retry in ("true", "false"):
         return should_retry == "true"

@@ -16,13 +16,13 @@ from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.backends import chat, server_models
 from scene2hap.llm.backends.dialects import LADDER, ChatCompletions, Decoding, Dialect, OllamaChat, Rung
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.image_tokens import LostImages
 from scene2hap.llm.json_text import first_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import fields_in_words
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.secret import Secret
+from scene2hap.web import WebReply
 
 if TYPE_CHECKING:
     from scene2hap.web import Transport
@@ -128,7 +128,7 @@ class LocalBackend:
         said = await self._ask(request)
         self._lost_images.look(request, said)
         chat.require_whole(said, chat.about(request))
-        text = first_object(said.content) or said.content or first_object(said.thoughts)
+        text = first_object(said.text) or said.text or first_object(said.thoughts)
         if not text:
             message = f"{chat.about(request)}: {said.model} answered without content. Switch off its reasoning."
             raise chat.unusable(said, message, said.thoughts)
@@ -148,7 +148,7 @@ class LocalBackend:
             self._rung = max(self._rung, rung)
         return self._dialect.read(reply, self.model or "")
 
-    async def _post(self, request: LLMRequest, rung: Rung) -> HttpReply:
+    async def _post(self, request: LLMRequest, rung: Rung) -> WebReply:
         text = f"{request.prompt}\n\n{fields_in_words(request.answer_schema)}"
         return await self._endpoint.post(self._dialect.path, self._dialect.body(request, self.model or "", text, rung))
 

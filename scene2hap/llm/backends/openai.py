@@ -15,12 +15,12 @@ from scene2hap.errors import BackendUnavailable, ConfigError
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
 from scene2hap.llm.backends.http_errors import failure, server_error
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.image_tokens import ImagesAsText
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.schema import strict_schema
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.secret import Secret
+from scene2hap.web import WebReply
 
 if TYPE_CHECKING:
     from scene2hap.web import Transport
@@ -150,9 +150,9 @@ class OpenAIBackend:
         """Return the reply for a chat completion. Raises: BadAnswer: as `complete`."""
         self._images_as_text.look(request, said)
         chat.require_whole(said, chat.about(request))
-        if not said.content:
+        if not said.text:
             raise chat.unusable(said, f"{chat.about(request)}: {said.model} answered without content.", "")
-        return LLMReply(said.content, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
+        return LLMReply(said.text, said.model, said.finish_reason, said.usage, service_tier=said.service_tier)
 
     def report(self) -> dict[str, int]:
         """Count the requests repeated without the requested tier because it had no capacity."""
@@ -185,7 +185,7 @@ class OpenAIBackend:
                 break
         return chat.read_chat(reply, self.model)
 
-    def learns(self, reply: HttpReply, sent: Mapping[str, Any] | None = None) -> bool:
+    def learns(self, reply: WebReply, sent: Mapping[str, Any] | None = None) -> bool:
         """Return True if a reply rejects an optional parameter. From then on this parameter is not sent.
 
         A parameter that is not in `sent` was dropped before, so the result is False.

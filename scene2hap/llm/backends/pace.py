@@ -10,8 +10,8 @@ import asyncio
 import time
 
 from scene2hap.llm.backends.http_errors import failure
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.retry_after import LONGEST_WAIT_S, reset_wait_s
+from scene2hap.web import WebReply
 
 
 class Pace:
@@ -28,7 +28,7 @@ class Pace:
         while (left_s := self._open_at_s - time.monotonic()) > 0.0:
             await asyncio.sleep(left_s)
 
-    def heed(self, reply: HttpReply) -> None:
+    def heed(self, reply: WebReply) -> None:
         """Pause if a reply requests it. A pause that is too long or cannot help is ignored."""
         if reply.ok:
             wait_s = reset_wait_s(reply.headers)

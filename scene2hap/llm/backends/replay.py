@@ -7,18 +7,19 @@ no address. Pictures appear only as a digest within the request key.
 from __future__ import annotations
 
 import asyncio
+import io
 import os
 import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction, not_pickled
-from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of
+from scene2hap.errors import BadAnswer, ConfigError, ReplayMiss, reason_of, unwritable
 from scene2hap.llm.backends.chat import UnusableAnswer
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical, part_names, plain, request_key
@@ -150,12 +151,18 @@ class RecordingBackend(Wrapper):
 
     def _append(self, line: bytes) -> None:
         try:
-            with self._turn, self._path.open("ab+") as file:
-                if file.seek(0, os.SEEK_END) and not _ends_in_newline(file):
+            with self._turn, self._path.open("ab+", buffering=0) as file:
+                end = file.seek(0, os.SEEK_END)
+                if end and not _ends_in_newline(file):
                     line = b"\n" + line  # an editor removed the last line break
-                file.write(line)
-                file.flush()
-                os.fsync(file.fileno())
+                try:
+                    # A full disk takes a part of the line, and fails at the next write.
+                    while line:
+                        line = line[file.write(line) :]
+                    os.fsync(file.fileno())
+                except OSError:
+                    file.truncate(end)  # the part of a line would make all other answers unreadable
+                    raise
         except OSError as cause:
             raise _cannot_write(self._path, cause) from cause
 
@@ -177,10 +184,10 @@ def _entries(path: Path, content: bytes) -> Iterator[_Entry]:
         try:
             yield _Entry.model_validate_json(line)
         except ValidationError as cause:
-            problem = cause.errors()[0]
-            place = ".".join(str(part) for part in problem["loc"]) or "(whole line)"
+            problem = checks.first_problem(cause)
             raise BadAnswer(
-                f"{path}, line {number}: {place}: {problem['msg']}. Remove the line and record it again.",
+                f"{path}, line {number}: {problem.place or '(whole line)'}: {problem.reason}. Remove the line and "
+                "record it again.",
                 line.decode("utf-8", "replace"),
             ) from cause
 
@@ -197,10 +204,10 @@ def _differing(entry: _Entry, request: LLMRequest, model: str | None) -> list[st
     return fields + [name for name, part in part_names(request).items() if entry.parts.get(name, part) != part]
 
 
-def _ends_in_newline(file: BinaryIO) -> bool:
+def _ends_in_newline(file: io.FileIO) -> bool:
     file.seek(-1, os.SEEK_END)
     return file.read(1) == b"\n"
 
 
 def _cannot_write(path: Path, cause: OSError) -> ConfigError:
-    return ConfigError(f"cannot write the recording {path}: {reason_of(cause)}. Give a file in a folder that exists.")
+    return ConfigError(unwritable(f"the recording {path}", cause, "Give a file in a folder that exists."))

@@ -14,12 +14,6 @@ from email.utils import parsedate_to_datetime
 LONGEST_WAIT_S = 120.0
 """A longer wait counts as a failure, as in OpenAI's client."""
 
-HEADERS = (
-    "retry-after-ms",
-    "retry-after",
-    *(f"x-ratelimit-{what}-{unit}" for what in ("remaining", "reset") for unit in ("requests", "tokens")),
-)
-
 _PART = re.compile(r"(\d+(?:\.\d+)?)(ms|h|m|s)")
 _SECONDS = {"ms": 1e-3, "s": 1.0, "m": 60.0, "h": 3600.0}
 

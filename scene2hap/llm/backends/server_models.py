@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from scene2hap.errors import BackendUnavailable, ConfigError
+from scene2hap.llm.backends.chat import text_of
 from scene2hap.llm.backends.http_client import Endpoint
 
 PROBE_TIMEOUT_S = 5.0
@@ -31,7 +32,9 @@ async def openai_models(endpoint: Endpoint) -> tuple[Served, ...]:
     """
     reply = await endpoint.get("models", PROBE_TIMEOUT_S)
     listed = _dicts(reply.json() if reply.ok else None, "data")
-    return tuple(Served(_text(item, "id"), _sees(item), _text(item, "owned_by")) for item in listed if item.get("id"))
+    return tuple(
+        Served(text_of(item["id"]), _sees(item), text_of(item.get("owned_by"))) for item in listed if item.get("id")
+    )
 
 
 async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
@@ -41,7 +44,7 @@ async def ollama_models(endpoint: Endpoint) -> tuple[Served, ...]:
     """
     reply = await endpoint.get("api/tags", PROBE_TIMEOUT_S)
     listed = _dicts(reply.json() if reply.ok else None, "models")
-    return tuple(Served(_text(item, "model") or _text(item, "name"), _has_vision(item)) for item in listed)
+    return tuple(Served(text_of(item.get("model")) or text_of(item.get("name")), _has_vision(item)) for item in listed)
 
 
 async def ollama_sees(endpoint: Endpoint, model: str) -> bool | None:
@@ -84,8 +87,3 @@ def _has_vision(item: dict[str, Any]) -> bool | None:
 def _dicts(body: object, name: str) -> list[dict[str, Any]]:
     items = body.get(name) if isinstance(body, dict) else None
     return [item for item in items if isinstance(item, dict)] if isinstance(items, list) else []
-
-
-def _text(item: dict[str, Any], name: str) -> str:
-    value = item.get(name)
-    return value if isinstance(value, str) else ""

@@ -11,13 +11,13 @@ from typing import Any, get_args
 
 from scene2hap.errors import BackendUnavailable, BadAnswer, Scene2HapError
 from scene2hap.llm.backends import chat
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.llm.backends.openai import OpenAIBackend
 from scene2hap.llm.batch.folder import BatchFolder, Outcome, RequestWriter, Stage, keys_in
 from scene2hap.llm.dry_run import estimated_cost_usd
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.request_key import canonical
 from scene2hap.llm.wrappers.prices import PriceList
+from scene2hap.web import WebReply
 
 TIER = "batch"
 """The price tier of batches."""
@@ -42,12 +42,12 @@ class BatchBackend:
 
     def __init__(self, model: OpenAIBackend, folder: BatchFolder, prices: PriceList) -> None:
         self._model, self._prices = model, prices
-        self._answers: dict[str, HttpReply] = {}
+        self._answers: dict[str, WebReply] = {}
         self._failures: Counter[str] = Counter()
         self._why: dict[str, str] = {}
         rows = folder.rows()
         self._sent = set(keys_in(rows, "written", "uploaded", "begun"))
-        self._writer: RequestWriter = folder.writer()
+        self._writer = RequestWriter(folder)
         own = keys_in(rows, *get_args(Stage))
         for key, outcome in folder.outcomes():
             if key in own:
@@ -109,7 +109,7 @@ class BatchBackend:
                 self._why[key] = f"{outcome.code}: {outcome.message}"
             return
         url = f"{self._model.endpoint.base_url}/chat/completions"
-        reply = HttpReply(url, outcome.status, json.dumps(outcome.body))
+        reply = WebReply(url, outcome.status, json.dumps(outcome.body).encode())
         try:
             chat.read_chat(reply, self._model.model)
         except BackendUnavailable as problem:

@@ -22,7 +22,7 @@ from typing import Annotated, Any, BinaryIO, ClassVar, Literal
 from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
 from scene2hap import checks
-from scene2hap.errors import ConfigError, reason_of
+from scene2hap.errors import ConfigError, reason_of, unwritable
 from scene2hap.llm.backends.http_client import MAX_REPLY_BYTES
 from scene2hap.llm.batch.service import COMPLETIONS, MOST_BYTES, MOST_REQUESTS
 from scene2hap.text_files import opened_regular, read_small, write_whole
@@ -77,7 +77,7 @@ class BatchFolder:
         try:
             path.mkdir(parents=True, exist_ok=True)
         except OSError as cause:
-            raise self._unwritable(cause) from cause
+            raise self.unwritable(cause) from cause
 
     # -- rows ---------------------------------------------------------------------------------------------------------
 
@@ -137,10 +137,6 @@ class BatchFolder:
 
     # -- requests -----------------------------------------------------------------------------------------------------
 
-    def writer(self) -> RequestWriter:
-        """Return a writer that adds new requests in new rows."""
-        return RequestWriter(self)
-
     def discard_unfinished(self) -> None:
         """Remove files of requests without a row: their run ended before the files were complete."""
         known = {self.input_path(row) for row in self.rows()}
@@ -152,12 +148,11 @@ class BatchFolder:
         try:
             write_whole(self.path / name, content)
         except OSError as cause:
-            raise self._unwritable(cause) from cause
+            raise self.unwritable(cause) from cause
 
-    def _unwritable(self, cause: OSError) -> ConfigError:
-        return ConfigError(
-            f"cannot write the batches in {self.path}: {reason_of(cause)}. Give a folder that can be written."
-        )
+    def unwritable(self, cause: OSError) -> ConfigError:
+        """Return the error for a file that cannot be written."""
+        return ConfigError(unwritable(f"the folder of batches {self.path}", cause, "Give a folder that is yours."))
 
 
 class RequestWriter:
@@ -183,9 +178,7 @@ class RequestWriter:
                 self._file = (self._folder.path / f"{self._number:04d}.input.jsonl").open("wb")
             self._file.write(content)
         except OSError as cause:
-            raise ConfigError(
-                f"cannot write {self._folder.path}: {reason_of(cause)}. Free some space, and run again."
-            ) from cause
+            raise self._folder.unwritable(cause) from cause
         self._keys.append(key)
         self._n_bytes += len(content)
         both = (self._estimate_usd, estimate_usd)
@@ -195,9 +188,12 @@ class RequestWriter:
         """End the file that is being written, if there is one."""
         if self._file is None:
             return
-        self._file.flush()
-        os.fsync(self._file.fileno())
-        self._file.close()
+        try:
+            with self._file as file:
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as cause:
+            raise self._folder.unwritable(cause) from cause
         self._folder.save(BatchRow(self._number, tuple(self._keys), estimate_usd=self._estimate_usd))
         self._file, self._keys, self._n_bytes, self._estimate_usd = None, [], 0, 0.0
 

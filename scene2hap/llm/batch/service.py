@@ -10,7 +10,7 @@ from typing import Any
 from scene2hap.errors import BackendUnavailable, BadAnswer
 from scene2hap.llm.backends import chat
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.llm.backends.http_reply import HttpReply
+from scene2hap.web import WebReply
 
 COMPLETIONS = "/v1/chat/completions"
 """The endpoint of every request of a batch."""
@@ -92,10 +92,10 @@ class BatchService:
         reply = await self._patiently(lambda: self._endpoint.download(f"files/{file}/content"))
         return reply.text
 
-    async def _get(self, path: str) -> HttpReply:
+    async def _get(self, path: str) -> WebReply:
         return await self._patiently(lambda: self._endpoint.get(path, self._endpoint.timeout_s))
 
-    async def _patiently(self, ask: Callable[[], Awaitable[HttpReply]]) -> HttpReply:
+    async def _patiently(self, ask: Callable[[], Awaitable[WebReply]]) -> WebReply:
         for wait_s in _WAITS_S:
             try:
                 return _successful(await ask())
@@ -106,13 +106,13 @@ class BatchService:
         return _successful(await ask())
 
 
-def _successful(reply: HttpReply) -> HttpReply:
+def _successful(reply: WebReply) -> WebReply:
     if not reply.ok:
         chat.json_object(reply)  # raises the error for the status
     return reply
 
 
-def _id(reply: HttpReply, what: str) -> str:
+def _id(reply: WebReply, what: str) -> str:
     found = chat.text_of(chat.json_object(reply).get("id"))
     if not found:
         raise BadAnswer(f"{reply.url} answered without the id of a {what}. Does this server have batches?", reply.text)

@@ -10,11 +10,10 @@ Letters: m [kg], a >= b [m] the two longest edges of that box.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from functools import cache
 
-from scene2hap.llm.lexicon.table import ObjectRow, text_of
+from scene2hap.llm.lexicon.table import ObjectRow, rows_of
 
 FARTHEST = 2.0
 """The largest factor between an object's mass and the usual one. Assumed: kits of models exaggerate sizes."""
@@ -37,5 +36,5 @@ def usual_mass_kg(row: ObjectRow, whole_m: Sequence[float]) -> float | None:
 
 @cache
 def _usual_sides_m2() -> Mapping[str, float]:
-    rows = csv.DictReader(text_of("usual_boxes.csv").splitlines())
+    rows = rows_of("usual_boxes.csv")
     return {fields["noun"]: float(fields["longest_m"]) * float(fields["middle_m"]) for fields in rows}

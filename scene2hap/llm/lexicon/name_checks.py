@@ -182,7 +182,7 @@ def _by_name(reading: NameReading, row: ObjectRow) -> list[tuple[float, str]]:
 
 def _machine_around(reading: NameReading, row: ObjectRow, beside: Sequence[ObjectRow]) -> str:
     """Return the machine that an inner part names first and touches ("dishwasher_pump": dishwasher), or ""."""
-    if row.noun not in _INNER or reading.head not in (name := " ".join(reading.words)):
+    if row.noun not in _INNER:
         return ""
-    before = read_name(name[: name.rindex(reading.head)].strip()).row
+    before = _before_head(reading).row
     return before.noun if before is not None and before.vibrates and before is not row and before in beside else ""

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from scene2hap.llm.lexicon.table import ObjectRow, text_of
+from scene2hap.llm.lexicon.table import ObjectRow, rows_of
 
 
 def starting_of(row: ObjectRow | None, verb: str) -> Mapping[str, Any]:
@@ -21,7 +20,7 @@ def starting_of(row: ObjectRow | None, verb: str) -> Mapping[str, Any]:
 
 @cache
 def _table() -> Mapping[str, Mapping[str, Any]]:
-    return {fields["what"]: _row(fields) for fields in csv.DictReader(text_of("start_times.csv").splitlines())}
+    return {fields["what"]: _row(fields) for fields in rows_of("start_times.csv")}
 
 
 def _row(fields: Mapping[str, str]) -> Mapping[str, Any]:

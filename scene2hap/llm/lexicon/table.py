@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import csv
 import hashlib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -79,7 +80,7 @@ class ObjectRow:
 @cache
 def table() -> tuple[ObjectRow, ...]:
     """Return every row, in the order of the file."""
-    return tuple(_row(fields) for fields in csv.DictReader(text_of("table.csv").splitlines()))
+    return tuple(_row(fields) for fields in rows_of("table.csv"))
 
 
 @cache
@@ -88,6 +89,11 @@ def version() -> str:
     names = ("table.csv", "start_times.csv", "translations.csv", "usual_boxes.csv")
     rows = [line for name in names for line in text_of(name).splitlines()]
     return hashlib.sha256("\n".join(rows).encode()).hexdigest()[:8]
+
+
+def rows_of(name: str) -> Iterator[dict[str, str]]:
+    """Yield the rows of a CSV file of the lexicon."""
+    return csv.DictReader(text_of(name).splitlines())
 
 
 @cache

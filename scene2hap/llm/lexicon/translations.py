@@ -6,12 +6,11 @@ in the lexicon is looked up here only if an object of that meaning cannot be so 
 
 from __future__ import annotations
 
-import csv
 import unicodedata
 from collections.abc import Iterator
 from functools import cache
 
-from scene2hap.llm.lexicon.table import text_of
+from scene2hap.llm.lexicon.table import rows_of
 
 # Foreign words that are also English words: a number, a state, a tool's cube, or another object.
 _ENGLISH = frozenset({"four", "lit", "cubo", "piso", "bank", "trap", "kop", "wand"})
@@ -124,8 +123,7 @@ def _folded(language: str, word: str) -> str:
 
 def _rows() -> Iterator[tuple[str, str, tuple[str, ...]]]:
     """Yield language, word and meaning. A noun of several words ("lave linge") is written together."""
-    text = text_of("translations.csv")
-    for row in csv.DictReader(text.splitlines()):
+    for row in rows_of("translations.csv"):
         for pair in row["words"].split(";"):
             word, meaning = pair.split("=")
             yield row["language"], _without_accents(word).replace(" ", ""), tuple(meaning.split())

@@ -19,7 +19,7 @@ from filelock import AsyncFileLock
 from pydantic import BaseModel, ConfigDict
 
 from scene2hap.calls import clear_construction
-from scene2hap.errors import ConfigError, reason_of
+from scene2hap.errors import ConfigError, reason_of, unwritable
 from scene2hap.llm.finish_reasons import is_whole
 from scene2hap.llm.protocol import Component, LLMReply, LLMRequest
 from scene2hap.llm.request_key import request_key
@@ -170,4 +170,4 @@ def _key(request: LLMRequest, identity: dict[str, Any]) -> str:
 
 
 def _cannot_write(folder: Path, cause: OSError) -> ConfigError:
-    return ConfigError(f"cannot write the cache {folder}: {reason_of(cause)}. Free its disk, or give another folder.")
+    return ConfigError(unwritable(f"the cache {folder}", cause, "Give another folder."))

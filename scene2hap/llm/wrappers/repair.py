@@ -7,9 +7,8 @@ from dataclasses import replace
 
 from scene2hap import checks
 from scene2hap.calls import clear_construction
-from scene2hap.errors import ConfigError
-from scene2hap.llm.backends.chat import Said, UnusableAnswer, about as describe, require_willing, unusable
-from scene2hap.llm.finish_reasons import is_whole
+from scene2hap.errors import BadAnswer, ConfigError
+from scene2hap.llm.backends.chat import UnusableAnswer, about as describe, require_answer, unusable
 from scene2hap.llm.json_text import answer_object
 from scene2hap.llm.protocol import LLMReply, LLMRequest
 from scene2hap.llm.validation import Fault, find_fault
@@ -37,24 +36,15 @@ class RepairBackend(Wrapper):
     async def complete(self, request: LLMRequest) -> LLMReply:
         """Return a valid answer. Raises: BadAnswer: none came, with the last raw text; errors of the inner backend."""
         self._calls += 1
-        about = describe(request)
         question, usage, left = request, Counter[str](), self._repairs
         usable: LLMReply | None = None  # an answer with a minor fault, kept in case its repair fails
         while True:
             try:
-                reply = await self.inner.complete(question)
-            except UnusableAnswer as problem:
-                usage.update(problem.usage)
-                problem.usage = dict(usage)
-                raise
-            usage.update(reply.usage)
-            said = Said(reply.text, reply.model, reply.finish_reason, dict(usage), service_tier=reply.service_tier)
-            require_willing(said, about)
-            if not reply.text.strip():
-                raise unusable(said, f"{about}: {reply.model} answered without content.", reply.text)
-            if not is_whole(reply.finish_reason):
-                message = f"{about}: the answer ended by {reply.finish_reason!r}, not by itself."
-                raise unusable(said, message, reply.text)
+                reply = await self._whole(question, usage)
+            except BadAnswer:
+                if usable is None:
+                    raise
+                return replace(usable, usage=dict(usage))
             text = answer_object(reply.text) or reply.text
             fault = find_fault(request.component, text, request.facts)
             if fault is None or (fault.is_minor and left == 0):
@@ -65,11 +55,23 @@ class RepairBackend(Wrapper):
                 usable = replace(reply, text=text)
             elif left == 0:
                 self._given_up += 1
-                message = f"{about}: still wrong after {self._repairs} repairs: {fault.reason}."
-                raise unusable(said, message, reply.text)
+                message = f"{describe(request)}: still wrong after {self._repairs} repairs: {fault.reason}."
+                raise unusable(replace(reply, usage=dict(usage)), message, reply.text)
             left -= 1
             self._n_repairs += 1
             question = _repair(request, text, fault)
+
+    async def _whole(self, question: LLMRequest, usage: Counter[str]) -> LLMReply:
+        """Return an answer that is whole. Adds its tokens to `usage`; an error for an answer states their sum."""
+        try:
+            reply = await self.inner.complete(question)
+        except UnusableAnswer as problem:
+            usage.update(problem.usage)
+            problem.usage = dict(usage)
+            raise
+        usage.update(reply.usage)
+        require_answer(replace(reply, usage=dict(usage)), describe(question))
+        return reply
 
     def report(self) -> dict[str, int]:
         """Return counts: calls, repairs, and calls that failed after all repairs."""

@@ -14,8 +14,9 @@ Source: Johnson, Contact Mechanics (1985), section 4.2, and section 3.4 for the 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from scene2hap import checks
 from scene2hap.errors import ConfigError
@@ -76,3 +77,15 @@ class ContactLaw:
         if area_m2:
             radius_m = min(radius_m, math.sqrt(area_m2 / math.pi))
         return 2 * modulus.real * radius_m, max(modulus.imag / modulus.real, self.loss_floor)
+
+
+def checked_law(contact: ContactLaw | Mapping[str, Any]) -> ContactLaw:
+    """Convert a setting to a law: a `ContactLaw`, or its parameters, such as a table of TOML. Raises: ConfigError."""
+    if isinstance(contact, ContactLaw):
+        return contact
+    try:
+        return ContactLaw(**contact)
+    except TypeError as cause:
+        raise ConfigError(
+            f"contact is {contact!r}; it must be a ContactLaw or its settings tip_radius_m, preload_n and loss_floor."
+        ) from cause

@@ -14,9 +14,10 @@ from scene2hap.contact.junction import Pair, pair_of
 from scene2hap.materials import Material
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
 from scene2hap.propagation.coupled.coupling import NORMAL, REVERSED, Along, Joint
-from scene2hap.propagation.coupled.layers import pressed_through
+from scene2hap.propagation.coupled.layers import Spring, pressed_through
 from scene2hap.propagation.plate import Plate, RigidBody
-from scene2hap.propagation.protocol import Body, ContactNetwork
+from scene2hap.propagation.points import as_points
+from scene2hap.propagation.protocol import Body, ContactNetwork, placing_of
 from scene2hap.scene.geometry import dot
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
@@ -47,6 +48,33 @@ def joints_of(
 
     Parameters: source_kg : mass with which each source moves [kg].
     """
+    springs = _springs(network, carriers, law, source_kg)
+    touching: dict[str, list[Contact]] = defaultdict(list)
+    for pair, several in springs.items():
+        for object_id in pair:
+            touching[object_id] += [contact for contact, _ in several]
+    bodies, poses = network.bodies, network.poses
+    # Of each object the end at each of its contacts, taken in the order of the contacts.
+    places = {
+        object_id: iter(_on_body(bodies.get(object_id), poses.get(object_id), tuple([one.point_m for one in contacts])))
+        for object_id, contacts in touching.items()
+    }
+    directions = {object_id: iter(alongs) for object_id, alongs in _directions(network, touching).items()}
+    joints: list[Joint] = []
+    for (a, b), several in springs.items():
+        found = []
+        for contact, (k, loss) in several:
+            points_m, alongs = (next(places[a]), next(places[b])), (next(directions[a]), next(directions[b]))
+            found.append(Joint(a, b, *points_m, contact.weight * k, loss, 0.0, *alongs))
+        joints += _merged(found)
+    joints.sort(key=lambda joint: (joint.a, joint.b))
+    return joints
+
+
+def _springs(
+    network: ContactNetwork, carriers: Collection[str], law: ContactLaw, source_kg: Mapping[str, float]
+) -> dict[Pair, list[tuple[Contact, Spring]]]:
+    """Contacts of each pair, those below a pressed layer last, each with its spring at a weight of 1."""
     pairs: dict[Pair, list[Contact]] = defaultdict(list)
     for contact in network.contacts:
         if contact.weight > 0 and contact.a in carriers and contact.b in carriers:
@@ -57,39 +85,14 @@ def joints_of(
         contacts.sort(key=lambda one: (one.point_m, one.weight, one.area_m2 or 0.0))
         preloads_n[pair] = law.preload([kg for _, kg in resting[pair]], len(contacts))
     pressed = pressed_through(network, pairs, preloads_n, law)
-    touching: dict[str, list[Contact]] = defaultdict(list)
-    for pair, contacts in pairs.items():
-        for object_id in pair:
-            touching[object_id] += contacts
-            touching[object_id] += [one for one, _ in pressed.get(pair, ())]
-    bodies, poses = network.bodies, network.poses
-    places = {
-        object_id: iter(_on_body(bodies.get(object_id), poses.get(object_id), tuple([one.point_m for one in contacts])))
-        for object_id, contacts in touching.items()
-    }
-    axes = {object_id: _axes(network, object_id) for object_id in touching}
-    level = {
-        object_id: own[2]
-        for object_id, own in axes.items()
-        if own is not None and _is_level(own[2], touching[object_id])
-    }
-    directions = {
-        object_id: iter(_directions(network, object_id, touching[object_id], axes, level)) for object_id in axes
-    }
     stiffness = cache(law.stiffness)  # joints are of few kinds
-    joints: list[Joint] = []
-    for (a, b), contacts in pairs.items():
-        standing = [object_id for object_id, _ in resting[a, b]]
-        materials = (_material(network, a, stands=a in standing), _material(network, b, stands=b in standing))
-        found = []
-        springs = [(one, stiffness(*materials, one.area_m2, preloads_n[a, b])) for one in contacts]
-        for contact, (k, loss) in [*springs, *pressed.get((a, b), ())]:
-            point_a_m, point_b_m, weighed = next(places[a]), next(places[b]), contact.weight * k
-            alongs = next(directions[a]), next(directions[b])
-            found.append(Joint(a, b, point_a_m, point_b_m, weighed, loss, 0.0, *alongs))
-        joints += _merged(found)
-    joints.sort(key=lambda joint: (joint.a, joint.b))
-    return joints
+    springs: dict[Pair, list[tuple[Contact, Spring]]] = {}
+    for pair, contacts in pairs.items():
+        standing = [object_id for object_id, _ in resting[pair]]
+        materials = [_material(network, object_id, stands=object_id in standing) for object_id in pair]
+        own = [(one, stiffness(*materials, one.area_m2, preloads_n[pair])) for one in contacts]
+        springs[pair] = own + pressed.get(pair, [])
+    return springs
 
 
 def legs_of(network: ContactNetwork, object_id: str, plate: Plate) -> list[tuple[float, float]]:
@@ -133,8 +136,7 @@ def _on_body(
     body: Body | None, pose: Pose | None, points_m: tuple[tuple[float, float, float], ...]
 ) -> tuple[tuple[float, float], ...]:
     """See `ContactNetwork.on_body`. Cached, since most objects stay where they are."""
-    network = ContactNetwork({} if body is None else {"": body}, (), {} if pose is None else {"": pose})
-    return tuple([(x, y) for x, y in network.on_body("", points_m).tolist()])
+    return tuple([(x, y) for x, y in placing_of(body, pose)(as_points(points_m, 3)).tolist()])
 
 
 def _axes(network: ContactNetwork, object_id: str) -> Axes | None:
@@ -151,14 +153,28 @@ def _is_level(normal: Direction, contacts: Sequence[Contact]) -> bool:
     return all(one.normal is None or abs(dot(normal, one.normal)) >= LEVEL for one in contacts)
 
 
-def _directions(
+def _directions(network: ContactNetwork, touching: Mapping[str, Sequence[Contact]]) -> dict[str, list[Along]]:
+    """Direction in which each contact acts on each object that it touches: `NORMAL` or `REVERSED` for all contacts of
+    an object, unless one differs (`LEVEL`)."""
+    axes = {object_id: _axes(network, object_id) for object_id in touching}
+    level = {
+        object_id: own[2]
+        for object_id, own in axes.items()
+        if own is not None and _is_level(own[2], touching[object_id])
+    }
+    return {
+        object_id: _directions_on(network, object_id, contacts, axes, level) for object_id, contacts in touching.items()
+    }
+
+
+def _directions_on(
     network: ContactNetwork,
     object_id: str,
     contacts: Sequence[Contact],
     axes: Mapping[str, Axes | None],
     level: Mapping[str, Direction],
 ) -> list[Along]:
-    """Direction in which each contact acts on an object: `NORMAL` or `REVERSED` for all, unless one differs (`LEVEL`).
+    """Directions of the contacts of one object.
 
     Parameters: axes : see `_axes`; level : the normal of each body all of whose contacts are along it.
     """

@@ -14,7 +14,8 @@ Letters: see `coupling`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -89,7 +90,7 @@ def contracted(body: ElasticBody, forces_m: Floats, frequencies_hz: Floats, forc
     return summed
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class SolvedObject:
     """An object that some sources reach.
 
@@ -104,17 +105,14 @@ class SolvedObject:
     columns: NDArray[np.intp]
     joints: Sequence[Joint]
     load: HandLoad | None
-    _own: Complex | None = field(default=None, repr=False)
 
-    @property
+    @cached_property
     def own_forces(self) -> Complex:
         """Forces that act on this object at its joints ([n_frequencies,] n_joints, n_sources); extracted from those of
         the group at first use."""
-        if self._own is None:
-            taken = self.forces[self.ends.rows]
-            taken *= -self.ends.signs.reshape(-1, *[1] * (taken.ndim - 1))
-            self._own = np.ascontiguousarray(np.moveaxis(taken, 2, 0)) if taken.ndim == 3 else taken
-        return self._own
+        taken = self.forces[self.ends.rows]
+        taken *= -self.ends.signs.reshape(-1, *[1] * (taken.ndim - 1))
+        return np.ascontiguousarray(np.moveaxis(taken, 2, 0)) if taken.ndim == 3 else taken
 
     @property
     def others(self) -> list[str]:

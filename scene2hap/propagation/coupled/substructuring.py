@@ -13,17 +13,15 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap import checks
 from scene2hap.blas_threads import one_blas_thread
 from scene2hap.counted import counted
-from scene2hap.errors import ConfigError
 from scene2hap.haptics import Bands
 from scene2hap.propagation.bands.sampling import Sampling
 from scene2hap.propagation.coupled.contact_stiffness import ContactLaw
@@ -38,7 +36,7 @@ from scene2hap.propagation.coupled.legged_body import legged
 from scene2hap.propagation.coupled.object_response import ObjectResponse
 from scene2hap.propagation.coupled.rigid import RigidMotion, is_compact
 from scene2hap.propagation.coupled.solved_object import SolvedObject
-from scene2hap.propagation.domain import OutsideDomain, check_choice, check_thin
+from scene2hap.propagation.domain import OutsideDomain, check_thin
 from scene2hap.propagation.inclined_body import inclined, inclined_box
 from scene2hap.propagation.plate import Plate, RigidBody
 from scene2hap.propagation.points import object_points
@@ -64,6 +62,16 @@ class Assembly:
     rigid: Mapping[str, RigidMotion]
     plates: Mapping[str, Plate]
     top_hz: float
+
+    @cached_property
+    def beside(self) -> dict[str, dict[str, list[Joint]]]:
+        """Joints of each object, by the object on their other side."""
+        found: dict[str, dict[str, list[Joint]]] = {}
+        for _, joints in self.groups:
+            for joint in joints:
+                for one, other in ((joint.a, joint.b), (joint.b, joint.a)):
+                    found.setdefault(one, {}).setdefault(other, []).append(joint)
+        return found
 
     def solve(self, elastic: Mapping[str, ElasticBody], density: float = 1.0, hand: Hand | None = None) -> CoupledField:
         """Solve the field.
@@ -142,28 +150,25 @@ def assemble(
 
 @one_blas_thread
 def prepare_coupled(
+    model: CoupledModel,
     network: ContactNetwork,
     excitations: Sequence[Excitation],
     bands: Bands,
-    elastic_body: Callable[[Plate, float], ElasticBody],
-    law: ContactLaw,
     outside_domain: OutsideDomain = "warn",
     density: float = 1.0,
-    hand: Hand | None = None,
 ) -> CoupledField:
     """Prepare the field of a scene.
 
-    Parameters: elastic_body : makes the body of a plate that is not compact, for frequencies up to a limit [Hz]; law :
-    stiffness of contacts; density : frequencies per band relative to the needed ones, for checks; hand : load at
-    touched points, None for none.
-    Raises: ModelDomainError: so many contacts, or sources, that the solution exceeds
-    `coupling.MOST_BYTES`.
+    Parameters: model : makes the bodies of plates that are not compact; density : frequencies per band relative to the
+    needed ones, for checks.
+    Raises: ModelDomainError: so many contacts, or sources, that the solution exceeds `coupling.MOST_BYTES`.
     Raises, warns: ModelDomainError or ThinPlateWarning, as `outside_domain` says, for an object whose bending waves are
     shorter than six of its thicknesses.
     """
-    scene = assemble(network, excitations, bands, law, outside_domain)
+    scene = assemble(network, excitations, bands, model.contact, outside_domain)
     top_hz = scene.top_hz if bands.edges_hz else _next_step_hz(scene.top_hz)
-    return scene.solve({key: elastic_body(plate, top_hz) for key, plate in scene.plates.items()}, density, hand)
+    elastic = {key: model.elastic_body(plate, top_hz) for key, plate in scene.plates.items()}
+    return scene.solve(elastic, density, model.hand)
 
 
 @one_blas_thread
@@ -280,22 +285,3 @@ class CoupledField:
 
 def _nothing_arrives(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.zeros((len(points_m), 0, 1))
-
-
-def checked_law(
-    contact: ContactLaw | Mapping[str, Any], outside_domain: OutsideDomain, loss_floor: float = 0.0
-) -> ContactLaw:
-    """Check the settings that all models of coupled bodies share, and return the contact law.
-
-    Parameters: contact : a law, or its settings, such as a table of TOML. Raises: ConfigError.
-    """
-    checks.number("loss_floor", loss_floor, "-", at_least=0.0, at_most=2.0, error=ConfigError)
-    check_choice(outside_domain)
-    if isinstance(contact, ContactLaw):
-        return contact
-    try:
-        return ContactLaw(**contact)
-    except TypeError as cause:
-        raise ConfigError(
-            f"contact is {contact!r}; it must be a ContactLaw or its settings tip_radius_m, preload_n and loss_floor."
-        ) from cause

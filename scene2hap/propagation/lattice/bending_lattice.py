@@ -1,4 +1,7 @@
-"""Choice of the lattice of a plate: number of cells, positions of their lines, rectangle or outline."""
+"""Choice of the lattice of a plate: number of cells, positions of their lines, rectangle or outline.
+
+Plates of one shape share a lattice, that of a plate of unit size, whatever their size, thickness or material.
+"""
 
 from __future__ import annotations
 
@@ -10,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
+from scene2hap.materials import Material
 from scene2hap.propagation.lattice.lattice import Lattice
 from scene2hap.propagation.lattice.outline_lattice import outline_lattice
 from scene2hap.propagation.lattice.outline_lines import outline_lines
 from scene2hap.propagation.lattice.rectangle_lattice import rectangle_lattice
 from scene2hap.propagation.lattice.spline_axis import SplineAxis
-from scene2hap.propagation.lattice.unit_plate import of_size_one
 from scene2hap.propagation.plate import Plate
-from scene2hap.scene.surface.outline import Outline
+from scene2hap.scene.surface.outline import Outline, Ring
 
 LONGEST = 16
 """Most cells along the longer side, in multiples of the resolution; more slender plates have cells longer than wide."""
@@ -26,6 +29,27 @@ _SLACK = 0.01
 _STRAIGHT_RAD = 1e-3
 MOST_NODES = 100_000
 """Most nodes of a lattice: its factors then fill about a gigabyte."""
+
+
+@lru_cache(maxsize=64)
+def of_size_one(plate: Plate) -> tuple[Plate, float]:
+    """Return a plate of the same shape, of 1 m and of a material with the same Poisson's ratio, and the size of the
+    given plate [m]. Corners are rounded to a thousand millionth, so that rounding makes no other shape."""
+    size_m = max(plate.extent_m)
+    outline = plate.outline
+    if outline is not None:
+        outline = outline_of(
+            tuple(tuple((round(x / size_m, 9), round(y / size_m, 9)) for x, y in ring) for ring in outline.rings_m)
+        )
+    material = Material("any", 1e3, 1e9, plate.material.poisson_ratio, 0.0)
+    length_m, width_m = plate.length_m / size_m, plate.width_m / size_m
+    return Plate(length_m, width_m, 1e-3, material, plate.boundary, outline=outline), size_m
+
+
+@lru_cache(maxsize=32)
+def outline_of(rings_m: tuple[Ring, ...]) -> Outline:
+    """Outline shared by all plates of a shape, so that it is checked and measured once."""
+    return Outline(rings_m)
 
 
 @lru_cache(maxsize=64)

@@ -26,11 +26,10 @@ from numpy.typing import NDArray
 
 from scene2hap.errors import ModelDomainError
 from scene2hap.propagation.domain import warn_if_slow
-from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of
+from scene2hap.propagation.lattice.bending_lattice import MOST_NODES, bending_lattice, n_nodes_of, of_size_one
 from scene2hap.propagation.lattice.block_lanczos import largest
 from scene2hap.propagation.lattice.factors import Factors, positive_factors
 from scene2hap.propagation.lattice.lattice import Lattice
-from scene2hap.propagation.lattice.unit_plate import of_size_one
 from scene2hap.propagation.modes import n_modes_to, n_rigid_motions, wavenumber_of_mode
 from scene2hap.propagation.plate import Plate
 

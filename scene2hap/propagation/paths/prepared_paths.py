@@ -19,9 +19,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from scene2hap.compiled import compiled
+from scene2hap.propagation.points import object_points
 from scene2hap.scene.objects import Contact
 
 WITHIN = 1e-12
@@ -99,6 +100,29 @@ def arrivals_of(price_per_m: Mapping[str, float], sides: Sides, costs: NDArray[n
             entered = own[is_entered[own]]
             arrivals[object_id] = Arrivals(sides.points_m[entered // 2], costs[:, entered])
     return arrivals
+
+
+def arrivals_at(
+    arrivals: Mapping[str, Arrivals],
+    price_per_m: Mapping[str, float],
+    source_ids: Sequence[str],
+    object_id: str,
+    points_m: ArrayLike,
+) -> NDArray[np.float64]:
+    """Cost of the cheapest path from each source to each point (n_points, n_sources): 0 on the source itself, infinite
+    without a path."""
+    points = object_points(object_id, points_m)
+    costs = np.full((len(points), len(source_ids)), np.inf)
+    if object_id in arrivals:
+        arrived, least = arrivals[object_id], np.empty((len(source_ids), len(points)))
+        entry = np.empty(least.shape, dtype=np.intp)
+        hops = np.zeros(arrived.costs.shape, dtype=np.intp)
+        nearest_entries(points, arrived.points_m, price_per_m[object_id], arrived.costs, hops, entry, least)
+        costs = np.ascontiguousarray(least.T)
+    for column, source_id in enumerate(source_ids):
+        if source_id == object_id:
+            costs[:, column] = 0.0
+    return costs
 
 
 class Found(NamedTuple):

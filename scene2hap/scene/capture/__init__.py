@@ -89,8 +89,10 @@ def capture_images(
     scene = given_scene(scene)
     kind = renderer if isinstance(renderer, str) else None
     settings = CaptureConfig.parse(config, size_px=size_px, renderer=kind)
-    factory = _loaded(settings.renderer) if renderer is None or kind is not None else cast("RendererFactory", renderer)
-    name = settings.renderer if renderer is None or kind is not None else _name_of(factory)
+    if renderer is None or isinstance(renderer, str):
+        factory, name = _loaded(settings.renderer), settings.renderer
+    else:
+        factory, name = renderer, _name_of(renderer)
     if isinstance(object_ids, str):
         raise ConfigError(f"object_ids is the text {object_ids!r}; give a list of ids, [{object_ids!r}].")
     given = None if object_ids is None else checks.items("object_ids", object_ids, error=ConfigError)

@@ -6,7 +6,7 @@ from collections import OrderedDict
 from pathlib import Path
 from threading import Lock
 
-from scene2hap.errors import ConfigError, reason_of
+from scene2hap.errors import ConfigError, unwritable
 from scene2hap.scene.capture.png import PNG_END
 from scene2hap.text_files import read_small, write_whole
 
@@ -74,9 +74,7 @@ class FolderCache:
             path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(path, png)
         except OSError as cause:
-            raise ConfigError(
-                f"cache_dir {str(self._folder)!r} cannot be written: {reason_of(cause)}. Name another."
-            ) from cause
+            raise ConfigError(unwritable(f"cache_dir {str(self._folder)!r}", cause, "Name another.")) from cause
 
     def _path(self, key: str) -> Path:
         return self._folder / key[:2] / f"{key}.png"

@@ -8,13 +8,15 @@ picture and its ids take one pass: a pixel's object is encoded in its opacity, w
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
 from scene2hap.scene.capture.colour_table import BACKGROUND_RGB, light
 from scene2hap.scene.capture.faces import Extents, extents, in_view, planes, separates
-from scene2hap.scene.capture.panda3d_screen import Look, Screen
+from scene2hap.scene.capture.panda3d_screen import Screen, textured
 from scene2hap.scene.capture.protocol import Ids, Pixels, Selection
 from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.capture.views import Camera
@@ -57,8 +59,8 @@ class Panda3DRenderer:
         self._opacity = (digits[:, 1] + palette.is_patterned[material]).astype(np.uint8)
         self._lit_along: dict[bytes, Bytes] = {}
         self._screen = Screen(stage.diagonal_m)
-        self._painted = {row: self._look(row) for row in np.flatnonzero(palette.is_patterned).tolist()}
-        self._holed = {row: self._look(row, only_holes=True) for row in np.flatnonzero(palette.is_cutout).tolist()}
+        self._painted = {row: self._textured(row) for row in np.flatnonzero(palette.is_patterned).tolist()}
+        self._holed = {row: self._textured(row, only_holes=True) for row in np.flatnonzero(palette.is_cutout).tolist()}
         self._paint_row = np.where(palette.is_patterned, np.arange(len(palette.rgb)), -1)[material]
         self._hole_row = np.where(palette.is_cutout, np.arange(len(palette.rgb)), -1)[material]
         # A picture and the passes before it share their eye, and some of them the camera, so both results are cached.
@@ -125,21 +127,21 @@ class Panda3DRenderer:
             self._view = (camera, np.flatnonzero(in_view(self._eye[1], camera)))
         return self._view[1]
 
-    def _look(self, row: int, only_holes: bool = False) -> Look:
+    def _textured(self, row: int, only_holes: bool = False) -> Any:
         palette = self._stage.palette
         width, height = int(palette.width[row]), int(palette.height[row])
         texels = palette.texels[palette.start[row] : palette.start[row] + width * height].reshape(height, width, 4)
         if only_holes:
             texels = np.dstack((np.full_like(texels[..., :3], 255), texels[..., 3]))
-        return Look.of(texels, bool(palette.is_cutout[row]))
+        return textured(texels, bool(palette.is_cutout[row]))
 
 
-def _groups(rows: Ints, looks: dict[int, Look]) -> list[tuple[int, Look | None]]:
-    """Return the ends of the ranges of triangles with one texture, and their looks."""
-    if not looks:
+def _groups(rows: Ints, states: dict[int, Any]) -> list[tuple[int, Any]]:
+    """Return the ends of the ranges of triangles with one texture, and their state."""
+    if not states:
         return [(len(rows), None)]
     ends = [*(np.flatnonzero(rows[1:] != rows[:-1]) + 1).tolist(), len(rows)] if len(rows) else []
-    return [(end, looks.get(int(rows[end - 1]))) for end in ends]
+    return [(end, states.get(int(rows[end - 1]))) for end in ends]
 
 
 def _opacity(image: Bytes) -> Ids:

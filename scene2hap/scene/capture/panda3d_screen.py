@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 from weakref import finalize
 
@@ -23,43 +22,34 @@ Floats = NDArray[np.float32]
 _NEAR, _FAR = 1e-3, 8.0
 
 
-@dataclass(frozen=True, eq=False)
-class Look:
-    """Colours of triangles: their own, multiplied by a texture."""
+# Colours of triangles as they are stored, visible from both sides, drawn in the given order.
+_PLAIN: Any = core.RenderState.make(
+    core.ColorAttrib.make_vertex(),
+    core.ShadeModelAttrib.make(core.ShadeModelAttrib.M_flat),
+    core.CullFaceAttrib.make(core.CullFaceAttrib.M_cull_none),
+    core.CullBinAttrib.make("unsorted", 0),
+)
 
-    state: Any
 
-    @classmethod
-    def plain(cls) -> Look:
-        """Return the looks without a texture: visible from both sides, drawn in the given order."""
-        return cls(
-            core.RenderState.make(
-                core.ColorAttrib.make_vertex(),
-                core.ShadeModelAttrib.make(core.ShadeModelAttrib.M_flat),
-                core.CullFaceAttrib.make(core.CullFaceAttrib.M_cull_none),
-                core.CullBinAttrib.make("unsorted", 0),
-            )
-        )
+def textured(texels: Bytes, has_holes: bool) -> Any:
+    """Return the `RenderState` that multiplies colours of triangles by a texture (height, width, 4), RGBA.
 
-    @classmethod
-    def of(cls, texels: Bytes, has_holes: bool) -> Look:
-        """Return the looks with a texture (height, width, 4), RGBA. It is opaque, except for holes if `has_holes`."""
-        height, width = texels.shape[:2]
-        # The rasteriser accepts only powers of two.
-        size = tuple(1 << max(0, round(np.log2(edge))) for edge in (width, height))
-        image = np.array(Image.fromarray(texels).resize(size, Image.Resampling.BOX))[::-1, :, [2, 1, 0, 3]]
-        image[..., 3] = np.where(image[..., 3] < 128, 0, 255) if has_holes else 255
-        texture = core.Texture()
-        texture.setup_2d_texture(*size, core.Texture.T_unsigned_byte, core.Texture.F_rgba)
-        texture.set_ram_image(np.ascontiguousarray(image).tobytes())
-        texture.set_wrap_u(core.SamplerState.WM_repeat)
-        texture.set_wrap_v(core.SamplerState.WM_repeat)
-        texture.set_minfilter(core.SamplerState.FT_nearest)
-        texture.set_magfilter(core.SamplerState.FT_nearest)
-        state = cls.plain().state.set_attrib(core.TextureAttrib.make(texture))
-        if has_holes:
-            state = state.set_attrib(core.AlphaTestAttrib.make(core.AlphaTestAttrib.M_greater, 0.0))
-        return cls(state)
+    It is opaque, except for holes if `has_holes`.
+    """
+    height, width = texels.shape[:2]
+    # The rasteriser accepts only powers of two.
+    size = tuple(1 << max(0, round(np.log2(edge))) for edge in (width, height))
+    image = np.array(Image.fromarray(texels).resize(size, Image.Resampling.BOX))[::-1, :, [2, 1, 0, 3]]
+    image[..., 3] = np.where(image[..., 3] < 128, 0, 255) if has_holes else 255
+    texture = core.Texture()
+    texture.setup_2d_texture(*size, core.Texture.T_unsigned_byte, core.Texture.F_rgba)
+    texture.set_ram_image(np.ascontiguousarray(image).tobytes())
+    texture.set_wrap_u(core.SamplerState.WM_repeat)
+    texture.set_wrap_v(core.SamplerState.WM_repeat)
+    texture.set_minfilter(core.SamplerState.FT_nearest)
+    texture.set_magfilter(core.SamplerState.FT_nearest)
+    state = _PLAIN.set_attrib(core.TextureAttrib.make(texture))
+    return state.set_attrib(core.AlphaTestAttrib.make(core.AlphaTestAttrib.M_greater, 0.0)) if has_holes else state
 
 
 class Screen:
@@ -82,7 +72,6 @@ class Screen:
         root.attach_new_node(self._node)
         self._eye = root.attach_new_node(core.Camera("eye", self._lens))
         self._layout = _layout()
-        self._plain = Look.plain()
         self._buffers: dict[int, tuple[Any, Any]] = {}
         finalize(self, _close, self._engine, self._buffers)
 
@@ -91,13 +80,13 @@ class Screen:
         camera: Camera,
         corners: Floats,
         colors: Bytes,
-        groups: Sequence[tuple[int, Look | None]],
+        groups: Sequence[tuple[int, Any]],
         background: tuple[int, int, int],
     ) -> Bytes:
         """Return blue, green, red and opacity of pixels (size_px, size_px, 4). Opacity is 0 without a triangle.
 
         Parameters: corners : (n, 3, 5), positions [m] and texture coordinates; colors : (n, 4), RGBA; groups : ends of
-            ranges of triangles, and their looks, None for no texture.
+            ranges of triangles, and their state from `textured`, None for no texture.
         """
         vertices = core.GeomVertexData("", self._layout, core.Geom.UH_static)
         vertices.unclean_set_num_rows(3 * len(corners))
@@ -105,13 +94,13 @@ class Screen:
         vertices.modify_array_handle(1).copy_data_from(np.repeat(colors, 3, axis=0))
         self._node.remove_all_geoms()
         begin = 0
-        for end, look in groups:
+        for end, state in groups:
             primitive = core.GeomTriangles(core.Geom.UH_static)
             primitive.add_consecutive_vertices(3 * begin, 3 * (end - begin))
             geom = core.Geom(vertices)
             geom.add_primitive(primitive)
             geom.set_bounds(core.OmniBoundingVolume())
-            self._node.add_geom(geom, (look or self._plain).state)
+            self._node.add_geom(geom, _PLAIN if state is None else state)
             begin = end
         self._aim(camera)
         buffer, texture = self._buffer(camera.size_px)

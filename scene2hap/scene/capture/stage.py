@@ -93,9 +93,14 @@ class Stage:
         return frozenset(range(len(self.actors)))
 
     @cached_property
+    def boxes_m(self) -> Vector:
+        """Lowest and highest corner (n, 2, 3) [m] of each object."""
+        return np.array([actor.box_m for actor in self.actors])
+
+    @cached_property
     def box_m(self) -> Vector:
         """Lowest and highest corner (2, 3) [m] of all objects."""
-        return joined([actor.box_m for actor in self.actors])
+        return joined(self.boxes_m)
 
     @property
     def diagonal_m(self) -> float:

@@ -6,16 +6,18 @@ All relations but supports are computed from AABBs, in milliseconds and without 
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scene2hap.scene.capture.stage import Actor, Stage
+from scene2hap.scene.capture.stage import Stage
 from scene2hap.scene.copies import copy_key
-from scene2hap.scene.geometry import cross_2d, distances
+from scene2hap.scene.geometry import distances, heights_at
 from scene2hap.scene.objects import VERTICAL, SceneObject
 
 Floats = NDArray[np.float64]
+Floats32 = NDArray[np.float32]
 
 # Least extent of a shell, greatest thickness of a wall by its height, and greatest distance of a wall from the scene's
 # boundary. The first and last are shares of the scene's extent (assumed).
@@ -53,66 +55,63 @@ def shells(stage: Stage) -> frozenset[int]:
 def near(stage: Stage, target: int, share: float) -> frozenset[int]:
     """Return the objects whose box is within `share` of the target's diagonal from the target's box."""
     reach = share * stage.actors[target].diagonal_m
-    boxes = np.array([actor.box_m for actor in stage.actors])
-    return frozenset(np.flatnonzero(distances(boxes, boxes[target]) <= reach).tolist()) - {target}
+    return frozenset(np.flatnonzero(distances(stage.boxes_m, stage.boxes_m[target]) <= reach).tolist()) - {target}
 
 
 def containers(stage: Stage, target: int) -> frozenset[int]:
     """Return the objects whose box contains nearly all of the target's box."""
-    low, high = stage.actors[target].box_m
-    boxes = np.array([actor.box_m for actor in stage.actors])
-    common = np.minimum(boxes[:, 1], high) - np.maximum(boxes[:, 0], low)
+    low, high = stage.boxes_m[target]
+    common = np.minimum(stage.boxes_m[:, 1], high) - np.maximum(stage.boxes_m[:, 0], low)
     # Along an axis without extent, a flat target is either inside or outside.
     extent = high - low
     share = np.where(extent > 0, common / np.where(extent > 0, extent, 1.0), common >= 0)
     return frozenset(np.flatnonzero(np.clip(share, 0.0, 1.0).prod(axis=1) >= _CONTAINED).tolist()) - {target}
 
 
+class _Faces(NamedTuple):
+    """Triangles (m, 3, 3) of an object, with two level coordinates and the height, and their boxes (m, 3)."""
+
+    triangles: Floats32
+    low: Floats32
+    high: Floats32
+
+    def heights_under(self, feet: Floats, below: float) -> Floats:
+        """Return the highest point at or below `below` at each foot (n, 2), -inf if there is none."""
+        reaches = (self.high[:, :2] >= feet.min(axis=0)) & (self.low[:, :2] <= feet.max(axis=0))
+        near = self.triangles[reaches.all(axis=1) & (self.low[:, 2] <= below)]
+        heights = heights_at(feet, near.astype(np.float64))
+        highest: Floats = np.where(heights <= below, heights, -np.inf).max(axis=1, initial=-np.inf)
+        return highest
+
+
 def supports(stage: Stage) -> tuple[int | None, ...]:
     """Return the support of each object: the first object below most of its footprint; None for none."""
     up = VERTICAL[stage.up_axis]
-    level = [axis for axis in range(3) if axis != up]
-    return tuple(_support(stage, number, up, level) for number in range(len(stage.actors)))
+    order = [*(axis for axis in range(3) if axis != up), up]
+    turned = [actor.triangles_m[:, :, order] for actor in stage.actors]
+    faces = [_Faces(each, each.min(axis=1), each.max(axis=1)) for each in turned]
+    boxes = stage.boxes_m[:, :, order]
+    return tuple(_support(faces, boxes, number) for number in range(len(faces)))
 
 
-def _support(stage: Stage, number: int, up: int, level: list[int]) -> int | None:
-    low, high = stage.actors[number].box_m
+def _support(faces: Sequence[_Faces], boxes: Floats, number: int) -> int | None:
+    low, high = boxes[number]
     part = np.linspace(_INSET, 1 - _INSET, _FEET)
     size = high - low
     # One side is a little shorter, so that no point is on the diagonal of an authored quad.
-    u, v = np.meshgrid(low[level[0]] + 0.993 * part * size[level[0]], low[level[1]] + part * size[level[1]])
+    u, v = np.meshgrid(low[0] + 0.993 * part * size[0], low[1] + part * size[1])
     feet = np.stack((u.ravel(), v.ravel()), axis=1)
-    below = low[up] + _SUNK * size[up]
+    below = low[2] + _SUNK * size[2]
+    is_under = (boxes[:, 1, :2] >= low[:2]).all(axis=1) & (boxes[:, 0, :2] <= high[:2]).all(axis=1)
+    is_under &= boxes[:, 0, 2] <= below
+    is_under[number] = False
     best, met = np.full(len(feet), -np.inf), np.full(len(feet), -1)
-    for other, actor in enumerate(stage.actors):
-        box = actor.box_m
-        is_aside = (box[1, level] < low[level]).any() or (box[0, level] > high[level]).any()
-        if other == number or is_aside or box[0, up] > below:
-            continue
-        heights = _heights_under(actor, feet, below, up, level)
+    for other in np.flatnonzero(is_under).tolist():
+        heights = faces[other].heights_under(feet, below)
         met = np.where(heights > best, other, met)
         best = np.maximum(heights, best)
     found = met[met >= 0]
     return int(np.bincount(found).argmax()) if len(found) else None
-
-
-def _heights_under(actor: Actor, feet: Floats, below: float, up: int, level: list[int]) -> Floats:
-    """Return the highest point of the object at or below `below` at each foot (n,), -inf if there is none."""
-    triangles = actor.triangles_m
-    flat = triangles[:, :, level]
-    reaches = (flat.max(axis=1) >= feet.min(axis=0)).all(axis=1) & (flat.min(axis=1) <= feet.max(axis=0)).all(axis=1)
-    triangles = triangles[reaches & (triangles[:, :, up].min(axis=1) <= below)].astype(np.float64)
-    a, b, c = np.moveaxis(triangles[:, :, level], 1, 0)
-    height = triangles[:, :, up]
-    area = cross_2d(b - a, c - a)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        foot = feet[:, None]
-        of_b = cross_2d(foot - a, c - a) / area
-        of_c = cross_2d(b - a, foot - a) / area
-        at = height[:, 0] + of_b * (height[:, 1] - height[:, 0]) + of_c * (height[:, 2] - height[:, 0])
-        is_met = (of_b >= 0) & (of_c >= 0) & (of_b + of_c <= 1) & (at <= below)
-    heights: Floats = np.where(is_met, at, -np.inf).max(axis=1, initial=-np.inf)
-    return heights
 
 
 def holders(stage: Stage, below: Sequence[int | None], share: float) -> tuple[frozenset[int], ...]:

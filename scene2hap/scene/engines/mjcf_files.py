@@ -9,7 +9,6 @@ Source: MuJoCo documentation (Google DeepMind), XML reference, `include`, `compi
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import prod
@@ -18,7 +17,7 @@ from typing import NamedTuple
 
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.scene import limits
-from scene2hap.scene.files import usable_name
+from scene2hap.scene.files import outside, usable_name
 from scene2hap.scene.formats.xml_files import walk_xml
 
 MAX_XML_BYTES = 1 << 26
@@ -152,7 +151,9 @@ class _Model:
                 self.totals.mesh_bytes.spend(size, wanted.place)
                 read.add(found)
         if self.outside:
-            raise SceneError(self._refusal())
+            wanted = self.outside[0][0]
+            beyond = (path for _, path in self.outside)
+            raise outside(wanted.place, wanted.name, self.root, *beyond)
 
     def read(self, path: Path, copies: int, depth: int) -> None:
         """Read the model's own file or an included one, inside an element that is copied `copies` times."""
@@ -187,18 +188,6 @@ class _Model:
     def _name(self, wanted: _Wanted) -> str:
         name = _plain(wanted.name)
         return Path(name).name if self.strips_paths and wanted.kind != "include" else name
-
-    def _refusal(self) -> str:
-        wanted, _ = self.outside[0]
-        places = [self.path.parent, self.root, *(path.parent for _, path in self.outside)]
-        try:
-            needed = os.path.commonpath(places)
-        except ValueError:  # on different drives
-            needed = "<a folder that holds both>"
-        return (
-            f"{wanted.place} wants {wanted.name!r}, which lies outside {str(self.root)!r}; only files inside it are "
-            f"read. Give assets_root={needed!r} (--assets-root) if you trust the file."
-        )
 
 
 @dataclass

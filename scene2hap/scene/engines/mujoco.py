@@ -93,22 +93,22 @@ def snapshot(
     Raises: MissingExtra: MuJoCo is not installed. SceneError: nothing is drawn, or a number is invalid.
     Warns: UnitWarning: without unit_m, if sizes are implausible as metres.
     """
-    mujoco = _engine(model, data)
+    _require(model, data)
     metres = metres_per_unit(unit_m)
     if contacts not in (None, "engine"):
         raise SceneError(f"contacts is {contacts!r}; it must be 'engine', or None to find them from geometry.")
     if masses not in (None, "engine"):
         raise SceneError(f"masses is {masses!r}; it must be 'engine', or None to have them inferred.")
-    items = _layout(mujoco, model, geom_groups, read_again=True)
+    items = _layout(model, geom_groups, read_again=True)
     limits.at_most("the number of objects", len(items.all), "MAX_OBJECTS")
     placed = _poses(model, data, items, metres)
     reader, maker = GeomReader(model), ObjectMaker("z", metres)
     objects = []
     for item in items.all:
-        group = _group(mujoco, model, item, tuple(map(reader.piece, item.geoms)))
+        group = _group(model, item, tuple(map(reader.piece, item.geoms)))
         label = group.name
         if says_nothing(label):
-            label = _name_of_geoms(mujoco, model, item) or label or item.id
+            label = _name_of_geoms(model, item) or label or item.id
         mass_kg = float(model.body_mass[item.body]) if masses is not None else 0.0
         objects.append(maker.make(item.id, replace(group, name=label, mass_kg=mass_kg or None), placed[item.id]))
     if not objects:
@@ -129,7 +129,8 @@ def snapshot(
 def poses(model: Any, data: Any, *, geom_groups: Collection[int] | None = None, unit_m: float = 1.0) -> PoseTable:
     """Return the current pose of every object of the last `snapshot` with the same arguments."""
     unit_m = metres_per_unit(unit_m)
-    return _poses(model, data, _layout(_engine(model, data), model, geom_groups), unit_m)
+    _require(model, data)
+    return _poses(model, data, _layout(model, geom_groups), unit_m)
 
 
 def contact_points(data: Any) -> ContactPoints:
@@ -164,7 +165,8 @@ def contacts(
     Parameters: points : those of several steps; None takes the current ones.
     """
     unit_m = metres_per_unit(unit_m)
-    items = _layout(_engine(model, data), model, geom_groups)
+    _require(model, data)
+    items = _layout(model, geom_groups)
     return _contacts(model, data, contact_points(data) if points is None else points, items, unit_m)
 
 
@@ -174,8 +176,8 @@ def geoms_below(model: Any, data: Any, body: str) -> NDArray[np.bool_]:
     A body without a name is given by its id (rule 4). The last entry, for "no geom", is False.
     Raises: UnknownObject: the model has no such body. SceneError: none of the geoms can collide.
     """
-    mujoco = _engine(model, data)
-    named = {name: k + 1 for k, name in enumerate(_ids(mujoco, model)[: model.nbody - 1])}
+    _require(model, data)
+    named = {name: k + 1 for k, name in enumerate(_ids(model)[: model.nbody - 1])}
     if not isinstance(body, str) or body not in named:
         hint = checks.did_you_mean(body, named) if isinstance(body, str) else "Give the name of one body."
         raise UnknownObject(f"the model has no body {checks.represented(body)}. {hint}".rstrip())
@@ -209,7 +211,8 @@ def touched(
     There is one entry for each contact point with a geom outside the part.
     Parameters: points : those of several steps; None takes the current ones.
     """
-    items = _layout(_engine(model, data), model, geom_groups)
+    _require(model, data)
+    items = _layout(model, geom_groups)
     geoms, places, _ = contact_points(data) if points is None else points
     is_own = part[geoms]
     kept = np.flatnonzero(is_own[:, 0] != is_own[:, 1])
@@ -250,7 +253,8 @@ def open_mjcf(path: str | os.PathLike[str], *, assets_root: str | os.PathLike[st
     return model, data
 
 
-def _engine(model: Any, data: Any) -> Any:
+def _require(model: Any, data: Any) -> None:
+    """Check that a model and its data are given. Raises: MissingExtra, SceneError: they are something else."""
     mujoco = engine("mujoco")
     if not isinstance(model, mujoco.MjModel) or not isinstance(data, mujoco.MjData):
         raise SceneError(
@@ -268,7 +272,6 @@ def _engine(model: Any, data: Any) -> Any:
     # A copy of the model is accepted too.
     if own is not model and own.names != model.names:
         raise SceneError("data is of another model, whose names differ. Make it by mujoco.MjData(model).")
-    return mujoco
 
 
 # -- bodies and geoms that are objects -------------------------------------------------------------------------------
@@ -309,20 +312,20 @@ class _Items:
 _layouts: WeakKeyDictionary[Any, dict[frozenset[int] | None, _Items]] = WeakKeyDictionary()
 
 
-def _layout(mujoco: Any, model: Any, geom_groups: Collection[int] | None, *, read_again: bool = False) -> _Items:
+def _layout(model: Any, geom_groups: Collection[int] | None, *, read_again: bool = False) -> _Items:
     """Return the items of a model. A snapshot reads them again; later frames use the items of that snapshot."""
     if geom_groups is not None and (isinstance(geom_groups, str) or not isinstance(geom_groups, Collection)):
         raise SceneError(f"geom_groups is {geom_groups!r}; it must be a set of group numbers, such as {{1}}.")
     known = _layouts.setdefault(model, {})
     groups = None if geom_groups is None else frozenset(geom_groups)
     if read_again or groups not in known:
-        known[groups] = _Items(_items(mujoco, model, groups))
+        known[groups] = _Items(_items(model, groups))
     return known[groups]
 
 
-def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[_Item]:
+def _items(model: Any, geom_groups: frozenset[int] | None) -> list[_Item]:
     """Return the bodies in order, then the world's geoms. Ids do not depend on which geoms are drawn."""
-    ids = _ids(mujoco, model)
+    ids = _ids(model)
     drawn: list[list[int]] = [[] for _ in range(model.nbody)]
     for geom in np.flatnonzero(_drawn(model, geom_groups)).tolist():
         drawn[int(model.geom_bodyid[geom])].append(geom)
@@ -330,18 +333,16 @@ def _items(mujoco: Any, model: Any, geom_groups: frozenset[int] | None) -> list[
     return [*bodies, *(_Item(ids[model.nbody - 1 + geom], _WORLD, (geom,)) for geom in drawn[_WORLD])]
 
 
-def _ids(mujoco: Any, model: Any) -> list[str]:
+def _ids(model: Any) -> list[str]:
     """Return the ids of all bodies but the world, then of the world's geoms, by rule 4."""
-    kind = mujoco.mjtObj
     ids, n_children = ["world"], [0] * model.nbody
     for body in range(1, model.nbody):
         parent = int(model.body_parentid[body])
         n_children[parent] += 1
-        name = mujoco.mj_id2name(model, kind.mjOBJ_BODY, body)
-        ids.append(name or f"{ids[parent]}/body{n_children[parent]}")
+        ids.append(model.body(body).name or f"{ids[parent]}/body{n_children[parent]}")
     # In MuJoCo the geoms of the world have the first numbers.
     on_world = range(int(model.body_geomnum[_WORLD]))
-    ids += [mujoco.mj_id2name(model, kind.mjOBJ_GEOM, geom) or f"world/geom{geom + 1}" for geom in on_world]
+    ids += [model.geom(geom).name or f"world/geom{geom + 1}" for geom in on_world]
     return unique_ids(ids[1:])
 
 
@@ -364,41 +365,33 @@ def _drawn(model: Any, geom_groups: frozenset[int] | None) -> NDArray[np.bool_]:
     return drawn
 
 
-def _group(mujoco: Any, model: Any, item: _Item, pieces: tuple[Piece, ...]) -> Group:
+def _group(model: Any, item: _Item, pieces: tuple[Piece, ...]) -> Group:
     """Return the item's pieces, named by rule 4, in the frame of the body."""
-
-    def name(body: int) -> str:
-        return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, body) or ""
-
     origin = np.eye(4)
     if item.body == _WORLD:
-        return Group(mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, item.geoms[0]) or "", origin, _parts(pieces))
-    body, node = item.body, AuthoredNode(name(item.body), origin, pieces)
+        return Group(model.geom(item.geoms[0]).name, origin, tuple((origin, piece) for piece in pieces))
+    body, node = item.body, AuthoredNode(model.body(item.body).name, origin, pieces)
     while (
         model.body_jntnum[body] == 0
         and (parent := int(model.body_parentid[body])) != _WORLD
         and model.body_geomnum[parent] == 0
         and np.count_nonzero(model.body_parentid[1:] == parent) == 1
     ):
-        body, node = parent, AuthoredNode(name(parent), origin, children=(node,))
+        body, node = parent, AuthoredNode(model.body(parent).name, origin, children=(node,))
     return group_objects([node])[0]
 
 
-def _parts(pieces: tuple[Piece, ...]) -> tuple[tuple[NDArray[np.float64], Piece], ...]:
-    return tuple((np.eye(4), piece) for piece in pieces)
-
-
-def _name_of_geoms(mujoco: Any, model: Any, item: _Item) -> str:
+def _name_of_geoms(model: Any, item: _Item) -> str:
     """Return the words that the names of all geoms, or else of all meshes, begin with; "" if they say nothing.
 
     Names without common words are of parts (a handle and a head), not of the object.
     """
-    kinds, first = mujoco.mjtObj, item.geoms[0]
+    first = item.geoms[0]
     if item.body == _WORLD and model.geom_type[first] == _PLANE and _is_upright(model.geom_quat[first]):
         return "floor"
-    meshes = [int(model.geom_dataid[geom]) for geom in item.geoms if model.geom_type[geom] == _MESH]
-    for kind, rows in ((kinds.mjOBJ_GEOM, item.geoms), (kinds.mjOBJ_MESH, meshes)):
-        names = [name for row in rows if (name := mujoco.mj_id2name(model, kind, row))]
+    meshes = [model.mesh(model.geom_dataid[geom]) for geom in item.geoms if model.geom_type[geom] == _MESH]
+    for rows in (map(model.geom, item.geoms), meshes):
+        names = [row.name for row in rows if row.name]
         words = set(map(name_words, names))
         shared = takewhile(lambda column: len(set(column)) == 1, zip(*words, strict=False))
         common = names[0] if len(words) == 1 else " ".join(column[0] for column in shared)

@@ -8,6 +8,7 @@ Source: MuJoCo documentation (Google DeepMind), XML reference, `geom`, `mesh`, `
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -22,6 +23,12 @@ from scene2hap.scene.tree import Piece
 _SPHERE, _CAPSULE, _ELLIPSOID, _CYLINDER, _BOX = 2, 3, 4, 5, 6
 _PLANE, _TERRAIN = 0, 1
 _TEXTURE_2D, _ROLE_RGB = 0, 1
+_SOLIDS: dict[int, Callable[[list[float]], solids.Triangles]] = {
+    _SPHERE: lambda size: solids.ellipsoid([size[0]] * 3),
+    _CAPSULE: lambda size: solids.capsule(size[0], size[1]),
+    _ELLIPSOID: solids.ellipsoid,
+    _CYLINDER: lambda size: solids.cylinder(size[0], size[1]),
+}
 # A geom of this colour takes the colour of its material (MuJoCo's default).
 _NO_COLOUR = (0.5, 0.5, 0.5, 1.0)
 # An infinite plane is cut to this multiple of the model's extent, and to at least this size [model unit]. Assumed:
@@ -56,7 +63,7 @@ class GeomReader:
         Raises: SceneError: its numbers are invalid.
         """
         model = self.model
-        kind, mesh = int(model.geom_type[geom]), self._mesh(geom)
+        kind, mesh = int(model.geom_type[geom]), _mesh(model, geom)
         frame = Pose()
         if model.geom_bodyid[geom] != 0:
             frame = Pose.from_wxyz(model.geom_pos[geom], model.geom_quat[geom])
@@ -76,29 +83,21 @@ class GeomReader:
     def _shape(self, geom: int) -> solids.Triangles:
         """Return triangles in the compiled frame of the geom."""
         model = self.model
-        kind, size, mesh = int(model.geom_type[geom]), model.geom_size[geom].tolist(), self._mesh(geom)
+        kind, size, mesh = int(model.geom_type[geom]), model.geom_size[geom].tolist(), _mesh(model, geom)
         if kind == _PLANE:
             reach = _PLANE_EXTENTS * model.stat.extent + float(np.linalg.norm(model.stat.center - model.geom_pos[geom]))
             half = [edge if edge > 0 else max(reach, _MIN_PLANE) for edge in size[:2]]
             return solids.rectangle(*half)
         if kind == _TERRAIN:
             return self._terrain(int(model.geom_dataid[geom]))
-        if kind == _SPHERE:
-            return solids.ellipsoid([size[0]] * 3)
-        if kind == _CAPSULE:
-            return solids.capsule(size[0], size[1])
-        if kind == _ELLIPSOID:
-            return solids.ellipsoid(size)
-        if kind == _CYLINDER:
-            return solids.cylinder(size[0], size[1])
-        if kind == _BOX or mesh is None:
-            return solids.box(size)
+        if mesh is None:
+            return _SOLIDS.get(kind, solids.box)(size)
         first, n = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
         return model.mesh_vert[first : first + n].astype(np.float64), self._of_faces(model.mesh_face, mesh)
 
     def _n_triangles(self, geom: int) -> int:
         """Return an upper bound on the triangles of the geom, before they are made."""
-        model, kind, mesh = self.model, int(self.model.geom_type[geom]), self._mesh(geom)
+        model, kind, mesh = self.model, int(self.model.geom_type[geom]), _mesh(self.model, geom)
         if kind == _TERRAIN:
             number = int(model.geom_dataid[geom])
             return 2 * int(model.hfield_nrow[number]) * int(model.hfield_ncol[number])
@@ -114,10 +113,6 @@ class GeomReader:
         heights = model.hfield_data[first : first + n_rows * n_columns].reshape(n_rows, n_columns)
         return solids.terrain(top * heights.astype(np.float64), half_x, half_y)
 
-    def _mesh(self, geom: int) -> int | None:
-        number = int(self.model.geom_dataid[geom])
-        return number if number >= 0 and self.model.geom_type[geom] > _BOX else None
-
     def _of_faces(self, table: NDArray[np.int32], mesh: int) -> NDArray[np.int32]:
         first, n = self.model.mesh_faceadr[mesh], self.model.mesh_facenum[mesh]
         return table[first : first + n]
@@ -126,7 +121,7 @@ class GeomReader:
 
     def _appearance(self, geom: int, n_faces: int) -> Appearance:
         """Return the geom's texture if its mesh has texture coordinates, else the texture's mean colour."""
-        model, mesh, texture = self.model, self._mesh(geom), self._texture(geom)
+        model, mesh, texture = self.model, _mesh(self.model, geom), self._texture(geom)
         is_image = texture >= 0 and model.tex_type[texture] == _TEXTURE_2D
         uv = self._texture_coordinates(mesh) if is_image and mesh is not None else None
         colour = self._colours[geom]
@@ -170,11 +165,17 @@ def colours_rgba(model: Any) -> NDArray[np.float64]:
     return colours
 
 
+def _mesh(model: Any, geom: int) -> int | None:
+    """Return the number of a geom's mesh, None for other shapes."""
+    number = int(model.geom_dataid[geom])
+    return number if number >= 0 and model.geom_type[geom] > _BOX else None
+
+
 def authored_pose(model: Any, geom: int) -> Pose:
     """Return the pose of a geom of the world body, without the frame that the compiler gave to its mesh."""
     compiled = Pose.from_wxyz(model.geom_pos[geom], model.geom_quat[geom])
-    mesh = int(model.geom_dataid[geom])
-    if mesh < 0 or model.geom_type[geom] <= _BOX:
+    mesh = _mesh(model, geom)
+    if mesh is None:
         return compiled
     inner = Pose.from_wxyz(model.mesh_pos[mesh], model.mesh_quat[mesh])
     x, y, z, w = inner.rotation_xyzw

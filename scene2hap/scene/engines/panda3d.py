@@ -10,7 +10,6 @@ A session follows a graph by `scene2hap.engines.Panda3DLink`, which reads poses 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -71,28 +70,6 @@ def snapshot(
 
 def _up_axis(core: Any) -> UpAxis:
     return "y" if core.get_default_coordinate_system() in (core.CS_yup_right, core.CS_yup_left) else "z"
-
-
-def nodes(render: Any, *, group: Grouping = "authored") -> dict[str, Any]:
-    """Return the NodePath of every object of `snapshot` with the same arguments, by id; for `poses`."""
-    return {object_id: found.path for object_id, found in _Graph.read(render).objects(group).items()}
-
-
-def poses(render_or_nodes: Any, snapshot: SceneSnapshot, *, unit_m: float = 1.0) -> dict[str, Pose]:
-    """Return the current poses of the objects of a snapshot, for `HapticSession.update`.
-
-    Parameters: render_or_nodes : the result of `nodes`, or a NodePath. With a NodePath the whole graph is read again by
-        the rule "authored"; do not do that every frame; unit_m : as for `snapshot`.
-    Returns: a pose for every object whose node still exists. Scale is as it was in the snapshot.
-    """
-    unit_m = metres_per_unit(unit_m)
-    known = render_or_nodes if isinstance(render_or_nodes, Mapping) else nodes(render_or_nodes)
-    placed = ((item.id, known.get(item.id)) for item in snapshot.objects)
-    return {
-        object_id: _pose(path.get_net_transform(), unit_m)
-        for object_id, path in placed
-        if path is not None and not path.is_empty()
-    }
 
 
 class PoseReader:

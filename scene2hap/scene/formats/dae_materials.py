@@ -45,7 +45,7 @@ class DaeMaterials:
         if material.has_texture:
             uv = _coordinates(primitive, _texture_set(link, _paint(effect).texcoord))
             if uv is None:
-                material = FaceMaterial(material.color_rgba)
+                material = material.untextured()
         return Appearance.plain(material, len(primitive.vertex_index), uv)
 
     def _material(self, effect: Any, name: str) -> FaceMaterial:

@@ -32,6 +32,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,7 @@ from scene2hap.counted import first_of
 from scene2hap.errors import MissingExtra, SceneError, SceneFormatError
 from scene2hap.printable import writable
 from scene2hap.scene import limits
-from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object, scale_of
+from scene2hap.scene.formats.habitat_dataset import Dataset, Json, Kind, Template, read_object, rows_of, scale_of
 from scene2hap.scene.formats.habitat_names import Names, ObjectNames
 from scene2hap.scene.geometry import Bounds, bounds_of, joined
 from scene2hap.scene.pose import Pose
@@ -75,7 +76,7 @@ def read_habitat(
     dataset = Dataset(path, assets_root)
     reader = _Reader(path.name, document, dataset, ObjectNames(names, dataset), read_model)
     with np.errstate(all="ignore"):  # overflows are refused when meshes are placed
-        roots = [*reader.stage(), *reader.objects()]
+        roots = reader.nodes()
     reader.warn()
     return AuthoredScene(tuple(roots), "y", left_out=tuple(reader.left_out))
 
@@ -127,36 +128,30 @@ class _Reader:
         self._bent: Counter[str] = Counter()
         self.left_out: dict[str, None] = {}
 
-    def stage(self) -> list[AuthoredNode]:
-        """Return the stage's node, if there is a stage."""
-        found = []
-        for kind, place, row in _rows(self._name, self._document):
-            template = _template(self._dataset, kind, place, row) if kind == "stages" else None
-            if template is None or template.model is None:
-                continue
-            if np.any(_translation(row, place)) or not np.allclose(_rotation(row, place), np.eye(3)):
-                warn_of(f"{place} is moved or turned, which Habitat does not apply to stages; neither is it here.")
-            model = self._drawn(template.model, place)
-            # The node has no name, so that the stage's own nodes keep their names.
-            scale = np.append(_scale(row, place) * template.scale, 1.0)
-            found.append(AuthoredNode("", template.frame * scale[:, None], (), model.roots))
-        return found
-
-    def objects(self) -> list[AuthoredNode]:
-        """Return the nodes of all object instances."""
+    def nodes(self) -> list[AuthoredNode]:
+        """Return the nodes of the stage, if there is one, and of all object instances."""
         is_com = _is_com(self._document, self._name, None) is not False
         found = []
         for kind, place, row in _rows(self._name, self._document):
-            template = None if kind == "stages" else _template(self._dataset, kind, place, row)
+            template = _template(self._dataset, kind, place, row)
             if template is None:
                 continue
             if template.model is None:
                 self._primitives[template.place] += 1
+            elif kind == "stages":
+                found.append(self._stage(row, place, template, template.model))
             elif _flag(row, "is_instance_visible", place):
                 found.append(self._object(row, place, template, template.model, is_com))
                 if kind == "articulated_objects" and _is_bent(row.get("initial_joint_pose")):
                     self._bent[row["template_name"]] += 1
         return found
+
+    def _stage(self, row: Json, place: str, template: Template, file: Path) -> AuthoredNode:
+        if np.any(_translation(row, place)) or not np.allclose(_rotation(row, place), np.eye(3)):
+            warn_of(f"{place} is moved or turned, which Habitat does not apply to stages; neither is it here.")
+        scale = np.append(_scale(row, place) * template.scale, 1.0)
+        # The node has no name, so that the stage's own nodes keep their names.
+        return AuthoredNode("", template.frame * scale[:, None], (), self._drawn(file, place).roots)
 
     def _object(self, row: Json, place: str, template: Template, file: Path, is_com: bool) -> AuthoredNode:
         model = self._drawn(file, place)
@@ -230,7 +225,7 @@ def _document(path: Path) -> Json:
             f"{path.name!r} is no Habitat scene: it has neither stage_instance nor object_instances. Scenes of "
             "scene2hap itself are named NAME.json."
         )
-    n_rows = sum(len(_list(document, key, path.name)) for key in _INSTANCES.values())
+    n_rows = sum(len(rows_of(document.get(key), f"{path.name}: {key}")) for key in _INSTANCES.values())
     limits.at_most("the number of object instances", n_rows, "MAX_OBJECTS")
     return document
 
@@ -238,13 +233,15 @@ def _document(path: Path) -> Json:
 def _rows(name: str, document: Json) -> list[tuple[Kind, str, Json]]:
     """Return the stage's row and the rows of objects, each with its kind and its place for messages."""
     stage = document.get("stage_instance")
-    found: list[tuple[Kind, str, object]] = [] if stage is None else [("stages", f"{name}: stage_instance", stage)]
+    found: list[tuple[Kind, str, Any]] = [] if stage is None else [("stages", f"{name}: stage_instance", stage)]
     for kind, key in _INSTANCES.items():
-        found += [(kind, f"{name}: {key}[{i}]", row) for i, row in enumerate(_list(document, key, name))]
+        found += [
+            (kind, f"{name}: {key}[{i}]", row) for i, row in enumerate(rows_of(document.get(key), f"{name}: {key}"))
+        ]
     for _, place, row in found:
         if not isinstance(row, dict):
             raise SceneFormatError(f"{place} is {checks.represented(row)}; it must be an object.")
-    return [(kind, place, row) for kind, place, row in found if isinstance(row, dict)]
+    return found
 
 
 def _template(dataset: Dataset, kind: Kind, place: str, row: Json) -> Template | None:
@@ -255,13 +252,6 @@ def _template(dataset: Dataset, kind: Kind, place: str, row: Json) -> Template |
     if not isinstance(name, str) or not name:
         raise SceneFormatError(f"{place}.template_name is {checks.represented(name)}; it must be a template's name.")
     return dataset.template(kind, writable(name), place)
-
-
-def _list(document: Json, key: str, name: str) -> list[object]:
-    rows = document.get(key)
-    if rows is not None and not isinstance(rows, list):
-        raise SceneFormatError(f"{name}: {key} is {checks.represented(rows)}; it must be a list of objects.")
-    return rows or []
 
 
 def _translation(row: Json, place: str) -> NDArray[np.float64]:

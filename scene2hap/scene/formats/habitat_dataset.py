@@ -39,7 +39,7 @@ from scene2hap import checks
 from scene2hap.errors import SceneError, SceneFormatError, reason_of
 from scene2hap.printable import read_json, writable
 from scene2hap.scene import limits
-from scene2hap.scene.files import inside, read_bytes
+from scene2hap.scene.files import inside, outside, read_bytes
 from scene2hap.scene.scene_warning import warn_of
 from scene2hap.scene.tree import Matrix
 
@@ -162,17 +162,11 @@ class Dataset:
 
     def _json(self, file: Path) -> Json:
         if file not in self._documents:
-            self._require_inside(file)
+            if not _resolved(file).is_relative_to(_resolved(self.root)):
+                raise outside("the dataset", str(file), _resolved(self.root), _resolved(file))
             self.count(file)
             self._documents[file] = read_object(file)
         return self._documents[file]
-
-    def _require_inside(self, file: Path) -> None:
-        if not _resolved(file).is_relative_to(_resolved(self.root)):
-            raise SceneError(
-                f"{str(file)!r} leads outside {str(self.root)!r}; only files inside it are read. Copy it there, or "
-                "give assets_root=<the folder that holds both>."
-            )
 
     # -- names -------------------------------------------------------------------------------------------------------
 
@@ -194,7 +188,7 @@ class Dataset:
             )
         attributes, folder, written_in = self._attributes(kind, source)
         own_name = plain_name(name if source.file is None else writable(source.file.name))
-        return self._template(kind, attributes, folder, written_in, own_name)
+        return self._template(kind, {**self._defaults(kind), **attributes}, folder, written_in, own_name)
 
     def _advice(self, kind: Kind) -> str:
         if self._outside:
@@ -214,7 +208,7 @@ class Dataset:
     def _written(self, kind: Kind) -> Iterator[tuple[str, _Source]]:
         """Yield the configurations that the dataset's own file holds."""
         section = _section(self._document, kind, self._file)
-        for i, row in enumerate(_list(section, "configs", f"{self._file}: {kind}")):
+        for i, row in enumerate(rows_of(section.get("configs"), f"{self._file}: {kind}.configs")):
             place = f"{self._file}: {kind}.configs[{i}]"
             if not isinstance(row, dict) or not isinstance(row.get("attributes", {}), dict):
                 raise SceneFormatError(f"{place} must be an object whose attributes are an object.")
@@ -250,19 +244,17 @@ class Dataset:
 
     def _attributes(self, kind: Kind, source: _Source) -> tuple[Json, Path, str]:
         """Return the document of a template, the folder for its relative paths, and the place of the document."""
-        if source.file is not None and source.file.name.endswith(_CONFIG_SUFFIX[kind]):
-            return {**self._defaults(kind), **self._json(source.file)}, source.file.parent, source.file.name
-        if source.file is not None:
-            own = {_key(kind): source.file.name}
-            return {**self._defaults(kind), **own}, source.file.parent, source.file.name
+        if (file := source.file) is not None:
+            is_config = file.name.endswith(_CONFIG_SUFFIX[kind])
+            return (self._json(file) if is_config else {_key(kind): file.name}), file.parent, file.name
         original = source.attributes.get("original_file")
         own = source.attributes.get("attributes", {})
         if original is None:
-            return {**self._defaults(kind), **own}, self.folder, source.place
+            return own, self.folder, source.place
         if not isinstance(original, str):
             raise SceneFormatError(f"{source.place}.original_file is {original!r}; it must be a file name.")
         file = inside(self.root, self.folder, quote(_slashes(original)), f"{source.place}.original_file")
-        return {**self._defaults(kind), **self._json(file), **own}, file.parent, source.place
+        return {**self._json(file), **own}, file.parent, source.place
 
     def _defaults(self, kind: Kind) -> Json:
         section = _section(self._document, kind, self._file)
@@ -416,6 +408,13 @@ def scale_of(place: str, given: object) -> NDArray[np.float64]:
     return np.array(scale)
 
 
+def rows_of(value: object, place: str) -> list[Any]:
+    """Return a list of a file, empty if it is missing. Raises: SceneFormatError: it is something else."""
+    if value is not None and not isinstance(value, list):
+        raise SceneFormatError(f"{place} is {checks.represented(value)}; it must be a list.")
+    return value or []
+
+
 def read_object(file: Path) -> Json:
     """Return the object in a JSON file.
 
@@ -464,20 +463,14 @@ def _patterns(document: Json, kind: str, place: str) -> Mapping[str, list[str]]:
     paths = _section(document, kind, place).get("paths", {})
     if not isinstance(paths, dict):
         raise SceneFormatError(f"{place}: {kind}.paths must be an object of lists.")
-    for suffix in paths:
-        for pattern in _list(paths, suffix, f"{place}: {kind}.paths"):
+    found = {suffix: rows_of(rows, f"{place}: {kind}.paths.{suffix}") for suffix, rows in paths.items()}
+    for suffix, patterns in found.items():
+        for pattern in patterns:
             if not isinstance(pattern, str) or "\0" in pattern:
                 raise SceneFormatError(
                     f"{place}: {kind}.paths[{suffix!r}] has {checks.represented(pattern)}; it must have paths."
                 )
-    return paths
-
-
-def _list(table: Json, key: str, place: str) -> list[Any]:
-    rows = table.get(key, [])
-    if not isinstance(rows, list):
-        raise SceneFormatError(f"{place}.{key} is {checks.represented(rows)}; it must be a list.")
-    return rows
+    return found
 
 
 def _plain(name: str) -> str:

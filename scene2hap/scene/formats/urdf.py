@@ -1,7 +1,8 @@
 """URDF files, robots and furniture with joints, as authored trees.
 
 1. Every link with geometry is an object. It has the link's name, and the pose of the link's frame with all joints at 0.
-   Links with a fixed joint stay separate. A link without geometry is a frame, and no object.
+   Links with a fixed joint stay separate. A link without geometry is a frame, and no object. A link that turns on
+   another has a hinge.
 2. The <visual> geometry of a link is drawn; its <collision> geometry only if it has no other.
 3. A mesh keeps its own materials. A mesh without materials, such as STL, and shapes such as boxes have the material of
    their <visual>. As in ROS, meshes are never rotated to another up axis, and COLLADA's unit counts.
@@ -15,7 +16,7 @@ Source: URDF XML specification (ROS), `link`, `joint`, `material`; MuJoCo docume
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from xml.etree import ElementTree
@@ -31,12 +32,20 @@ from scene2hap.scene.formats.xml_files import walk_xml
 from scene2hap.scene.looks.appearance import Appearance, FaceMaterial
 from scene2hap.scene.looks.texture_files import TextureFiles
 from scene2hap.scene.pose import Pose
-from scene2hap.scene.tree import AuthoredNode, AuthoredScene, Matrix, Piece, transform, with_own_keys
+from scene2hap.scene.tree import AuthoredNode, AuthoredPivot, AuthoredScene, Matrix, Piece, transform, with_own_keys
 
 MAX_XML_BYTES = 1 << 24
 """Largest size of a URDF file [bytes] (assumed: a hundred times a large robot)."""
 _EXPAND = "Write the file out first: xacro FILE > robot.urdf"
 _MESHES = (".obj", ".stl", ".dae", ".ply", ".glb", ".gltf")
+
+_SOLIDS: dict[str, tuple[dict[str, int], Callable[..., solids.Triangles]]] = {
+    "box": ({"size": 3}, lambda *edges: solids.box([edge / 2 for edge in edges])),
+    "sphere": ({"radius": 1}, lambda radius: solids.ellipsoid([radius] * 3)),
+    "cylinder": ({"radius": 1, "length": 1}, lambda radius, length: solids.cylinder(radius, length / 2)),
+    "capsule": ({"radius": 1, "length": 1}, lambda radius, length: solids.capsule(radius, length / 2)),
+}
+"""The attributes of each shape with their numbers of values, and the function that makes its triangles."""
 
 Element = ElementTree.Element
 
@@ -68,6 +77,16 @@ def _parsed(path: Path) -> Element:
 
 
 @dataclass(eq=False)
+class _Joint:
+    """A joint above a link: the link that it is on, its <origin>, its type, and its element."""
+
+    on: str
+    origin: Matrix
+    kind: str
+    row: Element
+
+
+@dataclass(eq=False)
 class _Reader:
     """Reader of one robot. It reads each mesh file once."""
 
@@ -93,9 +112,13 @@ class _Reader:
     def scene(self) -> AuthoredScene:
         links = self._named("link")
         limits.at_most("the number of links", len(links), "MAX_OBJECTS")
-        frames = self._frames(links)
-        nodes = tuple(self._link(name, row, frames[name]) for name, row in links.items())
-        return AuthoredScene(nodes, "z", 1.0, (*self._left_out, *self._textures.left_out))
+        joints = self._joints(links)
+        frames = self._frames(links, joints)
+        nodes = {name: self._link(name, row, frames[name]) for name, row in links.items()}
+        pivots = self._pivots(nodes, joints, frames)
+        return AuthoredScene(
+            tuple(nodes.values()), "z", 1.0, (*self._left_out, *self._textures.left_out), tuple(pivots)
+        )
 
     def _named(self, tag: str) -> dict[str, Element]:
         """Return the direct children of the root with a tag, by name."""
@@ -109,9 +132,9 @@ class _Reader:
 
     # -- poses of links ----------------------------------------------------------------------------------------------
 
-    def _frames(self, links: dict[str, Element]) -> dict[str, Matrix]:
-        """Return the world transform of each link's frame, with all joints at 0."""
-        above: dict[str, tuple[str, Matrix]] = {}
+    def _joints(self, links: Collection[str]) -> dict[str, _Joint]:
+        """Return the joint of each link that has one."""
+        above: dict[str, _Joint] = {}
         for name, row in self._named("joint").items():
             place = f"joint {name!r}"
             parent, child = (_text(_child(row, tag, place), "link", f"{place}: <{tag}>") for tag in ("parent", "child"))
@@ -120,23 +143,45 @@ class _Reader:
                     near = checks.did_you_mean(link, links)
                     raise SceneFormatError(f"{place} joins link {link!r}, which does not exist. {near}".rstrip())
             if child in above:
-                raise SceneFormatError(f"{place} hangs link {child!r} on {parent!r}; it hangs on {above[child][0]!r}.")
-            above[child] = parent, _origin(row, place)
+                raise SceneFormatError(f"{place} hangs link {child!r} on {parent!r}; it hangs on {above[child].on!r}.")
+            above[child] = _Joint(parent, _origin(row, place), row.get("type") or "", row)
+        return above
+
+    def _frames(self, links: Collection[str], above: dict[str, _Joint]) -> dict[str, Matrix]:
+        """Return the world transform of each link's frame, with all joints at 0."""
         below: dict[str, list[str]] = {}
-        for child, (parent, _) in above.items():
-            below.setdefault(parent, []).append(child)
+        for child, joint in above.items():
+            below.setdefault(joint.on, []).append(child)
         frames: dict[str, Matrix] = {name: np.eye(4) for name in links if name not in above}
         todo = list(frames)
         with np.errstate(all="ignore"):  # overflows are refused when meshes are placed
             while todo:
                 parent = todo.pop()
                 for child in below.get(parent, ()):
-                    frames[child] = frames[parent] @ above[child][1]
+                    frames[child] = frames[parent] @ above[child].origin
                     todo.append(child)
         if len(frames) < len(links):
             ring = next(name for name in links if name not in frames)
             raise SceneFormatError(f"link {ring!r} hangs below itself; the links of a robot form a tree.")
         return frames
+
+    def _pivots(
+        self, nodes: dict[str, AuthoredNode], joints: dict[str, _Joint], frames: dict[str, Matrix]
+    ) -> Iterator[AuthoredPivot]:
+        """Yield the joints by which links turn on others, also across links without geometry that are fixed."""
+        for name, joint in joints.items():
+            if joint.kind not in ("revolute", "continuous"):
+                continue
+            on = joint.on
+            while not nodes[on].children and on in joints and joints[on].kind == "fixed":
+                on = joints[on].on
+            place = f"joint of link {name!r}: <axis>"
+            row = joint.row.find("axis")
+            axis = np.array([1.0, 0.0, 0.0] if row is None else _numbers(row, "xyz", place, 3, "1 0 0"))
+            if not axis.any():
+                raise SceneFormatError(f"{place} is 0 0 0; it must have a direction.")
+            axis = frames[name][:3, :3] @ axis
+            yield AuthoredPivot(name, on, frames[name][:3, 3], axis / np.linalg.norm(axis))
 
     # -- looks of links ----------------------------------------------------------------------------------------------
 
@@ -166,35 +211,11 @@ class _Reader:
             with np.errstate(all="ignore"):
                 origin = origin @ np.diag([*_numbers(shape, "scale", f"{place}, <mesh>", 3, "1 1 1"), 1.0])
         else:
-            piece = self._solid(shape, place)
-            mesh = AuthoredNode(name, np.eye(4), (piece,))
+            mesh = AuthoredNode(name, np.eye(4), (_solid(shape, f"{place}, <{shape.tag}>"),))
         self._size.add_triangles(mesh.n_triangles)
         if material is not None:
             mesh = self._painted(mesh, material, place)
         return AuthoredNode(name, origin, (), (replace(mesh, name=name),))
-
-    def _solid(self, shape: Element, place: str) -> Piece:
-        place = f"{place}, <{shape.tag}>"
-        sizes: list[float]
-        if shape.tag == "box":
-            sizes = _numbers(shape, "size", place, 3)
-        elif shape.tag in ("cylinder", "capsule"):
-            sizes = [*_numbers(shape, "radius", place, 1), *_numbers(shape, "length", place, 1)]
-        elif shape.tag == "sphere":
-            sizes = _numbers(shape, "radius", place, 1)
-        else:
-            raise SceneFormatError(f"{place}: geometry is a box, cylinder, capsule, sphere or mesh.")
-        if min(sizes) <= 0.0 or max(sizes) > limits.MAX_COORDINATE_M:
-            raise SceneFormatError(f"{place} has sizes {sizes} m; they must be above 0 and sensible.")
-        if shape.tag == "box":
-            vertices, faces = solids.box([edge / 2 for edge in sizes])
-        elif shape.tag == "sphere":
-            vertices, faces = solids.ellipsoid(sizes * 3)
-        else:
-            make = solids.cylinder if shape.tag == "cylinder" else solids.capsule
-            vertices, faces = make(sizes[0], sizes[1] / 2)
-        key = (shape.tag, *sizes)
-        return replace(Piece.checked(key, vertices, faces, "", place), is_made=True)
 
     def _painted(self, mesh: AuthoredNode, row: Element, place: str) -> AuthoredNode:
         """Return a node whose pieces without looks of their own have the looks of a <material>."""
@@ -271,6 +292,17 @@ def _origin(row: Element, place: str) -> Matrix:
     place = f"{place}: <origin>"
     pose = Pose.from_euler(_numbers(origin, "xyz", place, 3, "0 0 0"), _numbers(origin, "rpy", place, 3, "0 0 0"))
     return transform(pose.rotation, pose.position_m)
+
+
+def _solid(shape: Element, place: str) -> Piece:
+    """Return the triangles of a shape."""
+    if shape.tag not in _SOLIDS:
+        raise SceneFormatError(f"{place}: geometry is a box, cylinder, capsule, sphere or mesh.")
+    counts, make = _SOLIDS[shape.tag]
+    sizes = [size for key, n in counts.items() for size in _numbers(shape, key, place, n)]
+    if min(sizes) <= 0.0 or max(sizes) > limits.MAX_COORDINATE_M:
+        raise SceneFormatError(f"{place} has sizes {sizes} m; they must be above 0 and sensible.")
+    return replace(Piece.checked((shape.tag, *sizes), *make(*sizes), "", place), is_made=True)
 
 
 def _child(row: Element, tag: str, place: str) -> Element:

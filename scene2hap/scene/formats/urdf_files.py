@@ -9,7 +9,7 @@ from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
 from scene2hap.errors import SceneError
-from scene2hap.scene.files import holding_both, usable_name
+from scene2hap.scene.files import address, outside, usable_name
 
 _PACKAGES = ("package", "model")
 
@@ -27,23 +27,20 @@ class UrdfFiles:
 
         Raises: SceneError: there is none, or it is outside the root.
         """
-        root, outside = self.root.resolve(), None
+        root, beyond = self.root.resolve(), None
         with usable_name(name, place):
             for path in self._candidates(name, place):
                 path = path.resolve()
                 if not path.is_relative_to(root):
-                    outside = outside or path
+                    beyond = beyond or path
                 elif path.is_file():
                     return path
-        if outside is None:
+        if beyond is None:
             raise SceneError(
                 f"{place} wants {name!r}; there is no such file. Copy it beside the scene, or give the folder that "
                 "holds the package as assets_root."
             )
-        raise SceneError(
-            f"{place} wants {name!r}, which lies outside {str(self.root)!r}; only files inside it are read. Give "
-            f"assets_root={holding_both(outside, root)} if you trust the file."
-        )
+        raise outside(place, name, root, beyond)
 
     def _candidates(self, name: str, place: str) -> Iterator[Path]:
         """Yield the paths that a name may refer to: beside the file, in MuJoCo's folder, or in a package around it."""
@@ -66,4 +63,4 @@ class UrdfFiles:
                 if above.is_relative_to(self.root.resolve()):
                     yield above / package / inner
         else:
-            raise SceneError(f"{place} wants {name!r}. Addresses are never fetched: store the file beside the scene.")
+            raise address(place, name)

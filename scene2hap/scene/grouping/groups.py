@@ -22,8 +22,10 @@ f. A node that the file itself declares an object (`AuthoredNode.is_object`) is 
 
 from __future__ import annotations
 
+import math
+import operator
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -75,15 +77,15 @@ def group_objects(roots: Sequence[AuthoredNode], how: Grouping = "authored", *, 
     """
     kept = [node for root in roots if (node := root.with_geometry()) is not None]
     origin = np.eye(4)
+    scene = AuthoredNode(scene_name, origin, children=tuple(kept))
     if how == "authored":
         return [group for root in kept for group in _authored(rejoined(root), origin).groups]
     if how == "leaf":
-        return [group for root in kept for group in _leaves(root, origin)]
+        return list(_at_depth(scene, origin, math.inf))
     if how == "loose":
-        return list(_loose([group for root in kept for group in _leaves(root, origin)]))
+        return list(_loose(_at_depth(scene, origin, math.inf)))
     if isinstance(how, int) and not isinstance(how, bool) and how >= 0:
-        scene = AuthoredNode(scene_name, origin, children=tuple(kept))
-        return list(_at_depth(scene, origin, how)) if kept else []
+        return list(_at_depth(scene, origin, how))
     if isinstance(how, Mapping):
         return _mapped(kept, how)
     raise SceneError(
@@ -204,16 +206,7 @@ def _continues(name: str, start: str) -> bool:
 # -- the other groupings ---------------------------------------------------------------------------------------------
 
 
-def _leaves(node: AuthoredNode, above: Matrix) -> Iterator[Group]:
-    frame = above @ node.matrix
-    if node.pieces:
-        mass_kg = None if node.children else node.mass_kg
-        yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces), mass_kg)
-    for child in node.children:
-        yield from _leaves(child, frame)
-
-
-def _loose(leaves: Sequence[Group]) -> Iterator[Group]:
+def _loose(leaves: Iterable[Group]) -> Iterator[Group]:
     # Copies share their pieces, so that each mesh is taken apart once.
     known: dict[tuple[int, ...], list[tuple[Piece, ...]]] = {}
     for leaf in leaves:
@@ -227,14 +220,14 @@ def _loose(leaves: Sequence[Group]) -> Iterator[Group]:
             yield Group(leaf.name, leaf.frame, tuple((leaf.frame, piece) for piece in part), mass_kg)
 
 
-def _at_depth(node: AuthoredNode, above: Matrix, depth: int) -> Iterator[Group]:
+def _at_depth(node: AuthoredNode, above: Matrix, depth: float) -> Iterator[Group]:
+    """Yield one group for each node at a depth below the node, and one for each mesh above that depth."""
     frame = above @ node.matrix
-    if depth == 0:
-        yield Group(node.name, frame, tuple(_all_parts(node, above)), node.mass_kg)
-        return
-    if node.pieces:
-        yield Group(node.name, frame, tuple((frame, piece) for piece in node.pieces))
-    for child in node.children:
+    is_whole = depth == 0 or not node.children
+    parts = tuple(_all_parts(node, above)) if is_whole else tuple((frame, piece) for piece in node.pieces)
+    if parts:
+        yield Group(node.name, frame, parts, node.mass_kg if is_whole else None)
+    for child in () if is_whole else node.children:
         yield from _at_depth(child, frame, depth - 1)
 
 
@@ -254,17 +247,25 @@ def _mapped(roots: Sequence[AuthoredNode], names: Mapping[str, str]) -> list[Gro
             raise SceneError(f"group maps the node {wanted!r}, which the scene does not have. {hint}")
     objects: dict[str, Group] = {}
 
-    def take(node: AuthoredNode, above: Matrix, owner: str | None) -> AuthoredNode:
-        """Move the mapped pieces at and below `node` to their objects. Returns the node without these pieces."""
+    def take(node: AuthoredNode, above: Matrix, around: str | None) -> AuthoredNode:
+        """Move the mapped pieces at and below `node` to their objects. Returns the node without these pieces.
+
+        `around` is the object of the parent. An object has the mass of its node if it is the whole node and no more.
+        """
         frame = above @ node.matrix
-        owner = names.get(node.name, owner)
-        pieces = node.pieces
+        owner = names.get(node.name, around)
         if owner is not None:
-            object_so_far = objects.setdefault(owner, Group(owner, frame, ()))
-            parts = (*object_so_far.parts, *((frame, piece) for piece in pieces))
-            objects[owner] = replace(object_so_far, parts=parts)
-            pieces = ()
-        return replace(node, pieces=pieces, children=tuple(take(child, frame, owner) for child in node.children))
+            if owner != around:
+                for other in objects.keys() & {owner, around}:
+                    objects[other] = replace(objects[other], mass_kg=None)
+                objects.setdefault(owner, Group(owner, frame, (), node.mass_kg))
+            parts = (*objects[owner].parts, *((frame, piece) for piece in node.pieces))
+            objects[owner] = replace(objects[owner], parts=parts)
+        children = tuple(take(child, frame, owner) for child in node.children)
+        if owner is not None:
+            return replace(node, pieces=(), children=())
+        is_whole = all(map(operator.is_, children, node.children))
+        return node if is_whole else replace(node, children=children, mass_kg=None)
 
     rest = [take(root, np.eye(4), None) for root in roots]
     return [*(group for group in objects.values() if group.parts), *group_objects(rest)]

@@ -13,6 +13,7 @@ import scipy
 from numpy.typing import NDArray
 
 from scene2hap.scene import limits
+from scene2hap.scene.geometry import welded
 from scene2hap.scene.shapes import TriMesh
 from scene2hap.scene.tree import Piece
 
@@ -51,9 +52,8 @@ def n_loose_parts(mesh: TriMesh) -> int:
 
 def part_of_faces(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.int64]:
     """Return the number of the loose part (m,) of each face; parts are numbered by their first face."""
-    step = _SAME_PLACE * float(np.abs(vertices).max(initial=0.0)) or 1.0
-    _, place = np.unique(np.round(vertices / step).astype(np.int64), axis=0, return_inverse=True)
-    corners = place.reshape(-1)[faces]
+    place = welded(vertices, _SAME_PLACE * float(np.abs(vertices).max()))
+    corners = place[faces]
     pairs = np.concatenate([corners[:, :2], corners[:, 1:]])
     n = int(place.max()) + 1
     _, labels = scipy.sparse.csgraph.connected_components(

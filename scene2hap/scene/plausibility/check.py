@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from scene2hap.counted import first_of
 from scene2hap.scene.copies import name_words
-from scene2hap.scene.geometry import cross_2d, distances
+from scene2hap.scene.geometry import distances, heights_at
 from scene2hap.scene.grouping.empty_names import names_a_place
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
@@ -302,18 +302,14 @@ def _ground_below(floor: SceneObject, boxes: NDArray[np.float64], up: int) -> ND
     """
     mesh = floor.geometry.mesh
     level = [axis for axis in range(3) if axis != up]
-    corners = floor.pose.to_world(mesh.vertices_m)[mesh.faces]
-    low, high = corners[..., level].min(axis=1), corners[..., level].max(axis=1)
+    corners = floor.pose.to_world(mesh.vertices_m)[:, [*level, up]][mesh.faces]
+    low, high = corners[..., :2].min(axis=1), corners[..., :2].max(axis=1)
     heights = np.full(len(boxes), floor.bounds_m[1][up])
     for row, middle in enumerate(boxes[:, :, level].mean(axis=1)):
-        a, b, c = corners[((low <= middle) & (high >= middle)).all(axis=1)].swapaxes(0, 1)
-        p, q, r = b[:, level] - a[:, level], c[:, level] - a[:, level], middle - a[:, level]
-        area = cross_2d(p, q)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            s, t = cross_2d(r, q) / area, cross_2d(p, r) / area
-        on = (s >= -_NONE) & (t >= -_NONE) & (s + t <= 1 + _NONE)
-        if on.any():
-            heights[row] = (a[on, up] + s[on] * (b - a)[on, up] + t[on] * (c - a)[on, up]).max()
+        below = corners[((low <= middle) & (high >= middle)).all(axis=1)]
+        highest = heights_at(middle[None], below).max(initial=-np.inf)
+        if np.isfinite(highest):
+            heights[row] = highest
     return heights
 
 

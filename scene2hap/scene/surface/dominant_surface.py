@@ -29,6 +29,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scene2hap.scene.geometry import SAME_PLACE
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface, SurfaceFlag, TriMesh
 from scene2hap.scene.surface.cuboid import cuboid_bounds_m
@@ -36,7 +37,7 @@ from scene2hap.scene.surface.outline import Outline
 from scene2hap.scene.surface.plate_edge import windows
 from scene2hap.scene.surface.rays import Hits, cast_grid, cut, first_solids, median_span, outline, share_open
 from scene2hap.scene.surface.section import section_outline
-from scene2hap.scene.surface.winding import SAME_PLACE, well_wound
+from scene2hap.scene.surface.winding import well_wound
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -80,6 +81,10 @@ class _Side(NamedTuple):
     own_to_plate: Floats
     hits: Hits
 
+    def lift(self, upwards: Floats) -> float:
+        """Return the absolute cosine between the axis and the vertical."""
+        return abs(float(self.own_to_plate[2] @ upwards))
+
     def from_behind(self) -> _Side:
         """Return this side with the rays in the opposite direction."""
         row, column = np.divmod(self.hits.ray, RAYS_PER_SIDE)
@@ -111,19 +116,20 @@ def dominant_surface(
         twice, so the thickness is the box's, or reaches from the sheet to the lowest rim. Or no rectangle of medians
         fits, so length and width are the box's.
     """
+    upwards = np.zeros(3) if up is None else np.asarray(up, dtype=np.float64)
     bounds_m = cuboid_bounds_m(mesh)
     if bounds_m is not None and np.ptp(bounds_m, axis=0).min() > SAME_PLACE * np.ptp(bounds_m, axis=0).max():
-        return _cuboid(bounds_m, up)
+        return _cuboid(bounds_m, upwards)
     spend = spend or (lambda work: None)
     spend(_WORK_OF_A_MESH + _WORK_OF_A_FACE * len(mesh.faces))
     used, faces = np.unique(mesh.faces, return_inverse=True)
     points, faces = mesh.vertices_m[used].T.copy(), faces.reshape(-1, 3).T.copy()
     faces = well_wound(points, faces, spend)
-    axes = _pointing(_frame(points, faces), up)
+    axes = _pointing(_frame(points, faces), upwards)
     is_open = False
     best: _Side | None = None
     most_upright: _Side | None = None
-    for axis in _by_uprightness(axes, up):
+    for axis in _by_uprightness(axes, upwards):
         own_to_plate = _facing(axes, axis, points)
         placed = own_to_plate @ points
         hits = cast_grid(placed[:, faces], RAYS_PER_SIDE, spend)
@@ -136,16 +142,10 @@ def dominant_surface(
     flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if is_open else ()
     if best is None or most_upright is None:
         return _box(points, axes, flags)
-    sides = (best,) if _is_lifted(best, up) else (best, best.from_behind())
-    plate = min((_side_plate(side, points, faces, flags) for side in sides), key=_rank)
-    if up is None or most_upright is best:
-        return plate
-    is_upright = abs(float(most_upright.own_to_plate[2] @ np.asarray(up, dtype=np.float64))) > _UPRIGHT
-    return (is_upright and _lying_plate(most_upright, sides, plate, points, faces)) or plate
-
-
-def _is_lifted(side: _Side, up: ArrayLike | None) -> bool:
-    return up is not None and abs(float(side.own_to_plate[2] @ np.asarray(up, dtype=np.float64))) > _LIFTED
+    sides = (best,) if best.lift(upwards) > _LIFTED else (best, best.from_behind())
+    plate = min((_plate(side, points, faces, flags) for side in sides), key=_rank)
+    may_lie = most_upright is not best and most_upright.lift(upwards) > _UPRIGHT
+    return (may_lie and _lying_plate(most_upright, sides, plate, points, faces)) or plate
 
 
 def _rank(plate: DominantSurface) -> tuple[bool, bool, float]:
@@ -156,10 +156,6 @@ def _rank(plate: DominantSurface) -> tuple[bool, bool, float]:
     # Rounding must not choose between a front and a back of the same thickness.
     thickness_m = round(plate.thickness_m, _RANK_DIGITS)
     return is_no_solid, is_body, thickness_m if is_body else -thickness_m
-
-
-def _side_plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
-    return _plate((side.own_to_plate @ points)[:, faces], side.own_to_plate, side.hits, flags)
 
 
 def _lying_plate(
@@ -178,20 +174,20 @@ def _lying_plate(
     if is_plate or not is_flat or side.area_m2 < _LYING_AREA * largest[0].area_m2:
         return None
     flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if "open-mesh" in standing.flags else ()
-    plate = _side_plate(side, points, faces, flags)
+    plate = _plate(side, points, faces, flags)
     is_thin = plate.thickness_m <= _THIN * plate.width_m
     middle_m = float(plate.pose.rotation[:, 2] @ np.asarray(plate.pose.position_m))
     is_raised = middle_m - float((side.own_to_plate[2] @ points).min()) > 1.5 * plate.thickness_m
     return plate if is_thin and is_raised and "box-fallback" not in plate.flags else None
 
 
-def _cuboid(bounds_m: Floats, up: ArrayLike | None) -> DominantSurface:
+def _cuboid(bounds_m: Floats, upwards: Floats) -> DominantSurface:
     """Return the result that rays would give for a box between bounds (2, 3) [m]."""
     low, high = bounds_m
     edges = high - low
-    axes = _pointing(np.eye(3), up)
+    axes = _pointing(np.eye(3), upwards)
     areas = np.prod(edges) / edges
-    best, *others = _by_uprightness(axes, up)
+    best, *others = _by_uprightness(axes, upwards)
     for axis in others:
         if areas[axis] > areas[best] * _SAME_AREA:
             best = axis
@@ -199,8 +195,9 @@ def _cuboid(bounds_m: Floats, up: ArrayLike | None) -> DominantSurface:
     return _placed(np.abs(own_to_plate @ edges), own_to_plate @ (low + high) / 2, own_to_plate, ())
 
 
-def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
-    """Return the plate across w. The rows of `own_to_plate` are the axes of triangles (3, 3, m) and hits."""
+def _plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
+    """Return the plate of a side, from points (3, n) with triangles `faces` (3, m)."""
+    hits, triangles = side.hits, (side.own_to_plate @ points)[:, faces]
     corners = triangles.reshape(3, -1)
     low, high = corners.min(axis=1), corners.max(axis=1)
     size = float((high - low).max())
@@ -231,7 +228,8 @@ def _plate(triangles: Floats, own_to_plate: Floats, hits: Hits, flags: tuple[Sur
         spans = (high - low)[:2], (high + low)[:2] / 2
         flags = flags if "box-fallback" in flags else (*flags, "box-fallback")
     (u_m, v_m), (u_mid, v_mid) = spans
-    return _placed(np.array([u_m, v_m, thickness]), np.array([u_mid, v_mid, middle]), own_to_plate, flags, outline_m)
+    size_m, middle_m = np.array([u_m, v_m, thickness]), np.array([u_mid, v_mid, middle])
+    return _placed(size_m, middle_m, side.own_to_plate, flags, outline_m)
 
 
 def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Outline | None:
@@ -414,18 +412,18 @@ def _facing(axes: Floats, axis: int, points: Floats) -> Floats:
     return np.stack((np.cross(v, w), v, w))
 
 
-def _pointing(axes: Floats, up: ArrayLike | None) -> Floats:
+def _pointing(axes: Floats, upwards: Floats) -> Floats:
     """Return the axes, each signed so that it points up. A level axis points along the author's axes."""
     strongest = axes[np.arange(3), np.abs(axes).argmax(axis=1)]
-    lift = np.zeros(3) if up is None else axes @ np.asarray(up, dtype=np.float64)
+    lift = axes @ upwards
     sign = np.where(np.abs(lift) > _LIFTED, np.sign(lift), np.sign(strongest))
     return axes * sign[:, None]
 
 
-def _by_uprightness(axes: Floats, up: ArrayLike | None) -> list[int]:
+def _by_uprightness(axes: Floats, upwards: Floats) -> list[int]:
     """Return axis numbers, the least upright first. So among equal areas, the most upright axis comes last and wins.
 
     Axes about as upright as each other keep their order: a tilt of some microradians must not choose another side.
     """
-    lift = axes @ np.asarray((0.0, 0.0, 0.0) if up is None else up, dtype=np.float64)
-    return [int(axis) for axis in np.argsort(np.abs(lift).round(_LIFT_DIGITS), kind="stable")]
+    lift = np.abs(axes @ upwards).round(_LIFT_DIGITS)
+    return [int(axis) for axis in np.argsort(lift, kind="stable")]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.geometry import SAME_PLACE, welded
 from scene2hap.scene.surface.outline import MOST_CORNERS, Outline
 from scene2hap.scene.surface.rays import cut
-from scene2hap.scene.surface.winding import SAME_PLACE
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -24,12 +24,13 @@ def section_outline(triangles_m: Floats, level_m: float) -> Outline | None:
     if not len(ends):
         return None
     size = float(np.ptp(triangles_m, axis=(1, 2)).max())
-    corners, number = np.unique(np.round(ends / (SAME_PLACE * size)), axis=0, return_inverse=True)
-    rings = _rings(number.reshape(2, -1).astype(np.intp), len(corners))
+    number = welded(ends, SAME_PLACE * size)
+    n_corners = int(number.max()) + 1
+    rings = _rings(number.reshape(2, -1), n_corners)
     if not rings:
         return None
-    places = np.empty((len(corners), 2))
-    places[number.ravel()] = ends
+    places = np.empty((n_corners, 2))
+    places[number] = ends
     found = sorted((_simplified(places[ring], _TOLERANCE * size) for ring in rings), key=_area_m2, reverse=True)
     found = [ring for ring in found if len(ring) >= 3 and _area_m2(ring) > (10 * _TOLERANCE * size) ** 2]
     if not found or sum(map(len, found)) > MOST_CORNERS:

@@ -23,15 +23,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap.scene.geometry import SAME_PLACE, welded
 from scene2hap.scene.surface.rays import free_space
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
-
-SAME_PLACE = 1e-5
-"""Corners and surfaces this close are one, as a share of the mesh's size (assumed: 20 um at a table; float32 rounds by
-8 um 200 m from the origin)."""
 
 _RAYS_PER_SIDE = 32
 
@@ -41,7 +38,7 @@ def well_wound(points: Floats, faces: Ints, spend: Callable[[int], None] = lambd
 
     A well-wound mesh is returned unchanged.
     """
-    corners = _welded(points)[faces]
+    corners = welded(points.T, SAME_PLACE * float(np.ptp(points, axis=1).max()))[faces]
     edges = np.sort(_keys(corners, np.roll(corners, -1, axis=0)), axis=None)
     has_area = (corners != np.roll(corners, -1, axis=0)).all(axis=0)
     if (edges[1:] != edges[:-1]).all() or not has_area.any():
@@ -128,15 +125,6 @@ def _distinct(corners: Ints) -> tuple[Ints, Ints, Ints]:
     first, copies = order[begins], np.diff(begins, append=len(order))
     in_file = np.argsort(first)
     return first[in_file], copies[in_file], np.add.reduceat(turn[order], begins)[in_file]
-
-
-def _welded(points: Floats) -> Ints:
-    """Return a number (n,) for each of the points (3, n), equal for points at the same place."""
-    low = points.min(axis=1, keepdims=True)
-    cell = max(SAME_PLACE * float(np.ptp(points, axis=1).max()), np.finfo(np.float64).tiny)
-    x, y, z = np.round((points - low) / cell).astype(np.int64)
-    _, number = np.unique((x << 40) | (y << 20) | z, return_inverse=True)
-    return number.astype(np.int64)
 
 
 def _keys(start: Ints, end: Ints) -> Ints:

@@ -114,7 +114,7 @@ def test_without_a_folder_the_user_s_own_cache_is_used(tmp_path: Path) -> None:
 
 def test_unwritable_cache_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    with catalogue({}) as (api, _), pytest.raises(ConfigError, match="cannot write the cache .*Set `cache`"):
+    with catalogue({}) as (api, _), pytest.raises(ConfigError, match="the cache .* cannot be written.*Set `cache`"):
         freesound(api, tmp_path, cache=tmp_path / "file").find(describe())
 
 

@@ -91,7 +91,9 @@ def test_key_in_the_address_is_refused_without_showing_it(base_url: str) -> None
 def test_redirects_are_not_followed_with_the_key() -> None:
     with serving(said()) as elsewhere:
         location = {"location": f"{elsewhere.base_url}/v1/chat/completions"}
-        assert "answered 307" in str(failed(Scripted({}, 307, location)))
+        told = str(failed(Scripted({}, 307, location)))
+    assert "answered 307" in told
+    assert "It redirects, and a key is sent to base_url alone" in told
     assert not elsewhere.asked
 
 

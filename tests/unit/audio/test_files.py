@@ -138,7 +138,7 @@ def test_failed_write_keeps_the_old_file_and_no_temporary_file(tmp_path: Path, m
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", fail)
-    with pytest.raises(AudioError, match=r"a\.wav: cannot be written \(No space left on device\)"):
+    with pytest.raises(AudioError, match=r"a\.wav cannot be written: No space left on device\. Make room on its disk"):
         write_wav(path, tone(amplitude=0.1), RATE)
     assert [child.name for child in tmp_path.iterdir()] == ["a.wav"]
     assert path.read_bytes() == before

@@ -118,6 +118,10 @@ def test_choice_lists_origin_and_scores_of_each_candidate() -> None:
     assert choice.flatness_band_hz == (20.0, 7000.0)
 
 
+def test_a_printed_choice_escapes_names_of_files() -> None:
+    assert "\x1b" not in str(explain_choice([clip("\x1b[2Jhum", HUM)]))
+
+
 def test_choice_is_printed_as_a_table() -> None:
     lines = str(explain_choice([clip("hiss", WHITE), clip("hum", HUM), clip("short", HUM[:RATE])])).splitlines()
     assert lines[0].split() == [

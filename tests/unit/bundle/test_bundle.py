@@ -124,10 +124,10 @@ def test_another_folder_is_not_overwritten(tmp_path: Path) -> None:
 
 
 def test_a_failed_save_leaves_the_old_bundle(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("scene2hap.bundle.sounds.write_wav", full)
+    monkeypatch.setattr("scene2hap.bundle.sounds.encoded", full)
     with pytest.raises(BundleError, match="No space left"):
         with_meshes().save(folder)
     monkeypatch.undo()

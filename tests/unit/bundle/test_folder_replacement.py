@@ -11,8 +11,9 @@ import pytest
 
 from files_of import files_of
 from scene2hap import HapticBundle
-from scene2hap.bundle import folder_replacement, read_overrides, save_stamp, write_bundle
+from scene2hap.bundle import folder_replacement, read_overrides, save_stamp
 from scene2hap.bundle.checking import BundleWarning
+from scene2hap.bundle.folder import write_bundle
 from scene2hap.bundle.folder_swap import exchange
 from scene2hap.errors import BundleChanged, BundleError, BundleIncomplete, BundleVersionError
 from scenes import table_with_two_phones
@@ -396,3 +397,15 @@ def test_a_bundle_that_another_process_saved_is_not_replaced_unseen(tmp_path: Pa
         write_bundle(a_bundle().override("phone", gain_db=-2.0), target, since=read)
     assert HapticBundle.load(target).gain_db("phone") == -1.0
     assert [path.name for path in tmp_path.iterdir()] == ["b"]
+
+
+def test_a_place_that_cannot_be_written_is_refused_before_a_bake(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(BundleError, match=r"file is no folder of yours\. Choose another place"):
+        folder_replacement.require_replaceable(tmp_path / "file" / "below" / "kitchen.bundle")
+    folder_replacement.require_replaceable(tmp_path / "new" / "kitchen.bundle")
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    with pytest.raises(BundleError, match="is no folder of yours"):
+        folder_replacement.require_replaceable(tmp_path / "new" / "kitchen.bundle")

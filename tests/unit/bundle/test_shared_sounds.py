@@ -1,6 +1,9 @@
 """Equal sounds share one file; edits of one source leave the others unchanged."""
 
 import json
+import os
+import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,8 +12,11 @@ import pytest
 
 from files_of import files_of
 from scene2hap import AudioClip, HapticBundle
+from scene2hap.audio.conversion import convert
 from scene2hap.audio.files import read_clip, write_wav
+from scene2hap.bundle import file_stems
 from scene2hap.errors import BundleError
+from scene2hap.export import export_bundle
 from scenes import RATE, box, haptics, scene, tone_loop
 
 N = 5
@@ -139,3 +145,38 @@ def test_bundle_size_does_not_grow_with_copies(tmp_path: Path) -> None:
 
     assert size(fans(20).save(tmp_path / "many")) == size(fans(1).save(tmp_path / "one"))
     assert fans(1).loops["fan_0"]["on"].tactile.sample_rate_hz == RATE
+
+
+def test_ids_that_differ_in_case_have_files_of_their_own_on_any_system(tmp_path: Path) -> None:
+    """Windows and macOS take "Fan.wav" and "fan.wav" for one file, and Windows has no file "CON.wav"."""
+    ids = ("Fan", "fan", "CON", "lamp")
+    humming = haptics("plastic", (0.3, 0.3, 0.3), "on", "On")
+    loops = {
+        one: {state: tone_loop(80.0 + 20 * i + 5 * j) for j, state in enumerate(("on", "On"))}
+        for i, one in enumerate(ids)
+    }
+    things = [box(one, (0.3, 0.3, 0.3), (float(i), 0.15, 0.0)) for i, one in enumerate(ids)]
+    bundle = HapticBundle(scene(*things), "room", dict.fromkeys(ids, humming), loops)
+    written = names(bundle.save(tmp_path / "b"))
+    assert len({name.casefold() for name in written}) == len(written) == 16
+    assert not [name for name in written if name.split(".")[0].casefold() == "con"]
+    export_bundle(bundle, tmp_path / "out", "wav")
+    exported = [path.name.casefold() for path in (tmp_path / "out" / "wav").iterdir()]
+    assert len(set(exported)) == 8
+
+
+def test_only_ids_that_need_it_get_a_digest() -> None:
+    stems = file_stems(["Fan", "fan", "lamp", "Lamp 2"])
+    assert stems["lamp"] == "lamp"
+    assert [stem for stem in stems.values() if re.fullmatch("[Ff]an-[0-9a-f]{8}", stem)] == [stems["Fan"], stems["fan"]]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are bytes there")
+def test_a_bundle_in_a_folder_whose_name_is_no_text_is_read(tmp_path: Path) -> None:
+    """Archives from other systems have names in other encodings; with LC_ALL=C any name beyond ASCII is one."""
+    folder = tmp_path / os.fsdecode(b"caf\xe9")
+    fans(1).save(folder)
+    assert list(HapticBundle.load(folder).loops) == ["fan_0"]
+    sound = next((folder / "sounds").glob("*.audible.wav"))
+    convert(sound, folder / "felt.wav")
+    assert read_clip(folder / "felt.wav").samples.size

@@ -96,7 +96,7 @@ def test_file_claim_is_released_by_abort_and_by_deletion_of_the_sink(tmp_path: P
 def test_close_raises_when_the_draft_file_was_deleted(tmp_path: Path) -> None:
     sink = WavSink(tmp_path / "a.wav")
     sink.open(FORMAT)
-    (draft,) = tmp_path.glob(".a.wav.*.part")
+    (draft,) = tmp_path.glob(".a.wav.*.part.wav")
     draft.unlink()
     with pytest.raises(DeviceError, match="cannot be completed"):
         sink.close()

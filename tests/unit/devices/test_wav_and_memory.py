@@ -112,7 +112,7 @@ def test_a_disk_that_is_gone_at_the_end_is_an_error_of_the_sink(tmp_path: Path, 
     sink.open(SinkFormat(48_000, ("left",)))
     sink.start(lambda n: np.zeros((n, 1), np.float32))
     sink.pull(100)
-    (path,) = tmp_path.glob(".touch.wav.*.part")
+    (path,) = tmp_path.glob(".touch.wav.*.part.wav")
     draft = path.stat()
     for descriptor in range(3, 256):
         with contextlib.suppress(OSError):

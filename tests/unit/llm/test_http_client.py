@@ -13,11 +13,11 @@ from llm_server import GOOD, KEY, request, said
 from scene2hap import OpenAIBackend
 from scene2hap.errors import BackendError, BackendUnavailable, ConfigError
 from scene2hap.llm.backends.http_client import Endpoint
-from scene2hap.llm.backends.http_reply import HttpReply
 from scene2hap.secret import Secret
+from scene2hap.web import WebReply
 
 
-def post(answer: Callable[[httpx.Request], httpx.Response], body: Any = None, key: str | None = KEY) -> HttpReply:
+def post(answer: Callable[[httpx.Request], httpx.Response], body: Any = None, key: str | None = KEY) -> WebReply:
     endpoint = Endpoint("https://model.example/v1/", Secret(key), 5.0, httpx.MockTransport(answer))
     return asyncio.run(endpoint.post("chat", body or {}))
 
@@ -60,7 +60,8 @@ def test_body_and_headers_of_a_request() -> None:
         return httpx.Response(418, content='{"a":"ü"}', headers={"X-Request-ID": "r", "Set-Cookie": "c"})
 
     reply = post(echo, {"prompt": "käse"})
-    assert reply == HttpReply("https://model.example/v1/chat", 418, '{"a":"ü"}', {"x-request-id": "r"})
+    assert reply.text == '{"a":"ü"}'
+    assert (reply.url, reply.status, reply.headers["x-request-id"]) == ("https://model.example/v1/chat", 418, "r")
     assert not reply.ok
     assert reply.json() == {"a": "ü"}
     assert json.loads(seen[0].content) == {"prompt": "käse"}

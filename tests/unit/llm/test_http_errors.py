@@ -3,14 +3,15 @@
 import pytest
 
 from scene2hap.llm.backends.http_errors import ServerError, failure, server_error
-from scene2hap.llm.backends.http_reply import HttpReply
+from scene2hap.web import WebReply
 
 NOW_S = 1_445_412_480.0
 """Wed, 21 Oct 2015 07:28:00 GMT, the example date of RFC 9110."""
 
 
-def reply(status: int = 429, text: str = "", **headers: str) -> HttpReply:
-    return HttpReply("http://a/v1", status, text, {name.replace("_", "-"): value for name, value in headers.items()})
+def reply(status: int = 429, text: str = "", **headers: str) -> WebReply:
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    return WebReply("http://a/v1", status, text.encode(), named)
 
 
 @pytest.mark.parametrize(

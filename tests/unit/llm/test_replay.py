@@ -4,6 +4,7 @@ import asyncio
 import dataclasses
 import hashlib
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -254,5 +255,24 @@ def test_extra_and_missing_fields_are_broken_lines(tmp_path: Path) -> None:
 def test_unreadable_or_unwritable_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="cannot read the recording"):
         ReplayBackend(tmp_path / "none.jsonl")
-    with pytest.raises(ConfigError, match="cannot write the recording"):
+    with pytest.raises(ConfigError, match="the recording .* cannot be written"):
         RecordingBackend(Echo(), tmp_path / "no folder" / "answers.jsonl")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a limit on the size of files, as a full disk")
+def test_a_full_disk_keeps_the_answers_before_it(tmp_path: Path) -> None:
+    import resource
+
+    path = record(tmp_path / "answers.jsonl")
+    before = path.read_bytes()
+    recording = RecordingBackend(Echo(), path)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) * 3 // 2, limits[1]))
+    try:
+        with pytest.raises(ConfigError, match=r"answers\.jsonl cannot be written: .*Make room on its disk"):
+            asyncio.run(recording.complete(dataclasses.replace(REQUEST, subject="kettle#1")))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert path.read_bytes() == before
+    asyncio.run(recording.complete(dataclasses.replace(REQUEST, subject="kettle#1")))
+    ReplayBackend(path)

@@ -11,8 +11,7 @@ from scene2hap import Bands, ExponentialPlate, Plate, materials
 from scene2hap.compiled import KERNELS
 from scene2hap.contact.graph import ContactGraph
 from scene2hap.propagation.paths.live_law import LivePaths
-from scene2hap.propagation.paths.prepared_paths import cheapest_arrivals
-from scene2hap.propagation.points import arrivals_at
+from scene2hap.propagation.paths.prepared_paths import arrivals_at, cheapest_arrivals
 from scene2hap.scene.objects import Contact
 from scene2hap.scene.pose import Pose
 

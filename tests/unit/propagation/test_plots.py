@@ -55,6 +55,7 @@ def test_a_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
         ({"object_id": "phone"}, "no plate"),
         ({"object_id": "top", "source_id": "radio"}, "radio"),
         ({"object_id": "top", "band": 2}, "band is 2"),
+        ({"object_id": "top", "band": 0.5}, "band is 0.5; it must be a whole number"),
     ],
 )
 def test_invalid_arguments_are_refused(question: dict, message: str) -> None:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from scene2hap.errors import ModelDomainError
-from scene2hap.propagation.paths.prepared_paths import Arrivals
-from scene2hap.propagation.points import arrivals_at, as_points
+from scene2hap.propagation.paths.prepared_paths import Arrivals, arrivals_at
+from scene2hap.propagation.points import as_points
 
 INF, NAN = float("inf"), float("nan")
 

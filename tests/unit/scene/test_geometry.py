@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from scene2hap.scene.geometry import bounds_of, distances, joined
+from scene2hap.scene.geometry import bounds_of, distances, joined, welded
 
 UNIT = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
 
@@ -26,3 +26,14 @@ def test_distances_of_many_boxes_are_broadcast() -> None:
     boxes = np.stack([UNIT, UNIT + 2.0, UNIT + np.array([0, 0, 5])])
     assert distances(boxes[:, None], boxes).shape == (3, 3)
     assert distances(boxes, boxes[0]).tolist() == pytest.approx([0, 3**0.5, 4])
+
+
+def test_points_of_one_cell_are_one_place_however_far_the_cells_extend() -> None:
+    corners = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+    numbers = welded(np.concatenate([corners, corners[::-1] + 1e-7]), 1e-6)
+    assert numbers.tolist() == [*range(8), *reversed(range(8))]
+    assert welded(corners[:, :2], 1e-6).tolist() == [0, 0, 1, 1, 2, 2, 3, 3]
+
+
+def test_points_without_an_extent_are_one_place() -> None:
+    assert welded(np.full((3, 3), 7.0), 0.0).tolist() == [0, 0, 0]

@@ -340,3 +340,9 @@ def test_mass_is_assigned_only_when_the_node_is_a_whole_object() -> None:
     assert masses(desk) == {"desk": None, "drawer": None}
     assert masses(fridge, how="leaf") == {"fridge": None, "door": 2.0}
     assert masses(group("room", fridge), how=2) == {"fridge": 50.0}
+    assert masses(group("room", fridge), how={"fridge": "icebox"}) == {"icebox": 50.0}
+    assert masses(group("room", fridge), how={"fridge": "icebox", "door": "icebox"}) == {"icebox": 50.0}
+    assert masses(group("room", fridge), how={"fridge": "icebox", "door": "lid"}) == {"icebox": None, "lid": 2.0}
+    assert masses(group("room", fridge), how={"door": "lid"}) == {"lid": 2.0, "fridge": None}
+    assert masses(fridge, replace(door, name="gate"), how={"fridge": "both", "gate": "both"}) == {"both": None}
+    assert masses(group("room", fridge), how=9) == {"fridge": None, "door": 2.0}

@@ -493,8 +493,14 @@ def test_missing_articulated_object_is_refused(dataset: Dataset) -> None:
 @pytest.mark.parametrize("name", ["cubeSolid", "uvSphereSolid_rings_16_segments_32_useTexCoords_false"])
 def test_shapes_without_a_file_are_left_out_with_a_warning(dataset: Dataset, name: str) -> None:
     dataset.write("objects/f/ball.object_config.json", {"render_asset": name})
-    with pytest.warns(SceneWarning, match="without 2 shapes that have no model file"):
-        assert named(dataset.scene(instance(), instance(name), instance("ball"))) == [CHAIR]
+    rows = instance(), instance(name), instance("ball")
+    with pytest.warns(SceneWarning, match="without 3 shapes that have no model file"):
+        assert named(dataset.scene(*rows, stage_instance={"template_name": name})) == [CHAIR]
+
+
+def test_a_list_that_is_null_is_empty(dataset: Dataset) -> None:
+    dataset.write("home.scene_dataset_config.json", {"objects": {"paths": {".json": None}, "configs": None}})
+    assert named(dataset.scene(instance(), articulated_object_instances=None, stage_instance=None)) == [CHAIR]
 
 
 def test_warning_of_missing_textures_names_the_model(dataset: Dataset) -> None:

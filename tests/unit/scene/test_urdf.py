@@ -296,7 +296,7 @@ def test_file_outside_the_root_is_refused_with_the_needed_assets_root(home: Path
     os.symlink(home.parent / "other" / "meshes", home / "linked")
     with pytest.raises(SceneError, match="link 'a', <visual>, <mesh> wants .* lies outside") as caught:
         loaded(home, mesh(name))
-    assert f"Give assets_root={str(home.parent)!r}" in str(caught.value)
+    assert f"give assets_root={str(home.parent)!r}" in str(caught.value)
     assert len(load_scene(write(home, mesh(name)), assets_root=home.parent).objects) == 1
 
 
@@ -304,7 +304,7 @@ def test_error_suggests_the_package_folder_as_assets_root(home: Path) -> None:
     (home / "urdf").mkdir()
     with pytest.raises(SceneError, match="lies outside") as caught:
         load_scene(write(home / "urdf", mesh("package://robot/meshes/t.obj")))
-    assert f"Give assets_root={str(home)!r}" in str(caught.value)
+    assert f"give assets_root={str(home)!r}" in str(caught.value)
 
 
 def test_nothing_outside_is_opened(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:

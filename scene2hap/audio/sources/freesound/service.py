@@ -5,11 +5,9 @@ Source: Freesound API documentation, "Search", "Authentication", "Throttling" (f
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import dataclass, field
 
 from scene2hap import web
 from scene2hap.audio.sources.disk_cache import plain_line
@@ -23,8 +21,7 @@ RESULTS_ASKED = 15
 MAX_ANSWER_BYTES = 2_000_000
 MAX_PREVIEW_BYTES = 20_000_000
 
-_RETRIES = 2
-_FIRST_WAIT_S = 0.5
+_WAITS_S = (0.5, 1.0)
 _REST_S = 120.0
 """Pause after a failure of the service [s] (assumed)."""
 _LONGEST_WAIT_S = 120.0
@@ -95,17 +92,17 @@ class Service:
 
     def _ask(self, params: dict[str, str]) -> web.WebReply:
         """Send a search, and repeat it up to twice if that can help."""
-        for attempt in range(_RETRIES + 1):
+        for wait_s in _WAITS_S:
             try:
                 return self._ask_once(params)
             except BackendUnavailable as failure:
-                if attempt == _RETRIES or not failure.retryable:
+                if not failure.retryable:
                     raise
                 if failure.retry_after_s is None:
-                    self.sleep(_FIRST_WAIT_S * 2**attempt)
+                    self.sleep(wait_s)
                 else:
                     self._rate.block(failure.retry_after_s)
-        raise AssertionError("unreachable")
+        return self._ask_once(params)
 
     def _ask_once(self, params: dict[str, str]) -> web.WebReply:
         self._rate.take()
@@ -117,14 +114,13 @@ class Service:
             scrub=self.token.scrub,
             transport=self.transport,
         )
-        # If the service echoes the token, it must not reach titles and credits.
-        reply = replace(reply, content=self.token.scrub(reply.text).encode("utf-8"))
+        reply = reply.scrubbed(self.token.scrub)  # otherwise it could reach titles and credits
         if reply.status != 200:
             raise self._error(reply)
         return reply
 
     def _read(self, reply: web.WebReply) -> list[Sound]:
-        document = _json(reply.content)
+        document = reply.json()
         sounds = read_sounds(document.get("results")) if isinstance(document, dict) else None
         if sounds is None or (not sounds and document["results"]):
             raise BadAnswer(
@@ -134,14 +130,14 @@ class Service:
         return sounds
 
     def _error(self, reply: web.WebReply) -> BackendUnavailable:
-        document = _json(reply.content)
+        document = reply.json()
         detail = document.get("detail") if isinstance(document, dict) else None
         said = plain_line(detail) if isinstance(detail, str) else "nothing more"
         text = f"{reply.url} answered {reply.status}: {said.rstrip('.')}."
         if reply.status == 429 and "day" in said:
             return BackendUnavailable(f"{text} Bake again tomorrow; what was found is kept.", retryable=False)
         if reply.status == 429:
-            wait_s = _seconds(reply.retry_after, MINUTE_S)
+            wait_s = _seconds(reply.headers.get("retry-after", ""), MINUTE_S)
             return BackendUnavailable(text, retryable=wait_s <= _LONGEST_WAIT_S, retry_after_s=wait_s)
         if reply.status == 400:
             return _NotUnderstood(text, retryable=False)
@@ -159,13 +155,6 @@ class Service:
             for_now = failure.retryable or failure.retry_after_s is not None
             rest_s = max(rest_s, failure.retry_after_s or 0.0) if for_now else float("inf")
         self._failure = (self.clock() + rest_s, failure)
-
-
-def _json(content: bytes) -> Any:
-    try:
-        return json.loads(content)
-    except (ValueError, RecursionError):
-        return None
 
 
 def _seconds(text: str, otherwise: float) -> float:

@@ -206,6 +206,22 @@ def test_error_names_an_output_path_that_cannot_be_written(tmp_path: Path) -> No
         audio.convert(source, tmp_path / "b.aac")
 
 
+@pytest.mark.skipif(os.name != "posix", reason="a limit on the size of files, as a full disk")
+@pytest.mark.parametrize("suffix", [".wav", ".flac", ".ogg", ".mp3"])
+def test_error_of_a_full_disk_names_the_output_and_leaves_no_file(tmp_path: Path, suffix: str) -> None:
+    import resource
+
+    source = write(tmp_path / "a.wav", sound())
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (2000, limits[1]))
+    try:
+        with pytest.raises(AudioError, match=rf"b\{suffix} cannot be written"):
+            audio.convert(source, tmp_path / f"b{suffix}", raw=True)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert list(tmp_path.iterdir()) == [source]
+
+
 @pytest.mark.parametrize(
     ("settings", "reason"),
     [

@@ -247,14 +247,14 @@ def test_failed_write_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyP
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(ConfigError, match="cannot write the cache .*No space left"):
+    with pytest.raises(ConfigError, match="the cache .* cannot be written: No space left"):
         ask(CacheBackend(answering(), tmp_path))
     assert files(tmp_path) == []
 
 
 def test_folder_that_cannot_be_created_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    with pytest.raises(ConfigError, match="cannot write the cache"):
+    with pytest.raises(ConfigError, match="the cache .* cannot be written"):
         CacheBackend(answering(), tmp_path / "file" / "cache")
 
 

@@ -176,6 +176,30 @@ def test_sentence_with_another_subject_is_requested_again_once_and_kept(
     assert len(inner.requests) == calls
 
 
+@pytest.mark.parametrize(
+    "failed",
+    [
+        LLMReply(described("Phone buz"), "m", "length", {"prompt_tokens": 10}),
+        LLMReply("", "m", usage={"prompt_tokens": 10}),
+        LLMReply("I'm sorry, but I can't help with that.", "m", usage={"prompt_tokens": 10}),
+        UnusableAnswer("cut", model="m", usage={"prompt_tokens": 10}),
+    ],
+    ids=["cut", "empty", "refused", "cut by the backend"],
+)
+def test_an_answer_with_a_minor_fault_outlives_a_failed_repair(failed: LLMReply | Exception) -> None:
+    def answer(asked: LLMRequest) -> LLMReply:
+        if "Your last answer was" not in asked.prompt:
+            return LLMReply(described("It buzzes."), "m", usage={"prompt_tokens": 10})
+        if isinstance(failed, Exception):
+            raise failed
+        return failed
+
+    asked = replace(ASKED, component="vibration_describer", facts={"object_category": "phone"})
+    reply = asyncio.run(RepairBackend(FunctionBackend(answer)).complete(asked))
+    assert json.loads(reply.text)["sentence"] == "It buzzes."
+    assert reply.usage == {"prompt_tokens": 20}
+
+
 def test_a_category_with_an_article_may_begin_a_sentence_with_or_without_it() -> None:
     for sentence in ("A pan sizzles.", "The pan sizzles.", "Pan sizzles."):
         text = json.dumps({"sentence": sentence, "keywords": "pan sizzling"})

@@ -91,7 +91,7 @@ REACHING_OUT = {
 def test_file_outside_the_root_is_refused_with_the_needed_assets_root(home: Path, how: str) -> None:
     with pytest.raises(SceneError, match="lies outside") as caught:
         load_mjcf(mjcf(home, REACHING_OUT[how]))
-    assert f"Give assets_root={str(home.parent)!r}" in str(caught.value)
+    assert f"give assets_root={str(home.parent)!r}" in str(caught.value)
     assert "main.xml, line 1, <" in str(caught.value)
 
 
@@ -106,6 +106,12 @@ def test_absolute_paths_are_refused_outside_and_read_inside(home: Path) -> None:
     assert load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{inside}"/></asset>{WORLD}'))
     with pytest.raises(SceneError, match="lies outside"):
         load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{outside}"/></asset>{WORLD}'))
+
+
+def test_the_root_of_a_disk_is_never_advised(home: Path) -> None:
+    absolute = Path(home.anchor) / "elsewhere" / "t.obj"
+    with pytest.raises(SceneError, match="give assets_root=<a folder that holds both>"):
+        load_mjcf(mjcf(home, f'<asset><mesh name="t" file="{absolute}"/></asset>{WORLD}'))
 
 
 def test_symbolic_link_out_of_the_root_is_refused(home: Path) -> None:
@@ -313,7 +319,7 @@ def test_kitchens_are_refused_with_the_needed_assets_root(furniture: Path, name:
     root, name = (furniture.resolve(), "kitchen/kitchen.xml") if name == "own" else (SIM, name)
     with pytest.raises(SceneError, match="lies outside") as caught:
         load_mjcf(root / name)
-    assert f"Give assets_root={str(root)!r}" in str(caught.value)
+    assert f"give assets_root={str(root)!r}" in str(caught.value)
 
 
 def test_furniture_is_measured_from_its_visual_geoms(furniture: Path) -> None:

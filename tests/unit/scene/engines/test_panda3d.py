@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from scene2hap import ContactGraph, SceneObject
 from scene2hap.errors import MissingExtra, SceneError
-from scene2hap.scene.engines.panda3d import PoseReader, nodes, poses, snapshot
+from scene2hap.scene.engines.panda3d import PoseReader, snapshot
 from scene2hap.scene.plausibility.units import UnitWarning
 
 core = pytest.importorskip("panda3d.core", reason="needs the extra panda3d")
@@ -218,9 +218,9 @@ def test_a_graph_in_centimetres_is_told_and_read_in_metres() -> None:
     np.testing.assert_allclose(scene.object("table").bounds_m, [(0, 0, 0), (1.2, 0.7, 0.72)], atol=1e-6)
     np.testing.assert_allclose(scene.object("refrigerator").bounds_m, [(1.4, 0.5, 0), (2, 1.1, 1.8)], atol=1e-6)
     render.find("table").set_x(50)
-    for now in (poses(render, scene, unit_m=0.01), PoseReader(render, unit_m=0.01).read()):
-        assert now["table"].position_m == pytest.approx((0.5, 0, 0))
-        assert now["refrigerator"].position_m == pytest.approx((2, 0.5, 0))
+    now = PoseReader(render, unit_m=0.01).read()
+    assert now["table"].position_m == pytest.approx((0.5, 0, 0))
+    assert now["refrigerator"].position_m == pytest.approx((2, 0.5, 0))
 
 
 @pytest.mark.parametrize("unit_m", [0, -1.0, "cm"])
@@ -252,19 +252,17 @@ def test_loaded_model_is_named_after_its_file() -> None:
 def test_poses_at_rest_equal_those_of_the_snapshot() -> None:
     render = graph()
     scene = snapshot(render)
-    at_rest = {item.id: item.pose for item in scene.objects}
-    assert poses(nodes(render), scene) == at_rest
-    assert poses(render, scene) == at_rest
+    assert PoseReader(render).read() == {item.id: item.pose for item in scene.objects}
 
 
 @pytest.mark.parametrize("moved", ["table", "table mirrored", "holder", "cup"])
 def test_poses_follow_the_nodes(moved: str) -> None:
     render = graph()
-    scene, moving = snapshot(render), nodes(render)
+    scene, reader = snapshot(render), PoseReader(render)
     path = render.find(moved)
     path.set_pos(path.get_pos() + core.LVector3(0.5, -1, 2))
     path.set_hpr(path.get_hpr() + core.LVector3(70, 10, -20))
-    now = poses(moving, scene)
+    now = reader.read()
     # The cup's node is also a child of the holder, in its frame.
     followers = {"cup": {"cup", "holder"}}.get(moved, {moved})
     assert {key for key in now if now[key] != scene.object(key).pose} == followers
@@ -277,9 +275,9 @@ def test_poses_follow_the_nodes(moved: str) -> None:
 
 def test_inner_node_of_a_wrapper_is_followed() -> None:
     render = graph()
-    scene, moving = snapshot(render), nodes(render)
+    reader = PoseReader(render)
     render.find("holder").get_child(0).set_z(1.0)
-    assert poses(moving, scene)["holder"].position_m[2] == pytest.approx(1.0)
+    assert reader.read()["holder"].position_m[2] == pytest.approx(1.0)
 
 
 def test_nodes_of_ray_hits_belong_to_their_objects() -> None:
@@ -308,16 +306,17 @@ def test_nodes_of_ray_hits_belong_to_their_objects() -> None:
 
 def test_instances_are_told_apart_by_their_paths() -> None:
     render = graph()
-    reader, placed = PoseReader(render), nodes(render)
-    assert {reader.object_id(placed[key]) for key in ("cup", "holder")} == {"cup", "holder"}
+    reader = PoseReader(render)
+    assert reader.object_id(render.find("cup")) == "cup"
+    assert reader.object_id(render.find("holder").get_child(0)) == "holder"
     assert reader.object_id(render.find("table/table_leg")) == "table"
 
 
 def test_removed_node_has_no_pose() -> None:
     render = graph()
-    scene, moving = snapshot(render), nodes(render)
-    moving["table"].remove_node()
-    assert poses(moving, scene).keys() == {"table mirrored", "cup", "holder"}
+    reader = PoseReader(render)
+    render.find("table").remove_node()
+    assert reader.read().keys() == {"table mirrored", "cup", "holder"}
 
 
 # -- looks -----------------------------------------------------------------------------------------------------------
