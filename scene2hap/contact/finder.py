@@ -13,6 +13,7 @@ from scene2hap.contact.body import Body, apart_by, beside_by
 from scene2hap.contact.broad_phase import BroadPhase
 from scene2hap.contact.certificate import Certificate
 from scene2hap.contact.certificate_issuer import CertificateIssuer
+from scene2hap.contact.hinge import are_hinged
 from scene2hap.contact.holders import Holders
 from scene2hap.contact.junction import Junction, Pair, pair_of
 from scene2hap.contact.pair import BodyPair, BodyPairs
@@ -154,7 +155,7 @@ class ContactFinder:
                 continue
             other, old = bodies[y], body_pairs.get(y)
             may_hang = y in unsupported and body.size_m > other.size_m
-            if old is None and beside_by(body, other, TOUCH_M):
+            if old is None and beside_by(body, other, TOUCH_M) and not are_hinged(body, other):
                 # Neither can fall onto the other, and only unsupported bodies hang.
                 if may_hang:
                     recheck.add(y)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.geometry.vectors import Triple
-from scene2hap.contact.rule import HINGE_PLAY_M, TOUCH_M
+from scene2hap.contact.rule import HINGE_PLAY_M
 
 
 def are_hinged(x: Body, y: Body) -> bool:
@@ -17,7 +17,7 @@ def are_hinged(x: Body, y: Body) -> bool:
 
 def pivot_m(x: Body, y: Body) -> Triple | None:
     """Return the point half way between the two points of a hinge of x or y [m]; None without one that holds."""
-    if not are_hinged(x, y) or apart_by(x, y, TOUCH_M):
+    if not are_hinged(x, y) or apart_by(x, y, HINGE_PLAY_M):
         return None
     body, other = (x, y) if x.hinge is not None and x.hinge.to == y.id else (y, x)
     hinge = body.hinge

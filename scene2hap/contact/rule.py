@@ -64,7 +64,8 @@ _HIDDEN_M = 0.002  # A surface this much below another is hidden by it (assumed:
 _PLAY_M, _PLAY_SIZES = 0.0203, 0.05
 
 HINGE_PLAY_M = 0.01
-"""Distance of a hinge's two points at which it ceases to hold (assumed: engines and exporters give millimetres)."""
+"""Distance of a hinge's two points, and of the boxes of its two objects, at which it ceases to hold (assumed: doors
+have gaps of 2 to 5 mm, and engines keep the points of joints within millimetres)."""
 
 SIDE_SHARE = 1 / 6
 """Share of a side that must be within the play: a wooden runner, 30-45 mm high, beside a drawer of up to 0.25 m."""
@@ -117,7 +118,8 @@ def play_reach_m(size_m: float) -> float:
 
 def margins_m(body: Body) -> tuple[float, float]:
     """Return the distance within which a body may touch or hang, and how much farther down it may fall [m]."""
-    return max(TOUCH_M, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
+    touch_m = TOUCH_M if body.hinge is None else HINGE_PLAY_M
+    return max(touch_m, hang_reach_m(body.size_m)), fall_reach_m(body.size_m)
 
 
 class Support(NamedTuple):

@@ -82,7 +82,8 @@ class Contact:
 class Hinge:
     """A pivot that holds an object on another: a door on its cabinet, a link of a robot on the link before it.
 
-    The two objects are in contact at the pivot, and nowhere else, as long as its two points are less than 1 cm apart.
+    The two objects are in contact at the pivot, and nowhere else, as long as its two points and their boxes are less
+    than 1 cm apart.
 
     Parameters: to : id of the other object; point_m : the pivot in the object's own frame [m]; other_point_m : the same
         in the other's frame [m].
@@ -209,6 +210,17 @@ class SceneObject:
     def bounds_m(self) -> NDArray[np.float64]:
         """Lowest and highest corner (2, 3) [m] in the world. Read-only."""
         return frozen(bounds_of(self.pose.to_world(self.geometry.mesh.corners_m)))
+
+    def hinged_on(self, other: SceneObject, point_m: Iterable[float]) -> SceneObject:
+        """Return the object with a hinge to another, at a world point [m] of their present poses.
+
+        Raises: SceneError: the point is not three finite numbers, or the other has the same id.
+        """
+        at = [checks.vector("point_m", point_m, "m", size=3, error=SceneError)]
+        own, theirs = (tuple(pose.to_own(at)[0].tolist()) for pose in (self.pose, other.pose))
+        held = replace(self, hinge=Hinge(other.id, own, theirs))
+        object.__setattr__(held, "is_measured_with_y_up", self.is_measured_with_y_up)
+        return held
 
     def plate_coordinates(self, points_m: ArrayLike) -> NDArray[np.float64]:
         """Return world points (n, 3) [m] as (n, 2) [m] along length and width of the dominant surface, from its corner.

@@ -128,8 +128,8 @@ class AuthoredPivot:
 class AuthoredScene:
     """The top nodes of a scene, with the file's axes and units.
 
-    `pivots` are the joints about which objects turn on others. `unit_m` is None if the format does not define the unit, or if its files often declare a wrong one. `left_out` has a
-    sentence for each texture that could not be used.
+    `unit_m` is None if the format does not define the unit, or if its files often declare a wrong one. `left_out` has a
+    sentence for each texture that could not be used. `pivots` are the joints about which objects turn on others.
     """
 
     roots: tuple[AuthoredNode, ...]

@@ -42,6 +42,17 @@ def test_a_door_touches_its_cabinet_at_the_pivot(angle: float) -> None:
     assert graph.neighbours("cabinet") == ("door", "floor")
 
 
+@pytest.mark.parametrize(("gap_m", "holds"), [(0.0, True), (0.006, True), (0.0099, True), (0.0101, False)])
+def test_doors_have_gaps(gap_m: float, holds: bool) -> None:
+    cabinet, door, floor = cabinet_and_door(hinge=False)
+    door = replace(door, pose=Pose((0.0, 1.0, 0.21 + gap_m))).hinged_on(cabinet, (0.3, 1.0, 0.2 + gap_m / 2))
+    graph = ContactGraph(SceneSnapshot.build([cabinet, door, floor]))
+    assert (graph.patch("cabinet", "door")[0].tolist() == [[0.3, 0.0, 0.2 + gap_m / 2]]) == holds
+    graph.update({"door": Pose((0.0, 1.0, 1.0))})
+    graph.update({"door": door.pose})
+    assert (graph.patch("cabinet", "door")[0].tolist() == [[0.3, 0.0, 0.2 + gap_m / 2]]) == holds
+
+
 def test_a_hinged_object_does_not_stand_on_what_is_below_it() -> None:
     def held(hinge: bool) -> tuple[str, ...]:
         cabinet, door, floor = cabinet_and_door(hinge=hinge)
@@ -156,6 +167,18 @@ def test_bad_hinges_are_refused() -> None:
     }.items():
         with pytest.raises(SceneError, match=words):
             make()
+
+
+def test_hinged_on_keeps_that_a_surface_is_still_to_be_measured() -> None:
+    cabinet = SceneObject("cabinet", geometry=Box((0.6, 0.4, 2.0)))
+    door = SceneObject("door", pose=Pose((0.0, 0.21, 0.0)), geometry=Box((0.6, 0.02, 2.0)))
+    plain, held = (
+        SceneSnapshot.build([cabinet, one], up_axis="z").object("door")
+        for one in (door, door.hinged_on(cabinet, (0.3, 0.2, 0.0)))
+    )
+    assert held.hinge is not None
+    assert held.hinge.point_m == pytest.approx((0.3, -0.01, 0.0))
+    assert replace(held, hinge=None) == plain
 
 
 def test_a_hinge_survives_json_and_new_poses() -> None:

@@ -452,3 +452,27 @@ def test_files_are_searched_in_few_folders(home: Path) -> None:
     assert finder.find("package://robot/meshes/t.obj", "x") == (home / "meshes" / "t.obj").resolve()
     with pytest.raises(SceneError, match="no such file"):
         finder.find("package://meshes/robot/t.obj", "x")
+
+
+def test_links_that_turn_on_others_have_hinges(home: Path) -> None:
+    inside = (
+        f"<link name='base'>{BOX}</link><link name='frame'/><link name='door'>{BOX}</link>"
+        f"<link name='knob'>{BOX}</link><link name='drawer'>{BOX}</link>"
+        + hangs("frame", "base", "xyz='0 1 0'")
+        + hangs("door", "frame", "xyz='0.5 0 0.25' rpy='0 0.3 0'", "revolute").replace("</j", "<axis xyz='0 2 0'/></j")
+        + hangs("knob", "door", "xyz='0 0.5 0'", "continuous")
+        + hangs("drawer", "base", "xyz='1 0 0'", "prismatic")
+    )
+    scene = loaded(home, inside)
+    held = {item.id: item.hinge for item in scene.objects if item.hinge is not None}
+    assert {x: hinge.to for x, hinge in held.items()} == {"door": "base", "knob": "door"}
+    # Along y, the base ends at 0.5 m and the door begins there; the knob turns about x, as without an axis.
+    assert held["door"].other_point_m == pytest.approx((0.5, 0.5, 0.25), abs=1e-9)
+    assert held["door"].point_m == pytest.approx((0.0, -0.5, 0.0), abs=1e-9)
+    assert held["knob"].point_m == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+    for item in scene.objects:
+        if item.hinge is not None:
+            here, there = item.pose.to_world([item.hinge.point_m]), scene.object(item.hinge.to).pose
+            assert here == pytest.approx(there.to_world([item.hinge.other_point_m]), abs=1e-9)
+    with pytest.raises(SceneFormatError, match="must have a direction"):
+        loaded(home, inside.replace("0 2 0", "0 0 0"))
