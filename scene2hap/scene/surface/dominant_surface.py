@@ -9,8 +9,9 @@
 4. Thickness is the median length of the first solid that the rays meet from above. Few rays meet table legs, knobs and
    back-rests, so these do not change the median. If the normal is level, the rays come from both sides; a door counts
    rather than a thinner back panel or a whole body (`_rank`). A mesh that is open below has no such solid. Its
-   thickness reaches from its top, or from the sheet that forms most of the mesh, down to its lowest rim. If the surface
-   is no rectangle (a round top), its outline is the section through the middle of that solid.
+   thickness reaches from its top, or from the sheet that forms most of the mesh, down to its lowest rim. A container
+   of one sheet, open above with its rim above its bottom, has no thickness. If the surface is no rectangle (a round
+   top), its outline is the section through the middle of that solid.
 5. Length and width are the median spans of rays in the mid-plane of that solid, without objects fixed to its edge
    (`plate_edge`). If the surface is not flat (a bowl, a curtain), they are the median spans of its outline, seen along
    the normal.
@@ -29,7 +30,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene2hap.scene.geometry import SAME_PLACE
+from scene2hap.scene.geometry import SAME_PLACE, welded
 from scene2hap.scene.pose import Pose
 from scene2hap.scene.shapes import DominantSurface, SurfaceFlag, TriMesh
 from scene2hap.scene.surface.cuboid import cuboid_bounds_m
@@ -142,8 +143,9 @@ def dominant_surface(
     flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if is_open else ()
     if best is None or most_upright is None:
         return _box(points, axes, flags)
+    is_sheet = most_upright.lift(upwards) > _UPRIGHT and _is_container(most_upright, points, faces)
     sides = (best,) if best.lift(upwards) > _LIFTED else (best, best.from_behind())
-    plate = min((_plate(side, points, faces, flags) for side in sides), key=_rank)
+    plate = min((_plate(side, points, faces, flags, is_sheet=is_sheet) for side in sides), key=_rank)
     may_lie = most_upright is not best and most_upright.lift(upwards) > _UPRIGHT
     return (may_lie and _lying_plate(most_upright, sides, plate, points, faces)) or plate
 
@@ -174,7 +176,7 @@ def _lying_plate(
     if is_plate or not is_flat or side.area_m2 < _LYING_AREA * largest[0].area_m2:
         return None
     flags: tuple[SurfaceFlag, ...] = ("open-mesh",) if "open-mesh" in standing.flags else ()
-    plate = _plate(side, points, faces, flags)
+    plate = _plate(side, points, faces, flags, is_sheet=False)
     is_thin = plate.thickness_m <= _THIN * plate.width_m
     middle_m = float(plate.pose.rotation[:, 2] @ np.asarray(plate.pose.position_m))
     is_raised = middle_m - float((side.own_to_plate[2] @ points).min()) > 1.5 * plate.thickness_m
@@ -195,8 +197,11 @@ def _cuboid(bounds_m: Floats, upwards: Floats) -> DominantSurface:
     return _placed(np.abs(own_to_plate @ edges), own_to_plate @ (low + high) / 2, own_to_plate, ())
 
 
-def _plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...]) -> DominantSurface:
-    """Return the plate of a side, from points (3, n) with triangles `faces` (3, m)."""
+def _plate(
+    side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, ...], *, is_sheet: bool
+) -> DominantSurface:
+    """Return the plate of a side, from points (3, n) with triangles `faces` (3, m), without thickness if it is a
+    sheet."""
     hits, triangles = side.hits, (side.own_to_plate @ points)[:, faces]
     corners = triangles.reshape(3, -1)
     low, high = corners.min(axis=1), corners.max(axis=1)
@@ -205,7 +210,9 @@ def _plate(side: _Side, points: Floats, faces: Ints, flags: tuple[SurfaceFlag, .
     paired = np.isfinite(solids.bottom)
     cell = float(np.prod(high[:2] - low[:2])) / RAYS_PER_SIDE**2
     spans, outline_m = None, None
-    if paired.mean() >= _PAIRED_SHARE:
+    if is_sheet:
+        thickness = 0.0
+    elif paired.mean() >= _PAIRED_SHARE:
         thickness = float(np.median((solids.top - solids.bottom)[paired]))
         middle = float(np.median((solids.top + solids.bottom)[paired])) / 2
         level = np.abs(solids.top - np.median(solids.top)) <= thickness / 2
@@ -242,6 +249,33 @@ def _seen_outline(triangles: Floats, middle: float, level_area_m2: float) -> Out
         if abs(found.area_m2 - level_area_m2) < _SEEN * math.prod(whole.extent_m):
             return found
     return None
+
+
+def _is_container(side: _Side, points: Floats, faces: Ints) -> bool:
+    """Return True if a mesh seen from above is one sheet whose rim is clearly above it: a crate, a bowl, a bin."""
+    triangles = (side.own_to_plate @ points)[:, faces]
+    low, high = triangles[2].min(), triangles[2].max()
+    size = float(np.ptp(points, axis=1).max())
+    solids = first_solids(side.hits, SAME_PLACE * size)
+    if np.isfinite(solids.bottom).mean() >= _PAIRED_SHARE:
+        return False
+    return _rim_height(triangles, size) > float(np.median(solids.top)) + _SAME_LEVEL * (high - low)
+
+
+def _rim_height(triangles: Floats, size: float) -> float:
+    """Return the median height of the edges of triangles (3, 3, m) that have one triangle only; -inf without any."""
+    corners = welded(triangles.reshape(3, -1).T, SAME_PLACE * size).reshape(3, -1)
+    start, end = corners.ravel(), np.roll(corners, -1, axis=0).ravel()
+    keys = np.minimum(start, end) * (corners.max() + 1) + np.maximum(start, end)
+    _, first, counts = np.unique(keys, return_index=True, return_counts=True)
+    rim = first[(counts == 1) & (start != end)[first]]
+    if not len(rim):
+        return -math.inf
+    ends = np.stack((triangles, np.roll(triangles, -1, axis=1))).reshape(2, 3, -1)[:, :, rim]
+    heights = ends[:, 2].mean(axis=0)
+    order = np.argsort(heights, kind="stable")
+    along = np.cumsum(np.linalg.norm(ends[1] - ends[0], axis=0)[order])
+    return float(heights[order][np.searchsorted(along, along[-1] / 2)])
 
 
 def _open_top(tops: Floats, ray: Ints, low: Floats, high: Floats) -> float:

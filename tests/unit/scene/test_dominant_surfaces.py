@@ -194,6 +194,48 @@ def test_box_without_a_bottom_has_its_height_as_thickness() -> None:
     assert surface.flags == ("open-mesh", "box-fallback")
 
 
+def open_crate(edges: Size, missing: Size) -> TriMesh:
+    """A box of five sheets: without the side that faces `missing`."""
+    box = Box(edges).mesh
+    normals = np.cross(*(box.vertices_m[box.faces[:, k]] - box.vertices_m[box.faces[:, 0]] for k in (1, 2)))
+    return TriMesh(box.vertices_m, box.faces[normals @ np.array(missing) <= 0])
+
+
+def bowl_of_one_sheet(radius: float) -> TriMesh:
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=radius)
+    return TriMesh(ball.vertices, ball.faces[ball.triangles_center[:, 2] < 0])
+
+
+@pytest.mark.parametrize("pose", [Pose(), TURN], ids=["straight", "turned"])
+@pytest.mark.parametrize("is_inside_out", [False, True])
+@pytest.mark.parametrize(
+    ("mesh", "plate", "height"),
+    [
+        (open_crate((0.4, 0.3, 0.25), (0, 0, 1)), [0.4, 0.3], -0.125),
+        (open_crate((0.4, 0.3, 0.03), (0, 0, 1)), [0.4, 0.3], -0.015),
+        (open_crate((0.25, 0.24, 0.6), (0, 0, 1)), [0.6, 0.25], None),
+    ],
+    ids=["crate", "tray", "tall bin"],
+)
+def test_a_container_of_one_sheet_has_no_thickness(
+    mesh: TriMesh, plate: list[float], height: float | None, is_inside_out: bool, pose: Pose
+) -> None:
+    mesh = TriMesh(mesh.vertices_m, mesh.faces[:, ::-1]) if is_inside_out else mesh
+    surface = dominant_surface(turned(mesh, pose), up=pose.rotation[:, 2])
+    assert size(surface) == pytest.approx([*plate, 0.0], abs=1e-9)
+    assert surface.flags == ("open-mesh", "zero-thickness")
+    if height is not None:
+        assert pose.to_own([middle(surface)])[0] == pytest.approx([0.0, 0.0, height], abs=1e-9)
+
+
+def test_a_bowl_of_one_sheet_has_no_thickness_and_a_cover_has_its_height() -> None:
+    bowl = bowl_of_one_sheet(0.1)
+    assert dominant_surface(bowl, up=(0, 0, 1)).thickness_m == 0.0
+    cover = dominant_surface(bowl, up=(0, 0, -1))
+    assert cover.thickness_m == pytest.approx(0.1, rel=0.05)
+    assert "box-fallback" in cover.flags
+
+
 def test_inward_facing_meshes_give_the_same_surface() -> None:
     inside_out = TriMesh(TABLE.vertices_m, TABLE.faces[:, ::-1])
     assert size(dominant_surface(inside_out)) == pytest.approx([1.6, 0.8, 0.04])
