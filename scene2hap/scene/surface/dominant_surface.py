@@ -259,7 +259,7 @@ def _is_container(side: _Side, points: Floats, faces: Ints) -> bool:
     solids = first_solids(side.hits, SAME_PLACE * size)
     if np.isfinite(solids.bottom).mean() >= _PAIRED_SHARE:
         return False
-    return _rim_height(triangles, size) > float(np.median(solids.top)) + _SAME_LEVEL * (high - low)
+    return _rim_height(triangles, size) > float(np.median(solids.top) + _SAME_LEVEL * (high - low))
 
 
 def _rim_height(triangles: Floats, size: float) -> float:
