@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Container, Iterable, Mapping
+from collections.abc import Collection, Container, Iterable
 
 from scene2hap.contact.body import Body, roles
 from scene2hap.contact.broad_phase import BroadPhase
@@ -12,6 +12,7 @@ from scene2hap.contact.free_space import FreeSpace
 from scene2hap.contact.geometry.planes import Plane
 from scene2hap.contact.hinge import are_hinged
 from scene2hap.contact.junction import Junction, Pair
+from scene2hap.contact.pair import BodyPairs
 from scene2hap.contact.rule import TOUCH_M, fall_reach_m, hang_reach_m
 
 _MOST_REFUSALS = 5
@@ -21,18 +22,19 @@ _MOST_REFUSALS = 5
 class CertificateIssuer:
     """Issues certificates and ends them; those in force are in `of`, by body id.
 
-    Parameters: bodies, unsupported : all bodies, and the ids of those without full support; read here, changed by the
-    caller. of : the mapping in which certificates are stored.
+    Parameters: pairs, unsupported : all bodies and their pairs, and the ids of those without full support; read here,
+    changed by the caller. of : the mapping in which certificates are stored.
     """
 
     def __init__(
         self,
-        bodies: Mapping[str, Body],
+        pairs: BodyPairs,
         unsupported: Collection[str],
         broad_phase: BroadPhase,
         of: dict[str, Certificate],
     ) -> None:
-        self._bodies, self._unsupported, self._broad_phase = bodies, unsupported, broad_phase
+        self._bodies, self._unsupported, self._broad_phase = pairs.bodies, unsupported, broad_phase
+        self._hung = pairs.hung
         self.of = of
         # From the id of a pinning body to the ids of the bodies whose certificates end when it moves.
         self._pinned: dict[str, set[str]] = {}
@@ -108,7 +110,7 @@ class CertificateIssuer:
             other = self._bodies[y]
             low, high = other.low, other.high
             is_below = low[0] < u1 and high[0] > u0 and low[flat] < v1 and high[flat] > v0 and high[up] > lowest
-            if is_below and not are_hinged(body, other):
+            if is_below and not self._hung.are_chained(body.id, y):
                 below.append(other)
         below.sort(key=lambda other: (other.id not in held, other.size_m))
         for other in below:

@@ -38,7 +38,7 @@ class ContactFinder:
         self._bodies = self._pairs.bodies
         self._holders = Holders(self._pairs, self._broad_phase.neighbours, certified)
         self._unsupported = self._holders.unsupported
-        self._issuer = CertificateIssuer(self._bodies, self._unsupported, self._broad_phase, certified)
+        self._issuer = CertificateIssuer(self._pairs, self._unsupported, self._broad_phase, certified)
 
     def replace(
         self, moved: Mapping[str, Pose], added: Sequence[SceneObject] = (), gone: Collection[str] = ()
@@ -149,11 +149,17 @@ class ContactFinder:
     def _pair_with_neighbours(self, body: Body, seen: set[str], dirty: set[Pair], recheck: set[str]) -> None:
         """Pair a body that moved with the bodies now near enough to touch it."""
         x, bodies, certificates, unsupported = body.id, self._bodies, self._issuer.of, self._unsupported
+        are_chained = self._pairs.hung.are_chained
         body_pairs = self._pairs.of.setdefault(x, {})
         for y in self._broad_phase.neighbours[x]:
             if y in certificates:
                 continue
             other, old = bodies[y], body_pairs.get(y)
+            if are_chained(x, y) and not are_hinged(body, other):
+                if self._pairs.drop(x, y) is not None:
+                    dirty.add(pair_of(x, y))
+                    recheck.add(y)
+                continue
             may_hang = y in unsupported and body.size_m > other.size_m
             if old is None and beside_by(body, other, TOUCH_M) and not are_hinged(body, other):
                 # Neither can fall onto the other, and only unsupported bodies hang.

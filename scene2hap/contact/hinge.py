@@ -29,6 +29,8 @@ def pivot_m(x: Body, y: Body) -> Triple | None:
 class HungBodies:
     """The bodies that hang on others by hinges at their present poses: `on` has the id of the other by their own.
 
+    Bodies that hang on one another, directly or by others, are a chain. They touch at their hinges alone.
+
     Parameters: bodies : all bodies, changed by the caller.
     """
 
@@ -37,23 +39,45 @@ class HungBodies:
         self.on: dict[str, str] = {}
         # From the id of a body to those of the bodies with hinges to it.
         self._hinged: dict[str, set[str]] = {}
+        # From the id of each hung body to that of the body on which its chain hangs.
+        self._first: dict[str, str] = {}
 
     def add(self, body: Body) -> None:
         """Add a body that may have a hinge."""
         if body.hinge is not None:
             self._hinged.setdefault(body.hinge.to, set()).add(body.id)
 
+    def are_chained(self, x: str, y: str) -> bool:
+        """Return True if two bodies are of one chain."""
+        first = self._first
+        return bool(first) and first.get(x, x) == first.get(y, y)
+
     def update(self, changed: Iterable[str]) -> list[str]:
-        """Look again at bodies that were added, moved or removed. Returns the ids of those that hang now or did."""
+        """Look again at bodies that were added, moved or removed. Returns the ids of those whose chain is another."""
         if not self._hinged:
             return []
         affected = set(changed)
         affected.update(*(self._hinged.get(x, ()) for x in affected))
-        return [x for x in sorted(affected) if self._update(x)]
+        before = dict(self.on)
+        for x in affected:
+            self._update(x)
+        if self.on == before:
+            return []
+        firsts, self._first = self._first, {x: self._first_of(x) for x in self.on}
+        ids = firsts.keys() | self._first.keys() | (before.keys() ^ self.on.keys())
+        return sorted(x for x in ids if x in self._bodies and firsts.get(x) != self._first.get(x))
 
-    def _update(self, x: str) -> bool:
-        body, before = self._bodies.get(x), self.on.pop(x, None)
+    def _update(self, x: str) -> None:
+        self.on.pop(x, None)
+        body = self._bodies.get(x)
         other = None if body is None or body.hinge is None else self._bodies.get(body.hinge.to)
         if body is not None and other is not None and pivot_m(body, other) is not None:
             self.on[x] = other.id
-        return (before is None) != (x not in self.on)
+
+    def _first_of(self, x: str) -> str:
+        passed: list[str] = []
+        while x in self.on and x not in passed:
+            passed.append(x)
+            x = self.on[x]
+        # Bodies that hang on each other have the least id of their ring.
+        return min(passed[passed.index(x) :]) if x in passed else x

@@ -167,6 +167,7 @@ class Holders:
             y
             for y in self._near[x]
             if (other := bodies[y]).size_m > size_m
+            and not self._pairs.hung.are_chained(x, y)
             and y not in self._certified
             and not apart_by(body, other, reach_m)
             and self._space(body, other).empty_region is None

@@ -157,6 +157,31 @@ def posed(links: list[SceneObject], draw: random.Random) -> list[SceneObject]:
     return list(placed.values())
 
 
+def test_objects_of_one_chain_touch_at_their_hinges_alone() -> None:
+    cabinet, door, floor = cabinet_and_door()
+    knob = SceneObject("knob", pose=Pose((-0.2, 1.0, 0.235)), geometry=Box((0.04, 0.04, 0.1)))  # reaches into the body
+    knob = knob.hinged_on(door, (-0.2, 1.0, 0.22))
+    graph = ContactGraph(SceneSnapshot.build([cabinet, door, knob, floor]))
+    assert graph.neighbours("knob") == ("door",)
+    # Off its door, the knob is in contact with the cabinet behind it, and with the closed door.
+    graph.update({"knob": Pose((-0.2, 1.05, 0.235))})
+    assert graph.neighbours("knob") == ("cabinet", "door")
+    graph.update({"knob": knob.pose, "cabinet": Pose((0.0, 1.0, -1.0))})
+    assert graph.neighbours("knob") == ("door",)
+    graph.update({"cabinet": cabinet.pose})
+    assert graph.neighbours("cabinet") == ("door", "floor")
+
+
+def test_objects_that_hang_on_each_other_are_a_chain_without_end() -> None:
+    a = SceneObject("a", geometry=Box((0.2, 0.2, 0.2)))
+    b = SceneObject("b", pose=Pose((0.2, 0.0, 0.0)), geometry=Box((0.2, 0.2, 0.2)))
+    a, b = a.hinged_on(b, (0.1, 0.0, 0.0)), b.hinged_on(a, (0.1, 0.0, 0.0))
+    graph = ContactGraph(SceneSnapshot.build([a, b]))
+    assert graph.patch("a", "b")[0].tolist() == [[0.1, 0.0, 0.0]]
+    graph.update({"b": Pose((0.5, 0.0, 0.0))})
+    assert not graph.contacts
+
+
 def test_bad_hinges_are_refused() -> None:
     for words, make in {
         "id of the other object": lambda: Hinge("", (0, 0, 0), (0, 0, 0)),
