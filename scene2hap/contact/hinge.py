@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from scene2hap.contact.body import Body, apart_by
 from scene2hap.contact.geometry.vectors import Triple
-from scene2hap.contact.rule import HINGE_PLAY_M
+from scene2hap.scene.hinges import HINGE_PLAY_M
 
 
 def are_hinged(x: Body, y: Body) -> bool:

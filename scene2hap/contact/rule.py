@@ -27,6 +27,7 @@ import numpy as np
 
 from scene2hap.contact.body import Body
 from scene2hap.contact.geometry.vectors import Floats
+from scene2hap.scene.hinges import HINGE_PLAY_M
 
 TOUCH_M = 0.004
 """Gap at which any two surfaces cease to touch (tuned: cups on saucers stand 6 mm above the table)."""
@@ -62,10 +63,6 @@ _HIDDEN_M = 0.002  # A surface this much below another is hidden by it (assumed:
 # lack. It includes 5 mm beside drawers on rails below them, 1-3 mm on wooden runners, and 2-4 mm around leaves and
 # fronts. The smallest drawers on ball-bearing rails have diagonals of 0.4 m; smaller objects have less play.
 _PLAY_M, _PLAY_SIZES = 0.0203, 0.05
-
-HINGE_PLAY_M = 0.01
-"""Distance of a hinge's two points, and of the boxes of its two objects, at which it ceases to hold (assumed: doors
-have gaps of 2 to 5 mm, and engines keep the points of joints within millimetres)."""
 
 SIDE_SHARE = 1 / 6
 """Share of a side that must be within the play: a wooden runner, 30-45 mm high, beside a drawer of up to 0.25 m."""

@@ -1,4 +1,4 @@
-"""Hinges from the joints of engines and files, which give any point of the axis."""
+"""The play of hinges, and hinges from the joints of engines and files, which give any point of the axis."""
 
 from __future__ import annotations
 
@@ -6,6 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scene2hap.scene.objects import Hinge, SceneObject
+
+HINGE_PLAY_M = 0.01
+"""Distance of a hinge's two points, and of the boxes of its two objects, at which it ceases to hold [m] (assumed: doors
+have gaps of 2 to 5 mm, and engines keep the points of joints within millimetres)."""
 
 _FAR = 0.1
 """Distance of a pivot from an object's box, as a share of the box's diagonal, beyond which the joint is not one that

@@ -1,4 +1,4 @@
-"""Find likely mistakes in a scene: units, quaternions, masses, the up axis, merged, floating or sunken objects.
+"""Find likely mistakes in a scene: units, quaternions, masses, hinges, the up axis, merged, floating or sunken objects.
 
 Each finding is a sentence with the value, the bound and the remedy. The checks use AABBs, so a scene takes
 milliseconds; only the ground below objects that seem to be sunk is measured in its mesh. All bounds are wide, since a
@@ -13,14 +13,16 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scene2hap import checks
 from scene2hap.counted import first_of
 from scene2hap.scene.copies import name_words
 from scene2hap.scene.geometry import distances, heights_at
 from scene2hap.scene.grouping.empty_names import names_a_place
+from scene2hap.scene.hinges import HINGE_PLAY_M
 from scene2hap.scene.objects import VERTICAL, SceneData, SceneObject
 from scene2hap.scene.plausibility.units import implausible
 
-Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass", "merged"]
+Kind = Literal["units", "quaternions", "up-axis", "floating", "sunk", "mass", "merged", "hinge"]
 
 _FLOATS_M = 0.25
 """A floating object is farther than this from all others and above the lowest (assumed: objects rest within 0.06 m)."""
@@ -83,6 +85,7 @@ def findings(scene: SceneData) -> Iterator[Finding]:
         heavy = None if item.mass_kg is None else too_heavy(item, item.mass_kg)
         if heavy:
             yield Finding("mass", (item.id,), heavy)
+    yield from _loose_hinges(scene)
     boxes = np.array([item.bounds_m for item in scene.objects])
     up = VERTICAL[scene.up_axis]
     resting, other = _resting_share(boxes, up), _resting_share(boxes, 3 - up)
@@ -103,6 +106,29 @@ def findings(scene: SceneData) -> Iterator[Finding]:
     if not room:
         yield from _floating(boxes, ids, up)
         yield from _sunk(scene, boxes, ids, up)
+
+
+def _loose_hinges(scene: SceneData) -> Iterator[Finding]:
+    """Find hinges that hold nothing."""
+    by_id = {item.id: item for item in scene.objects}
+    for item in scene.objects:
+        hinge = item.hinge
+        if hinge is None:
+            continue
+        other, named = by_id.get(hinge.to), f"the hinge of {item.id!r} to {hinge.to!r} holds nothing: "
+        if other is None:
+            hint = checks.did_you_mean(hinge.to, by_id)
+            yield Finding("hinge", (item.id,), f"{named}the scene has no such object. {hint}".rstrip())
+            continue
+        here, there = item.pose.to_world([hinge.point_m])[0], other.pose.to_world([hinge.other_point_m])[0]
+        apart_m = float(np.linalg.norm(here - there))
+        if apart_m >= HINGE_PLAY_M:
+            yield Finding(
+                "hinge",
+                (item.id, other.id),
+                f"{named}its two points are {apart_m:.2g} m apart, and must be within {HINGE_PLAY_M:g} m. Give each in "
+                "its own object's frame, or make it by hinged_on.",
+            )
 
 
 def _merged(scene: SceneData, ids: tuple[str, ...]) -> Iterator[Finding]:

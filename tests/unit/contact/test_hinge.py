@@ -206,6 +206,19 @@ def test_hinged_on_keeps_that_a_surface_is_still_to_be_measured() -> None:
     assert replace(held, hinge=None) == plain
 
 
+def test_hinges_that_hold_nothing_are_found() -> None:
+    cabinet, door, floor = cabinet_and_door()
+    assert not [one for one in SceneSnapshot.build([cabinet, door, floor]).check() if one.kind == "hinge"]
+    (alone,) = SceneSnapshot.build([replace(cabinet, id="cabinets"), door, floor]).check()
+    assert (alone.kind, alone.object_ids) == ("hinge", ("door",))
+    assert "no such object" in alone.sentence
+    assert "'cabinets'" in alone.sentence
+    far = replace(door, hinge=Hinge("cabinet", (0.3, 0.0, 0.0), (0.3, 0.0, 0.25)))
+    (apart,) = SceneSnapshot.build([cabinet, far, floor]).check()
+    assert (apart.kind, apart.object_ids) == ("hinge", ("door", "cabinet"))
+    assert "0.04 m apart" in apart.sentence
+
+
 def test_a_hinge_survives_json_and_new_poses() -> None:
     scene = SceneSnapshot.build(cabinet_and_door())
     again = SceneSnapshot.from_json(scene.to_json())
