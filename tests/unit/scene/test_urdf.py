@@ -387,6 +387,7 @@ def test_invalid_urdf_is_refused(home: Path, inside: str, sentence: str) -> None
     [
         ("", "is empty"),
         ("a shopping list", "is not well-formed XML"),
+        ("\n<?xml version='1.0'?><robot/>", "remove what is before them"),
         ("<mujoco/>", "begins with <mujoco>; a URDF file begins with <robot>. An MJCF file has the suffix .xml"),
         ("<sdf/>", "begins with <sdf>; a URDF file begins with <robot>"),
         ("<?xml version='1.0' encoding='nowhere'?><robot/>", "is not well-formed XML"),
