@@ -107,6 +107,10 @@ NAMES = {
     # the goal of a robot's task
     "bin_goal": "trash bin",
     "soccer_goal": "goal",
+    "puck_goal": "goal",
+    "peg1": "peg",
+    "clothes_peg": "clothespin",
+    "fixed_mount0_controller_box": "power box",
     "legobrick": "lego",
     "antenna_left": "antenna",
     "herb_pot": "flower pot",
