@@ -186,7 +186,8 @@ def _is_robot_part(name: str, tokens: Sequence[str], head: _Noun) -> bool:
     Without a namespace (`robot0_`, `robot:`) the word "link" or "joint" must be there: a "robot_kuka" is a robot.
     """
     after = tokens[head.end :]
-    if head.row.noun not in words.ROBOTS or "base" in after or words.WHOLE_ROBOT.issuperset(after):
+    is_base = "base" in after or ([*after] == ["link"] and _LINK_0.search(name.strip()) is not None)
+    if head.row.noun not in words.ROBOTS or is_base or words.WHOLE_ROBOT.issuperset(after):
         return False
     return _NAMESPACE.search(name) is not None or not {"link", "joint"}.isdisjoint(after)
 
