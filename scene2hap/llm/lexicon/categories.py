@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from scene2hap.llm.answers import LONGEST_REASON, ObjectAnswer, StateAnswer
 from scene2hap.llm.lexicon.masses import usual_mass_kg
 from scene2hap.llm.lexicon.materials import make, painted_with
-from scene2hap.llm.lexicon.name_checks import fit, meant_abroad, mounted_on, owner_of_part
+from scene2hap.llm.lexicon.name_checks import fit, ground_plane, meant_abroad, mounted_on, owner_of_part
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow, StateRow, table
 from scene2hap.llm.lexicon.words import SOUNDING
@@ -58,6 +58,7 @@ def judge(item: Measured, neighbour_names: Sequence[str] = ()) -> ObjectAnswer:
     length, width, thickness = (min(edge, _LARGEST_M) for edge in item.size_m)
     item = replace(item, size_m=(length, width, thickness))
     reading = read_name(item.name)
+    reading = ground_plane(reading, item.whole_m, item.height_m) or reading
     if reading.row is None:
         return _unknown(item, reading)
     row, why = reading.row, ""

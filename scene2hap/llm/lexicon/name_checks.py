@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from scene2hap.llm.lexicon import translations
+from scene2hap.llm.lexicon import translations, word_split
 from scene2hap.llm.lexicon.names import NameReading, read_name
 from scene2hap.llm.lexicon.table import ObjectRow
 
@@ -50,6 +50,9 @@ _FURNISHINGS = _set("cushion")
 its metal sheet."""
 _THICK_M = 0.3
 """Drawers, doors and cushions are thinner than this in one direction; assumed."""
+
+_FLAT_SHARE, _SMALLEST_GROUND_M = 0.01, 3.0
+"""The ground is flat and low within this share of its length, and wider than this [m]; assumed."""
 
 # All assumed. They only rank answers by the strength of the evidence against them.
 _HIGH_M = 0.5
@@ -103,6 +106,19 @@ def mounted_on(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReadi
     why = f"It is {max(size_m):.2g} m long; a {reading.row.noun} of a room is longer, so that word is its place."
     trust = round(_OWNER * min(before.confidence, reading.confidence), 3)
     return replace(before, name=reading.name, words=reading.words, confidence=trust), why
+
+
+def ground_plane(reading: NameReading, whole_m: Sequence[float], height_m: float | None) -> NameReading | None:
+    """Return the floor if a name says no more than "plane", and the object is one; else None.
+
+    Simulators and modelling tools call the ground so. It is flat, level, larger than a table, and the lowest object.
+    """
+    if reading.row is not None or "plane" not in reading.words or len(whole_m) < 3 or height_m is None:
+        return None
+    longer, shorter, height = whole_m
+    if max(height, height_m) > _FLAT_SHARE * longer or shorter < _SMALLEST_GROUND_M:
+        return None
+    return replace(reading, row=word_split.nouns()["floor"][0], head="plane", confidence=_OWNER)
 
 
 def meant_abroad(reading: NameReading, size_m: Sequence[float]) -> tuple[NameReading, str] | None:

@@ -9,9 +9,10 @@
 4. Asset kits also write the object first. A two-word noun of the table is found in that order too (tableCoffee), but
    a machine comes before its parts and before what it works with: a printer_label is no label printer. A container
    precedes its content (crate_tomatoes), a noun its material (tableGlass), a wall the opening in it (wall_doorway), and
-   a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their joints or makes
-   (shoulder_pan_link, iiwa_link_4), which are no objects. Only the base of a robot is the robot: robot0:base_link and
-   panda_link0, but robot0:elbow_link, robot0_l4 and wrist_3_link are parts of one, which do not vibrate by themselves.
+   a piece of furniture the number of its parts (sofa_2_seats). Links of robots are called by their joints, limbs or
+   makes (shoulder_pan_link, wrist_roll, upper_arm_link, iiwa_link_4), which are no objects. Only the base of a robot is
+   the robot: robot0:base_link and panda_link0, but robot0:elbow_link, finger_base_link and finger_link_0 are parts of
+   one, which do not vibrate by themselves.
 5. The room or zone of a machine is no machine (engine_room).
 6. The size of a metric thread says that the object belongs to a bolt: "washer_M8" is no washing machine.
 7. A name that no rule can read stays unknown. Only plurals and one typing error in a long word are corrected.
@@ -20,7 +21,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -41,6 +42,8 @@ _HOLDS = {"container": ("vessel", "content"), "vessel": ("content",)}
 _PRIMITIVE = re.compile(r"box\d+", re.IGNORECASE)
 _NAMESPACE = re.compile(r"robot(?:\d+[\W_]|:)", re.IGNORECASE)
 _LINK_0 = re.compile(r"link_?0$", re.IGNORECASE)
+# The Shadow Hand: first, middle, ring and little finger, and thumb.
+_HAND_LINK = re.compile(r"(?<![^\W_])(?:[fmrl]f|th)(?:knuckle|proximal|middle|distal|metacarpal|base|hub)(?![^\W_])")
 _THREAD = re.compile(r"(?<![^\W_])M\d{1,2}(?![^\W_xX])")
 
 
@@ -85,7 +88,7 @@ def read_name(name: str) -> NameReading:
     if _PRIMITIVE.fullmatch(name.strip()):
         return unknown
     counted = word_split.counted_words(name)
-    nouns = [noun for noun in _nouns(tokens, counted) if not _is_of_robot(tokens, noun)]
+    nouns = _without_robot(tokens, _nouns(tokens, counted))
     clause, remark = _before_preposition(tokens, nouns), _before_remark(name, tokens, nouns)
     said = tokens[remark:]
     clause = min(clause, remark)
@@ -163,9 +166,17 @@ def _noun_at(tokens: Sequence[str], start: int, end: int) -> _Noun | None:
     return None
 
 
-def _is_of_robot(tokens: Sequence[str], noun: _Noun) -> bool:
-    """Return True if a noun names a joint, a hand or the make of a robot, and no object."""
-    beside = words.ROBOT_NOUNS.get(" ".join(tokens[noun.start : noun.end]))
+def _without_robot(tokens: Sequence[str], nouns: Sequence[_Noun]) -> list[_Noun]:
+    """Return the nouns but for those that name a joint, a limb, a hand or the make of a robot, and no object.
+
+    The leg of something else that the name says is no limb.
+    """
+    left = [noun for noun in nouns if not _is_beside_one(tokens, noun, words.ROBOT_NOUNS)]
+    return [] if len(left) == 1 and _is_beside_one(tokens, left[0], words.ROBOT_LIMBS) else left
+
+
+def _is_beside_one(tokens: Sequence[str], noun: _Noun, needed: Mapping[str, frozenset[str]]) -> bool:
+    beside = needed.get(" ".join(tokens[noun.start : noun.end]))
     return beside is not None and not beside.isdisjoint(tokens)
 
 
@@ -175,19 +186,28 @@ def _is_robot_part(name: str, tokens: Sequence[str], head: _Noun) -> bool:
     Without a namespace (`robot0_`, `robot:`) the word "link" or "joint" must be there: a "robot_kuka" is a robot.
     """
     after = tokens[head.end :]
-    if head.row.noun not in words.ROBOTS or "base" in after or words.WHOLE_ROBOT.issuperset(after):
+    is_base = "base" in after or ([*after] == ["link"] and _LINK_0.search(name.strip()) is not None)
+    if head.row.noun not in words.ROBOTS or is_base or words.WHOLE_ROBOT.issuperset(after):
         return False
     return _NAMESPACE.search(name) is not None or not {"link", "joint"}.isdisjoint(after)
 
 
 def _robot_of_link(name: str, tokens: Sequence[str]) -> ObjectRow | None:
-    """Return the row of a robot or of its part if a name is that of a link, by its joint or make; else None."""
+    """Return the row of a robot or of its part if a name is that of a link, by its joint or make; else None.
+
+    The base of a finger is no robot, and a "finger_link_0" the first of several.
+    """
     is_link = not {"link", "joint"}.isdisjoint(tokens)
-    is_named = any(word in words.ROBOT_JOINTS | words.ROBOT_MAKES for word in tokens)
-    if not (is_link and is_named) and not any(_is_of_robot(tokens, noun) for noun in _nouns(tokens, frozenset())):
+    has_joint, has_axis, has_make, has_limb = (
+        not named.isdisjoint(tokens)
+        for named in (words.ROBOT_JOINTS, words.ROBOT_AXES, words.ROBOT_MAKES, words.ROBOT_LIMBS.keys())
+    )
+    nouns = _nouns(tokens, frozenset())
+    is_named = (is_link and (has_joint or has_make)) or (has_joint and has_axis) or _HAND_LINK.search(name)
+    if not is_named and len(_without_robot(tokens, nouns)) == len(nouns):
         return None
     is_base = "base" in tokens or _LINK_0.search(name.strip()) is not None
-    return _row("robot" if is_base else "robotpart")
+    return _row("robot" if is_base and not (has_joint or has_limb) else "robotpart")
 
 
 def _row(spelled: str) -> ObjectRow:

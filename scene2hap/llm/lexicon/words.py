@@ -154,9 +154,10 @@ MATERIAL_NOUNS = frozenset({"glass", "paper", "brick", "stone"})
 GENERAL_NOUNS = frozenset({"machine"})
 """Nouns whose neighbour names the kind of the object in either order: coffee machine, machine_coffee."""
 
-LEFTOVER_NOUNS = frozenset({"mat", "trash", "orange", "cream", "mobile", "house", "backsplash", "splashback", "wc"})
+LEFTOVER_NOUNS = _set("mat trash orange cream mobile house backsplash splashback wc goal")
 """Nouns that are no objects after another noun. Exporters write "Burner_mat_0", designers "ham_trash" and
-"sofa_orange". A "counter_backsplash" is a counter with a backsplash, a "mirror_wc" hangs in one."""
+"sofa_orange". A "counter_backsplash" is a counter with a backsplash, a "mirror_wc" hangs in one, and a "bin_goal" is
+where a task of a robot ends."""
 
 SURROUNDINGS = _set("room house bay station depot pit shed area zone spot spawn volume trigger waypoint")
 """Words directly after a machine that say that the object is only the place around it (engine_room, printer_area)."""
@@ -164,19 +165,25 @@ SURROUNDINGS = _set("room house bay station depot pit shed area zone spot spawn 
 COUNTED = frozenset({"seat", "cushion", "pillow", "shelf", "stove burner"})
 """Nouns besides parts that count something of the noun before them: a "sofa 2 seats" is a sofa."""
 
-ROBOT_NOUNS = {
-    **dict.fromkeys(("roll", "pan", "lift"), frozenset({"link", "joint", "robot"})),
-    "palm": frozenset({"link", "joint", "robot", "hand", "gripper", "rh", "lh"}),
-    "panda": frozenset({"link", "joint", "hand", "finger", "leftfinger", "rightfinger", "gripper", "flange"}),
-}
-"""Nouns that name a robot's joint, hand or make beside one of these words: a "shoulder_pan_link" is no frying pan, a
-"robot0_hip_roll" no bread, a "rh_palm" no tree, and a "panda_link3" no animal."""
-
 ROBOT_JOINTS = _set("""
     shoulder elbow forearm upperarm wrist waist torso pelvis hip thigh shin calf knee ankle finger thumb knuckle gripper
     flange metacarpal proximal distal
 """)
-"""Words beside "link" or "joint" that name a part of a robot: wrist_3_link."""
+"""Words beside "link", "joint" or an axis that name a part of a robot: wrist_3_link, elbow_flex."""
+
+ROBOT_AXES = _set("roll pitch yaw pan lift flex")
+"""Words for the motion of a robot's joint."""
+
+ROBOT_NOUNS = {
+    **dict.fromkeys(("roll", "pan", "lift"), ROBOT_JOINTS | {"link", "joint", "robot"}),
+    "palm": frozenset({"link", "joint", "robot", "hand", "gripper", "rh", "lh"}),
+    "panda": frozenset({"link", "joint", "hand", "finger", "leftfinger", "rightfinger", "gripper", "flange"}),
+}
+"""Nouns that name a robot's joint, hand or make beside one of these words: a "shoulder_pan_link" is no frying pan, a
+"Wrist_Pitch_Roll" no bread, a "rh_palm" no tree, and a "panda_link3" no animal."""
+
+ROBOT_LIMBS = dict.fromkeys(("arm", "leg"), frozenset({"link", "joint", "upper", "lower"}))
+"""Nouns that name a robot's limb beside one of these words: "FL_upper_leg" is no leg of a table."""
 
 ROBOT_MAKES = _set("panda franka iiwa kuka sawyer baxter kinova jaco xarm yumi tiago talos anymal rizon")
 """Robots whose links are called after them: iiwa_link_4."""

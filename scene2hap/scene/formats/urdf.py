@@ -211,7 +211,7 @@ class _Reader:
             with np.errstate(all="ignore"):
                 origin = origin @ np.diag([*_numbers(shape, "scale", f"{place}, <mesh>", 3, "1 1 1"), 1.0])
         else:
-            mesh = AuthoredNode(name, np.eye(4), (_solid(shape, f"{place}, <{shape.tag}>"),))
+            mesh = AuthoredNode(name, np.eye(4), _solid(shape, f"{place}, <{shape.tag}>"))
         self._size.add_triangles(mesh.n_triangles)
         if material is not None:
             mesh = self._painted(mesh, material, place)
@@ -294,15 +294,17 @@ def _origin(row: Element, place: str) -> Matrix:
     return transform(pose.rotation, pose.position_m)
 
 
-def _solid(shape: Element, place: str) -> Piece:
-    """Return the triangles of a shape."""
+def _solid(shape: Element, place: str) -> tuple[Piece, ...]:
+    """Return the triangles of a shape; none of a sphere of radius 0, by which authors hide a link."""
     if shape.tag not in _SOLIDS:
         raise SceneFormatError(f"{place}: geometry is a box, cylinder, capsule, sphere or mesh.")
     counts, make = _SOLIDS[shape.tag]
     sizes = [size for key, n in counts.items() for size in _numbers(shape, key, place, n)]
+    if not any(sizes):
+        return ()
     if min(sizes) <= 0.0 or max(sizes) > limits.MAX_COORDINATE_M:
         raise SceneFormatError(f"{place} has sizes {sizes} m; they must be above 0 and sensible.")
-    return replace(Piece.checked((shape.tag, *sizes), *make(*sizes), "", place), is_made=True)
+    return (replace(Piece.checked((shape.tag, *sizes), *make(*sizes), "", place), is_made=True),)
 
 
 def _child(row: Element, tag: str, place: str) -> Element:

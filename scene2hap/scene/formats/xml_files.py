@@ -14,6 +14,9 @@ Start = Callable[[str, dict[str, str], int, int], None]
 """Called at the begin of an element with its tag, attributes, line, and the number of elements around it."""
 
 
+_DECLARED_LATE = expat.errors.codes[expat.errors.XML_ERROR_MISPLACED_XML_PI]
+
+
 def walk_xml(
     path: Path, kind: str, most_bytes: int, start: Start, end: Callable[[str], object], *, encoding: str | None = None
 ) -> None:
@@ -51,4 +54,6 @@ def walk_xml(
         raise
     # ValueError and LookupError: an encoding that does not exist, or that has several bytes per character.
     except (expat.ExpatError, ValueError, LookupError) as cause:
-        raise SceneFormatError(f"{path.name!r} is not well-formed XML: {cause}.") from cause
+        is_late = getattr(cause, "code", None) == _DECLARED_LATE
+        hint = " The first characters of the file must be <?xml; remove what is before them." if is_late else ""
+        raise SceneFormatError(f"{path.name!r} is not well-formed XML: {cause}.{hint}") from cause

@@ -38,6 +38,12 @@ def says_nothing(name: str) -> bool:
     return bool(_LETTER_AND_NUMBER.fullmatch(name)) or _EMPTY.issuperset(name_words(name))
 
 
+def abbreviates(name: str, full: str) -> bool:
+    """Return True if a name is another one without some of its vowels: "bsktball" of "basketball"."""
+    consonants, all_consonants = (re.sub("[aeiou]", "", text.lower()) for text in (name, full))
+    return len(name) < len(full) and consonants == all_consonants
+
+
 def names_a_thing(name: str) -> bool:
     """Return False for the names of nodes that exporters add, and of places: their nodes are always containers."""
     return bool(name) and not _EXPORTER_NODE.fullmatch(name) and not names_a_place(name)

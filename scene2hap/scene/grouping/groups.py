@@ -13,7 +13,8 @@ b. A node without a mesh, and its leaf children without names or with names that
 c. A node without a mesh that contains only one object, directly or through other such nodes, gives that object its name
    and place (`washing_machine` over `washer(Clone)`). The name of the outermost such node is used. Names that exporters
    give to their own nodes (`RootNode`, `Sketchfab_model`, `kitchen.fbx`) and names of places (`house`) are never used,
-   and names that say nothing (`pivot`, `entity`) only in the place of another such name.
+   and names that say nothing (`pivot`, `entity`) only in the place of another such name. Nor is an abbreviation of the
+   object's own name (`bsktball` over `basketball`).
 d. Every other node without a mesh is a container; its children are grouped one by one.
 e. An object by (a) or (b) is split if it is a collection of separate items (`grouping.split`): a pot, two cups and
    their saucers, but not a table with its legs.
@@ -33,7 +34,7 @@ import numpy as np
 
 from scene2hap import checks
 from scene2hap.errors import SceneError
-from scene2hap.scene.grouping.empty_names import names_a_thing, says_nothing
+from scene2hap.scene.grouping.empty_names import abbreviates, names_a_thing, says_nothing
 from scene2hap.scene.grouping.loose_parts import loose_parts
 from scene2hap.scene.grouping.material_parts import rejoined
 from scene2hap.scene.grouping.part_names import names_part, names_structure
@@ -147,7 +148,9 @@ def _authored(node: AuthoredNode, above: Matrix) -> _Subtree:
         items = [Group(item[0].name, item[0].frame, _parts(item)) for item in several]
         return _Subtree([*items, *others], has_head=bool(node.pieces))
     if len(below) == 1 and below[0].has_head:
-        if names_a_thing(node.name) and (says_nothing(others[0].name) or not says_nothing(node.name)):
+        own = others[0].name
+        is_worse = says_nothing(node.name) or abbreviates(node.name, own)
+        if names_a_thing(node.name) and (says_nothing(own) or not is_worse):
             others[0] = replace(others[0], name=node.name, frame=frame)
         if node.mass_kg is not None and len(others) == 1:
             others[0] = replace(others[0], mass_kg=node.mass_kg)

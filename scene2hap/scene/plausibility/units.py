@@ -185,6 +185,8 @@ def _by_size(size_m: NDArray[np.float64], up: int, edges_m: NDArray[np.float64])
     width, height = float(np.delete(size_m, up).max()), float(size_m[up])
     is_small = width < _MIN_WIDTH_M and height < _MIN_WIDTH_M and len(edges_m) >= _MIN_OBJECTS
     is_large = (width > _MAX_WIDTH_M or height > _MAX_HEIGHT_M) and float(np.median(edges_m)) > _MAX_MEDIAN_M
+    # The ground of a simulator comes in a file of its own, as wide as anybody may need.
+    is_large &= height > 0.0
     if not is_large and not is_small:
         return None
     low, high = _ROOM_WIDTH_M

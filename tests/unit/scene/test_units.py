@@ -11,6 +11,7 @@ import pytest
 
 from gltf_builder import Gltf
 from scene2hap.scene.load import UnitWarning, load_scene
+from scene2hap.scene.objects import SceneObject
 from scene2hap.scene.plausibility.units import implausible, warn_if_implausible
 from scene2hap.scene.snapshot import SceneSnapshot
 from scenes import box, scene
@@ -104,6 +105,12 @@ def test_a_single_model_may_be_in_centimetres(size_m: tuple[float, float, float]
         UnitWarning, match="or 0.01 if it holds one model and no room; giving" if of_model else "; giving"
     ):
         warn_if_implausible(hood)
+
+
+def test_a_ground_of_its_own_may_be_of_any_width() -> None:
+    corners = [(0.0, 0.0, 0.0), (200.0, 0.0, 0.0), (200.0, 0.0, 200.0), (0.0, 0.0, 200.0)]
+    ground = SceneObject("planeLink", geometry=(corners, [(0, 2, 1), (0, 3, 2)]))
+    assert suggestion(scene(ground)) is None
 
 
 def test_extremely_high_room_gets_a_suggestion_without_names() -> None:

@@ -131,6 +131,12 @@ def test_links_without_shape_are_frames(home: Path) -> None:
     assert [(item.id, item.pose.position_m) for item in scene.objects] == [("tip", (0.0, 0.0, 1.0))]
 
 
+def test_a_visual_sphere_of_radius_0_hides_its_link(home: Path) -> None:
+    hidden = f"<visual><geometry><sphere radius='0.0'/></geometry></visual>{BOX.replace('visual', 'collision')}"
+    scene = loaded(home, f"<link name='leg'>{BOX}</link><link name='toe'>{hidden}</link>{hangs('toe', 'leg')}")
+    assert [item.id for item in scene.objects] == ["leg"]
+
+
 @pytest.mark.parametrize("kind", ["fixed", "revolute", "continuous", "prismatic", "floating", "planar"])
 def test_joints_are_placed_at_zero(home: Path, kind: str) -> None:
     joint = hangs("b", "a", "xyz='1 2 3' rpy='0 0 1.5707963267948966'", kind)
@@ -387,6 +393,7 @@ def test_invalid_urdf_is_refused(home: Path, inside: str, sentence: str) -> None
     [
         ("", "is empty"),
         ("a shopping list", "is not well-formed XML"),
+        ("\n<?xml version='1.0'?><robot/>", "remove what is before them"),
         ("<mujoco/>", "begins with <mujoco>; a URDF file begins with <robot>. An MJCF file has the suffix .xml"),
         ("<sdf/>", "begins with <sdf>; a URDF file begins with <robot>"),
         ("<?xml version='1.0' encoding='nowhere'?><robot/>", "is not well-formed XML"),

@@ -115,3 +115,21 @@ def test_a_part_is_of_its_owner_s_material_only_if_it_is_cut_from_the_same_sheet
 
 def test_without_the_size_of_the_whole_the_name_decides() -> None:
     assert judge(Measured("chairCushion", (0.4, 0.4, 0.05))).object_category == "cushion"
+
+
+@pytest.mark.parametrize(
+    ("name", "whole_m", "height_m", "category"),
+    [
+        ("planeLink", (200.0, 200.0, 0.0), 0.0, "floor"),
+        ("Plane.001", (5.0, 4.0, 0.02), 0.0, "floor"),
+        ("Plane", (2.0, 2.0, 0.0), 0.0, "unknown"),  # of any use
+        ("Plane", (5.0, 4.0, 0.0), 2.5, "unknown"),  # a ceiling
+        ("Plane", (5.0, 0.01, 4.0), 0.0, "unknown"),  # a wall
+        ("Plane", (5.0, 4.0, 1.2), 0.0, "unknown"),  # an aeroplane
+    ],
+)
+def test_a_wide_plane_under_all_others_is_the_floor(
+    name: str, whole_m: tuple[float, float, float], height_m: float, category: str
+) -> None:
+    item = Measured(name, (whole_m[0], whole_m[1], 0.01), whole_m=whole_m, height_m=height_m)
+    assert judge(item).object_category == category

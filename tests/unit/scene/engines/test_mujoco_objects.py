@@ -37,6 +37,13 @@ def test_body_without_geoms_gives_its_name_to_its_only_child() -> None:
     }  # fmt: skip
 
 
+def test_abbreviated_wrapper_leaves_the_body_its_own_name() -> None:
+    scene = scene_of(
+        '<worldbody><body name="bsktball"><body name="basketball"><geom size="0.1"/></body></body></worldbody>'
+    )
+    assert names(scene) == {"basketball": "basketball"}
+
+
 def test_unnamed_bodies_get_ids_from_their_place_in_the_tree() -> None:
     xml = (
         '<asset><mesh name="wedge" file="wedge.obj"/></asset>'
