@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
-from scene2hap.clips.haptic_clip import MAX_POINTS, RANGE_HZ, About, Curve, HapticClip, Transient
+from scene2hap.clips.haptic_clip import MAX_POINTS, About, Curve, HapticClip, Transient
 from scene2hap.errors import ClipError
 
 SUFFIX = ".haptic"
@@ -21,11 +21,10 @@ _VERSION = 1
 _SPAN_RULE = "lies outside of the amplitude curve"
 
 
-def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, float] = RANGE_HZ) -> HapticClip:
+def read_haptic(path: Path, *, legacy: bool = False) -> HapticClip:
     """Return the clip in a .haptic file.
 
-    Parameters: legacy : accept frequency points outside of the amplitude curve, as in files of earlier programs;
-        range_hz : frequencies at 0 and 1 on the actuator [Hz].
+    Parameters: legacy : accept frequency points outside of the amplitude curve, as in files of earlier programs.
     Raises: ClipError: the file breaks a rule; the message names file, field and bound.
     """
     fields = read_fields(path, needed="signals", kind=".haptic")
@@ -57,7 +56,7 @@ def read_haptic(path: Path, *, legacy: bool = False, range_hz: tuple[float, floa
                 f"is {at:g} s, which {_SPAN_RULE}, {times[0]:g} to {times[-1]:g} s. Read it with legacy=True, or "
                 "export it with a newer program",
             )
-    return HapticClip(Curve(np.array(times), np.array(amplitude)), frequency, transients, range_hz, _about(fields))
+    return HapticClip(Curve(np.array(times), np.array(amplitude)), frequency, transients, about=_about(fields))
 
 
 def breaks_span_rule(error: ClipError) -> bool:
