@@ -221,6 +221,7 @@ class _Work:
         errors: dict[str, str] = {}
         with Pool(given.executor) as pool:
             run = Run(
+                paths,
                 self.folder,
                 self.config,
                 self.config,
@@ -230,7 +231,6 @@ class _Work:
                 given.pictures,
                 given.progress,
             )
-            run.name(paths)
 
             async def one(path: Path) -> str:
                 watched = _Watched(stack)
@@ -243,7 +243,7 @@ class _Work:
                     return "failed"
 
             try:
-                n_ready = (await run.each(paths, one)).count("ready")
+                n_ready = (await run.each(one)).count("ready")
             finally:
                 # Complete the file of new questions, however this run ends.
                 backend.close()
