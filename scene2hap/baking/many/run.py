@@ -189,7 +189,12 @@ class Run:
         report = ManyReport(found, time.perf_counter() - begun, stack)
         if not report.failed:
             shutil.rmtree(self._work("all", ".pictures"), ignore_errors=True)
-        write_record(self.folder / REPORT, report.to_data())
+        try:
+            write_record(self.folder / REPORT, report.to_data())
+        except ConfigError as cause:
+            # On a full disk the scenes have failed, too, and no report tells why.
+            errors = " ".join(f"{one.scene}: {one.error}" for one in report.failed[:3])
+            raise ConfigError(f"{cause} {report}. {errors}".rstrip()) from cause
         return report
 
     async def each(self, work: Callable[[Path], Awaitable[Report]]) -> list[Report]:
