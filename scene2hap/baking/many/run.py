@@ -172,10 +172,10 @@ class Run:
     n_done: int = 0
 
     def __post_init__(self) -> None:
-        self.names = _names(self.paths)
+        self.names: dict[Path, str] = _names(self.paths)
         options = {**self.options, "pictures": self.pictures}
-        self.settings = settings_digest(self.config, self.user_prompt, options)
-        self.slots = Slots(self.config.concurrency)  # of all scenes together
+        self.settings: str = settings_digest(self.config, self.user_prompt, options)
+        self.slots: Slots = Slots(self.config.concurrency)  # of all scenes together
 
     async def all(self) -> ManyReport:
         """Bake the scenes, and write the report."""
