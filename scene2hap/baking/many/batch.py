@@ -198,7 +198,8 @@ class _Work:
                 now = await self.service.status(row.batch)
                 row = self._note(row, now)
                 if now.has_ended:
-                    files = [await self._content(file) for file in (now.output_file, now.error_file)]
+                    names = (now.output_file, now.error_file)
+                    files = [await self.service.content(name) if name else "" for name in names]
                     self.batches.keep(row, *files)
 
     async def note_status(self, cancel: bool) -> None:
@@ -269,9 +270,6 @@ class _Work:
                 f"{report.n_to_send} questions would bring the cost to about {cost:.2f} dollars ({spent:.2f} so far); "
                 f"max_cost_usd is {limit:g}. Nothing was sent. Raise the limit, or name fewer scenes."
             )
-
-    async def _content(self, file: str) -> str:
-        return await self.service.content(file) if file else ""
 
 
 class _Watched(Wrapper):
