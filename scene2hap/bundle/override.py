@@ -101,7 +101,7 @@ class Override:
             gain = checks.number("gain_db", self.gain_db, "dB", at_most=_MOST_GAIN_DB, error=BundleError)
             object.__setattr__(self, "gain_db", gain)
         if self.mass_kg is not None:
-            object.__setattr__(self, "mass_kg", checked_mass_kg("mass_kg", self.mass_kg, BundleError))
+            object.__setattr__(self, "mass_kg", checked_mass_kg(self.mass_kg, BundleError))
         for name in ("material", "feet"):
             given = getattr(self, name)
             if isinstance(given, str):
