@@ -84,7 +84,7 @@ def bake(
         overrides=overrides,
         earlier=earlier,
     )
-    return run_waiting(baking, "abake")
+    return run_waiting(baking, "abake(...)")
 
 
 @clear_call
@@ -198,7 +198,7 @@ def rebake(
             on_report=on_report,
             on_remade=on_remade,
         ),
-        "arebake",
+        "arebake(...)",
     )
 
 

@@ -111,7 +111,8 @@ def submit_batch(
     exceed `max_cost_usd`. BackendUnavailable: the server cannot be reached, or refuses.
     """
     return run_waiting(
-        _submitted(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)), "submit_batch"
+        _submitted(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)),
+        "asyncio.to_thread(submit_batch, ...)",
     )
 
 
@@ -134,7 +135,8 @@ def collect_batch(
     Raises: as `submit_batch`.
     """
     return run_waiting(
-        _collected(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)), "collect_batch"
+        _collected(_Given(scenes, folder, config, executor, options, pictures, user_prompt, progress)),
+        "asyncio.to_thread(collect_batch, ...)",
     )
 
 
@@ -144,7 +146,7 @@ def batch_status(folder: str | os.PathLike[str], *, config: Config, cancel: bool
 
     Raises: as `submit_batch`.
     """
-    return run_waiting(_status(_Given((), folder, config), cancel), "batch_status")
+    return run_waiting(_status(_Given((), folder, config), cancel), "asyncio.to_thread(batch_status, ...)")
 
 
 @dataclass(frozen=True)

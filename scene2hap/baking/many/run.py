@@ -103,7 +103,7 @@ def bake_many(
         user_prompt=user_prompt,
         progress=progress,
     )
-    return run_waiting(running, "abake_many")
+    return run_waiting(running, "abake_many(...)")
 
 
 @clear_call
