@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from scene2hap.clips.fields import Fields, read_fields, rising_times
-from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS, About, Curve, HapticClip, Transient, Values
+from scene2hap.clips.haptic_clip import MAX_CLIP_S, MAX_POINTS, About, ClipWarning, Curve, HapticClip, Transient, Values
 from scene2hap.errors import ClipError
 from scene2hap.scene.scene_warning import warn_of
 
@@ -42,10 +42,6 @@ _AFTER_S = 0.05
 
 Points = list[tuple[float, float]]
 _time_of = itemgetter(0)
-
-
-class ClipWarning(UserWarning):
-    """A part of a haptic clip's file is not played."""
 
 
 @dataclass(frozen=True)
